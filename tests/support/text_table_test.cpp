@@ -1,0 +1,38 @@
+#include "tools/support/text_table.h"
+
+#include <stdexcept>
+
+#include "tests/catch.h"
+#include "tests/support/error_message.h"
+
+using sprung::support::TextTable;
+
+TEST_CASE("a table aligns text left and numbers right, by characters and not by bytes") {
+  TextTable table({"körper", "f [Hz]", "note"});
+  table.add_row({"chassis", "6.11", "bending"});
+  table.add_row({"arm", "-88.92", ""});
+  table.add_row({"", "", "2 more"});
+  CHECK(table.str() ==
+        "körper   f [Hz]  note\n"
+        "────────────────────────\n"
+        "chassis    6.11  bending\n"
+        "arm      -88.92\n"
+        "                 2 more\n");
+}
+
+TEST_CASE("a column with one word in it is text, and so is one without cells") {
+  TextTable table({"value", "empty"});
+  table.add_row({"1", ""});
+  table.add_row({"none", ""});
+  CHECK(table.str() ==
+        "value  empty\n"
+        "────────────\n"
+        "1\n"
+        "none\n");
+}
+
+TEST_CASE("a table's row has as many cells as its header") {
+  TextTable table({"a", "b"});
+  CHECK(error_message<std::invalid_argument>([&] { table.add_row({"1"}); }) ==
+        "TextTable::add_row: 1 cells in a table of 2 columns");
+}
