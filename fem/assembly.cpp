@@ -1,0 +1,67 @@
+#include "fem/assembly.h"
+
+#include <vector>
+
+namespace sprung::fem {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// Adds the upper triangle, mirrored: sums in the same order on both sides of the diagonal, hence exactly
+// symmetric.
+void add_symmetric(Triplets& triplets, const Mesh::Element& element, const Matrix6& matrix) {
+  const auto dof = [&](int i) { return 3 * (i < 3 ? element.first : element.second) + i % 3; };
+  for (int i = 0; i < 6; ++i) {
+    triplets.emplace_back(dof(i), dof(i), matrix(i, i));
+    for (int j = i + 1; j < 6; ++j) {
+      triplets.emplace_back(dof(i), dof(j), matrix(i, j));
+      triplets.emplace_back(dof(j), dof(i), matrix(i, j));
+    }
+  }
+}
+
+Eigen::SparseMatrix<double> make_matrix(int size, const Triplets& triplets) {
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  matrix.makeCompressed();
+  return matrix;
+}
+
+}  // namespace
+
+AssembledMatrices assemble(const BeamModel& model) {
+  check_beam_model(model, "assemble");
+  Triplets stiffness;
+  Triplets mass;
+  stiffness.reserve(36 * model.mesh.elements.size());
+  mass.reserve(36 * model.mesh.elements.size() + 3 * model.point_masses.size());
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
+    const BeamElement element = make_element(model, e);
+    add_symmetric(stiffness, nodes, calc_stiffness(element));
+    add_symmetric(mass, nodes, calc_mass(element));
+  }
+  for (const PointMass& point : model.point_masses) {
+    mass.emplace_back(3 * point.node, 3 * point.node, point.mass);
+    mass.emplace_back(3 * point.node + 1, 3 * point.node + 1, point.mass);
+    mass.emplace_back(3 * point.node + 2, 3 * point.node + 2, point.inertia);
+  }
+  const int num_dofs = 3 * model.mesh.num_nodes();
+  return {.stiffness = make_matrix(num_dofs, stiffness), .mass = make_matrix(num_dofs, mass)};
+}
+
+Eigen::MatrixXd calc_rigid_motions(const Mesh& mesh, const Eigen::Vector2d& origin) {
+  Eigen::MatrixXd R_rigid = Eigen::MatrixXd::Zero(3 * mesh.num_nodes(), 3);
+  for (int node = 0; node < mesh.num_nodes(); ++node) {
+    const Eigen::Vector2d r = mesh.node_positions.col(node) - origin;
+    R_rigid(3 * node, 0) = 1.0;
+    R_rigid(3 * node + 1, 1) = 1.0;
+    R_rigid(3 * node, 2) = -r.y();
+    R_rigid(3 * node + 1, 2) = r.x();
+    R_rigid(3 * node + 2, 2) = 1.0;
+  }
+  return R_rigid;
+}
+
+}  // namespace sprung::fem

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "fem/beam_model.h"
+
+namespace sprung::fem {
+
+/// Matrices of a free frame of N nodes. Dofs 3n, 3n+1, 3n+2 are node n's x and y displacement and rotation.
+struct AssembledMatrices {
+  Eigen::SparseMatrix<double> stiffness;  ///< 3N×3N, symmetric, zero on the three rigid motions [N/m, N, N·m]
+  Eigen::SparseMatrix<double> mass;       ///< 3N×3N, symmetric, with the point masses [kg, kg·m, kg·m²]
+};
+
+/// Adds up the element matrices and the point masses. Both results are exactly symmetric and compressed.
+///
+/// @throws std::invalid_argument if the model is not consistent (check_beam_model)
+/// Checked by tests/fem/assembly_test.cpp
+AssembledMatrices assemble(const BeamModel& model);
+
+/// The three rigid motions of a frame: unit translation along x, along y, unit rotation about a point.
+///
+/// @param origin  the point [m]
+/// @return 3N×3, dof order of AssembledMatrices [-, -, m; rotation in rad]
+Eigen::MatrixXd calc_rigid_motions(const Mesh& mesh, const Eigen::Vector2d& origin);
+
+}  // namespace sprung::fem

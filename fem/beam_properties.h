@@ -1,0 +1,20 @@
+#pragma once
+
+#include <limits>
+
+namespace sprung::fem {
+
+/// What a beam element needs to know of its cross section. Parallel members are already counted in.
+struct BeamProperties {
+  double axial_rigidity = 0.0;    ///< EA > 0 [N]
+  double bending_rigidity = 0.0;  ///< EI > 0 [N·m²]
+  /// κGA > 0 [N]; infinity: no shear deformation (Euler–Bernoulli)
+  double shear_rigidity = std::numeric_limits<double>::infinity();
+  double mass_per_length = 0.0;  ///< ρA ≥ 0 [kg/m]
+  double rotary_inertia = 0.0;   ///< ρI ≥ 0 of the section's rotation, per length [kg·m]; 0: neglected
+};
+
+/// @throws std::invalid_argument if a value is outside its range stated above (names function, member, value)
+void check_beam_properties(const BeamProperties& properties, const char* function);
+
+}  // namespace sprung::fem

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tools/support/input_error.h"
+
+namespace sprung::fem {
+
+/// A frame as a design describes it: named points and straight lines between them.
+///
+/// Lines are joined at common points only: where two lines cross without a point, they pass each other.
+struct FrameGeometry {
+  struct Point {
+    std::string name;
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m]
+    support::SourceLocation where = {};                  ///< for messages
+  };
+  struct Line {
+    std::string name;
+    std::string from;      ///< name of the point at its beginning
+    std::string to;        ///< name of the point at its end
+    std::string section;   ///< section name, copied to the mesh
+    int num_elements = 1;  ///< ≥ 1, of equal length
+    support::SourceLocation where = {};
+  };
+
+  std::vector<Point> points;
+  std::vector<Line> lines;
+};
+
+/// Checks everything that a line frame can have wrong by itself: there is a line; point and line names are
+/// unique; a line's points exist and differ; no two lines join the same points; num_elements is 1 … 100000;
+/// positions are finite; no two points at one place; no point without a line.
+/// @throws support::InputError at the place of the point or line
+/// Checked by tests/fem/frame_geometry_test.cpp
+void check_frame_geometry(const FrameGeometry& geometry);
+
+}  // namespace sprung::fem

@@ -1,0 +1,262 @@
+#include "fem/gmsh_mesher.h"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fem/gmsh_contents.h"
+#include "fem/msh_file.h"
+#include "tools/support/read_text_file.h"
+
+namespace sprung::fem {
+
+namespace {
+
+using support::InputError;
+
+constexpr int kLineType = 1;    // gmsh's number of the two-node line
+constexpr int kPointType = 15;  // and of the point
+
+// gmsh between initialize and finalize. gmsh sets the locale and keeps parameters of files from one session
+// to the next: both are put right here.
+class GmshSession {
+ public:
+  GmshSession() : locale_(std::setlocale(LC_ALL, nullptr)) {
+    gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::onelab::clear();
+    gmsh::logger::start();
+  }
+  ~GmshSession() {
+    gmsh::logger::stop();
+    gmsh::finalize();
+    std::setlocale(LC_ALL, locale_.c_str());
+  }
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+ private:
+  std::string locale_;
+};
+
+// The first message of a level ("Error", "Warning") in gmsh's log, or "".
+std::string find_logged(const std::string& level) {
+  std::vector<std::string> log;
+  gmsh::logger::get(log);
+  for (const std::string& entry : log) {
+    if (entry.rfind(level + ": ", 0) == 0) return entry.substr(level.size() + 2);
+  }
+  return {};
+}
+
+// Runs gmsh calls; what gmsh throws or logs as an error becomes an InputError.
+template <class Calls>
+void run_gmsh(const support::SourceLocation& where, Calls&& calls) {
+  try {
+    calls();
+  } catch (const std::string& message) {
+    throw InputError(where, "gmsh: " + message);
+  }
+  if (const std::string message = find_logged("Error"); !message.empty()) {
+    throw InputError(where, "gmsh: " + message);
+  }
+}
+
+// Groups of an entity; a negative tag takes a curve in the opposite direction.
+struct EntityGroups {
+  std::vector<int> tags;  // positive
+  bool is_reversed = false;
+};
+EntityGroups get_groups(int dimension, int entity) {
+  EntityGroups groups;
+  gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups.tags);
+  for (int& tag : groups.tags) {
+    groups.is_reversed = groups.is_reversed || tag < 0;
+    tag = std::abs(tag);
+  }
+  return groups;
+}
+
+void get_elements(GmshContents& contents, const std::pair<int, int>& entity,
+                  const support::SourceLocation& where) {
+  const auto [dimension, tag] = entity;
+  const auto [groups, is_reversed] = get_groups(dimension, tag);
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> ids, nodes;
+  gmsh::model::mesh::getElements(types, ids, nodes, dimension, tag);
+  for (std::size_t t = 0; t < types.size(); ++t) {
+    if (types[t] != kLineType && types[t] != kPointType) {
+      std::string name;
+      int of_dimension = 0, order = 0, num_nodes = 0, num_primary = 0;
+      std::vector<double> parameters;
+      gmsh::model::mesh::getElementProperties(types[t], name, of_dimension, order, num_nodes, parameters,
+                                              num_primary);
+      throw InputError(where, fmt::format("element {} is a {}, expected straight two-node lines only",
+                                          ids[t].front(), name));
+    }
+    for (std::size_t e = 0; e < ids[t].size(); ++e) {
+      const auto id = static_cast<std::int64_t>(ids[t][e]);
+      const auto node = [&](std::size_t i) { return static_cast<std::int64_t>(nodes[t][i]); };
+      if (types[t] == kPointType) {
+        contents.points.push_back({.id = id, .node = node(e), .groups = groups});
+      } else {
+        const auto [first, second] = is_reversed ? std::pair(2 * e + 1, 2 * e) : std::pair(2 * e, 2 * e + 1);
+        contents.lines.push_back(
+            {.id = id, .first = node(first), .second = node(second), .curve = tag, .groups = groups});
+      }
+    }
+  }
+}
+
+GmshContents get_contents(const support::SourceLocation& where) {
+  GmshContents contents;
+  std::vector<std::size_t> ids;
+  std::vector<double> coordinates, parameters;
+  gmsh::model::mesh::getNodes(ids, coordinates, parameters);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    contents.nodes.push_back({.id = static_cast<std::int64_t>(ids[i]),
+                              .position = Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * i)});
+  }
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities);
+  for (const std::pair<int, int>& entity : entities) get_elements(contents, entity, where);
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups);
+  for (const auto& [dimension, tag] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    contents.groups.push_back({.dimension = dimension, .tag = tag, .name = name});
+  }
+  return contents;
+}
+
+// gmsh's tags count from 1, so point p has tag p + 1 and line l has tag l + 1; sections are tagged by first
+// use.
+void build_lines(const FrameGeometry& geometry) {
+  std::map<std::string, int> point_tags;
+  for (const FrameGeometry::Point& point : geometry.points) {
+    const int tag = static_cast<int>(point_tags.size()) + 1;
+    gmsh::model::geo::addPoint(point.position.x(), point.position.y(), 0.0, 0.0, tag);
+    point_tags[point.name] = tag;
+  }
+  std::vector<std::pair<std::string, std::vector<int>>> sections;
+  for (std::size_t l = 0; l < geometry.lines.size(); ++l) {
+    const FrameGeometry::Line& line = geometry.lines[l];
+    const int tag = static_cast<int>(l) + 1;
+    gmsh::model::geo::addLine(point_tags.at(line.from), point_tags.at(line.to), tag);
+    gmsh::model::geo::mesh::setTransfiniteCurve(tag, line.num_elements + 1);
+    std::size_t s = 0;
+    while (s < sections.size() && sections[s].first != line.section) ++s;
+    if (s == sections.size()) sections.push_back({line.section, {}});
+    sections[s].second.push_back(tag);
+  }
+  gmsh::model::geo::synchronize();
+  for (const auto& [name, tag] : point_tags) {
+    gmsh::model::addPhysicalGroup(0, {tag}, tag);
+    gmsh::model::setPhysicalName(0, tag, name);
+  }
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const int tag = gmsh::model::addPhysicalGroup(1, sections[s].second, static_cast<int>(s) + 1);
+    gmsh::model::setPhysicalName(1, tag, sections[s].first);
+  }
+}
+
+// gmsh finds the places of a curve's nodes by numerical integration, good to 1e-12 of its length; a thousand
+// elements on a line would differ by 1e-9 in length and a symmetric frame would not be symmetric. Straight
+// lines are divided exactly here.
+void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
+  std::map<std::string, Eigen::Vector2d> points;
+  for (const FrameGeometry::Point& point : geometry.points) points[point.name] = point.position;
+  std::map<std::int64_t, Eigen::Vector3d*> positions;
+  for (GmshContents::Node& node : contents.nodes) positions[node.id] = &node.position;
+  std::vector<int> passed(geometry.lines.size(), 0);
+  for (const GmshContents::Line& element : contents.lines) {
+    const FrameGeometry::Line& line = geometry.lines.at(static_cast<std::size_t>(element.curve) - 1);
+    const int k = ++passed[static_cast<std::size_t>(element.curve) - 1];
+    if (k == line.num_elements) continue;
+    const double s = static_cast<double>(k) / line.num_elements;
+    const Eigen::Vector2d position = (1.0 - s) * points.at(line.from) + s * points.at(line.to);
+    const Eigen::Vector2d change = positions.at(element.second)->head<2>() - position;
+    if (!(change.norm() <= 1e-6 * (points.at(line.to) - points.at(line.from)).norm())) {
+      throw InputError(line.where, fmt::format("gmsh did not divide line '{}' evenly", line.name));
+    }
+    positions.at(element.second)->head<2>() = position;
+  }
+}
+
+void check_counts(const MshDeclaration& declared, const GmshContents& contents,
+                  const support::SourceLocation& where) {
+  const auto check = [&](const char* what, std::int64_t expected, std::size_t read) {
+    if (expected == static_cast<std::int64_t>(read)) return;
+    const std::string warning = find_logged("Warning");
+    throw InputError(
+        where, fmt::format("the file declares {} {}, but {} could be read: it is truncated, or some belong "
+                           "to no element or have the same number{}{}",
+                           expected, what, read, warning.empty() ? "" : "; gmsh: ", warning));
+  };
+  check("nodes", declared.num_nodes, contents.nodes.size());
+  check("elements", declared.num_elements, contents.lines.size() + contents.points.size());
+}
+
+void replace_groups(const MshDeclaration& declared, GmshContents& contents) {
+  const auto replace = [&](auto& element) {
+    const auto group = declared.element_groups.find(element.id);
+    if (group == declared.element_groups.end()) return;
+    element.groups.clear();
+    if (group->second != 0) element.groups.push_back(std::abs(group->second));
+  };
+  for (GmshContents::Point& point : contents.points) replace(point);
+  for (GmshContents::Line& line : contents.lines) replace(line);
+}
+
+}  // namespace
+
+Mesh mesh_lines(const FrameGeometry& geometry) {
+  check_frame_geometry(geometry);
+  const support::SourceLocation where = geometry.lines.front().where;
+  GmshContents contents;
+  {
+    const GmshSession session;
+    run_gmsh(where, [&] {
+      gmsh::model::add("frame");
+      build_lines(geometry);
+      gmsh::model::mesh::generate(1);
+      contents = get_contents(where);
+    });
+  }
+  divide_exactly(contents, geometry);
+  return make_mesh(std::move(contents), where);
+}
+
+Mesh read_gmsh_file(const std::filesystem::path& path) {
+  const support::SourceLocation where{.path = path.string()};
+  const bool is_script = path.extension() == ".geo";
+  MshDeclaration declared;
+  if (is_script) {
+    if (support::read_text_file(path).empty()) throw InputError(where, "the file is empty");
+  } else if (path.extension() == ".msh") {
+    declared = read_msh_declaration(path);
+  } else {
+    throw InputError(where, "the file's name must end in .geo or .msh");
+  }
+  GmshContents contents;
+  {
+    const GmshSession session;
+    run_gmsh(where, [&] {
+      gmsh::open(path.string());
+      if (is_script) gmsh::model::mesh::generate(1);
+      contents = get_contents(where);
+      if (!is_script) check_counts(declared, contents, where);
+    });
+  }
+  if (!is_script) replace_groups(declared, contents);
+  return make_mesh(std::move(contents), where);
+}
+
+}  // namespace sprung::fem

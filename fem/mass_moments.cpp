@@ -1,0 +1,162 @@
+#include "fem/mass_moments.h"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace sprung::fem {
+
+namespace {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+using Row6 = Eigen::Matrix<double, 1, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+// Gauss–Legendre on 0 … 1, exact to degree 7; the products of cubic shape functions have degree 6.
+struct GaussPoint {
+  double xi, weight;
+};
+std::array<GaussPoint, 4> make_gauss_points() {
+  const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(6.0 / 5.0));
+  const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(6.0 / 5.0));
+  const double inner_weight = (18.0 + std::sqrt(30.0)) / 72.0;
+  const double outer_weight = (18.0 - std::sqrt(30.0)) / 72.0;
+  return {{{0.5 - 0.5 * outer, outer_weight},
+           {0.5 - 0.5 * inner, inner_weight},
+           {0.5 + 0.5 * inner, inner_weight},
+           {0.5 + 0.5 * outer, outer_weight}}};
+}
+
+// The triplets of the four matrices, beside the vectors that are added up in place.
+struct Sums {
+  MassMoments moments;
+  Triplets NxNx, NxNy, NyNy, rotary_NN;
+};
+
+std::array<int, 6> get_dofs(const Mesh::Element& nodes) {
+  return {3 * nodes.first,  3 * nodes.first + 1,  3 * nodes.first + 2,
+          3 * nodes.second, 3 * nodes.second + 1, 3 * nodes.second + 2};
+}
+
+void add(Eigen::VectorXd& vector, const std::array<int, 6>& dofs, const Vector6& values) {
+  for (int i = 0; i < 6; ++i) vector[dofs[static_cast<std::size_t>(i)]] += values[i];
+}
+
+void add(Triplets& triplets, const std::array<int, 6>& dofs, const Matrix6& values) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      triplets.emplace_back(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)],
+                            values(i, j));
+    }
+  }
+}
+
+// What a piece of mass dm and rotary inertia dI at position r contributes to the moments without shape
+// functions.
+void add_piece(MassMoments& moments, const Eigen::Vector2d& r, double dm, double dI) {
+  moments.mass += dm;
+  moments.first_moment += dm * r;
+  moments.xx += dm * r.x() * r.x();
+  moments.xy += dm * r.x() * r.y();
+  moments.yy += dm * r.y() * r.y();
+  moments.rotary += dI;
+}
+
+void add_element(Sums& sums, const BeamElement& element, const std::array<int, 6>& dofs,
+                 const Eigen::Vector2d& origin) {
+  static const std::array<GaussPoint, 4> kGaussPoints = make_gauss_points();
+  const double length = calc_length(element);
+  const Matrix6 T = calc_rotation(element);
+  const Eigen::Matrix2d R = T.topLeftCorner<2, 2>().transpose();  // own axes → mesh axes
+  MassMoments& moments = sums.moments;
+  Vector6 N_x = Vector6::Zero(), N_y = Vector6::Zero(), rotary_N = Vector6::Zero();
+  Vector6 x_N_x = Vector6::Zero(), x_N_y = Vector6::Zero(), y_N_x = Vector6::Zero(), y_N_y = Vector6::Zero();
+  Matrix6 NxNx = Matrix6::Zero(), NxNy = Matrix6::Zero(), NyNy = Matrix6::Zero(), rotary_NN = Matrix6::Zero();
+  for (const auto& [xi, weight] : kGaussPoints) {
+    const double dm = weight * length * element.properties.mass_per_length;
+    const double dI = weight * length * element.properties.rotary_inertia;
+    const Eigen::Vector2d r = (1.0 - xi) * (element.first - origin) + xi * (element.second - origin);
+    const Eigen::Matrix<double, 3, 6> N = calc_shape_functions(length, element.properties, xi) * T;
+    const Row6 X = R.row(0) * N.topRows<2>();
+    const Row6 Y = R.row(1) * N.topRows<2>();
+    const Row6 Psi = N.row(2);
+    add_piece(moments, r, dm, dI);
+    N_x += dm * X.transpose();
+    N_y += dm * Y.transpose();
+    x_N_x += dm * r.x() * X.transpose();
+    x_N_y += dm * r.x() * Y.transpose();
+    y_N_x += dm * r.y() * X.transpose();
+    y_N_y += dm * r.y() * Y.transpose();
+    rotary_N += dI * Psi.transpose();
+    NxNx += dm * X.transpose() * X;
+    NxNy += dm * X.transpose() * Y;
+    NyNy += dm * Y.transpose() * Y;
+    rotary_NN += dI * Psi.transpose() * Psi;
+  }
+  add(moments.N_x, dofs, N_x);
+  add(moments.N_y, dofs, N_y);
+  add(moments.x_N_x, dofs, x_N_x);
+  add(moments.x_N_y, dofs, x_N_y);
+  add(moments.y_N_x, dofs, y_N_x);
+  add(moments.y_N_y, dofs, y_N_y);
+  add(moments.rotary_N, dofs, rotary_N);
+  add(sums.NxNx, dofs, NxNx);
+  add(sums.NxNy, dofs, NxNy);
+  add(sums.NyNy, dofs, NyNy);
+  add(sums.rotary_NN, dofs, rotary_NN);
+}
+
+void add_point_mass(Sums& sums, const PointMass& point, const Eigen::Vector2d& r) {
+  const int x = 3 * point.node;
+  const int y = x + 1;
+  const int psi = x + 2;
+  MassMoments& moments = sums.moments;
+  add_piece(moments, r, point.mass, point.inertia);
+  moments.N_x[x] += point.mass;
+  moments.N_y[y] += point.mass;
+  moments.x_N_x[x] += point.mass * r.x();
+  moments.x_N_y[y] += point.mass * r.x();
+  moments.y_N_x[x] += point.mass * r.y();
+  moments.y_N_y[y] += point.mass * r.y();
+  moments.rotary_N[psi] += point.inertia;
+  sums.NxNx.emplace_back(x, x, point.mass);
+  sums.NxNy.emplace_back(x, y, point.mass);
+  sums.NyNy.emplace_back(y, y, point.mass);
+  sums.rotary_NN.emplace_back(psi, psi, point.inertia);
+}
+
+Eigen::SparseMatrix<double> make_matrix(Eigen::Index size, const Triplets& triplets) {
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  matrix.makeCompressed();
+  return matrix;
+}
+
+}  // namespace
+
+MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& origin) {
+  check_beam_model(model, "calc_mass_moments");
+  if (!origin.allFinite()) throw std::invalid_argument("calc_mass_moments: origin is not finite");
+  const Eigen::Index num_dofs = 3 * model.mesh.num_nodes();
+  Sums sums;
+  MassMoments& moments = sums.moments;
+  for (Eigen::VectorXd* vector : {&moments.N_x, &moments.N_y, &moments.x_N_x, &moments.x_N_y, &moments.y_N_x,
+                                  &moments.y_N_y, &moments.rotary_N}) {
+    vector->setZero(num_dofs);
+  }
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    add_element(sums, make_element(model, e), get_dofs(model.mesh.elements[static_cast<std::size_t>(e)]),
+                origin);
+  }
+  for (const PointMass& point : model.point_masses) {
+    add_point_mass(sums, point, model.mesh.node_positions.col(point.node) - origin);
+  }
+  moments.NxNx = make_matrix(num_dofs, sums.NxNx);
+  moments.NxNy = make_matrix(num_dofs, sums.NxNy);
+  moments.NyNy = make_matrix(num_dofs, sums.NyNy);
+  moments.rotary_NN = make_matrix(num_dofs, sums.rotary_NN);
+  return std::move(moments);
+}
+
+}  // namespace sprung::fem

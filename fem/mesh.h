@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/support/input_error.h"
+
+namespace sprung::fem {
+
+/// A planar frame of straight two-node lines that meet at nodes.
+struct Mesh {
+  struct Element {
+    int first = 0;    ///< 0-based node at the element's beginning
+    int second = 0;   ///< 0-based node at its end
+    int section = 0;  ///< index into section_names
+  };
+  struct NamedNode {
+    std::string name;
+    int node = 0;  ///< 0-based
+  };
+
+  std::vector<std::int64_t> node_ids;  ///< N, the file's numbers, ascending and > 0
+  Eigen::Matrix2Xd node_positions;     ///< 2×N [m]
+  std::vector<Element> elements;
+  std::vector<std::string> section_names;  ///< each is used by some element
+  std::vector<NamedNode> named_nodes;      ///< names are unique; one node may have several
+
+  int num_nodes() const { return static_cast<int>(node_ids.size()); }
+  int num_elements() const { return static_cast<int>(elements.size()); }
+};
+
+/// @return 0-based node of that name, or -1
+int find_node(const Mesh& mesh, std::string_view name);
+
+/// Distance between the ends of an element [m].
+double calc_length(const Mesh& mesh, const Mesh::Element& element);
+
+/// How messages call a node: `node 12 at (0.5, 0.25)` and, if it has one, its name.
+std::string describe_node(const Mesh& mesh, int node);
+
+/// @throws std::invalid_argument if an array's size or an index does not fit the rest (names function, item)
+void check_mesh_indices(const Mesh& mesh, const char* function);
+
+/// Checks that the mesh is one sound frame: it has elements, none shorter than 1e-9 of the frame's extent, no
+/// two between the same nodes; every node belongs to an element; no two nodes at one place (nearer than 1e-9
+/// of the extent); all elements hang together.
+/// @param where  place of the mesh's origin, for the message
+/// @throws support::InputError naming the nodes concerned (where the frame falls apart, of the smallest part)
+/// @throws std::invalid_argument as check_mesh_indices
+/// Checked by tests/fem/mesh_test.cpp
+void check_mesh(const Mesh& mesh, const support::SourceLocation& where);
+
+}  // namespace sprung::fem
