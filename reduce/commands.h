@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace sprung::reduce {
+
+struct BuildOptions {
+  std::vector<std::filesystem::path> designs;
+  std::filesystem::path output_dir = ".";
+  bool force = false;  ///< make files again that are up to date, and replace what is no superelement
+  bool quiet = false;  ///< errors only
+};
+
+// The subcommands of sprung-reduce. Each returns the program's exit code.
+
+/// Makes `OUTPUT_DIR/STEM.h5` of each design STEM.toml, unless a file is there that verifies and was made
+/// from the same design and mesh files by the same revision of the algorithm. A design that cannot be used is
+/// reported and the others are made all the same; a file that is there stays whole.
+/// @return 0, or that of the first kind of failure: 2 for input, 3 for numerics
+/// @throws support::InputError if the folder cannot be used or two designs have one stem
+///         support::Interrupted between two designs
+int run_build(const BuildOptions& options);
+
+/// Prints what a file contains. @throws support::InputError
+int run_info(const std::filesystem::path& path, bool json);
+
+/// Verifies files. @return 0, or 1 if a check failed, recorded or made again. @throws support::InputError
+int run_check(const std::vector<std::filesystem::path>& paths, bool json);
+
+/// Prints old and new frequencies and the MAC. @throws support::InputError
+int run_diff(const std::filesystem::path& old_path, const std::filesystem::path& new_path, bool json);
+
+}  // namespace sprung::reduce
