@@ -1,0 +1,139 @@
+#include "dynamics/analysis/assembly.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <vector>
+
+#include "dynamics/system/partition.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMaxIterations = 60;
+constexpr double kTolerance = 1e-12;  // of the length scale
+
+Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
+  Eigen::VectorXd inverse(terms.model().num_coordinates);
+  for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
+    const Body& body = terms.model().bodies[b];
+    inverse.segment(body.first_coordinate, body.num_coordinates()) = terms.mass(b).diagonal().cwiseInverse();
+  }
+  return inverse;
+}
+
+std::size_t joint_of_constraint(const Model& model, int constraint) {
+  std::size_t joint = model.joints.size() - 1;
+  while (model.joint_rows[joint] > constraint) --joint;
+  return joint;
+}
+
+std::string name_constraints(const Model& model, const std::vector<int>& constraints) {
+  std::vector<std::string> names;
+  for (const int i : constraints) {
+    const std::size_t joint = joint_of_constraint(model, i);
+    names.push_back(fmt::format("'{}' ({})", model.joints[joint]->name,
+                                model.joints[joint]->constraint_name(i - model.joint_rows[joint])));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+[[noreturn]] void throw_cannot_close(const Model& model, const Eigen::VectorXd& phi) {
+  Eigen::Index worst = 0;
+  phi.cwiseAbs().maxCoeff(&worst);
+  std::vector<int> open;
+  for (Eigen::Index i = 0; i < phi.size(); ++i) {
+    if (std::abs(phi[i]) > 0.1 * std::abs(phi[worst])) open.push_back(static_cast<int>(i));
+  }
+  const std::size_t joint = joint_of_constraint(model, static_cast<int>(worst));
+  throw support::InputError(
+      model.joints[joint]->location,
+      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} m apart; joints that stay open: "
+                  "{}; check positions, angles and points of the bodies they join",
+                  model.joints[joint]->name, std::abs(phi[worst]), name_constraints(model, open)));
+}
+
+}  // namespace
+
+AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, q);
+  terms.update_mass();
+  const Eigen::VectorXd inverse_mass = inverse_masses(terms);
+  std::vector<Eigen::Vector2d> start;
+  for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
+
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
+  terms.calc_residual(phi);
+  double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
+  for (int iteration = 0; size > kTolerance * model.length_scale; ++iteration) {
+    if (iteration == kMaxIterations) throw_cannot_close(model, phi);
+    terms.update_jacobian();
+    const Eigen::MatrixXd Phi_q = terms.jacobian();
+    const Eigen::MatrixXd weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
+    const Eigen::MatrixXd normal = Phi_q * weighted;
+    Eigen::JacobiSVD<Eigen::MatrixXd> svd(normal, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    svd.setThreshold(1e-12);
+    Eigen::VectorXd step = -weighted * svd.solve(phi);
+    double largest = 0.0;
+    for (int i = 0; i < model.num_coordinates; ++i) {
+      largest = std::max(largest, std::abs(step[i]) / model.coordinate_scale(i));
+    }
+    if (largest > 0.3) step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
+    q += step;
+    terms.update_positions(0.0, q);
+    terms.calc_residual(phi);
+    size = phi.lpNorm<Eigen::Infinity>();
+  }
+
+  terms.update_jacobian();
+  terms.update_mass();
+  const std::vector<int> dependent = find_dependent_constraints(terms);
+  if (!dependent.empty()) {
+    const std::size_t last = joint_of_constraint(model, dependent.back());
+    throw support::InputError(
+        model.joints[last]->location,
+        fmt::format("redundant joints: {} hold the same motion more than once, so that their reactions have no "
+                    "unique value; leave one of them out or free a direction",
+                    name_constraints(model, dependent)));
+  }
+
+  AssemblyReport report;
+  report.residual = size;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const double movement = (terms.markers()[i].r - start[i]).norm();
+    if (movement > report.largest_movement) {
+      report.largest_movement = movement;
+      report.moved_marker = model.markers[i].name;
+    }
+  }
+  return report;
+}
+
+void project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v) {
+  if (model.num_constraints == 0) return;
+  SystemTerms terms(model);
+  terms.update_positions(time, q);
+  terms.update_jacobian();
+  terms.update_mass();
+  // v ← v − M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ (φ_q v + φ_t)
+  Eigen::MatrixXd weighted = terms.jacobian().transpose();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::LLT<Eigen::MatrixXd> llt(terms.mass(b));
+    weighted.middleRows(body.first_coordinate, body.num_coordinates()) =
+        llt.solve(terms.jacobian().middleCols(body.first_coordinate, body.num_coordinates()).transpose());
+  }
+  Eigen::VectorXd rate(model.num_constraints);
+  terms.calc_time_rate(rate);
+  for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
+    const Eigen::VectorXd violation = terms.jacobian() * v + rate;
+    v -= weighted * (terms.jacobian() * weighted).ldlt().solve(violation);
+  }
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/linearisation.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// A direction along which nothing holds the system: moving along it changes no force.
+struct NeutralDirection {
+  Eigen::VectorXd direction;  ///< nq, largest natural movement 1
+  std::string description;    ///< "all bodies along x", or the coordinates that move
+};
+
+/// A static equilibrium.
+struct Equilibrium {
+  Eigen::VectorXd q;                       ///< num_coordinates
+  std::vector<NeutralDirection> neutral;   ///< held at their start value
+  double last_step = 0.0;                  ///< size of the last Newton step [natural sizes]
+  int iterations = 0;
+  bool stable = true;                      ///< no direction with negative stiffness
+  LinearisedSystem linearised;             ///< about it
+};
+
+/// Static equilibrium reached from q by following the potential energy downhill (Newton in the modes of the
+/// linearised system, with bounded steps), so that a vehicle put down too high comes to rest on its wheels. Neutral
+/// directions keep their start value.
+/// @param q  assembled positions
+/// @param on_iteration  told the number of the iteration and the Newton step's natural size; may be empty
+/// @throws support::NumericalError naming the coordinate that keeps moving, when there is no equilibrium
+Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
+                             const std::function<void(int, double)>& on_iteration = {});
+
+}  // namespace sprung::dynamics

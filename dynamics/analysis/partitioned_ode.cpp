@@ -1,0 +1,125 @@
+#include "dynamics/analysis/partitioned_ode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/support/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// The tolerance is meant for a whole run, of which errors of the steps add up; this share of it is allowed in a step.
+// With it the energy book closes to the tolerance.
+constexpr double kStepShare = 1.0 / 300.0;
+
+}  // namespace
+
+PartitionedOde::PartitionedOde(const Model& model)
+    : model_(&model), equations_(model), branches_(static_cast<std::size_t>(model.num_branches)) {
+  for (const auto& force : model.forces) num_switches_ += force->num_switches();
+  y_.resize(static_cast<std::size_t>(size()));
+  // A natural velocity: what gravity gives over a length scale, at least one natural size per second. Neither depends
+  // on where the origin is.
+  velocity_scale_ = std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale));
+  double mass = 0.0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  energy_scale_ = 0.5 * mass * std::pow(velocity_scale_ * model.length_scale, 2);
+}
+
+void PartitionedOde::set_state(const State& state, double dissipated, double input) {
+  equations_.choose_partition_at(state.time, state.q);
+  branches_ = state.branches;
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    y_[k] = state.q[independent[k]];
+    y_[f + k] = state.v[independent[k]];
+  }
+  y_[2 * f] = dissipated;
+  y_[2 * f + 1] = input;
+}
+
+bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
+  const auto f = static_cast<std::size_t>(equations_.num_freedoms());
+  if (equations_.update_positions(time, y.first(f)) != PartitionedEquations::Outcome::kGood) return false;
+  equations_.update_velocities(y.subspan(f, f));
+  return true;
+}
+
+State PartitionedOde::make_state(double time, std::span<const double> y) {
+  if (!evaluate_motion(time, y) ||
+      equations_.update_accelerations(branches_) != PartitionedEquations::Outcome::kGood) {
+    throw support::NumericalError(
+        fmt::format("the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+  }
+  return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = branches_};
+}
+
+std::vector<BranchChange> PartitionedOde::update_branches() {
+  const std::vector<int> old_branches = branches_;
+  equations_.terms().choose_branches(branches_);
+  std::vector<BranchChange> changes;
+  for (std::size_t i = 0; i < model_->forces.size(); ++i) {
+    const ForceElement& force = *model_->forces[i];
+    const auto first = static_cast<std::size_t>(model_->force_branches[i]);
+    const auto count = static_cast<std::size_t>(force.num_branches());
+    const std::string text = force.describe_change(std::span(old_branches).subspan(first, count),
+                                                     std::span(branches_).subspan(first, count));
+    if (!text.empty()) changes.push_back({force.name, text});
+  }
+  return changes;
+}
+
+double PartitionedOde::calc_longest_step() const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const auto& force : model_->forces) {
+    longest = std::min(longest, force->calc_longest_step(equations_.terms().instant()));
+  }
+  return longest;
+}
+
+bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) {
+  ++num_derivatives_;
+  if (!evaluate_motion(time, y)) return false;
+  if (equations_.update_accelerations(branches_) != PartitionedEquations::Outcome::kGood) return false;
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    y_dot[k] = y[f + k];
+    y_dot[f + k] = equations_.v_dot()[independent[k]];
+  }
+  y_dot[2 * f] = equations_.terms().power().dissipated;
+  y_dot[2 * f + 1] = equations_.terms().power().input;
+  return true;
+}
+
+bool PartitionedOde::calc_switches(double time, std::span<const double> y, std::span<double> values) {
+  if (!evaluate_motion(time, y)) return false;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < model_->forces.size(); ++i) {
+    const ForceElement& force = *model_->forces[i];
+    const auto count = static_cast<std::size_t>(force.num_switches());
+    force.calc_switches(equations_.terms().instant(),
+                        std::span(branches_).subspan(static_cast<std::size_t>(model_->force_branches[i]),
+                                                     static_cast<std::size_t>(force.num_branches())),
+                        values.subspan(next, count));
+    next += count;
+  }
+  return true;
+}
+
+void PartitionedOde::calc_error_scales(std::span<const double> y, std::span<double> scales) const {
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    const double natural = model_->coordinate_scale(independent[k]);
+    scales[k] = kStepShare * natural;
+    scales[f + k] = kStepShare * (velocity_scale_ * natural + std::abs(y[f + k]));
+  }
+  scales[2 * f] = scales[2 * f + 1] = kStepShare * energy_scale_;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/ode_system.h"
+#include "dynamics/system/partitioned_equations.h"
+
+namespace sprung::dynamics {
+
+/// A force element that went over to another of its formulas.
+struct BranchChange {
+  std::string element;  ///< its name
+  std::string text;     ///< "touches the ground"
+};
+
+/// The partitioned equations in first-order form, with the energy book as quadratures:
+/// y = (q_i, v_i, dissipated energy, energy put in), 2f + 2 components (dynamics/README.md, eqs. 20 and 25).
+class PartitionedOde final : public OdeSystem {
+ public:
+  /// @param model has to outlive this
+  explicit PartitionedOde(const Model& model);
+
+  /// Takes over a state that satisfies the constraints: chooses the partition and makes y from it.
+  /// @param dissipated, input  energy so far [J]
+  void set_state(const State& state, double dissipated, double input);
+  std::span<const double> y() const { return y_; }
+
+  /// The state that y stands for; all terms of `equations()` are evaluated there.
+  /// @throws support::NumericalError if the constraints cannot be satisfied
+  State make_state(double time, std::span<const double> y);
+  /// Chooses the branches of the force elements at the state evaluated last. @return the changes worth telling
+  std::vector<BranchChange> update_branches();
+
+  PartitionedEquations& equations() { return equations_; }
+  const std::vector<int>& branches() const { return branches_; }
+  double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
+  double input(std::span<const double> y) const { return y[y.size() - 1]; }
+  /// Longest step that no force element would regret, at the state evaluated last [s].
+  double calc_longest_step() const;
+
+  long num_derivatives() const { return num_derivatives_; }
+
+  int size() const override { return 2 * equations_.num_freedoms() + 2; }
+  bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
+  int num_switches() const override { return num_switches_; }
+  bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
+  void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
+
+ private:
+  bool evaluate_motion(double time, std::span<const double> y);
+
+  const Model* model_;
+  PartitionedEquations equations_;
+  std::vector<int> branches_;
+  int num_switches_ = 0;
+  long num_derivatives_ = 0;
+  std::vector<double> y_;
+  double velocity_scale_ = 0.0;  // [natural sizes/s]
+  double energy_scale_ = 0.0;    // [J]
+};
+
+}  // namespace sprung::dynamics

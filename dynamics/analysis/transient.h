@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/cvode_integrator.h"
+#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// The energy book at one instant [J]. What is stored, against what has gone and come since the start.
+struct EnergyBook {
+  Energy stored;
+  double dissipated = 0.0;
+  double input = 0.0;
+};
+
+/// Something that happened during a run.
+struct Event {
+  double time = 0.0;
+  std::string kind;    ///< "switch", "partition"
+  std::string object;  ///< name of the force element; "" for the whole system
+  std::string text;    ///< "touches the ground"
+};
+
+/// Everything about the vehicle at one output time; valid during the call that gets it.
+struct Snapshot {
+  double time = 0.0;
+  const PartitionedEquations& equations;  ///< positions, velocities, accelerations, multipliers up to date
+  std::span<const int> branches;
+  EnergyBook energy;
+};
+
+struct TransientOptions {
+  double end_time = 0.0;       ///< [s]
+  double output_step = 1e-3;   ///< > 0 [s]
+  double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
+  CvodeIntegrator::Options integrator;
+  std::function<void(const Snapshot&)> on_output;   ///< at 0, output_step, … to the end
+  std::function<void(const Event&)> on_event;       ///< may be empty
+  std::function<bool(double time)> on_step;         ///< after every step; false stops the run; may be empty
+};
+
+struct TransientStatistics {
+  CvodeIntegrator::Statistics integrator;
+  long evaluations = 0;         ///< of the equations, by the integrator
+  long output_evaluations = 0;  ///< for the outputs
+  long repartitions = 0;
+  long switches = 0;
+  bool completed = false;       ///< false: stopped by on_step
+};
+
+/// Runs a state forward in time. The state has to satisfy the constraints; its branches are chosen here.
+/// @throws support::NumericalError with the time at which it could not go on
+TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options);
+
+}  // namespace sprung::dynamics

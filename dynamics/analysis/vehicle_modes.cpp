@@ -1,0 +1,135 @@
+#include "dynamics/analysis/vehicle_modes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <complex>
+#include <numbers>
+#include <numeric>
+
+#include "tools/support/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+using std::numbers::pi;
+
+// Eigenvalues with Im ≥ 0 of the damped system and the position parts of their vectors.
+struct DampedModes {
+  std::vector<std::complex<double>> eigenvalues;
+  std::vector<Eigen::VectorXcd> shapes;
+};
+
+DampedModes calc_damped_modes(const LinearisedSystem& system) {
+  const Eigen::Index f = system.mass.rows();
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * f, 2 * f);
+  const Eigen::LLT<Eigen::MatrixXd> llt(system.mass);
+  A.topRightCorner(f, f).setIdentity();
+  A.bottomLeftCorner(f, f) = -llt.solve(system.stiffness);
+  A.bottomRightCorner(f, f) = -llt.solve(system.damping);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  DampedModes modes;
+  for (Eigen::Index k = 0; k < 2 * f; ++k) {
+    if (solver.eigenvalues()[k].imag() < 0.0) continue;  // the conjugate of another
+    modes.eigenvalues.push_back(solver.eigenvalues()[k]);
+    modes.shapes.emplace_back(solver.eigenvectors().col(k).head(f));
+  }
+  return modes;
+}
+
+// Modal assurance criterion in the mass metric.
+double likeness(const Eigen::MatrixXd& mass, const Eigen::VectorXd& a, const Eigen::VectorXcd& b) {
+  const Eigen::VectorXcd mass_b = mass.cast<std::complex<double>>() * b;
+  const std::complex<double> product = a.cast<std::complex<double>>().dot(mass_b);
+  return std::norm(product) / (a.dot(mass * a) * b.dot(mass_b).real());
+}
+
+// Which bodies carry the kinetic energy of a shape, largest first; a body's own modes in brackets.
+std::string describe_participants(const Model& model, const SystemTerms& terms, const Eigen::VectorXd& shape) {
+  struct Share {
+    std::string text;
+    double value;
+  };
+  std::vector<Share> shares;
+  double total = 0.0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::VectorXd v = shape.segment(body.first_coordinate, body.num_coordinates());
+    const double energy = v.dot(terms.mass(b) * v);
+    total += energy;
+    shares.push_back({body.name, energy});
+    const Eigen::VectorXd modal = v.tail(body.num_modes());
+    const double bending = modal.dot(body.M_ff * modal);
+    if (bending <= 0.1 * energy) continue;
+    Eigen::Index largest = 0;
+    modal.cwiseAbs().maxCoeff(&largest);
+    shares.back().text += fmt::format(" (mode {})", body.mode_numbers[static_cast<std::size_t>(largest)]);
+  }
+  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.value > b.value; });
+  std::vector<std::string> words;
+  for (const Share& share : shares) {
+    if (share.value < 0.05 * total) break;
+    words.push_back(fmt::format("{} {:.0f} %", share.text, 100.0 * share.value / total));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium) {
+  if (!equilibrium.stable) {
+    throw support::NumericalError("modes: the equilibrium is unstable (a direction of negative stiffness)");
+  }
+  const LinearisedSystem& system = equilibrium.linearised;
+  const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
+  DampedModes damped = calc_damped_modes(system);
+  const Eigen::Index f = system.mass.rows();
+  const auto num_rigid = static_cast<Eigen::Index>(equilibrium.neutral.size());
+
+  SystemTerms terms(model);
+  terms.update_positions(0.0, equilibrium.q);
+  terms.update_mass();
+  // Neutral directions have the smallest |ω²|.
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(f));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
+  });
+
+  std::vector<VehicleMode> modes;
+  for (Eigen::Index position = 0; position < f; ++position) {
+    const Eigen::Index k = order[static_cast<std::size_t>(position)];
+    VehicleMode mode;
+    const Eigen::VectorXd reduced_shape = solver.eigenvectors().col(k);
+    mode.shape = system.directions * reduced_shape;
+    mode.participants = describe_participants(model, terms, mode.shape);
+    mode.is_rigid_body = position < num_rigid;
+    if (mode.is_rigid_body) {
+      modes.push_back(std::move(mode));
+      continue;
+    }
+    mode.undamped_frequency_hz = std::sqrt(solver.eigenvalues()[k]) / (2.0 * pi);
+    std::size_t best = 0;
+    double best_likeness = -1.0;
+    for (std::size_t i = 0; i < damped.shapes.size(); ++i) {
+      const double value = likeness(system.mass, reduced_shape, damped.shapes[i]);
+      if (value > best_likeness) {
+        best_likeness = value;
+        best = i;
+      }
+    }
+    const std::complex<double> s = damped.eigenvalues[best];
+    mode.damped_frequency_hz = s.imag() / (2.0 * pi);
+    mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / (2.0 * pi * mode.undamped_frequency_hz);
+    damped.eigenvalues.erase(damped.eigenvalues.begin() + static_cast<std::ptrdiff_t>(best));
+    damped.shapes.erase(damped.shapes.begin() + static_cast<std::ptrdiff_t>(best));
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+}  // namespace sprung::dynamics

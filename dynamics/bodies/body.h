@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "reduce/superelement.h"
+
+namespace sprung::dynamics {
+
+/// A planar floating-frame body with the modes that are active: r = R + A(θ)(u₀ + Φη), coordinates (R, θ, η).
+/// A rigid body has no modes. All in the body frame; n active modes.
+struct Body {
+  std::string name;
+  int first_coordinate = 0;       ///< of the body's 3 + n in q
+  std::vector<int> mode_numbers;  ///< 1-based numbers of the active modes in the superelement, ascending
+
+  double mass = 0.0;                                       ///< [kg]
+  Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
+  double second_moment = 0.0;                              ///< J₀ = ∫(x² + y²) dm about the frame's origin [kg·m²]
+  Eigen::Matrix2Xd P;                                      ///< ∫φ dm, 2×n
+  Eigen::RowVectorXd c;                                    ///< ∫(x φ_y − y φ_x) dm, 1×n
+  Eigen::RowVectorXd d;                                    ///< ∫(x φ_x + y φ_y) dm, 1×n
+  Eigen::MatrixXd M_ff;                                    ///< ∫φᵀφ dm with rotary inertia, n×n
+  Eigen::MatrixXd M_tt;                                    ///< the translational part of M_ff, n×n
+  Eigen::MatrixXd B;                                       ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
+  Eigen::MatrixXd stiffness;                               ///< n×n
+  Eigen::MatrixXd damping;                                 ///< n×n
+  Eigen::VectorXd mode_scale;  ///< n, largest displacement of any node per unit modal coordinate [m]
+
+  int num_modes() const { return static_cast<int>(mode_numbers.size()); }
+  int num_coordinates() const { return 3 + num_modes(); }
+};
+
+/// A rigid body whose frame is at its centre of mass.
+/// @param mass > 0 [kg], inertia > 0 about the centre of mass [kg·m²]
+Body make_rigid_body(const std::string& name, double mass, double inertia);
+
+/// A body from a superelement with the given modes active; none of them: rigid with the same mass and inertia.
+/// @param mode_numbers   1-based, ascending, without repetition, at most superelement.num_modes()
+/// @throws std::invalid_argument for a mode the superelement lacks
+Body make_flexible_body(const std::string& name, const reduce::Superelement& superelement,
+                        const std::vector<int>& mode_numbers);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/bodies/body.h"
+
+namespace sprung::dynamics {
+
+/// Orientation of a body frame: A = [cos −sin; sin cos], and S = [0 −1; 1 0] turns by +90°.
+struct FrameRotation {
+  double cosine = 1.0;
+  double sine = 0.0;
+
+  static FrameRotation from_angle(double theta);
+  Eigen::Vector2d operator*(const Eigen::Vector2d& p_B) const {  ///< A p
+    return {cosine * p_B.x() - sine * p_B.y(), sine * p_B.x() + cosine * p_B.y()};
+  }
+  Eigen::Vector2d transposed_times(const Eigen::Vector2d& p_W) const {  ///< Aᵀ p
+    return {cosine * p_W.x() + sine * p_W.y(), -sine * p_W.x() + cosine * p_W.y()};
+  }
+};
+
+/// S p: p turned by +90°.
+inline Eigen::Vector2d turned(const Eigen::Vector2d& p) { return {-p.y(), p.x()}; }
+
+/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (dynamics/README.md, eq. 3)
+///
+/// @param eta   n modal coordinates
+/// @param mass  (3+n)×(3+n), all of it written
+/// Source: [Shabana 2013], §5.4, with the invariants of the superelement
+void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta,
+                      Eigen::Ref<Eigen::MatrixXd> mass);
+
+/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (dynamics/README.md, eq. 4)
+///
+/// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
+void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
+                                   const Eigen::Ref<const Eigen::VectorXd>& eta,
+                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot, Eigen::Ref<Eigen::VectorXd> Q);
+
+/// Weight of a body, through its invariants.                                           (dynamics/README.md, eq. 5)
+/// @param gravity in the world [m/s²]; Q 3+n, added to
+void add_gravity_forces(const Body& body, const FrameRotation& rotation, const Eigen::Vector2d& gravity,
+                        const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::VectorXd> Q);
+
+/// First moment of mass about the frame's origin with the body bent: S₀ + Pη, body axes [kg·m].
+Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta);
+
+/// Momentum of a body and its angular momentum about the world's origin.
+struct Momentum {
+  Eigen::Vector2d linear = Eigen::Vector2d::Zero();  ///< [kg·m/s]
+  double angular = 0.0;                              ///< [kg·m²/s]
+};
+/// @param q, v  the body's 3+n coordinates and velocities
+Momentum calc_momentum(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& q,
+                       const Eigen::Ref<const Eigen::VectorXd>& v);
+
+}  // namespace sprung::dynamics

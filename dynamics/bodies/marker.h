@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "dynamics/bodies/body_equations.h"
+
+namespace sprung::dynamics {
+
+/// Index of the body that never moves.
+inline constexpr int kGround = -1;
+
+/// A point of a body, with axes, where joints and forces act and results are asked for. On a flexible body it moves
+/// with a node; an offset from the node turns with the node's rotation, so that both together are linear in η.
+struct Marker {
+  std::string name;                    ///< "body.point"
+  int body = kGround;
+  Eigen::Vector2d p_BP = Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
+  Eigen::Matrix2Xd Phi;                ///< displacement per unit modal coordinate, body axes, 2×n [m]
+  Eigen::RowVectorXd Phi_rotation;     ///< rotation per unit modal coordinate, 1×n [rad]
+};
+
+/// Motion of a marker, world axes; what joints and forces see of the vehicle.
+struct MarkerState {
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();       ///< position [m]
+  double angle = 0.0;                                ///< θ + Φ_rotation η [rad]
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();       ///< velocity [m/s]
+  double omega = 0.0;                                ///< angular velocity [rad/s]
+  Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();  ///< acceleration while q̈ = 0 [m/s²]
+  Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
+  Eigen::Matrix2Xd r_eta;                            ///< ∂r/∂η, 2×n [m]
+};
+
+/// Position-level part of a marker's state.                                           (dynamics/README.md, eq. 1)
+/// @param q  the body's 3+n coordinates; state.r_eta must have its n columns already
+void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
+                          const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state);
+
+/// Velocity-level part, after calc_marker_position.                                   (dynamics/README.md, eq. 2)
+/// @param v  the body's 3+n velocities
+void calc_marker_velocity(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state);
+
+/// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
+/// @param v_dot  the body's 3+n accelerations
+Eigen::Vector2d calc_marker_acceleration(const MarkerState& state, const Eigen::Ref<const Eigen::VectorXd>& v_dot);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "dynamics/forces/force_element.h"
+#include "dynamics/forces/piecewise_polynomial.h"
+
+namespace sprung::dynamics {
+
+/// Spring and damper along the line between two markers (dynamics/README.md, eq. 9). Deflection d = free length −
+/// length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart when positive.
+class SpringDamper final : public ForceElement {
+ public:
+  struct Parameters {
+    int marker_a = 0;
+    int marker_b = 0;
+    double free_length = 0.0;        ///< > 0 [m]
+    double multiplicity = 1.0;       ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;      ///< F(d) [N], with its stops
+    PiecewisePolynomial damper;      ///< F(ḋ) [N]
+  };
+  SpringDamper(std::string element_name, Parameters parameters)
+      : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
+
+  const Parameters& parameters() const { return parameters_; }
+  std::string_view kind() const override { return "spring-damper"; }
+  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
+  /// Branches: pieces of spring and damper. Switches: the ends of both.
+  int num_branches() const override { return 2; }
+  void choose_branches(const Instant& instant, std::span<int> branches) const override;
+  int num_switches() const override { return 4; }
+  void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+
+  std::span<const Channel> channels() const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+
+ private:
+  struct Line;
+  Line calc_line(const Instant& instant) const;
+  Parameters parameters_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "dynamics/forces/piecewise_polynomial.h"
+#include "tools/support/toml.h"
+
+namespace sprung::dynamics {
+
+/// Reads the law of a spring, F(d) in N over the deflection d in m, positive in compression:
+///
+///     { polynomial = [a_0, a_1, …] }       F = Σ a_k d^k
+///     { table = [[d, F], …] }              straight lines through the points
+///
+/// @throws support::InputError also for a negative stiffness where the spring is unloaded (d = 0)
+PiecewisePolynomial read_spring(const support::TomlTable& table);
+
+/// Reads a stop, { deflection, rate }, of a spring's law: from that deflection on, up for compression and
+/// down for rebound, the force goes on straight with `rate` > 0 [N/m].
+/// @param spring  as read_spring gives it, changed
+/// @return the deflection where the stop begins [m]
+double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring);
+
+/// Reads the law of a damper, F(ḋ) in N over the rate of deflection ḋ in m/s, positive in compression:
+///
+///     { coefficient = c }                          F = c ḋ
+///     { compression = c_1, rebound = c_2 }         F = c_1 ḋ for ḋ > 0, c_2 ḋ for ḋ < 0
+///     { table = [[ḋ, F], …] }                      straight lines through the points, F(0) = 0
+///
+/// @throws support::InputError also for a damper that would put energy in
+PiecewisePolynomial read_damper(const support::TomlTable& table);
+
+}  // namespace sprung::dynamics

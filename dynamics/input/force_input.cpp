@@ -1,0 +1,114 @@
+#include "dynamics/input/force_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "dynamics/forces/point_contact_tyre.h"
+#include "dynamics/forces/spring_damper.h"
+#include "dynamics/input/characteristic_input.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Reads the keys of one type of force into a description that has name and place already.
+using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force);
+
+PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table) {
+  const std::optional<support::TomlTable> law = table.find_table("spring");
+  PiecewisePolynomial spring = law ? read_spring(*law) : PiecewisePolynomial();
+  const std::optional<support::TomlTable> compression = table.find_table("compression_stop");
+  const std::optional<support::TomlTable> rebound = table.find_table("rebound_stop");
+  std::optional<double> begins;
+  if (compression) begins = read_stop(*compression, false, spring);
+  if (rebound) {
+    const support::TomlValue at = rebound->at("deflection");
+    if (begins && !(at.number(support::any("m")) < *begins)) {
+      throw at.error(fmt::format("must lie below the compression stop's {} m, got {} m", *begins,
+                                 at.number(support::any("m"))));
+    }
+    read_stop(*rebound, true, spring);
+  }
+  return spring;
+}
+
+void read_spring_damper(const support::TomlTable& table, ForceDescription& force) {
+  force.points = {read_point(table.at("a")), read_point(table.at("b"))};
+  force.along_line = true;
+  SpringDamper::Parameters parameters;
+  parameters.free_length = table.number("free_length", support::positive("m"));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.spring = read_spring_with_stops(table);
+  const std::optional<support::TomlTable> damper = table.find_table("damper");
+  if (damper) parameters.damper = read_damper(*damper);
+  if (!damper && !table.has("spring") && !table.has("compression_stop") && !table.has("rebound_stop")) {
+    table.reject_unknown_keys();
+    throw table.error("must have a 'spring', a stop or a 'damper'");
+  }
+  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
+    SpringDamper::Parameters placed = parameters;
+    placed.marker_a = markers[0];
+    placed.marker_b = markers[1];
+    return std::make_unique<SpringDamper>(name, std::move(placed));
+  };
+}
+
+void read_tyre(const support::TomlTable& table, ForceDescription& force) {
+  force.points = {read_point(table.at("wheel"))};
+  force.on_road = true;
+  PointContactTyre::Parameters parameters;
+  parameters.radius = table.number("radius", support::positive("m"));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.damping = table.number_or("damping", 0.0, support::non_negative("N·s/m"));
+  parameters.one_sided = table.boolean_or("one_sided", true);
+  const support::TomlTable spring = table.at("spring").table();
+  parameters.spring = read_spring(spring);
+  if (parameters.spring.value(0.0) != 0.0) {
+    throw spring.error(
+        fmt::format("of a tyre must give no force at penetration 0, got {} N", parameters.spring.value(0.0)));
+  }
+  if (!(parameters.spring.value(parameters.radius) > 0.0)) {
+    throw spring.error(fmt::format("of a tyre must push at a penetration of its radius {} m, got {} N",
+                                   parameters.radius, parameters.spring.value(parameters.radius)));
+  }
+  if (!parameters.one_sided && !(parameters.spring.value(-parameters.radius) < 0.0)) {
+    throw spring.error(fmt::format(
+        "of a tyre that is not one-sided must pull at a penetration of -{} m, got {} N; odd powers do",
+        parameters.radius, parameters.spring.value(-parameters.radius)));
+  }
+  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& road) {
+    PointContactTyre::Parameters placed = parameters;
+    placed.marker = markers[0];
+    return std::make_unique<PointContactTyre>(name, std::move(placed), road);
+  };
+}
+
+const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
+  static const std::vector<std::pair<std::string, ForceReader>> readers{
+      {"spring-damper", read_spring_damper},
+      {"tyre", read_tyre},
+  };
+  return readers;
+}
+
+}  // namespace
+
+ForceDescription read_force(const support::TomlTable& table) {
+  ForceDescription force;
+  force.name = table.string("name");
+  force.location = table.at("name").location();
+  check_name(force.name, "force", force.location);
+
+  std::vector<std::string> kinds;
+  for (const auto& [kind, reader] : force_readers()) kinds.push_back(kind);
+  force.kind = table.at("type").one_of(kinds);
+  const auto found = std::find(kinds.begin(), kinds.end(), force.kind);
+  force_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, force);
+  table.reject_unknown_keys();
+  return force;
+}
+
+}  // namespace sprung::dynamics

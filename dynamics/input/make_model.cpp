@@ -1,0 +1,129 @@
+#include "dynamics/input/make_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace sprung::dynamics {
+
+namespace {
+
+const std::vector<int>& modes_of(const ModeSelection& selection, const std::string& body) {
+  static const std::vector<int> kNone;
+  const auto found = selection.find(body);
+  return found == selection.end() ? kNone : found->second;
+}
+
+// D = diag(2 ζ ω m), with ω m = √(k m) of each mode.
+void replace_damping(Body& body, const std::vector<double>& ratios) {
+  if (ratios.size() != 1 && ratios.size() != body.mode_numbers.size()) {
+    throw std::invalid_argument(fmt::format("make_model: damping of '{}' must be 1 or {} ratios, got {}",
+                                            body.name, body.num_modes(), ratios.size()));
+  }
+  body.damping.setZero();
+  for (int k = 0; k < body.num_modes(); ++k) {
+    const double ratio = ratios[ratios.size() == 1 ? 0 : static_cast<std::size_t>(k)];
+    body.damping(k, k) = 2.0 * ratio * std::sqrt(body.stiffness(k, k) * body.M_ff(k, k));
+  }
+}
+
+Body make_body(const Vehicle& vehicle, const BodyDescription& description, const ModeSelection& selection,
+               const ModalDamping& damping) {
+  const std::vector<int>& numbers = modes_of(selection, description.name);
+  const reduce::Superelement* superelement = vehicle.superelement_of(description);
+  if (superelement == nullptr) {
+    if (!numbers.empty()) {
+      throw std::invalid_argument(
+          fmt::format("make_model: body '{}' has no superelement, so no modes", description.name));
+    }
+    return make_rigid_body(description.name, description.mass, description.inertia);
+  }
+  Body body = make_flexible_body(description.name, *superelement, numbers);
+  const auto replaced = damping.find(description.name);
+  if (replaced != damping.end() && !numbers.empty()) replace_damping(body, replaced->second);
+  return body;
+}
+
+Marker make_marker(const Vehicle& vehicle, const VehiclePoint& point, const std::vector<Body>& bodies) {
+  const int num_modes = point.body == kGround ? 0 : bodies[static_cast<std::size_t>(point.body)].num_modes();
+  Marker marker;
+  marker.name = point.name;
+  marker.body = point.body;
+  marker.p_BP = point.p_BP;
+  marker.Phi = Eigen::Matrix2Xd::Zero(2, num_modes);
+  marker.Phi_rotation = Eigen::RowVectorXd::Zero(num_modes);
+  if (num_modes == 0) return marker;
+  const std::size_t b = static_cast<std::size_t>(point.body);
+  if (point.kind == VehiclePoint::Kind::kCenterOfMass) marker.Phi = bodies[b].P / bodies[b].mass;
+  if (point.kind != VehiclePoint::Kind::kNode) return marker;
+  const Eigen::MatrixXd& shapes = vehicle.superelement_of(vehicle.bodies[b])->shapes;
+  for (int k = 0; k < num_modes; ++k) {
+    const int column = bodies[b].mode_numbers[static_cast<std::size_t>(k)] - 1;
+    const Eigen::Vector3d shape = shapes.block<3, 1>(3 * point.node, column);
+    // The offset turns with the node: u = φ + (S o) φ_rotation.
+    marker.Phi.col(k) = shape.head<2>() + turned(point.offset) * shape[2];
+    marker.Phi_rotation[k] = shape[2];
+  }
+  return marker;
+}
+
+}  // namespace
+
+Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
+                 const ModalDamping& damping) {
+  for (const auto& [body, numbers] : selection) {
+    if (vehicle.find_body(body) == nullptr) {
+      throw std::invalid_argument(fmt::format("make_model: modes selected of '{}', which is no body", body));
+    }
+  }
+  Model model;
+  model.gravity = vehicle.gravity;
+  for (const BodyDescription& body : vehicle.bodies) {
+    model.bodies.push_back(make_body(vehicle, body, selection, damping));
+  }
+  for (const VehiclePoint& point : list_points(vehicle)) {
+    model.markers.push_back(make_marker(vehicle, point, model.bodies));
+  }
+  for (const JointDescription& joint : vehicle.joints) {
+    model.joints.push_back(joint.make(model.find_marker(joint.a.name), model.find_marker(joint.b.name)));
+  }
+  for (const ForceDescription& force : vehicle.forces) {
+    if (force.on_road && road.road == nullptr) {
+      throw std::invalid_argument(fmt::format("make_model: force '{}' needs a road, got none", force.name));
+    }
+    std::vector<int> markers;
+    for (const PointReference& point : force.points) markers.push_back(model.find_marker(point.name));
+    model.forces.push_back(force.make(markers, road));
+  }
+  number_model(model);
+  return model;
+}
+
+Eigen::VectorXd make_start_positions(const Model& model, const Vehicle& vehicle) {
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const BodyDescription& description = vehicle.bodies[b];
+    q.segment<3>(model.bodies[b].first_coordinate) << description.position, description.angle;
+  }
+  return q;
+}
+
+double find_leading_position(const Model& model, const Vehicle& vehicle,
+                             std::span<const MarkerState> markers) {
+  double leading = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const std::string& point_name) {
+    const int marker = model.find_marker(point_name);
+    leading = std::max(leading, vehicle.direction * markers[static_cast<std::size_t>(marker)].r.x());
+  };
+  for (const ForceDescription& force : vehicle.forces) {
+    if (force.on_road) consider(force.points.front().name);
+  }
+  if (std::isfinite(leading)) return leading;
+  for (const BodyDescription& body : vehicle.bodies) consider(body.name + ".origin");
+  return leading;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/vehicle.h"
+#include "tools/support/toml.h"
+
+namespace sprung::dynamics {
+
+/// Body → ascending 1-based mode numbers of its superelement. A body that is absent is rigid.
+using ModeSelection = std::map<std::string, std::vector<int>>;
+/// Body → damping ratios that replace the superelement's: one for all active modes, or one for each.
+using ModalDamping = std::map<std::string, std::vector<double>>;
+
+/// What a run file asks for under `[modes]`, before it is known how many modes there are.
+struct ModeRequest {
+  enum class Kind { kCount, kNumbers, kAll };
+  Kind kind = Kind::kCount;
+  int count = 0;             ///< for kCount, the lowest ones
+  std::vector<int> numbers;  ///< for kNumbers, ascending, from 1
+  std::string key;           ///< for messages: "modes.chassis"
+  support::SourceLocation location;
+};
+
+/// What a run file asks for under `[modal_damping]`.
+struct DampingRequest {
+  std::vector<double> ratios;  ///< of critical, each ≥ 0
+  std::string key;
+  support::SourceLocation location;
+};
+
+using ModeRequests = std::map<std::string, ModeRequest>;        ///< by body
+using DampingRequests = std::map<std::string, DampingRequest>;  ///< by body
+
+/// Reads `[modes]`: of each body a count, a list of mode numbers or "all".
+ModeRequests read_modes(const support::TomlTable& table);
+/// Reads `[modal_damping]`: of each body a ratio or a list of them.
+DampingRequests read_modal_damping(const support::TomlTable& table);
+
+/// The modes that the requests mean for this vehicle; bodies left rigid are left out.
+/// @throws support::InputError at the request's place: no such body, a body without superelement, more modes
+/// than its
+///         file has, or a count that parts modes of equal frequency (explicit numbers may)
+ModeSelection resolve_modes(const ModeRequests& requests, const Vehicle& vehicle);
+/// The damping ratios that the requests mean; bodies whose damping stays the superelement's are left out.
+/// @throws support::InputError at the request's place: no such body or superelement, or ratios that are
+/// neither one
+///         nor as many as the body's active modes
+ModalDamping resolve_modal_damping(const DampingRequests& requests, const ModeSelection& selection,
+                                   const Vehicle& vehicle);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "dynamics/road/road.h"
+#include "tools/support/toml.h"
+
+namespace sprung::dynamics {
+
+/// The road of a run file, `[road]`.
+struct RoadDescription {
+  std::string shape = "flat";  ///< "flat", one of bump_shape_names(), or "table"
+  double start = 0.0;          ///< where it begins [m]
+  double length = 0.0;         ///< of a bump, > 0 [m]
+  double height = 0.0;         ///< of a bump [m]
+  std::filesystem::path file;  ///< of a table
+  support::SourceLocation location;
+};
+
+/// Reads `[road]`: shape and the keys of that shape.
+/// @param folder  what the table's `file` is relative to
+RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder);
+
+/// The road described; for a table its file is read: two columns, distance [m] and height [m], parted by
+/// blanks or a comma, distances ascending, first height 0; `#` begins a comment.
+/// @throws support::InputError at the fault's line and column in the table's file
+std::unique_ptr<Road> make_road(const RoadDescription& description);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,184 @@
+#include "dynamics/input/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kMostOutputs = 1e7;
+
+void read_times(const support::TomlTable& root, Run& run) {
+  run.duration = root.number("duration", support::positive("s"));
+  run.output_step = root.number_or("output_step", run.output_step, support::positive("s"));
+  const support::SourceLocation where =
+      root.has("output_step") ? root.at("output_step").location() : root.at("duration").location();
+  if (!(run.output_step <= run.duration)) {
+    throw support::InputError(where, fmt::format("'output_step' of {} s must be at most the duration of {} s",
+                                                 run.output_step, run.duration));
+  }
+  if (!(run.duration / run.output_step <= kMostOutputs)) {
+    throw support::InputError(
+        where, fmt::format("'output_step' of {} s gives {:.3g} outputs in {} s, must be at most "
+                           "{:.0e}",
+                           run.output_step, run.duration / run.output_step, run.duration, kMostOutputs));
+  }
+}
+
+void read_statistics(const support::TomlTable& root, Run& run) {
+  run.statistics_to = run.duration;
+  const std::optional<support::TomlTable> table = root.find_table("statistics");
+  if (!table) return;
+  const support::Quantity inside{.unit = "s", .at_least = 0.0, .at_most = run.duration};
+  run.statistics_from = table->number_or("from", 0.0, inside);
+  run.statistics_to = table->number_or("to", run.duration, inside);
+  table->reject_unknown_keys();
+  if (!(run.statistics_to > run.statistics_from)) {
+    throw table->error(fmt::format("must end after it begins, got from {} s to {} s", run.statistics_from,
+                                   run.statistics_to));
+  }
+}
+
+IntegratorSettings read_integrator(const support::TomlTable& table) {
+  static const std::array<std::string, 2> kMethods{"adams", "bdf"};
+  IntegratorSettings settings;
+  if (const std::optional<support::TomlValue> method = table.find("method")) {
+    settings.method = method->one_of(kMethods) == "adams" ? IntegratorSettings::Method::kAdams
+                                                          : IntegratorSettings::Method::kBdf;
+  }
+  // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
+  settings.relative_tolerance = table.number_or("relative_tolerance", settings.relative_tolerance,
+                                                {.unit = "", .at_least = 1e-13, .at_most = 1e-1});
+  if (const std::optional<support::TomlValue> step = table.find("largest_step")) {
+    settings.largest_step = step->number(support::positive("s"));
+  }
+  table.reject_unknown_keys();
+  return settings;
+}
+
+std::map<std::string, InitialMotion> read_initial(const support::TomlTable& table) {
+  std::map<std::string, InitialMotion> initial;
+  for (const auto& [body, value] : table.entries()) {
+    const support::TomlTable entry = value.table();
+    InitialMotion motion;
+    motion.location = entry.location();
+    if (const std::optional<support::TomlValue> velocity = entry.find("velocity")) {
+      const std::vector<double> v = velocity->numbers(support::any("m/s"), 2);
+      motion.velocity = {v[0], v[1]};
+    }
+    motion.angular_velocity = entry.number_or("angular_velocity", 0.0, support::any("rad/s"));
+    if (const std::optional<support::TomlValue> amplitude = entry.find("modal_amplitude")) {
+      motion.modal_amplitude = amplitude->numbers(support::any(""));
+    }
+    if (const std::optional<support::TomlValue> rate = entry.find("modal_rate")) {
+      motion.modal_rate = rate->numbers(support::any("1/s"));
+    }
+    entry.reject_unknown_keys();
+    initial.emplace(body, std::move(motion));
+  }
+  return initial;
+}
+
+std::vector<PointReference> read_output(const support::TomlTable& table) {
+  std::vector<PointReference> points;
+  if (const std::optional<support::TomlValue> list = table.find("points")) {
+    for (const support::TomlValue& item : list->items()) points.push_back(read_point(item));
+    if (points.empty()) throw list->error("must name at least one point \"body.point\"");
+  }
+  table.reject_unknown_keys();
+  return points;
+}
+
+const Body& find_moved_body(const Model& model, const std::string& name, const InitialMotion& motion) {
+  const int index = model.find_body(name);
+  if (index >= 0) return model.bodies[static_cast<std::size_t>(index)];
+  std::vector<std::string> names;
+  for (const Body& body : model.bodies) names.push_back(body.name);
+  throw support::InputError(motion.location, fmt::format("'initial.{}' is about no body of the vehicle{}",
+                                                         name, support::nearest_name_hint(name, names)));
+}
+
+// The body's part of q or v that belongs to its modes.
+void add_modal_values(const Body& body, const std::vector<double>& values, const char* key,
+                      const InitialMotion& motion, Eigen::VectorXd& coordinates) {
+  if (values.empty()) return;
+  if (values.size() != body.mode_numbers.size()) {
+    throw support::InputError(
+        motion.location,
+        fmt::format("'initial.{}.{}' must be one number for each of the {} active modes, got {}", body.name,
+                    key, body.num_modes(), values.size()));
+  }
+  coordinates.segment(body.first_coordinate + 3, body.num_modes()) +=
+      Eigen::Map<const Eigen::VectorXd>(values.data(), body.num_modes());
+}
+
+}  // namespace
+
+Run read_run(const support::TomlDocument& document) {
+  const support::TomlTable root = document.root();
+  const std::filesystem::path folder = std::filesystem::path(document.name()).parent_path();
+  Run run;
+  run.text = document.text();
+  run.vehicle_path = folder / root.string("vehicle");
+  run.speed = root.number_or("speed", 0.0, support::any("m/s"));
+  read_times(root, run);
+  read_statistics(root, run);
+  if (const std::optional<support::TomlValue> start = root.find("start")) {
+    static const std::array<std::string, 2> kStarts{"equilibrium", "as-given"};
+    run.start = start->one_of(kStarts) == "equilibrium" ? Run::Start::kEquilibrium : Run::Start::kAsGiven;
+  }
+  if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
+  if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
+  if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
+  if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
+  if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
+  if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
+  root.reject_unknown_keys();
+  return run;
+}
+
+std::unique_ptr<Road> make_road(const Run& run) {
+  return make_road(run.road);
+}
+
+ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
+  return resolve_modes(run.modes, vehicle);
+}
+
+ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
+  return resolve_modal_damping(run.modal_damping, selection, vehicle);
+}
+
+std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {
+  const std::vector<std::string> known = point_names(vehicle);
+  std::vector<std::string> names;
+  for (const PointReference& point : run.output_points.empty() ? vehicle.monitor : run.output_points) {
+    check_point(point, known);
+    if (std::find(names.begin(), names.end(), point.name) == names.end()) names.push_back(point.name);
+  }
+  return names;
+}
+
+void add_initial_amplitudes(const Run& run, const Model& model, Eigen::VectorXd& q) {
+  for (const auto& [name, motion] : run.initial) {
+    add_modal_values(find_moved_body(model, name, motion), motion.modal_amplitude, "modal_amplitude", motion,
+                     q);
+  }
+}
+
+Eigen::VectorXd make_start_velocities(const Run& run, const Vehicle& vehicle, const Model& model) {
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(model.num_coordinates);
+  for (const Body& body : model.bodies) v[body.first_coordinate] = vehicle.direction * run.speed;
+  for (const auto& [name, motion] : run.initial) {
+    const Body& body = find_moved_body(model, name, motion);
+    v.segment<2>(body.first_coordinate) += motion.velocity;
+    v[body.first_coordinate + 2] += motion.angular_velocity;
+    add_modal_values(body, motion.modal_rate, "modal_rate", motion, v);
+  }
+  return v;
+}
+
+}  // namespace sprung::dynamics

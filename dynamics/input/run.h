@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/mode_selection.h"
+#include "dynamics/input/point_reference.h"
+#include "dynamics/input/road_input.h"
+#include "dynamics/input/vehicle.h"
+#include "dynamics/system/model.h"
+#include "tools/support/toml.h"
+
+namespace sprung::dynamics {
+
+/// What the start of a run adds to one body's motion, `[initial.BODY]`.
+struct InitialMotion {
+  Eigen::Vector2d velocity =
+      Eigen::Vector2d::Zero();          ///< of the body frame, added to the run's speed, world axes [m/s]
+  double angular_velocity = 0.0;        ///< [rad/s]
+  std::vector<double> modal_amplitude;  ///< of the active modes, none: 0
+  std::vector<double> modal_rate;       ///< [1/s]
+  support::SourceLocation location;
+};
+
+struct IntegratorSettings {
+  enum class Method { kAdams, kBdf };
+  Method method = Method::kAdams;
+  double relative_tolerance = 1e-6;
+  std::optional<double> largest_step;  ///< > 0 [s]
+};
+
+/// What a run file says.
+struct Run {
+  enum class Start { kEquilibrium, kAsGiven };
+
+  std::string text;                    ///< the file as read
+  std::filesystem::path vehicle_path;  ///< made relative to the working folder
+  double speed = 0.0;                  ///< of all bodies along the vehicle's heading at the start [m/s]
+  double duration = 0.0;               ///< > 0 [s]
+  double output_step = 1e-3;           ///< > 0, ≤ duration [s]
+  Start start = Start::kEquilibrium;
+  double statistics_from = 0.0;  ///< [s]
+  double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
+  ModeRequests modes;
+  DampingRequests modal_damping;
+  RoadDescription road;
+  IntegratorSettings integrator;
+  std::map<std::string, InitialMotion> initial;  ///< by body
+  std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
+};
+
+/// Reads a run file; the vehicle's own file is not opened.
+/// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the
+/// keys)
+Run read_run(const support::TomlDocument& document);
+
+std::unique_ptr<Road> make_road(const Run& run);
+ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
+ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
+
+/// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
+/// @throws support::InputError at the run's reference to a point that the vehicle lacks
+std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle);
+
+/// Adds the run's initial modal amplitudes to q.
+/// @throws support::InputError for a body the vehicle lacks, or amplitudes that are not as many as its active
+/// modes
+void add_initial_amplitudes(const Run& run, const Model& model, Eigen::VectorXd& q);
+
+/// Velocities at the start: all bodies at the run's speed along the vehicle's heading, and what `[initial]`
+/// adds. The constraints may ask for others, which is the solver's matter.
+/// @return v, model.num_coordinates
+/// @throws support::InputError as above
+Eigen::VectorXd make_start_velocities(const Run& run, const Vehicle& vehicle, const Model& model);
+
+}  // namespace sprung::dynamics

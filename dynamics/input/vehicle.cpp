@@ -1,0 +1,149 @@
+#include "dynamics/input/vehicle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "dynamics/bodies/body_equations.h"
+#include "dynamics/input/body_input.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+template <typename Description>
+void check_new_name(const std::vector<Description>& others, const Description& added, const char* what) {
+  const auto same = [&](const Description& other) { return other.name == added.name; };
+  const auto found = std::find_if(others.begin(), others.end(), same);
+  if (found == others.end()) return;
+  throw support::InputError(added.location, fmt::format("there is a {} '{}' already, in line {}", what,
+                                                        added.name, found->location.line));
+}
+
+std::vector<JointDescription> read_joints(const support::TomlTable& root,
+                                          std::span<const std::string> points) {
+  std::vector<JointDescription> joints;
+  const std::optional<support::TomlValue> list = root.find("joints");
+  if (!list) return joints;
+  for (const support::TomlValue& item : list->items()) {
+    JointDescription joint = read_joint(item.table());
+    check_new_name(joints, joint, "joint");
+    check_point(joint.a, points);
+    check_point(joint.b, points);
+    const std::string body = body_of_point(joint.a.name);
+    if (body == body_of_point(joint.b.name)) {
+      throw support::InputError(joint.b.location,
+                                fmt::format("joint '{}' must join two bodies, '{}' and '{}' are both "
+                                            "on '{}'",
+                                            joint.name, joint.a.name, joint.b.name, body));
+    }
+    joints.push_back(std::move(joint));
+  }
+  return joints;
+}
+
+std::vector<ForceDescription> read_forces(const support::TomlTable& root,
+                                          std::span<const std::string> points) {
+  std::vector<ForceDescription> forces;
+  const std::optional<support::TomlValue> list = root.find("forces");
+  if (!list) return forces;
+  for (const support::TomlValue& item : list->items()) {
+    ForceDescription force = read_force(item.table());
+    check_new_name(forces, force, "force");
+    for (const PointReference& point : force.points) check_point(point, points);
+    forces.push_back(std::move(force));
+  }
+  return forces;
+}
+
+std::vector<PointReference> read_monitor(const support::TomlTable& root, const Vehicle& vehicle,
+                                         std::span<const std::string> points) {
+  std::vector<PointReference> monitor;
+  const std::optional<support::TomlValue> list = root.find("monitor");
+  if (!list) {
+    for (const BodyDescription& body : vehicle.bodies)
+      monitor.push_back({body.name + ".origin", body.location});
+    return monitor;
+  }
+  for (const support::TomlValue& item : list->items()) {
+    monitor.push_back(read_point(item));
+    check_point(monitor.back(), points);
+  }
+  return monitor;
+}
+
+Eigen::Vector2d start_position(const Vehicle& vehicle, const std::vector<VehiclePoint>& points,
+                               const std::string& name) {
+  const auto found =
+      std::find_if(points.begin(), points.end(), [&](const VehiclePoint& p) { return p.name == name; });
+  if (found->body < 0) return found->p_BP;
+  const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(found->body)];
+  return body.position + FrameRotation::from_angle(body.angle) * found->p_BP;
+}
+
+// The line of a force needs a direction to begin with.
+void check_lines_of_action(const Vehicle& vehicle) {
+  const std::vector<VehiclePoint> points = list_points(vehicle);
+  for (const ForceDescription& force : vehicle.forces) {
+    if (!force.along_line) continue;
+    const Eigen::Vector2d a = start_position(vehicle, points, force.points[0].name);
+    const Eigen::Vector2d b = start_position(vehicle, points, force.points[1].name);
+    if ((b - a).norm() > 1e-9) continue;
+    throw support::InputError(
+        force.location, fmt::format("force '{}' acts along the line between '{}' and '{}', which "
+                                    "are at one place ({:.6g} m, {:.6g} m)",
+                                    force.name, force.points[0].name, force.points[1].name, a.x(), a.y()));
+  }
+}
+
+}  // namespace
+
+const BodyDescription* Vehicle::find_body(const std::string& body_name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const BodyDescription& body) { return body.name == body_name; });
+  return found == bodies.end() ? nullptr : &*found;
+}
+
+const reduce::Superelement* Vehicle::superelement_of(const BodyDescription& body) const {
+  const auto found = superelements.find(body.superelement);
+  return found == superelements.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> Vehicle::body_names() const {
+  std::vector<std::string> names;
+  for (const BodyDescription& body : bodies) names.push_back(body.name);
+  return names;
+}
+
+Vehicle read_vehicle(const support::TomlDocument& document,
+                     const std::filesystem::path& superelement_folder) {
+  const support::TomlTable root = document.root();
+  Vehicle vehicle;
+  vehicle.text = document.text();
+  vehicle.name = root.string("name");
+  static const std::array<std::string, 2> kHeadings{"+x", "-x"};
+  vehicle.direction = root.at("heading").one_of(kHeadings) == "+x" ? 1.0 : -1.0;
+  if (const std::optional<support::TomlValue> gravity = root.find("gravity")) {
+    const std::vector<double> g = gravity->numbers(support::any("m/s²"), 2);
+    vehicle.gravity = {g[0], g[1]};
+  }
+  vehicle.bodies = read_bodies(root.at("bodies").table());
+  if (const std::optional<support::TomlTable> ground = root.find_table("ground")) {
+    vehicle.ground_points = read_points(ground->at("points").table(), false);
+    ground->reject_unknown_keys();
+  }
+  // Everything that needs no other file first.
+  for (const std::string_view key : {"joints", "forces", "monitor"}) root.find(key);
+  root.reject_unknown_keys();
+  vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);
+  const std::vector<std::string> points = point_names(vehicle);
+  vehicle.joints = read_joints(root, points);
+  vehicle.forces = read_forces(root, points);
+  vehicle.monitor = read_monitor(root, vehicle, points);
+  check_lines_of_action(vehicle);
+  return vehicle;
+}
+
+}  // namespace sprung::dynamics

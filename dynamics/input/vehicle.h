@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/force_input.h"
+#include "dynamics/input/joint_input.h"
+#include "dynamics/input/point_reference.h"
+#include "reduce/superelement.h"
+#include "tools/support/toml.h"
+
+namespace sprung::dynamics {
+
+/// A named point of a body, or of the ground.
+struct PointDescription {
+  std::string name;
+  std::string node;  ///< point of the superelement it is fixed to; empty: fixed to the body frame
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< from the frame's origin or the node, body axes [m]
+  support::SourceLocation location;
+};
+
+/// A body: rigid by mass and inertia (frame at the centre of mass), or by a superelement (frame at its
+/// reference node), which may then move with its modes.
+struct BodyDescription {
+  std::string name;
+  support::SourceLocation location;
+  double mass = 0.0;         ///< > 0 [kg]; 0 with a superelement
+  double inertia = 0.0;      ///< > 0, about the centre of mass [kg·m²]; 0 with a superelement
+  std::string superelement;  ///< name, empty if there is none
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of the body frame [m]
+  double angle = 0.0;                                  ///< [rad]
+  std::vector<PointDescription> points;
+};
+
+/// What a vehicle file says, with the superelements that its bodies name.
+struct Vehicle {
+  std::string name;
+  std::string text;                        ///< the file as read
+  double direction = 1.0;                  ///< of travel: +1 towards +x, −1 towards −x
+  Eigen::Vector2d gravity{0.0, -9.80665};  ///< [m/s²]
+  std::vector<BodyDescription> bodies;
+  std::vector<PointDescription> ground_points;
+  std::vector<JointDescription> joints;
+  std::vector<ForceDescription> forces;
+  std::vector<PointReference>
+      monitor;  ///< points whose motion is reported; every body's origin if the file has none
+  std::map<std::string, reduce::Superelement> superelements;
+
+  const BodyDescription* find_body(const std::string& body_name) const;  ///< nullptr if there is none
+  /// @return nullptr for a body without superelement
+  const reduce::Superelement* superelement_of(const BodyDescription& body) const;
+  std::vector<std::string> body_names() const;
+};
+
+/// Reads a vehicle file and FOLDER/NAME.h5 of every superelement that a body names, each once.
+/// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the
+/// keys)
+Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder);
+
+/// A point that joints, forces and results can refer to.
+struct VehiclePoint {
+  enum class Kind { kFixed, kNode, kCenterOfMass };
+  std::string name;  ///< "body.point"
+  Kind kind = Kind::kFixed;
+  int body = 0;                                      ///< position in Vehicle::bodies, or kGround
+  Eigen::Vector2d p_BP = Eigen::Vector2d::Zero();    ///< from the undeformed body's frame, body axes [m]
+  int node = -1;                                     ///< 0-based node of the superelement for kNode
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< from the node, body axes [m]
+};
+
+/// Every point of a vehicle: of each body `origin` and `center_of_mass`, the named nodes of its superelement
+/// and the points that the file gives it; then those of the ground.
+std::vector<VehiclePoint> list_points(const Vehicle& vehicle);
+std::vector<std::string> point_names(const Vehicle& vehicle);
+
+}  // namespace sprung::dynamics

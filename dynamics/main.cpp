@@ -1,0 +1,57 @@
+#include <CLI/CLI.hpp>
+
+#include "dynamics/program/commands.h"
+#include "tools/support/program.h"
+
+namespace {
+
+using sprung::dynamics::RunOutput;
+using sprung::dynamics::RunRequest;
+
+void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output) {
+  command.add_option("RUN.toml", request.run_file, "run file; it names the vehicle file")->required();
+  command.add_option("--superelements", request.superelement_folder, "folder of the superelements NAME.h5 (default: .)");
+  command.add_option("--set", request.overrides,
+                     "overrides a key: key.path=value of the run file, vehicle.key.path=value of the vehicle file; "
+                     "may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_flag("--json", output.json, "prints one JSON object (SI units) in place of tables");
+  command.add_flag("--quiet", request.quiet, "no progress on stderr");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Runs a vehicle of rigid and flexible bodies.", "sprung-dynamics"};
+  app.footer(
+      "Example: sprung-dynamics run dynamics/models/truck/bump.toml --superelements build/truck -o bump.h5 "
+      "--set modes.chassis=4\n"
+      "Exit codes: 0 good, 2 bad input, 3 numerics, 130 interrupted");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", SPRUNG_VERSION);
+
+  RunRequest request;
+  request.superelement_folder = ".";
+  RunOutput output;
+  CLI::App* run = app.add_subcommand("run", "static equilibrium, then the run; writes results and a summary");
+  add_input_options(*run, request, output);
+  run->add_option("-o,--output", output.results, "results file (HDF5); none is written without it");
+  CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
+  add_input_options(*equilibrium, request, output);
+  CLI::App* modes = app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");
+  add_input_options(*modes, request, output);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? sprung::support::kGood : sprung::support::kBadInput;
+  }
+  if (*run) return run_command(request, output);
+  if (*equilibrium) return equilibrium_command(request, output.json);
+  return modes_command(request, output.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return sprung::support::run_program("sprung-dynamics", [&] { return run(argc, argv); });
+}

@@ -1,0 +1,138 @@
+#include "dynamics/output/balance_report.h"
+
+#include <fmt/format.h>
+
+#include "dynamics/output/json.h"
+#include "tools/support/text_table.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// The force elements' channels at rest.
+struct RestingForces {
+  SystemTerms terms;
+  std::vector<int> branches;
+
+  RestingForces(const Model& model, const Eigen::VectorXd& q)
+      : terms(model), branches(static_cast<std::size_t>(model.num_branches)) {
+    terms.update_positions(0.0, q);
+    terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
+    terms.choose_branches(branches);
+  }
+  std::vector<double> channels(std::size_t force_index) const {
+    const Model& model = terms.model();
+    const ForceElement& force = *model.forces[force_index];
+    std::vector<double> values(force.channels().size());
+    force.calc_channels(terms.instant(),
+                        std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force_index]),
+                                                    static_cast<std::size_t>(force.num_branches())),
+                        values);
+    return values;
+  }
+};
+
+std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
+  std::vector<std::string> texts;
+  for (const NeutralDirection& direction : equilibrium.neutral) texts.push_back(direction.description);
+  return texts;
+}
+
+}  // namespace
+
+std::string format_equilibrium(const BalanceReport& report) {
+  const Equilibrium& equilibrium = report.equilibrium;
+  std::string text = fmt::format("{}: static equilibrium after {} iterations, last step {:.1e} of the natural size{}\n",
+                                 report.vehicle.name, equilibrium.iterations, equilibrium.last_step,
+                                 equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
+  if (report.assembly.largest_movement > 1e-9) {
+    text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
+                        report.assembly.largest_movement);
+  }
+  for (const std::string& neutral : neutral_descriptions(equilibrium)) {
+    text += fmt::format("Neutral, held at its start value: {}\n", neutral);
+  }
+  support::TextTable bodies({"body", "x m", "y m", "angle rad", "from file: x mm", "y mm", "angle mrad"});
+  for (const Body& body : report.model.bodies) {
+    const Eigen::Vector3d position = equilibrium.q.segment<3>(body.first_coordinate);
+    const Eigen::Vector3d moved = 1e3 * (position - report.file_positions.segment<3>(body.first_coordinate));
+    bodies.add_row({body.name, fmt::format("{:.6f}", position[0]), fmt::format("{:.6f}", position[1]),
+                    fmt::format("{:.6f}", position[2]), fmt::format("{:.3f}", moved[0]), fmt::format("{:.3f}", moved[1]),
+                    fmt::format("{:.3f}", moved[2])});
+  }
+  text += fmt::format("\n{}", bodies.str());
+
+  if (!report.model.forces.empty()) {
+    support::TextTable forces({"force element", "quantity", "value", "unit"});
+    const RestingForces resting(report.model, equilibrium.q);
+    for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
+      const std::vector<double> values = resting.channels(f);
+      for (std::size_t c = 0; c < values.size(); ++c) {
+        const Channel& channel = report.model.forces[f]->channels()[c];
+        if (channel.name == "rate" || channel.name == "road_height") continue;
+        forces.add_row({c == 0 ? report.model.forces[f]->name : "", std::string(channel.name),
+                        fmt::format("{:.6g}", values[c]), std::string(channel.unit)});
+      }
+    }
+    text += fmt::format("\n{}", forces.str());
+  }
+  return text;
+}
+
+std::string format_equilibrium_json(const BalanceReport& report) {
+  JsonObject bodies, forces;
+  for (const Body& body : report.model.bodies) {
+    const Eigen::Vector3d position = report.equilibrium.q.segment<3>(body.first_coordinate);
+    bodies.add(body.name, JsonObject().add("x", position[0]).add("y", position[1]).add("angle", position[2]));
+  }
+  const RestingForces resting(report.model, report.equilibrium.q);
+  for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
+    const std::vector<double> values = resting.channels(f);
+    JsonObject channels;
+    for (std::size_t c = 0; c < values.size(); ++c) channels.add(report.model.forces[f]->channels()[c].name, values[c]);
+    forces.add(report.model.forces[f]->name, channels);
+  }
+  return JsonObject()
+             .add("bodies", bodies)
+             .add("forces", forces)
+             .add("neutral", neutral_descriptions(report.equilibrium))
+             .add("stable", report.equilibrium.stable)
+             .add("iterations", static_cast<double>(report.equilibrium.iterations))
+             .str() +
+         "\n";
+}
+
+std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes) {
+  std::string text = fmt::format(
+      "{}: modes about static equilibrium, {} freedoms\n"
+      "Where a force has two slopes at rest (dampers that differ in compression and rebound), their mean is taken.\n\n",
+      vehicle.name, model.num_freedoms());
+  support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
+  int number = 0;
+  for (const VehicleMode& mode : modes) {
+    ++number;
+    if (mode.is_rigid_body) {
+      table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + mode.participants});
+    } else {
+      table.add_row({fmt::format("{}", number), fmt::format("{:.4f}", mode.undamped_frequency_hz),
+                     fmt::format("{:.4f}", mode.damped_frequency_hz), fmt::format("{:.4f}", mode.damping_ratio),
+                     mode.participants});
+    }
+  }
+  return text + table.str();
+}
+
+std::string format_modes_json(const std::vector<VehicleMode>& modes) {
+  std::vector<JsonObject> list;
+  for (const VehicleMode& mode : modes) {
+    list.push_back(JsonObject()
+                       .add("undamped_frequency", mode.undamped_frequency_hz)
+                       .add("damped_frequency", mode.damped_frequency_hz)
+                       .add("damping_ratio", mode.damping_ratio)
+                       .add("rigid_body", mode.is_rigid_body)
+                       .add("participants", mode.participants));
+  }
+  return JsonObject().add("modes", list).str() + "\n";
+}
+
+}  // namespace sprung::dynamics

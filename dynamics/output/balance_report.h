@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/assembly.h"
+#include "dynamics/analysis/equilibrium.h"
+#include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/input/vehicle.h"
+
+namespace sprung::dynamics {
+
+/// A static equilibrium with what it started from.
+struct BalanceReport {
+  const Model& model;
+  const Vehicle& vehicle;
+  const Equilibrium& equilibrium;
+  const AssemblyReport& assembly;
+  Eigen::VectorXd file_positions;  ///< num_coordinates, as the vehicle file has them
+};
+
+/// Positions of the bodies, force elements and what is neutral, as tables for people.
+std::string format_equilibrium(const BalanceReport& report);
+std::string format_equilibrium_json(const BalanceReport& report);
+
+/// Table of the vehicle's modes.
+std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes);
+std::string format_modes_json(const std::vector<VehicleMode>& modes);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/bodies/body.h"
+#include "reduce/superelement.h"
+
+namespace sprung::dynamics {
+
+/// Beam resultants of a flexible body from its active modes: one station at each end of each element, elements in the
+/// superelement's order, first end first.
+class ResultantRecovery {
+ public:
+  ResultantRecovery(const reduce::Superelement& superelement, const Body& body);
+  int num_stations() const { return static_cast<int>(axial_.rows()); }
+  /// Where the stations are, undeformed, body axes, stations×2 [m].
+  const Eigen::MatrixXd& positions() const { return positions_; }
+
+  Eigen::VectorXd axial(const Eigen::VectorXd& eta) const { return axial_ * eta; }    ///< N [N]
+  Eigen::VectorXd shear(const Eigen::VectorXd& eta) const { return shear_ * eta; }    ///< Q [N]
+  Eigen::VectorXd moment(const Eigen::VectorXd& eta) const { return moment_ * eta; }  ///< M [N·m]
+
+ private:
+  Eigen::MatrixXd positions_, axial_, shear_, moment_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,176 @@
+#include "dynamics/output/results_model.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Heights of the road wherever a wheel may come, and at the ends of its segments.
+void write_road(support::Hdf5Writer& file, const ResultsHeader& header) {
+  constexpr double kSpacing = 0.01;     // m
+  constexpr double kMaxSamples = 20000;
+  const Road& road = *header.road.road;
+  double rearmost = 0.0;
+  for (const Body& body : header.model.bodies) {
+    rearmost = std::min(rearmost, header.road.distance(header.start.q[body.first_coordinate]));
+  }
+  const double from = std::floor(rearmost) - 2.0;
+  const double to = std::ceil(1.1 * std::abs(header.run.speed) * header.run.duration) + 5.0;
+  const double spacing = std::max(kSpacing, (to - from) / kMaxSamples);
+  std::vector<double> distance;
+  for (double s = from; s <= to; s += spacing) distance.push_back(s);
+  for (int k = 0; k < road.num_segments() - 1; ++k) {
+    if (road.segment_end(k) > from && road.segment_end(k) < to) distance.push_back(road.segment_end(k));
+  }
+  std::sort(distance.begin(), distance.end());
+  distance.erase(std::unique(distance.begin(), distance.end()), distance.end());
+  std::vector<double> height;
+  for (const double s : distance) height.push_back(road.height(s));
+  file.write("/model/road/distance", distance, "m");
+  file.write("/model/road/height", height, "m");
+  file.attribute("/model/road", "shape", header.run.road.shape);
+  file.attribute("/model/road", "direction", header.road.direction);
+  file.attribute("/model/road", "origin", header.road.origin);
+}
+
+void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
+  for (std::size_t b = 0; b < header.model.bodies.size(); ++b) {
+    const Body& body = header.model.bodies[b];
+    const std::string group = "/model/bodies/" + body.name;
+    file.make_group(group);
+    file.attribute(group, "mass", body.mass);
+    file.attribute(group, "inertia", body.second_moment);
+    file.attribute(group, "superelement", header.vehicle.bodies[b].superelement);
+    file.attribute(group, "num_modes", std::int64_t{body.num_modes()});
+    std::vector<std::string> names;
+    std::vector<Eigen::Vector2d> points;
+    for (const Marker& marker : header.model.markers) {
+      if (marker.body != static_cast<int>(b)) continue;
+      names.push_back(marker.name);
+      points.push_back(marker.p_BP);
+    }
+    Eigen::MatrixXd positions(static_cast<Eigen::Index>(points.size()), 2);
+    for (std::size_t i = 0; i < points.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    file.write(group + "/point_names", names);
+    file.write(group + "/point_positions", positions, "m");
+  }
+}
+
+void write_superelements(support::Hdf5Writer& file, const Vehicle& vehicle) {
+  for (const auto& [name, superelement] : vehicle.superelements) {
+    const std::string group = "/model/superelements/" + name;
+    file.write(group + "/node_positions", Eigen::MatrixXd(superelement.node_positions.transpose()), "m");
+    std::vector<std::int64_t> elements;
+    for (Eigen::Index e = 0; e < superelement.elements.cols(); ++e) {
+      elements.push_back(superelement.elements(0, e));
+      elements.push_back(superelement.elements(1, e));
+    }
+    file.write(group + "/elements", elements, {elements.size() / 2, 2});
+    file.write(group + "/frequency", superelement.frequency_hz, "Hz");
+    file.write(group + "/damping_ratio", superelement.damping_ratio, "1");
+    const auto nodes = static_cast<std::size_t>(superelement.num_nodes());
+    const auto modes = static_cast<std::size_t>(superelement.num_modes());
+    std::vector<double> shapes;
+    for (Eigen::Index row = 0; row < superelement.shapes.rows(); ++row) {
+      for (Eigen::Index k = 0; k < superelement.shapes.cols(); ++k) shapes.push_back(superelement.shapes(row, k));
+    }
+    file.write(group + "/shapes", shapes, {nodes, 3, modes}, "m, m, rad per unit amplitude");
+    file.attribute(group, "content_hash", superelement.content_hash);
+    file.attribute(group, "program_version", superelement.provenance.program_version);
+  }
+}
+
+void write_equilibrium(support::Hdf5Writer& file, const ResultsHeader& header) {
+  const Model& model = header.model;
+  const Eigen::VectorXd& q = header.equilibrium ? header.equilibrium->q : header.start.q;
+  SystemTerms terms(model);
+  terms.update_positions(0.0, q);
+  for (const Body& body : model.bodies) {
+    const Eigen::VectorXd position = q.segment(body.first_coordinate, 3);
+    file.write("/model/equilibrium/bodies/" + body.name, position, "m, m, rad");
+    if (body.num_modes() == 0) continue;
+    const Eigen::VectorXd amplitude = q.segment(body.first_coordinate + 3, body.num_modes());
+    file.write("/model/equilibrium/modal/" + body.name, amplitude, "kg^0.5 m");
+  }
+  for (std::size_t i = 0; i < model.markers.size(); ++i) {
+    if (model.markers[i].body == kGround) continue;
+    const Eigen::VectorXd position = terms.markers()[i].r;
+    file.write("/model/equilibrium/points/" + model.markers[i].name, position, "m");
+  }
+  file.attribute("/model/equilibrium", "is_static_equilibrium", std::int64_t{header.equilibrium != nullptr});
+  std::vector<std::string> neutral;
+  if (header.equilibrium) {
+    for (const NeutralDirection& direction : header.equilibrium->neutral) neutral.push_back(direction.description);
+  }
+  file.write("/model/equilibrium/neutral", neutral);
+}
+
+void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
+  std::vector<double> undamped, damped, ratio;
+  std::vector<std::string> participants;
+  Eigen::MatrixXd shapes(header.model.num_coordinates, static_cast<Eigen::Index>(header.modes.size()));
+  for (std::size_t k = 0; k < header.modes.size(); ++k) {
+    const VehicleMode& mode = header.modes[k];
+    undamped.push_back(mode.undamped_frequency_hz);
+    damped.push_back(mode.damped_frequency_hz);
+    ratio.push_back(mode.damping_ratio);
+    participants.push_back(mode.participants);
+    shapes.col(static_cast<Eigen::Index>(k)) = mode.shape;
+  }
+  std::vector<std::string> coordinates;
+  for (int i = 0; i < header.model.num_coordinates; ++i) coordinates.push_back(header.model.coordinate_name(i));
+  file.write("/model/modes/undamped_frequency", undamped, "Hz");
+  file.write("/model/modes/damped_frequency", damped, "Hz");
+  file.write("/model/modes/damping_ratio", ratio, "1");
+  file.write("/model/modes/participants", participants);
+  file.write("/model/modes/coordinates", coordinates);
+  file.write("/model/modes/shapes", shapes, "mass-normalised");
+}
+
+}  // namespace
+
+void write_results_model(support::Hdf5Writer& file, const ResultsHeader& header) {
+  file.write("/model/run_text", std::vector<std::string>{header.run.text});
+  file.write("/model/vehicle_text", std::vector<std::string>{header.vehicle.text});
+  file.write("/model/overrides", header.overrides);
+  file.attribute("/model", "speed", header.run.speed);
+  file.attribute("/model", "duration", header.run.duration);
+  file.attribute("/model", "output_step", header.run.output_step);
+  file.attribute("/model", "relative_tolerance", header.run.integrator.relative_tolerance);
+  write_bodies(file, header);
+  write_superelements(file, header.vehicle);
+  write_road(file, header);
+  write_equilibrium(file, header);
+  write_modes(file, header);
+}
+
+void write_results_summary(support::Hdf5Writer& file, const RunStatistics& statistics,
+                           const TransientStatistics& transient) {
+  file.make_group("/summary");
+  for (const PointStatistics& point : statistics.point_statistics()) {
+    const std::string group = "/summary/points/" + point.point;
+    file.make_group(group);
+    const auto write = [&](const std::string& name, const SampleStatistics& sample) {
+      file.attribute(group, name + "_min", sample.minimum);
+      file.attribute(group, name + "_max", sample.maximum);
+      file.attribute(group, name + "_rms", sample.rms);
+    };
+    write("displacement", point.displacement);
+    write("acceleration", point.acceleration);
+  }
+  file.attribute("/summary", "constraint_violation", statistics.constraint_violation());
+  file.attribute("/summary", "energy_closure", statistics.energy_closure());
+  file.attribute("/summary", "num_samples", std::int64_t{statistics.num_samples()});
+  file.attribute("/summary", "steps", std::int64_t{transient.integrator.steps});
+  file.attribute("/summary", "evaluations", std::int64_t{transient.evaluations});
+  file.attribute("/summary", "output_evaluations", std::int64_t{transient.output_evaluations});
+  file.attribute("/summary", "switches", std::int64_t{transient.switches});
+  file.attribute("/summary", "repartitions", std::int64_t{transient.repartitions});
+}
+
+}  // namespace sprung::dynamics

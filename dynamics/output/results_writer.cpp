@@ -1,0 +1,225 @@
+#include "dynamics/output/results_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dynamics/output/results_model.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr std::int64_t kResultsVersion = 1;
+
+std::filesystem::path partial_name(const std::filesystem::path& path) {
+  return path.parent_path() / (path.stem().string() + ".partial" + path.extension().string());
+}
+
+void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::copy(values.data(), values.data() + values.size(), row.begin());
+}
+
+}  // namespace
+
+ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header)
+    : model_(&header.model), file_(path, partial_name(path)) {
+  file_.attribute("/", "format", "sprung-results");
+  file_.attribute("/", "version", kResultsVersion);
+  file_.attribute("/", "title", header.vehicle.name);
+  file_.attribute("/", "units", "SI");
+  file_.attribute("/", "complete", std::int64_t{0});
+  write_results_model(file_, header);
+
+  add_series("/time", 0, "s", [](const Snapshot& now, std::vector<double>& row) { row[0] = now.time; });
+  add_point_series();
+  add_body_series();
+  add_joint_series();
+  add_force_series();
+  add_recovery_series(header.vehicle);
+  const auto add_energy = [this](const std::string& name, auto value) {
+    add_series("/energy/" + name, 0, "J",
+               [value](const Snapshot& now, std::vector<double>& row) { row[0] = value(now.energy); });
+  };
+  add_energy("kinetic", [](const EnergyBook& book) { return book.stored.kinetic; });
+  add_energy("strain", [](const EnergyBook& book) { return book.stored.strain; });
+  add_energy("gravity", [](const EnergyBook& book) { return book.stored.gravity; });
+  add_energy("spring", [](const EnergyBook& book) { return book.stored.spring; });
+  add_energy("dissipated", [](const EnergyBook& book) { return book.dissipated; });
+  add_energy("input", [](const EnergyBook& book) { return book.input; });
+}
+
+void ResultsWriter::add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
+                               std::function<void(const Snapshot&, std::vector<double>&)> fill) {
+  file_.make_growing(dataset, columns, unit);
+  series_.push_back({dataset, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
+}
+
+void ResultsWriter::add_point_series() {
+  for (std::size_t i = 0; i < model_->markers.size(); ++i) {
+    const Marker& marker = model_->markers[i];
+    if (marker.body == kGround || marker.name.ends_with(".center_of_mass")) continue;
+    const std::string group = "/points/" + marker.name;
+    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
+    const int first = body.first_coordinate, size = body.num_coordinates();
+    add_series(group + "/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.terms().markers()[i].r);
+    });
+    add_series(group + "/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.terms().markers()[i].v);
+    });
+    add_series(group + "/acceleration", 2, "m/s^2", [i, first, size](const Snapshot& now, std::vector<double>& row) {
+      put(row, calc_marker_acceleration(now.equations.terms().markers()[i], now.equations.v_dot().segment(first, size)));
+    });
+    if (body.num_modes() == 0) continue;
+    add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
+      put(row, Eigen::Vector2d(marker.Phi * now.equations.q().segment(first + 3, size - 3)));
+    });
+  }
+}
+
+void ResultsWriter::add_body_series() {
+  for (const Body& body : model_->bodies) {
+    const std::string group = "/bodies/" + body.name;
+    const int first = body.first_coordinate, n = body.num_modes();
+    const std::string per_second = " 1/s", per_second_squared = " 1/s^2";
+    add_series(group + "/position", 3, "m, m, rad", [first](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.q().segment<3>(first));
+    });
+    add_series(group + "/velocity", 3, "m/s, m/s, rad/s", [first](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.v().segment<3>(first));
+    });
+    add_series(group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
+               [first](const Snapshot& now, std::vector<double>& row) {
+                 put(row, now.equations.v_dot().segment<3>(first));
+               });
+    const int center = model_->find_marker(body.name + ".center_of_mass");
+    if (center >= 0) {
+      const auto i = static_cast<std::size_t>(center);
+      add_series(group + "/center_of_mass/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
+        put(row, now.equations.terms().markers()[i].r);
+      });
+      add_series(group + "/center_of_mass/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
+        put(row, now.equations.terms().markers()[i].v);
+      });
+      add_series(group + "/center_of_mass/acceleration", 2, "m/s^2",
+                 [i, first, n](const Snapshot& now, std::vector<double>& row) {
+                   put(row, calc_marker_acceleration(now.equations.terms().markers()[i],
+                                                     now.equations.v_dot().segment(first, 3 + n)));
+                 });
+    }
+    if (n == 0) continue;
+    const auto columns = static_cast<std::size_t>(n);
+    const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
+    file_.write(group + "/modal/mode_number", numbers);
+    add_series(group + "/modal/amplitude", columns, "kg^0.5 m", [first, n](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.q().segment(first + 3, n));
+    });
+    add_series(group + "/modal/rate", columns, "kg^0.5 m/s", [first, n](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.equations.v().segment(first + 3, n));
+    });
+    add_series(group + "/modal/acceleration", columns, "kg^0.5 m/s^2",
+               [first, n](const Snapshot& now, std::vector<double>& row) {
+                 put(row, now.equations.v_dot().segment(first + 3, n));
+               });
+    add_series(group + "/modal/active", columns, "1", [](const Snapshot&, std::vector<double>& row) {
+      std::fill(row.begin(), row.end(), 1.0);
+    });
+  }
+}
+
+void ResultsWriter::add_joint_series() {
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    const int row_of_joint = model_->joint_rows[j];
+    // What the joint does to its point a: −Gaᵀλ.
+    add_series("/joints/" + joint.name + "/reaction", 3, "N, N, N m",
+               [&joint, row_of_joint](const Snapshot& now, std::vector<double>& row) {
+                 JointJacobian Ga, Gb;
+                 const auto markers = now.equations.terms().markers();
+                 joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
+                                     markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
+                 const Eigen::Vector3d reaction =
+                     -Ga.transpose() * now.equations.multipliers().segment(row_of_joint, joint.num_constraints());
+                 put(row, reaction);
+               });
+  }
+}
+
+void ResultsWriter::add_force_series() {
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const ForceElement& force = *model_->forces[f];
+    const auto first = static_cast<std::size_t>(model_->force_branches[f]);
+    const auto count = static_cast<std::size_t>(force.num_branches());
+    for (std::size_t c = 0; c < force.channels().size(); ++c) {
+      const Channel& channel = force.channels()[c];
+      add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
+                 [&force, first, count, c](const Snapshot& now, std::vector<double>& row) {
+                   std::vector<double> values(force.channels().size());
+                   force.calc_channels(now.equations.terms().instant(), now.branches.subspan(first, count), values);
+                   row[0] = values[c];
+                 });
+    }
+    file_.attribute("/forces/" + force.name, "kind", force.kind());
+  }
+}
+
+void ResultsWriter::add_recovery_series(const Vehicle& vehicle) {
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[b]);
+    if (!superelement || body.num_modes() == 0) continue;
+    recoveries_.push_back(std::make_unique<ResultantRecovery>(*superelement, body));
+    const ResultantRecovery* recovery = recoveries_.back().get();
+    const std::string group = "/recovery/" + body.name;
+    const auto stations = static_cast<std::size_t>(recovery->num_stations());
+    const int first = body.first_coordinate + 3, n = body.num_modes();
+    file_.write(group + "/station", recovery->positions(), "m");
+    const auto add = [&](const std::string& name, const std::string& unit, auto resultant) {
+      add_series(group + "/" + name, stations, unit,
+                 [recovery, first, n, resultant](const Snapshot& now, std::vector<double>& row) {
+                   put(row, (recovery->*resultant)(now.equations.q().segment(first, n)));
+                 });
+    };
+    add("axial", "N", &ResultantRecovery::axial);
+    add("shear", "N", &ResultantRecovery::shear);
+    add("moment", "N m", &ResultantRecovery::moment);
+  }
+}
+
+void ResultsWriter::add(const Snapshot& snapshot) {
+  for (Series& series : series_) {
+    series.fill(snapshot, series.row);
+    file_.append(series.dataset, series.row);
+  }
+}
+
+void ResultsWriter::write_events() {
+  std::vector<double> times;
+  std::vector<std::string> kinds, objects, texts;
+  for (const Event& event : events_) {
+    times.push_back(event.time);
+    kinds.push_back(event.kind);
+    objects.push_back(event.object);
+    texts.push_back(event.text);
+  }
+  file_.write("/events/time", times, "s");
+  file_.write("/events/kind", kinds);
+  file_.write("/events/object", objects);
+  file_.write("/events/text", texts);
+}
+
+void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient) {
+  write_events();
+  write_results_summary(file_, statistics, transient);
+  file_.attribute("/", "complete", std::int64_t{1});
+  file_.commit();
+}
+
+std::filesystem::path ResultsWriter::abandon() {
+  write_events();
+  file_.keep_temporary();
+  return file_.temporary();
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/equilibrium.h"
+#include "dynamics/analysis/transient.h"
+#include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/input/run.h"
+#include "dynamics/input/vehicle.h"
+#include "dynamics/output/recovery.h"
+#include "dynamics/output/run_statistics.h"
+#include "tools/support/hdf5_file.h"
+
+namespace sprung::dynamics {
+
+/// What a results file says about the run besides its time histories.
+struct ResultsHeader {
+  const Run& run;
+  const Vehicle& vehicle;
+  const Model& model;
+  const PlacedRoad& road;
+  const State& start;
+  std::vector<std::string> overrides;      ///< assignments of the command line, as given
+  const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
+  std::vector<VehicleMode> modes;          ///< about the equilibrium
+};
+
+/// Writes the results file of a run as it goes (dynamics/output/results.md). It stands as NAME.partial.h5 until the
+/// run is whole.
+class ResultsWriter {
+ public:
+  /// @throws support::InputError if the file cannot be written
+  ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header);
+
+  void add(const Snapshot& snapshot);
+  void add(const Event& event) { events_.push_back(event); }
+
+  /// Writes the summary and gives the file its final name.
+  void finish(const RunStatistics& statistics, const TransientStatistics& transient);
+  /// Closes the file under its partial name. @return that name
+  std::filesystem::path abandon();
+
+ private:
+  // A time history: where its values go and how a row is made.
+  struct Series {
+    std::string dataset;
+    std::vector<double> row;
+    std::function<void(const Snapshot&, std::vector<double>& row)> fill;
+  };
+
+  void add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
+                  std::function<void(const Snapshot&, std::vector<double>&)> fill);
+  void add_point_series();
+  void add_body_series();
+  void add_joint_series();
+  void add_force_series();
+  void add_recovery_series(const Vehicle& vehicle);
+  void write_events();
+
+  const Model* model_;
+  support::Hdf5Writer file_;
+  std::vector<Series> series_;
+  std::vector<Event> events_;
+  std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
+};
+
+}  // namespace sprung::dynamics

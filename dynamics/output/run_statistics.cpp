@@ -1,0 +1,82 @@
+#include "dynamics/output/run_statistics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sprung::dynamics {
+
+void RunStatistics::Accumulator::add(double value) {
+  minimum = std::min(minimum, value);
+  maximum = std::max(maximum, value);
+  sum_of_squares += value * value;
+}
+
+SampleStatistics RunStatistics::Accumulator::result(long count) const {
+  if (count == 0) return {};
+  return {minimum, maximum, std::sqrt(sum_of_squares / static_cast<double>(count))};
+}
+
+RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>& points,
+                             const Eigen::VectorXd& reference_q, double from, double to)
+    : model_(&model), from_(from), to_(to), phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, reference_q);
+  for (const std::string& name : points) {
+    const int marker = model.find_marker(name);
+    if (marker < 0) throw std::invalid_argument(fmt::format("RunStatistics: there is no point '{}'", name));
+    points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}});
+  }
+}
+
+void RunStatistics::add(const Snapshot& snapshot) {
+  const SystemTerms& terms = snapshot.equations.terms();
+  if (model_->num_constraints > 0) {
+    terms.calc_residual(phi_);
+    constraint_violation_ = std::max(constraint_violation_, phi_.lpNorm<Eigen::Infinity>());
+  }
+  const Energy& now = snapshot.energy.stored;
+  if (!has_first_) first_ = now;
+  has_first_ = true;
+  const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
+                        std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
+  largest_change_ = std::max(largest_change_, change);
+  // Term by term, so that a large potential far from the origin does not swallow the digits.
+  const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
+                           (now.gravity - first_.gravity) + (now.spring - first_.spring) + snapshot.energy.dissipated -
+                           snapshot.energy.input;
+  largest_imbalance_ = std::max(largest_imbalance_, std::abs(imbalance));
+
+  const double tolerance = 1e-9;
+  if (snapshot.time < from_ - tolerance || snapshot.time > to_ + tolerance) return;
+  ++num_samples_;
+  for (Point& point : points_) {
+    const Marker& marker = model_->markers[static_cast<std::size_t>(point.marker)];
+    const MarkerState& state = terms.markers()[static_cast<std::size_t>(point.marker)];
+    point.displacement.add(state.r.y() - point.reference_height);
+    if (marker.body == kGround) {
+      point.acceleration.add(0.0);
+      continue;
+    }
+    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
+    point.acceleration.add(calc_marker_acceleration(state, snapshot.equations.v_dot().segment(
+                                                               body.first_coordinate, body.num_coordinates()))
+                               .y());
+  }
+}
+
+std::vector<PointStatistics> RunStatistics::point_statistics() const {
+  std::vector<PointStatistics> all;
+  for (const Point& point : points_) {
+    all.push_back({model_->markers[static_cast<std::size_t>(point.marker)].name,
+                   point.displacement.result(num_samples_), point.acceleration.result(num_samples_)});
+  }
+  return all;
+}
+
+double RunStatistics::energy_closure() const {
+  return largest_change_ > 0.0 ? largest_imbalance_ / largest_change_ : 0.0;
+}
+
+}  // namespace sprung::dynamics

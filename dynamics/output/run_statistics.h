@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/transient.h"
+
+namespace sprung::dynamics {
+
+/// Smallest, largest and root mean square of a sampled quantity.
+struct SampleStatistics {
+  double minimum = 0.0, maximum = 0.0, rms = 0.0;
+  double peak() const { return std::max(-minimum, maximum); }
+};
+
+/// What one point did: vertical displacement from the reference position and vertical acceleration.
+struct PointStatistics {
+  std::string point;
+  SampleStatistics displacement;  ///< [m]
+  SampleStatistics acceleration;  ///< [m/s²]
+};
+
+/// Statistics of a run over its outputs, gathered one by one.
+class RunStatistics {
+ public:
+  /// @param points      names of markers to report, "body.point"
+  /// @param reference_q positions that displacements are counted from (static equilibrium)
+  /// @param from, to    window of time for the points [s]
+  RunStatistics(const Model& model, const std::vector<std::string>& points, const Eigen::VectorXd& reference_q, double from,
+                double to);
+
+  void add(const Snapshot& snapshot);
+
+  std::vector<PointStatistics> point_statistics() const;
+  /// Largest |φ| at any output [m, rad].
+  double constraint_violation() const { return constraint_violation_; }
+  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the stored terms.
+  double energy_closure() const;
+  long num_samples() const { return num_samples_; }
+
+ private:
+  struct Accumulator {
+    double minimum = std::numeric_limits<double>::infinity();
+    double maximum = -std::numeric_limits<double>::infinity();
+    double sum_of_squares = 0.0;
+    void add(double value);
+    SampleStatistics result(long count) const;
+  };
+  struct Point {
+    int marker;
+    double reference_height;
+    Accumulator displacement, acceleration;
+  };
+
+  const Model* model_;
+  double from_, to_;
+  std::vector<Point> points_;
+  long num_samples_ = 0;
+  double constraint_violation_ = 0.0;
+  Eigen::VectorXd phi_;
+  bool has_first_ = false;
+  Energy first_;
+  double largest_imbalance_ = 0.0, largest_change_ = 0.0;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,74 @@
+#include "dynamics/program/prepared_run.h"
+
+#include <fmt/format.h>
+
+#include "dynamics/road/flat_road.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr std::string_view kVehiclePrefix = "vehicle.";
+
+// The overrides of one of the two files, each with its place on the command line.
+void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides, bool of_vehicle) {
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const bool is_of_vehicle = overrides[i].starts_with(kVehiclePrefix);
+    if (is_of_vehicle != of_vehicle) continue;
+    const std::string_view assignment = overrides[i];
+    document.set(of_vehicle ? assignment.substr(kVehiclePrefix.size()) : assignment, fmt::format("--set {}", i + 1));
+  }
+}
+
+State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  return {.time = 0.0, .q = q, .v = v, .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
+}
+
+}  // namespace
+
+PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
+  PreparedRun prepared;
+  support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
+  apply_overrides(run_document, request.overrides, false);
+  prepared.run = read_run(run_document);
+  support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
+  apply_overrides(vehicle_document, request.overrides, true);
+  prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
+
+  const Run& run = prepared.run;
+  const Vehicle& vehicle = prepared.vehicle;
+  prepared.selection = resolve_modes(run, vehicle);
+  prepared.output_points = resolve_output_points(run, vehicle);
+  const ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
+
+  prepared.level_road = std::make_unique<FlatRoad>();
+  prepared.balance_model =
+      make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping);
+  Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
+  prepared.assembly = assemble_positions(prepared.balance_model, q);
+  if (preparation == Preparation::kBalance || run.start == Run::Start::kEquilibrium) {
+    prepared.equilibrium = find_equilibrium(prepared.balance_model, q);
+    q = prepared.equilibrium->q;
+  }
+
+  SystemTerms terms(prepared.balance_model);
+  terms.update_positions(0.0, q);
+  prepared.road = make_road(run);
+  prepared.placed_road = {prepared.road.get(), vehicle.direction,
+                          find_leading_position(prepared.balance_model, vehicle, terms.markers())};
+  prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping);
+  if (preparation == Preparation::kBalance) {
+    prepared.start = make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates));
+    return prepared;
+  }
+  if (!run.initial.empty()) {
+    add_initial_amplitudes(run, prepared.model, q);
+    assemble_positions(prepared.model, q);
+  }
+  Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
+  project_velocities(prepared.model, 0.0, q, v);
+  prepared.start = make_state(prepared.model, q, v);
+  return prepared;
+}
+
+}  // namespace sprung::dynamics

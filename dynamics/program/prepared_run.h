@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/assembly.h"
+#include "dynamics/analysis/equilibrium.h"
+#include "dynamics/input/make_model.h"
+#include "dynamics/input/run.h"
+
+namespace sprung::dynamics {
+
+/// What the command line names.
+struct RunRequest {
+  std::filesystem::path run_file;
+  std::filesystem::path superelement_folder;
+  std::vector<std::string> overrides;  ///< "key.path=value", "vehicle.key.path=value"
+  bool quiet = false;
+};
+
+/// A run made ready: input read, vehicle assembled and balanced, road placed under it.
+struct PreparedRun {
+  Run run;
+  Vehicle vehicle;
+  ModeSelection selection;
+  std::vector<std::string> output_points;
+  AssemblyReport assembly;
+  std::unique_ptr<Road> level_road, road;
+  Model balance_model;                     ///< on level ground
+  std::optional<Equilibrium> equilibrium;  ///< none for a run that starts as given
+  PlacedRoad placed_road;
+  Model model;                             ///< on the run's road
+  State start;
+};
+
+/// Which part of the preparation is wanted.
+enum class Preparation {
+  kBalance,  ///< up to the equilibrium, whatever the run's own start
+  kRun,      ///< all of it
+};
+
+/// @throws support::InputError, support::NumericalError
+PreparedRun prepare_run(const RunRequest& request, Preparation preparation);
+
+}  // namespace sprung::dynamics

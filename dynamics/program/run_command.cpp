@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/analysis/transient.h"
+#include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/output/results_writer.h"
+#include "dynamics/output/run_report.h"
+#include "dynamics/program/commands.h"
+#include "tools/support/numerical_error.h"
+#include "tools/support/program.h"
+#include "tools/support/progress_bar.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+TransientOptions make_options(const Run& run) {
+  TransientOptions options;
+  options.end_time = run.duration;
+  options.output_step = run.output_step;
+  options.largest_step = run.integrator.largest_step.value_or(std::numeric_limits<double>::infinity());
+  options.integrator.relative_tolerance = run.integrator.relative_tolerance;
+  options.integrator.method = run.integrator.method == IntegratorSettings::Method::kBdf
+                                  ? CvodeIntegrator::Method::kBdf
+                                  : CvodeIntegrator::Method::kAdams;
+  return options;
+}
+
+[[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
+  if (!writer) throw support::Interrupted(fmt::format("interrupted at t = {:.6g} s", time));
+  throw support::Interrupted(fmt::format("interrupted at t = {:.6g} s; what there is so far: {}", time,
+                                         writer->abandon().string()));
+}
+
+}  // namespace
+
+int run_command(const RunRequest& request, const RunOutput& output) {
+  const PreparedRun prepared = prepare_run(request, Preparation::kRun);
+  const Run& run = prepared.run;
+  std::vector<VehicleMode> modes;
+  if (prepared.equilibrium && prepared.equilibrium->stable) {
+    modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
+  }
+  if (!output.json && !request.quiet) {
+    fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
+                                  prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+  }
+
+  std::unique_ptr<ResultsWriter> writer;
+  if (!output.results.empty()) {
+    writer = std::make_unique<ResultsWriter>(
+        output.results, ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
+                                      request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
+                                      std::move(modes)});
+  }
+  const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
+  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from, run.statistics_to);
+
+  TransientOptions options = make_options(run);
+  support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
+  double time_reached = 0.0;
+  options.on_output = [&](const Snapshot& snapshot) {
+    statistics.add(snapshot);
+    if (writer) writer->add(snapshot);
+  };
+  options.on_event = [&](const Event& event) {
+    if (writer) writer->add(event);
+  };
+  options.on_step = [&](double time) {
+    time_reached = time;
+    progress.update(time / run.duration);
+    return !support::interrupt_requested();
+  };
+  const auto start = std::chrono::steady_clock::now();
+  TransientStatistics transient;
+  try {
+    transient = run_transient(prepared.model, prepared.start, options);
+  } catch (const support::NumericalError& error) {
+    progress.finish();
+    if (!writer) throw;
+    throw support::NumericalError(
+        fmt::format("{}; results up to there: {}", error.what(), writer->abandon().string()));
+  }
+  progress.finish();
+  if (!transient.completed) throw_interrupted(time_reached, writer.get());
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (writer) writer->finish(statistics, transient);
+
+  const RunSummary summary{statistics, transient, run.duration, elapsed};
+  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary) : format_summary(prepared.model, summary));
+  if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
+  return support::kGood;
+}
+
+}  // namespace sprung::dynamics

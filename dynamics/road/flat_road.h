@@ -1,0 +1,18 @@
+#pragma once
+
+#include <limits>
+
+#include "dynamics/road/road.h"
+
+namespace sprung::dynamics {
+
+/// Height 0 everywhere.
+class FlatRoad final : public Road {
+ public:
+  int num_segments() const override { return 1; }
+  double segment_end(int /*k*/) const override { return std::numeric_limits<double>::infinity(); }
+  RoadSample sample(int /*segment*/, double /*s*/) const override { return {}; }
+  double resolution(int /*segment*/, double /*s*/) const override { return std::numeric_limits<double>::infinity(); }
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,94 @@
+#include "dynamics/system/model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sprung::dynamics {
+
+namespace {
+
+const Body& body_of_coordinate(const Model& model, int coordinate) {
+  for (const Body& body : model.bodies) {
+    if (coordinate < body.first_coordinate + body.num_coordinates()) return body;
+  }
+  throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, model.num_coordinates));
+}
+
+}  // namespace
+
+std::string Model::coordinate_name(int coordinate) const {
+  const Body& body = body_of_coordinate(*this, coordinate);
+  const int local = coordinate - body.first_coordinate;
+  if (local < 3) return fmt::format("{}.{}", body.name, local == 0 ? "x" : local == 1 ? "y" : "angle");
+  return fmt::format("{}.mode {}", body.name, body.mode_numbers[static_cast<std::size_t>(local - 3)]);
+}
+
+double Model::coordinate_scale(int coordinate) const {
+  const Body& body = body_of_coordinate(*this, coordinate);
+  const int local = coordinate - body.first_coordinate;
+  if (local < 2) return length_scale;
+  return local == 2 ? 1.0 : length_scale / body.mode_scale[local - 3];
+}
+
+int Model::find_body(const std::string& name) const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.name == name; });
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+int Model::find_marker(const std::string& name) const {
+  const auto found =
+      std::find_if(markers.begin(), markers.end(), [&](const Marker& marker) { return marker.name == name; });
+  return found == markers.end() ? -1 : static_cast<int>(found - markers.begin());
+}
+
+void number_model(Model& model) {
+  model.num_coordinates = 0;
+  for (Body& body : model.bodies) {
+    body.first_coordinate = model.num_coordinates;
+    model.num_coordinates += body.num_coordinates();
+  }
+  model.num_constraints = 0;
+  model.joint_rows.clear();
+  for (const auto& joint : model.joints) {
+    model.joint_rows.push_back(model.num_constraints);
+    model.num_constraints += joint->num_constraints();
+  }
+  model.num_branches = 0;
+  model.force_branches.clear();
+  for (const auto& force : model.forces) {
+    model.force_branches.push_back(model.num_branches);
+    model.num_branches += force->num_branches();
+  }
+  double extent = 0.0;
+  for (const Marker& marker : model.markers) {
+    if (marker.body != kGround) extent = std::max(extent, marker.p_BP.norm());
+  }
+  model.length_scale = extent > 0.0 ? extent : 1.0;
+}
+
+State carry_over(const Model& from, const State& state, const Model& to) {
+  State carried;
+  carried.time = state.time;
+  carried.branches = state.branches;
+  carried.q = Eigen::VectorXd::Zero(to.num_coordinates);
+  carried.v = Eigen::VectorXd::Zero(to.num_coordinates);
+  for (std::size_t b = 0; b < from.bodies.size(); ++b) {
+    const Body& old_body = from.bodies[b];
+    const Body& new_body = to.bodies[b];
+    carried.q.segment<3>(new_body.first_coordinate) = state.q.segment<3>(old_body.first_coordinate);
+    carried.v.segment<3>(new_body.first_coordinate) = state.v.segment<3>(old_body.first_coordinate);
+    for (int k = 0; k < old_body.num_modes(); ++k) {
+      const int number = old_body.mode_numbers[static_cast<std::size_t>(k)];
+      const auto found = std::find(new_body.mode_numbers.begin(), new_body.mode_numbers.end(), number);
+      if (found == new_body.mode_numbers.end()) continue;
+      const int target = new_body.first_coordinate + 3 + static_cast<int>(found - new_body.mode_numbers.begin());
+      carried.q[target] = state.q[old_body.first_coordinate + 3 + k];
+      carried.v[target] = state.v[old_body.first_coordinate + 3 + k];
+    }
+  }
+  return carried;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/bodies/body.h"
+#include "dynamics/bodies/marker.h"
+#include "dynamics/forces/force_element.h"
+#include "dynamics/joints/joint.h"
+
+namespace sprung::dynamics {
+
+/// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes another
+/// model with the same markers, joints and forces, to which a state is carried over by `carry_over`.
+struct Model {
+  std::vector<Body> bodies;
+  std::vector<Marker> markers;
+  std::vector<std::unique_ptr<Joint>> joints;
+  std::vector<std::unique_ptr<ForceElement>> forces;
+  Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
+
+  int num_coordinates = 0;
+  int num_constraints = 0;
+  std::vector<int> joint_rows;      ///< first constraint of each joint
+  std::vector<int> force_branches;  ///< first branch of each force element
+  int num_branches = 0;
+  double length_scale = 1.0;        ///< largest distance of a marker from its body's frame [m]
+
+  int num_freedoms() const { return num_coordinates - num_constraints; }
+  /// "chassis.x", "chassis.angle", "chassis.mode 3"
+  std::string coordinate_name(int coordinate) const;
+  /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what moves
+  /// some node by length_scale.
+  double coordinate_scale(int coordinate) const;
+  int find_body(const std::string& name) const;    ///< -1 if there is none
+  int find_marker(const std::string& name) const;  ///< -1 if there is none
+};
+
+/// Numbers coordinates, constraints and branches, and measures the model. Call once bodies, markers, joints and
+/// forces are complete.
+void number_model(Model& model);
+
+/// Positions and velocities of the whole system, with the branches of its force elements.
+struct State {
+  double time = 0.0;          ///< [s]
+  Eigen::VectorXd q;          ///< num_coordinates
+  Eigen::VectorXd v;          ///< num_coordinates
+  std::vector<int> branches;  ///< num_branches
+};
+
+/// The state in a model that differs in its active modes alone: modes that join start undeformed and at rest, modes
+/// that leave are dropped. Constraints have to be satisfied anew by the caller.
+State carry_over(const Model& from, const State& state, const Model& to);
+
+}  // namespace sprung::dynamics

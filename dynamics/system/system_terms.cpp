@@ -1,0 +1,198 @@
+#include "dynamics/system/system_terms.h"
+
+namespace sprung::dynamics {
+
+SystemTerms::SystemTerms(const Model& model)
+    : model_(&model),
+      q_(Eigen::VectorXd::Zero(model.num_coordinates)),
+      v_(Eigen::VectorXd::Zero(model.num_coordinates)),
+      Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
+      rotations_(model.bodies.size()),
+      markers_(model.markers.size()),
+      wrenches_(model.markers.size()),
+      Phi_q_(Eigen::MatrixXd::Zero(model.num_constraints, model.num_coordinates)) {
+  for (const Body& body : model.bodies) {
+    mass_.emplace_back(Eigen::MatrixXd::Zero(body.num_coordinates(), body.num_coordinates()));
+  }
+  for (std::size_t i = 0; i < model.markers.size(); ++i) {
+    markers_[i].r = model.markers[i].p_BP;  // of ground markers, for good
+    markers_[i].r_eta.resize(2, model.markers[i].Phi.cols());
+  }
+}
+
+void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
+  time_ = time;
+  q_ = q;
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
+  }
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    const Marker& marker = model_->markers[i];
+    if (marker.body == kGround) continue;
+    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
+    calc_marker_position(marker, rotations_[static_cast<std::size_t>(marker.body)],
+                         q_.segment(body.first_coordinate, body.num_coordinates()), markers_[i]);
+  }
+}
+
+void SystemTerms::calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const {
+  JointVector residual;
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    joint.calc_residual(marker(joint.marker_a), marker(joint.marker_b), time_, residual);
+    phi.segment(model_->joint_rows[j], residual.size()) = residual;
+  }
+}
+
+void SystemTerms::place_block(const JointJacobian& G, int row, int marker_index) {
+  const Marker& point = model_->markers[static_cast<std::size_t>(marker_index)];
+  if (point.body == kGround) return;
+  const Body& body = model_->bodies[static_cast<std::size_t>(point.body)];
+  const MarkerState& state = marker(marker_index);
+  const int column = body.first_coordinate;
+  for (int k = 0; k < G.rows(); ++k) {
+    Phi_q_(row + k, column) = G(k, 0);
+    Phi_q_(row + k, column + 1) = G(k, 1);
+    Phi_q_(row + k, column + 2) = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
+    for (int n = 0; n < body.num_modes(); ++n) {
+      Phi_q_(row + k, column + 3 + n) =
+          G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * point.Phi_rotation[n];
+    }
+  }
+}
+
+void SystemTerms::update_jacobian() {
+  JointJacobian Ga, Gb;
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), Ga, Gb);
+    place_block(Ga, model_->joint_rows[j], joint.marker_a);
+    place_block(Gb, model_->joint_rows[j], joint.marker_b);
+  }
+}
+
+void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
+  JointVector rate;
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    joint.calc_time_rate(marker(joint.marker_a), marker(joint.marker_b), time_, rate);
+    phi_t.segment(model_->joint_rows[j], rate.size()) = rate;
+  }
+}
+
+void SystemTerms::update_mass() {
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    calc_mass_matrix(body, rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()), mass_[b]);
+  }
+}
+
+void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
+  v_ = v;
+  for (std::size_t i = 0; i < markers_.size(); ++i) {
+    const Marker& marker = model_->markers[i];
+    if (marker.body == kGround) continue;
+    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
+    calc_marker_velocity(marker, v_.segment(body.first_coordinate, body.num_coordinates()), markers_[i]);
+  }
+}
+
+void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
+  JointJacobian Ga, Gb;
+  JointVector drift;
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    const MarkerState& a = marker(joint.marker_a);
+    const MarkerState& b = marker(joint.marker_b);
+    joint.calc_jacobian(a, b, Ga, Gb);
+    joint.calc_drift(a, b, time_, drift);
+    for (int k = 0; k < drift.size(); ++k) {
+      gamma[model_->joint_rows[j] + k] = -drift[k] - Ga(k, 0) * a.a_bias.x() - Ga(k, 1) * a.a_bias.y() -
+                                         Gb(k, 0) * b.a_bias.x() - Gb(k, 1) * b.a_bias.y();
+    }
+  }
+}
+
+void SystemTerms::add_wrench(int marker_index, const Wrench& wrench) {
+  const Marker& point = model_->markers[static_cast<std::size_t>(marker_index)];
+  if (point.body == kGround) return;
+  const Body& body = model_->bodies[static_cast<std::size_t>(point.body)];
+  const MarkerState& state = marker(marker_index);
+  const int first = body.first_coordinate;
+  Q_[first] += wrench.force.x();
+  Q_[first + 1] += wrench.force.y();
+  Q_[first + 2] += state.r_theta.dot(wrench.force) + wrench.torque;
+  for (int n = 0; n < body.num_modes(); ++n) {
+    Q_[first + 3 + n] += state.r_eta.col(n).dot(wrench.force) + point.Phi_rotation[n] * wrench.torque;
+  }
+}
+
+void SystemTerms::update_forces(std::span<const int> branches) {
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  power_ = {};
+  const Instant now = instant();
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const ForceElement& force = *model_->forces[f];
+    const Power power = force.add_wrenches(
+        now, branches.subspan(static_cast<std::size_t>(model_->force_branches[f]), static_cast<std::size_t>(force.num_branches())),
+        wrenches_);
+    power_.dissipated += power.dissipated;
+    power_.input += power.input;
+  }
+  Q_.setZero();
+  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
+    if (!wrenches_[i].force.isZero(0.0) || wrenches_[i].torque != 0.0) add_wrench(static_cast<int>(i), wrenches_[i]);
+  }
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    const int first = body.first_coordinate;
+    const Eigen::Index n = body.num_modes();
+    const auto eta = q_.segment(first + 3, n);
+    const auto eta_dot = v_.segment(first + 3, n);
+    auto Q = Q_.segment(first, 3 + n);
+    add_gravity_forces(body, rotations_[b], model_->gravity, eta, Q);
+    add_quadratic_velocity_forces(body, rotations_[b], v_[first + 2], eta, eta_dot, Q);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double damping_force = 0.0;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        Q[3 + i] -= body.stiffness(i, j) * eta[j];
+        damping_force += body.damping(i, j) * eta_dot[j];
+      }
+      Q[3 + i] -= damping_force;
+      power_.dissipated += damping_force * eta_dot[i];
+    }
+  }
+}
+
+void SystemTerms::choose_branches(std::span<int> branches) const {
+  const Instant now = instant();
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const ForceElement& force = *model_->forces[f];
+    force.choose_branches(now, branches.subspan(static_cast<std::size_t>(model_->force_branches[f]),
+                                                static_cast<std::size_t>(force.num_branches())));
+  }
+}
+
+Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
+  const Model& model = terms.model();
+  Energy energy;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::VectorXd q = terms.q().segment(body.first_coordinate, body.num_coordinates());
+    const Eigen::VectorXd v = terms.v().segment(body.first_coordinate, body.num_coordinates());
+    const Eigen::VectorXd eta = q.tail(body.num_modes());
+    energy.kinetic += 0.5 * v.dot(terms.mass(b) * v);
+    energy.strain += 0.5 * eta.dot(body.stiffness * eta);
+    const Eigen::Vector2d moment = FrameRotation::from_angle(q[2]) * calc_first_moment(body, eta);
+    energy.gravity -= model.gravity.dot(body.mass * q.head<2>() + moment);
+  }
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const ForceElement& force = *model.forces[f];
+    energy.spring += force.calc_stored_energy(
+        terms.instant(), branches.subspan(static_cast<std::size_t>(model.force_branches[f]),
+                                          static_cast<std::size_t>(force.num_branches())));
+  }
+  return energy;
+}
+
+}  // namespace sprung::dynamics

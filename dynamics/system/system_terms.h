@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// The terms of the constrained equations M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at one state, in preallocated storage: the
+/// workspace beside the immutable model. Call the functions in the order they stand in; each needs those before it.
+/// nq coordinates, m constraints.
+class SystemTerms {
+ public:
+  explicit SystemTerms(const Model& model);
+
+  /// Positions of all markers.
+  void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
+  void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
+  void update_jacobian();
+  const Eigen::MatrixXd& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
+  void calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const;  ///< m
+
+  void update_mass();
+  /// Mass matrix of body b, (3+n)×(3+n), at Body::first_coordinate of the system's block-diagonal M.
+  const Eigen::MatrixXd& mass(std::size_t body) const { return mass_[body]; }
+
+  /// Velocities of all markers.
+  void update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v);
+  void calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const;  ///< m, right-hand side of φ_q q̈ = γ
+
+  /// Generalized forces of force elements, gravity, stiffness, damping and quadratic velocity terms.
+  void update_forces(std::span<const int> branches);
+  const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
+  const Power& power() const { return power_; }
+
+  void choose_branches(std::span<int> branches) const;
+
+  std::span<const MarkerState> markers() const { return markers_; }
+  Instant instant() const { return {time_, markers_}; }
+  const Model& model() const { return *model_; }
+  const Eigen::VectorXd& q() const { return q_; }
+  const Eigen::VectorXd& v() const { return v_; }
+
+ private:
+  const MarkerState& marker(int index) const { return markers_[static_cast<std::size_t>(index)]; }
+  void place_block(const JointJacobian& G, int row, int marker_index);
+  void add_wrench(int marker_index, const Wrench& wrench);
+
+  const Model* model_;
+  double time_ = 0.0;
+  Eigen::VectorXd q_, v_, Q_;
+  std::vector<FrameRotation> rotations_;
+  std::vector<MarkerState> markers_;
+  std::vector<Eigen::MatrixXd> mass_;
+  std::vector<Wrench> wrenches_;
+  Eigen::MatrixXd Phi_q_;
+  Power power_;
+};
+
+/// Kinetic and stored energy at the state of the terms (positions, mass, velocities up to date) [J].
+struct Energy {
+  double kinetic = 0.0;
+  double strain = 0.0;   ///< of the modes
+  double gravity = 0.0;  ///< potential, zero at the world's origin
+  double spring = 0.0;   ///< stored in force elements
+  double total() const { return kinetic + strain + gravity + spring; }
+};
+Energy calc_energy(const SystemTerms& terms, std::span<const int> branches);
+
+}  // namespace sprung::dynamics
