@@ -82,7 +82,8 @@ void read_line(const TomlTable& table, const Sections& sections, const std::vect
   check_section(section, sections);
   const std::vector<int> num_elements = read_element_numbers(table, corners.size() - 1);
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    fem::FrameGeometry::Line line{.name = {}, .from = read_point_name(corners[i], point_names),
+    fem::FrameGeometry::Line line{.name = {},
+                                  .from = read_point_name(corners[i], point_names),
                                   .to = read_point_name(corners[i + 1], point_names),
                                   .section = section.string(),
                                   .num_elements = num_elements[i],

@@ -34,6 +34,13 @@ std::string format_frequency(const ModeRange& range, double frequency_hz) {
   return range.size() == 0 ? "" : fmt::format("{:.4f}", frequency_hz);
 }
 
+// Centre of mass from the reference node, without the rounding of a coordinate that is zero.
+Eigen::Vector2d calc_center(const Superelement& s) {
+  const Eigen::Vector2d center = s.inertia.first_moment / s.inertia.mass;
+  const double rounding = 1e-14 * s.node_positions.colwise().norm().maxCoeff();
+  return (center.cwiseAbs().array() > rounding).select(center, Eigen::Vector2d::Zero());
+}
+
 std::string format_points(const Superelement& s) {
   if (s.points.empty()) return "No named points.\n";
   TextTable table({"point", "node", "x m", "y m"});
@@ -59,13 +66,13 @@ ModeKinds calc_mode_kinds(const Superelement& s) {
 
 std::string format_summary(const Superelement& s) {
   const InertiaInvariants& inertia = s.inertia;
-  const Eigen::Vector2d center = inertia.first_moment / inertia.mass;
+  const Eigen::Vector2d center = calc_center(s);
   const double central = inertia.second_moment - inertia.first_moment.squaredNorm() / inertia.mass;
   std::string text = fmt::format("Superelement {}: {} nodes, {} elements, {} of {} modes\n\n", s.name,
                                  s.num_nodes(), s.elements.cols(), s.num_modes(), s.num_elastic_dofs);
   text += fmt::format("mass                              {:.6g} kg\n", inertia.mass);
   text += fmt::format("centre of mass                    ({:.6g}, {:.6g}) m from the reference node\n",
-                      center.x() + 0.0, center.y() + 0.0);
+                      center.x(), center.y());
   text += fmt::format("inertia about the centre of mass  {:.6g} kg·m²\n", central);
   text += fmt::format("inertia about the reference node  {:.6g} kg·m²\n\n", inertia.second_moment);
   text += format_points(s) + "\n";

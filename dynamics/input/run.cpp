@@ -123,6 +123,7 @@ Run read_run(const support::TomlDocument& document) {
   Run run;
   run.text = document.text();
   run.vehicle_path = folder / root.string("vehicle");
+  run.vehicle_location = root.at("vehicle").location();
   run.speed = root.number_or("speed", 0.0, support::any("m/s"));
   read_times(root, run);
   read_statistics(root, run);

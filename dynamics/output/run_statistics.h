@@ -37,7 +37,8 @@ class RunStatistics {
   std::vector<PointStatistics> point_statistics() const;
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
-  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the stored terms.
+  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the stored terms
+  /// (or a billionth of the terms themselves, where nothing moves).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 

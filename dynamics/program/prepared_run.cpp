@@ -31,6 +31,10 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
   apply_overrides(run_document, request.overrides, false);
   prepared.run = read_run(run_document);
+  if (!std::filesystem::is_regular_file(prepared.run.vehicle_path)) {
+    throw support::InputError(prepared.run.vehicle_location,
+                              fmt::format("there is no vehicle file {}", prepared.run.vehicle_path.string()));
+  }
   support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
   apply_overrides(vehicle_document, request.overrides, true);
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);

@@ -165,8 +165,11 @@ void PartitionedEquations::update_multipliers() {
     residual_force_.segment(first, size).noalias() = terms_.mass(b) * v_dot_.segment(first, size);
   }
   residual_force_ = terms_.forces() - residual_force_;
-  gather(residual_force_, partition_.dependent, gamma_);
-  lambda_ = lu_d_.transpose().solve(gamma_);
+  // φ_dᵀλ = r with P φ_d = LU, step by step: Eigen's own solve of the transposed takes memory.
+  gather(residual_force_, partition_.dependent, correction_);
+  lu_d_.matrixLU().triangularView<Eigen::Upper>().transpose().solveInPlace(correction_);
+  lu_d_.matrixLU().triangularView<Eigen::UnitLower>().transpose().solveInPlace(correction_);
+  lambda_.noalias() = lu_d_.permutationP().transpose() * correction_;
 }
 
 double PartitionedEquations::scaled_growth() const {

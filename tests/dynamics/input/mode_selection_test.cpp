@@ -1,0 +1,99 @@
+#include "dynamics/input/mode_selection.h"
+
+#include "tests/catch.h"
+#include "tests/dynamics/input/input_cases.h"
+
+using namespace sprung;
+using test::input_error_of;
+
+namespace {
+
+// The frame of the tests' cart has modes at 5, 5, 12, 20 Hz.
+dynamics::ModeSelection select(const std::string& lines) {
+  const support::TomlDocument document = support::TomlDocument::parse("[modes]\n" + lines, "run.toml");
+  return dynamics::resolve_modes(dynamics::read_modes(document.root().at("modes").table()),
+                                 test::read_cart(test::cart_text()));
+}
+
+dynamics::ModalDamping damp(const std::string& lines, const dynamics::ModeSelection& selection) {
+  const support::TomlDocument document =
+      support::TomlDocument::parse("[modal_damping]\n" + lines, "run.toml");
+  return dynamics::resolve_modal_damping(
+      dynamics::read_modal_damping(document.root().at("modal_damping").table()), selection,
+      test::read_cart(test::cart_text()));
+}
+
+std::string error_of(const std::string& lines) {
+  return input_error_of([&] { select(lines); });
+}
+
+}  // namespace
+
+TEST_CASE("Modes are selected by a count, by numbers or all of them") {
+  using Numbers = std::vector<int>;
+  CHECK(select("frame = 2").at("frame") == Numbers{1, 2});
+  CHECK(select("frame = 3").at("frame") == Numbers{1, 2, 3});
+  CHECK(select("frame = [2, 4]").at("frame") == Numbers{2, 4});
+  CHECK(select("frame = \"all\"").at("frame") == Numbers{1, 2, 3, 4});
+  CHECK(select("frame = 0").empty());
+  CHECK(select("frame = []").empty());
+  CHECK(select("").empty());
+}
+
+TEST_CASE("A count does not part modes of equal frequency, numbers may") {
+  CHECK(error_of("frame = 1") ==
+        "run.toml:2:9: error: 'modes.frame' is 1, which parts modes 1 to 2 of one frequency, 5 Hz; take 0 or "
+        "2 modes, or list their numbers");
+  CHECK(select("frame = [1]").at("frame") == std::vector<int>{1});
+}
+
+TEST_CASE("Modes that are not there are refused") {
+  CHECK(error_of("frame = 5") ==
+        "run.toml:2:9: error: 'modes.frame' asks for 5 modes, but superelement 'frame' has 4 modes");
+  CHECK(error_of("frame = [1, 9]") ==
+        "run.toml:2:9: error: 'modes.frame' asks for mode 9, but superelement 'frame' has 4 modes");
+  CHECK(error_of("frame = -1") ==
+        "run.toml:2:9: error: 'modes.frame' must be an integer from 0 to 2147483647, got -1");
+  CHECK(error_of("frame = [0]") ==
+        "run.toml:2:10: error: 'modes.frame.0' must be an integer from 1 to 2147483647, got 0");
+  CHECK(error_of("frame = [3, 3]") ==
+        "run.toml:2:13: error: 'modes.frame.1' must ascend: mode 3 comes after mode 3");
+  CHECK(error_of("frame = 5000000000") ==
+        "run.toml:2:9: error: 'modes.frame' must be an integer from 0 to 2147483647, got 5000000000");
+}
+
+TEST_CASE("Selections that mean nothing are refused") {
+  CHECK(error_of("frame = \"auto\"") ==
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers or \"all\", "
+        "got \"auto\"");
+  CHECK(error_of("frame = 2.5") ==
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers or \"all\"");
+  CHECK(error_of("frime = 2") ==
+        "run.toml:2:9: error: 'modes.frime' is about no body of the vehicle: there is no 'frime' (did you "
+        "mean 'frame'?)");
+  CHECK(error_of("arm = 2") ==
+        "run.toml:2:7: error: 'modes.arm' is about the modes of body 'arm', which has no superelement");
+}
+
+TEST_CASE("Damping ratios replace the superelement's, one for all modes or one for each") {
+  const dynamics::ModeSelection three{{"frame", {1, 2, 4}}};
+  CHECK(damp("frame = 0.02", three).at("frame") == std::vector<double>{0.02});
+  CHECK(damp("frame = [0.0, 0.1, 0.02]", three).at("frame") == std::vector<double>{0.0, 0.1, 0.02});
+  CHECK(damp("frame = 0.02", {}).empty());
+  CHECK(damp("", three).empty());
+}
+
+TEST_CASE("Damping ratios that fit no mode are refused") {
+  const dynamics::ModeSelection three{{"frame", {1, 2, 4}}};
+  CHECK(input_error_of([&] { damp("frame = [0.1, 0.2]", three); }) ==
+        "run.toml:2:9: error: 'modal_damping.frame' must be one ratio, or one for each of the 3 active "
+        "modes; got 2");
+  CHECK(input_error_of([&] { damp("frame = -0.1", three); }) ==
+        "run.toml:2:9: error: 'modal_damping.frame' must be ≥ 0, got -0.1");
+  CHECK(
+      input_error_of([&] { damp("arm = 0.1", three); }) ==
+      "run.toml:2:7: error: 'modal_damping.arm' is about the modes of body 'arm', which has no superelement");
+  CHECK(input_error_of([&] { damp("frome = 0.1", three); }) ==
+        "run.toml:2:9: error: 'modal_damping.frome' is about no body of the vehicle: there is no 'frome' "
+        "(did you mean 'frame'?)");
+}

@@ -1,0 +1,103 @@
+#include "dynamics/input/road_input.h"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "tests/catch.h"
+#include "tests/dynamics/input/input_cases.h"
+
+using namespace sprung;
+using test::input_error_of;
+
+namespace {
+
+dynamics::RoadDescription read(const std::string& lines) {
+  const support::TomlDocument document = support::TomlDocument::parse("[road]\n" + lines, "run.toml");
+  return dynamics::read_road(document.root().at("road").table(), "roads");
+}
+
+std::string error_of(const std::string& lines) {
+  return input_error_of([&] { read(lines); });
+}
+
+// A road table with this content, in the folder that `read` looks in.
+std::unique_ptr<dynamics::Road> make_table(const std::string& content) {
+  std::filesystem::create_directories("roads");
+  std::ofstream("roads/field.txt") << content;
+  return dynamics::make_road(read("shape = \"table\"\nstart = 2.0\nfile = \"field.txt\""));
+}
+
+std::string error_of_table(const std::string& content) {
+  return input_error_of([&] { make_table(content); });
+}
+
+}  // namespace
+
+TEST_CASE("The shapes of a bump have their own heights at a quarter of their length") {
+  const std::string rest = "start = 1.0\nlength = 0.4\nheight = 0.2";
+  const auto height_of = [&](const std::string& shape, double s) {
+    return dynamics::make_road(read("shape = \"" + shape + "\"\n" + rest))->height(s);
+  };
+  const double s = 1.1;
+  CHECK(height_of("half-sine", s) == Approx(0.2 * std::sin(0.25 * std::numbers::pi)).epsilon(1e-12));
+  CHECK(height_of("haversine", s) == Approx(0.1).epsilon(1e-12));
+  CHECK(height_of("triangle", s) == Approx(0.1).epsilon(1e-12));
+  CHECK(height_of("ramp", s) == Approx(0.05).epsilon(1e-12));
+  CHECK(height_of("ramp", 3.0) == Approx(0.2).epsilon(1e-12));
+  CHECK(height_of("half-sine", 3.0) == 0.0);
+}
+
+TEST_CASE("A road without features is flat") {
+  CHECK(dynamics::make_road(read("shape = \"flat\""))->height(17.0) == 0.0);
+  CHECK(dynamics::make_road(dynamics::RoadDescription{})->height(17.0) == 0.0);
+}
+
+TEST_CASE("A road table is read with comments, blanks and commas, and begins at the run's start") {
+  const std::unique_ptr<dynamics::Road> road =
+      make_table("# s h\n10.0 0.0\r\n10.5, 0.03 # crest\n\n  11.25\t-0.02\n12,0.01");
+  CHECK(road->height(1.9) == 0.0);
+  CHECK(road->height(2.5) == Approx(0.03).epsilon(1e-12));
+  CHECK(road->height(3.25) == Approx(-0.02).epsilon(1e-12));
+  CHECK(road->height(4.0) == Approx(0.01).epsilon(1e-12));
+  CHECK(road->height(9.0) == Approx(0.01).epsilon(1e-12));
+}
+
+TEST_CASE("Keys of a road that are missing, unknown or unfit are refused") {
+  CHECK(error_of("start = 1.0") == "run.toml:1:1: error: missing key 'shape' in 'road'");
+  CHECK(error_of("shape = \"half-sin\"") ==
+        "run.toml:2:9: error: 'road.shape' must be one of \"flat\", \"half-sine\", \"haversine\", "
+        "\"triangle\", \"ramp\", \"table\"; got a string \"half-sin\" (did you mean 'half-sine'?)");
+  CHECK(error_of("shape = \"flat\"\nstart = 1.0") ==
+        "run.toml:3:1: error: unknown key 'start' in 'road' (known keys: shape)");
+  CHECK(error_of("shape = \"ramp\"\nstart = -1.0\nlength = 0.4\nheight = 0.2") ==
+        "run.toml:3:9: error: 'road.start' must be ≥ 0 m, got -1");
+  CHECK(error_of("shape = \"ramp\"\nstart = 1.0\nlength = 0.0\nheight = 0.2") ==
+        "run.toml:4:10: error: 'road.length' must be > 0 m, got 0");
+  CHECK(error_of("shape = \"ramp\"\nstart = 1.0\nlength = 0.4") ==
+        "run.toml:1:1: error: missing key 'height' in 'road'");
+  CHECK(error_of("shape = \"table\"\nstart = 1.0") == "run.toml:1:1: error: missing key 'file' in 'road'");
+}
+
+TEST_CASE("A fault in a road table is found at its line and column") {
+  CHECK(error_of_table("0 0\n1 0.1m\n") ==
+        "roads/field.txt:2:3: error: the height must be a finite number [m], got '0.1m'");
+  CHECK(error_of_table("0 0\n1\n") ==
+        "roads/field.txt:2:2: error: the height [m] is missing; a line is a distance and a height");
+  CHECK(
+      error_of_table("0 0\n1 0.1 0.2\n") ==
+      "roads/field.txt:2:7: error: a line has two numbers, a distance and a height [m]; there is more here");
+  CHECK(error_of_table("0 0\n1 nan\n") ==
+        "roads/field.txt:2:3: error: the height must be a finite number [m], got 'nan'");
+  CHECK(error_of_table("0 0\n 1 0.1\n 1 0.2\n") ==
+        "roads/field.txt:3:2: error: the distance must ascend, got 1 m after 1 m");
+  CHECK(error_of_table("# s h\n0 0.01\n1 0.1\n") ==
+        "roads/field.txt:2:1: error: the first height must be 0 m, as the road before it, got 0.01");
+  CHECK(error_of_table("0 0\n") == "roads/field.txt: error: a road needs at least 2 points, got 1");
+}
+
+TEST_CASE("A road table that is not there is named") {
+  const dynamics::RoadDescription road = read("shape = \"table\"\nstart = 2.0\nfile = \"nowhere.txt\"");
+  CHECK(input_error_of([&] { dynamics::make_road(road); }) ==
+        "roads/nowhere.txt: error: cannot be read: No such file or directory");
+}

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""What a run leaves behind: whole files, the same bytes again, or a readable partial file."""
+
+import json
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from dynamics_test_case import DynamicsTestCase
+
+
+class Results(DynamicsTestCase):
+    def test_equal_runs_are_equal_bytes(self):
+        self.assertEqual(self.run_to_results().returncode, 0)
+        first = self.results.read_bytes()
+        self.assertEqual(self.run_to_results().returncode, 0)
+        self.assertEqual(self.results.read_bytes(), first)
+
+    def test_file_is_complete_and_agrees_with_the_printed_summary(self):
+        process = self.run_to_results("--json")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        summary = json.loads(process.stdout)
+        self.assertEqual(summary["freedoms"], 7)
+        with h5py.File(self.results, "r") as file:
+            self.assertEqual(file.attrs["complete"], 1)
+            self.assertEqual(file.attrs["format"], b"sprung-results")
+            n = file["time"].shape[0]
+            self.assertEqual(n, 51)  # 0 to 0.05 s, every millisecond
+            self.assertEqual(file["bodies/chassis/modal/amplitude"].shape, (n, 2))
+            self.assertEqual(file["recovery/chassis/moment"].shape, (n, 24))  # both ends of 12 elements
+            height = file["bodies/chassis/position"][:, 1] - file["model/equilibrium/bodies/chassis"][1]
+            written = file["summary/points/chassis.origin"].attrs
+            self.assertEqual(written["displacement_max"], height.max())
+            self.assertEqual(written["displacement_max"], summary["points"]["chassis.origin"]["displacement"]["max"])
+            for name, dataset in numeric_datasets(file):
+                self.assertIn("unit", dataset.attrs, name)
+                self.assertTrue(dataset.fletcher32, name)
+
+    def test_reactions_carry_the_weight(self):
+        # At rest the four arms and two springs hold the chassis: joint reactions, taken on the chassis, and spring
+        # forces add up to its weight, 11950 kg · 9.80665 m/s².
+        self.assertEqual(self.run_to_results("--set", "speed=0").returncode, 0)
+        with h5py.File(self.results, "r") as file:
+            lift = sum(file[f"joints/{end}_{arm}_chassis/reaction"][0, 1] for end in ("front", "rear") for arm in ("long", "short"))
+            lift += sum(file[f"forces/{end}_suspension/force"][0] for end in ("front", "rear"))
+        self.assertAlmostEqual(lift / (11950.0 * 9.80665), 1.0, places=6)
+
+    def test_blocked_by_a_plain_file(self):
+        (self.folder / "blocked").write_text("not a folder", encoding="utf-8")
+        process = self.run_program("--quiet", "-o", "blocked/results.h5")
+        self.assert_refused(process, "blocked")
+        self.assertEqual((self.folder / "blocked").read_text(encoding="utf-8"), "not a folder")
+
+    def test_disk_full_leaves_the_earlier_result(self):
+        self.results.write_bytes(b"an earlier result")
+        before = self.files()
+        limit = 300_000  # bytes a process may write to a file: stands for a full disk, which root would not see
+        process = self.run_program(
+            "--quiet", "--set", "duration=0.5", "-o", "results.h5",
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )
+        self.assert_refused(process, "results", "File too large")
+        self.assertEqual(self.files(), before)
+
+
+class Interrupt(DynamicsTestCase):
+    def test_interrupted_run_leaves_a_readable_partial_file(self):
+        self.results.write_bytes(b"an earlier result")
+        partial = self.folder / "results.partial.h5"
+        # A run that would take minutes; it is interrupted once it has begun to write.
+        process = subprocess.Popen(
+            self.command("--set", "duration=3600", "--set", "output_step=0.01", "--set", "modes.chassis=36", "-o", "results.h5"),
+            cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )
+        while not partial.exists() and process.poll() is None:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate()
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("results.partial.h5", errors)
+        self.assertEqual(self.results.read_bytes(), b"an earlier result")
+        with h5py.File(partial, "r") as file:
+            self.assertEqual(file.attrs["complete"], 0)
+            self.assertGreaterEqual(file["time"].shape[0], 1)
+            self.assertEqual(file["bodies/chassis/position"].shape[0], file["time"].shape[0])
+
+
+def numeric_datasets(file):
+    found = []
+    file.visititems(
+        lambda name, item: found.append((name, item))
+        if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" else None
+    )
+    return found
+
+
+if __name__ == "__main__":
+    unittest.main()

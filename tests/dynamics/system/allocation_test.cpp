@@ -1,0 +1,82 @@
+// No heap memory is asked for while the equations are evaluated: the truck's whole step loop, and the plain evaluator
+// that stands beside it in comparisons.
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/road/bump_road.h"
+#include "tests/catch.h"
+#include "tests/dynamics/allocation_counter.h"
+#include "tests/dynamics/dense_evaluator.h"
+#include "tests/dynamics/truck.h"
+
+using namespace sprung;
+
+TEST_CASE("The counter of allocations sees C++ and Eigen", "[truck]") {
+  long before = test::num_allocations();
+  std::vector<double> values(100, 1.0);
+  CHECK(test::num_allocations() == before + 1);
+  before = test::num_allocations();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Constant(10, 10, values[3]);
+  CHECK(test::num_allocations() == before + 1);
+  matrix.resize(20, 20);
+  CHECK(test::num_allocations() == before + 2);
+}
+
+TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
+  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
+  const dynamics::Vehicle vehicle = test::read_truck();
+  for (const int num_modes : {0, 2, 4, 12, 36}) {
+    const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0});
+    const dynamics::State state{.time = 0.0,
+                                .q = test::assemble_truck(model, vehicle),
+                                .v = Eigen::VectorXd::Constant(model.num_coordinates, 0.1),
+                                .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
+    dynamics::PartitionedOde ode(model);
+    ode.set_state(state, 0.0, 0.0);
+    ode.make_state(0.0, ode.y());
+    ode.update_branches();
+    std::vector<double> y(ode.y().begin(), ode.y().end()), rate(y.size()), scales(y.size());
+    std::vector<double> switches(static_cast<std::size_t>(ode.num_switches()));
+    bool good = true;
+    const long before = test::num_allocations();
+    for (int i = 0; i < 50; ++i) {
+      for (double& value : y) value += 1e-4;  // so that the dependents have to be found anew
+      good &= ode.calc_derivative(0.0, y, rate);
+      good &= ode.calc_switches(0.0, y, switches);
+      ode.calc_error_scales(y, scales);
+      ode.equations().update_multipliers();
+      good &= ode.calc_longest_step() > 0.0 && ode.equations().partition_decay() > 0.0;
+    }
+    const long taken = test::num_allocations() - before;
+    INFO(num_modes << " modes");
+    CHECK(good);
+    CHECK(taken == 0);
+  }
+}
+
+TEST_CASE("The plain evaluator takes no memory either", "[truck]") {
+  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
+  const dynamics::Vehicle vehicle = test::read_truck();
+  for (const int num_modes : {0, 4}) {
+    const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0});
+    dynamics::PartitionedEquations equations(model);
+    Eigen::VectorXd q = test::assemble_truck(model, vehicle), v = Eigen::VectorXd::Constant(q.size(), 0.1);
+    equations.choose_partition_at(0.0, q);
+    const dynamics::Partition partition = equations.partition();
+    test::DenseEvaluator plain(model);
+    bool good = true;
+    const long before = test::num_allocations();
+    for (int i = 0; i < 20; ++i) {
+      for (const int k : partition.independent) q[k] += 1e-4;
+      good &= plain.solve_positions(partition.dependent, q);
+      plain.solve_velocities(partition.dependent, q, v);
+      plain.solve_accelerations(q, v);
+    }
+    const long taken = test::num_allocations() - before;
+    INFO(num_modes << " modes");
+    CHECK(good);
+    CHECK(taken == 0);
+  }
+}

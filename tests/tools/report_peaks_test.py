@@ -1,0 +1,70 @@
+"""tools/report_peaks: the numbers in its table."""
+
+import math
+import unittest
+
+from synthetic_results import CIRCULAR, HEAVE, write_results
+from tool_test_case import ToolTestCase
+
+DISPLACEMENT = "heave=bodies/chassis/displacement.y"
+
+
+class ReportPeaks(ToolTestCase):
+    def test_extremes_and_rms_of_a_sine_are_its_amplitude_and_its_amplitude_by_root_two(self):
+        write_results(self.folder / "a.h5", num_modes=0)
+        write_results(self.folder / "b.h5", scale=2.0)
+        process = self.run_tool(
+            "report_peaks",
+            "one=a.h5",
+            "two=b.h5",
+            "--show",
+            DISPLACEMENT,
+            "--show",
+            "points/chassis.seat/acceleration.y",
+        )
+        self.assertEqual(process.returncode, 0, process.stderr)
+        rows = [line.split() for line in process.stdout.splitlines()[2:]]
+        # The samples hit the sine's extremes at 1/8 + k/2 and 3/8 + k/2 s; of 201 samples 200 are its two periods.
+        rms = HEAVE * math.sqrt(100.0 / 201.0)
+        self.assertEqual(
+            rows[0],
+            [
+                "heave",
+                "one",
+                "-0.05",
+                *self.at(0.375, 0.875, rows[0][3]),
+                "0.05",
+                *self.at(0.125, 0.625, rows[0][5]),
+                f"{rms:.5g}",
+                "m",
+            ],
+        )
+        self.assertEqual(rows[1][:2], ["two", "-0.1"])
+        peak = 2.0 * CIRCULAR**2 * HEAVE
+        self.assertEqual([rows[2][1], rows[2][2], rows[2][-1]], ["one", f"{-peak:.5g}", "m/s^2"])
+
+    def at(self, first, second, found):
+        # Both extremes of a kind are equal but for rounding, so either may be reported.
+        self.assertIn(found, (f"{first:.3f}", f"{second:.3f}"))
+        return [found]
+
+    def test_a_span_of_time_limits_the_statistics(self):
+        write_results(self.folder / "a.h5")
+        process = self.run_tool("report_peaks", "a.h5", "--show", DISPLACEMENT, "--from", "0", "--to", "0.05")
+        row = process.stdout.splitlines()[2].split()
+        self.assertIn(f"{HEAVE * math.sin(CIRCULAR * 0.05):.5g}", row)
+        self.assertNotIn("0.375", row)
+
+    def test_a_quantity_that_no_run_has_is_refused(self):
+        write_results(self.folder / "a.h5", num_modes=0)
+        process = self.run_tool("report_peaks", "a.h5", "--show", "points/chassis.front_end/deflection.y")
+        self.assert_refuses(process, "a.h5: error: no quantity 'points/chassis.front_end/deflection.y'")
+
+    def test_a_missing_file_is_refused(self):
+        self.assert_refuses(
+            self.run_tool("report_peaks", "a.h5", "--show", DISPLACEMENT), "a.h5: error: no such file"
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

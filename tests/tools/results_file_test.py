@@ -1,0 +1,186 @@
+"""tools/results_file.py: what it reads, and each of its errors."""
+
+import unittest
+
+import h5py
+import numpy as np
+from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
+from tool_test_case import ToolTestCase
+
+from results_file import ResultsError, open_results, parse_quantity
+
+
+class Reading(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        self.path = write_results(self.folder / "run.h5")
+        self.results = open_results(self.path)
+        self.addCleanup(self.results.file.close)
+        self.heave = HEAVE * np.sin(CIRCULAR * self.results.time)
+
+    def test_a_component_is_a_column_with_its_own_unit(self):
+        height, unit = self.results.series("bodies/chassis/position.y")
+        np.testing.assert_allclose(height, STATIC_HEIGHT + self.heave, rtol=1e-15)
+        self.assertEqual(unit, "m")
+        self.assertEqual(self.results.series("bodies/chassis/acceleration.angle")[1], "rad/s^2")
+
+    def test_displacement_of_a_body_is_measured_from_the_equilibrium(self):
+        displacement, _ = self.results.series("bodies/chassis/displacement.y")
+        np.testing.assert_allclose(displacement, self.heave, atol=1e-15)
+
+    def test_displacement_of_a_body_that_starts_out_of_balance_shows_the_offset(self):
+        with open_results(write_results(self.folder / "above.h5", start_offset=0.02)) as results:
+            np.testing.assert_allclose(
+                results.series("bodies/chassis/displacement.y")[0], 0.02 + self.heave, atol=1e-15
+            )
+
+    def test_displacement_of_points_and_centres_of_mass_is_measured_from_their_own_equilibrium(self):
+        with open_results(write_results(self.folder / "above.h5", start_offset=0.02)) as results:
+            for quantity in (
+                "points/chassis.seat/displacement.y",
+                "bodies/chassis/center_of_mass/displacement.y",
+            ):
+                np.testing.assert_allclose(results.series(quantity)[0], 0.02 + self.heave, atol=1e-15)
+
+    def test_modes_are_columns_by_number(self):
+        self.assertEqual(self.results.num_modes("chassis"), 2)
+        np.testing.assert_allclose(
+            self.results.series("bodies/chassis/modal/amplitude.2")[0], 2.0 * self.heave
+        )
+
+    def test_a_quantity_with_one_value_per_sample_has_no_component(self):
+        self.assertEqual(self.results.series("forces/front_tyre/road_height")[0].max(), 0.1)
+
+    def test_names_are_taken_apart_at_the_last_dot_after_the_last_slash(self):
+        self.assertEqual(
+            parse_quantity("points/chassis.seat/velocity.x"), ("points/chassis.seat/velocity", "x", False)
+        )
+
+    def test_missing_quantities_and_components_are_errors_that_name_what_there_is(self):
+        for quantity, expected in {
+            "bodies/chasis/position.y": "'/bodies' holds chassis",
+            "bodies/chassis/speed.y": "'/bodies/chassis' holds acceleration, center_of_mass, modal, position",
+            "bodies/chassis/position.z": "component 'z', expected x, y, angle",
+            "bodies/chassis/position": "component '', expected x, y, angle",
+            "points/chassis.seat/position.angle": "component 'angle', expected x, y",
+            "forces/front_tyre/road_height.x": "component 'x', expected none",
+            "bodies/chassis/modal/amplitude.3": "component '3', expected 1 to 2",
+            "bodies/chassis/modal/amplitude.x": "component 'x', expected 1 to 2",
+        }.items():
+            with self.subTest(quantity), self.assertRaises(ResultsError) as caught:
+                self.results.series(quantity)
+            self.assertTrue(str(caught.exception).startswith(f"{self.path}: error: "))
+            self.assertIn(expected, str(caught.exception))
+
+
+class Refusing(ToolTestCase):
+    def changed(self, change):
+        path = write_results(self.folder / "run.h5")
+        with h5py.File(path, "r+") as file:
+            change(file)
+        return path
+
+    def assert_error(self, path, expected, quantity="bodies/chassis/position.y"):
+        with self.assertRaises(ResultsError) as caught, open_results(path) as results:
+            results.series(quantity)
+        self.assertTrue(str(caught.exception).startswith(f"{path}: error: "), caught.exception)
+        self.assertIn(expected, str(caught.exception))
+
+    def test_a_missing_file(self):
+        self.assert_error(str(self.folder / "none.h5"), "no such file")
+
+    def test_a_folder(self):
+        self.assert_error(str(self.folder), "is a folder")
+
+    def test_an_empty_file(self):
+        path = self.folder / "empty.h5"
+        path.touch()
+        self.assert_error(str(path), "the file is empty")
+
+    def test_a_file_that_is_not_hdf5(self):
+        path = self.folder / "text.h5"
+        path.write_text("time,height\n0,0\n", encoding="utf-8")
+        self.assert_error(str(path), "not a readable HDF5 file")
+
+    def test_a_truncated_file(self):
+        path = write_results(self.folder / "run.h5")
+        with open(path, "r+b") as file:
+            file.truncate(5000)
+        self.assert_error(path, "not a readable HDF5 file")
+
+    def test_hdf5_of_another_program(self):
+        path = self.folder / "foreign.h5"
+        with h5py.File(path, "w") as file:
+            file["time"] = [0.0, 1.0]
+        self.assert_error(str(path), "no attribute 'format', expected 'sprung-results'")
+
+    def test_another_file_of_ours(self):
+        path = self.changed(lambda file: file.attrs.__setitem__("format", np.bytes_("sprung-superelement")))
+        self.assert_error(path, "format is 'sprung-superelement', expected 'sprung-results'")
+
+    def test_a_newer_version(self):
+        self.assert_error(
+            self.changed(lambda file: file.attrs.modify("version", 2)),
+            "version 2 of sprung-results; this tool",
+        )
+
+    def test_a_run_that_did_not_finish(self):
+        self.assert_error(
+            self.changed(lambda file: file.attrs.modify("complete", 0)), "did not finish (complete = 0)"
+        )
+        self.assert_error(
+            self.changed(lambda file: file.attrs.pop("complete")), "did not finish (complete = 0)"
+        )
+
+    def test_time_that_does_not_increase(self):
+        def turn_back(file):
+            file["time"][5] = 0.0
+
+        self.assert_error(self.changed(turn_back), "dataset 'time' must be two or more increasing values")
+
+    def test_a_missing_time(self):
+        self.assert_error(self.changed(lambda file: file.pop("time")), "no dataset 'time'")
+
+    def test_values_that_are_not_finite(self):
+        def spoil(file):
+            file["bodies/chassis/position"][7, 1] = np.nan
+
+        self.assert_error(
+            self.changed(spoil), "dataset 'bodies/chassis/position' holds values that are not finite"
+        )
+
+    def test_a_dataset_of_the_wrong_length(self):
+        def shorten(file):
+            del file["bodies/chassis/position"]
+            file["bodies/chassis/position"] = np.ones((7, 3))
+
+        self.assert_error(self.changed(shorten), "has shape (7, 3), expected 201 rows")
+
+    def test_a_dataset_of_text(self):
+        def overwrite(file):
+            del file["bodies/chassis/position"]
+            file["bodies/chassis/position"] = np.bytes_("none")
+
+        self.assert_error(self.changed(overwrite), "dataset 'bodies/chassis/position' does not hold numbers")
+
+    def test_displacement_where_no_static_balance_was_sought(self):
+        path = self.changed(lambda file: file["model/equilibrium"].attrs.modify("is_static_equilibrium", 0))
+        expected = "no displacement in 'bodies/chassis/position': static balance was not sought"
+        self.assert_error(path, expected, "bodies/chassis/displacement.y")
+
+    def test_a_damaged_dataset(self):
+        values = np.arange(603.0).reshape(201, 3)
+
+        def rewrite(file):
+            del file["bodies/chassis/position"]
+            file.create_dataset("bodies/chassis/position", data=values, chunks=(201, 3), fletcher32=True)
+
+        path = self.changed(rewrite)
+        content = bytearray((self.folder / "run.h5").read_bytes())
+        content[content.index(values.tobytes()) + 100] ^= 1
+        (self.folder / "run.h5").write_bytes(content)
+        self.assert_error(path, "dataset 'bodies/chassis/position' is damaged")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,88 @@
+"""tools/runs.py and tools/run_caption.py: labels, spans of time, captions."""
+
+import unittest
+
+from synthetic_results import write_results
+from tool_test_case import ToolTestCase
+
+from results_file import ResultsError, open_results
+from run_caption import make_caption
+from runs import Shown, describe, open_runs, runs_with, samples_between, shown_quantities, split_label
+
+
+class Labels(ToolTestCase):
+    def open(self, *arguments):
+        runs = open_runs(arguments)
+        for run in runs:
+            self.addCleanup(run.results.file.close)
+        return runs
+
+    def test_a_label_stands_before_the_first_equals_sign(self):
+        self.assertEqual(split_label("two = 2=a.h5"), ("two ", " 2=a.h5"))
+        self.assertEqual(split_label("a.h5"), ("", "a.h5"))
+
+    def test_a_file_whose_name_has_an_equals_sign_is_a_file(self):
+        path = write_results(self.folder / "modes=2.h5")
+        self.assertEqual(split_label(path), ("", path))
+
+    def test_runs_without_label_are_named_by_their_flexible_bodies(self):
+        paths = [write_results(self.folder / f"{n}.h5", num_modes=n) for n in (0, 4)]
+        self.assertEqual([run.label for run in self.open(*paths)], ["rigid", "chassis 4 modes"])
+
+    def test_runs_that_would_be_called_the_same_are_told_apart_by_file(self):
+        paths = [write_results(self.folder / name) for name in ("a.h5", "b.h5")]
+        self.assertEqual(
+            [run.label for run in self.open(*paths)], ["chassis 2 modes (a.h5)", "chassis 2 modes (b.h5)"]
+        )
+
+    def test_a_quantity_is_its_own_label(self):
+        self.assertEqual(shown_quantities(["time", "t=time"]), [Shown("time", "time"), Shown("t", "time")])
+
+    def test_only_runs_that_have_a_quantity_show_it(self):
+        rigid, flexible = self.open(*(write_results(self.folder / f"{n}.h5", num_modes=n) for n in (0, 2)))
+        deflection = Shown("deflection", "points/chassis.front_end/deflection.y")
+        self.assertEqual(runs_with([rigid, flexible], deflection), [flexible])
+        with self.assertRaisesRegex(ResultsError, "no quantity 'points/chassis.front_end/deflection.y'"):
+            runs_with([rigid], deflection)
+
+
+class Spans(ToolTestCase):
+    def test_both_ends_belong_to_the_span(self):
+        with open_results(write_results(self.folder / "run.h5")) as results:
+            time = results.time[samples_between(results, results.time[20], results.time[40])]
+            self.assertEqual((time[0], time[-1]), (results.time[20], results.time[40]))
+            self.assertTrue(samples_between(results, None, None).all())
+
+    def test_a_span_without_samples_is_refused(self):
+        with open_results(write_results(self.folder / "run.h5")) as results:
+            with self.assertRaisesRegex(ResultsError, "no samples from 7 to 1 s"):
+                samples_between(results, 7.0, None)
+
+
+class Captions(ToolTestCase):
+    def test_a_caption_tells_speed_road_integrator_and_sampling(self):
+        with open_results(write_results(self.folder / "run.h5")) as results:
+            caption = make_caption([results])
+            self.assertEqual(describe(results), "chassis 2 modes")
+        caption = " ".join(caption.split())
+        self.assertIn("initial speed 3 m/s; road: half-sine, height 0.2 m, length 0.4 m", caption)
+        self.assertIn("method adams", caption)
+        self.assertIn("a sample every 5 ms", caption)
+
+    def test_overrides_of_the_run_are_told_as_they_were_driven(self):
+        overrides = ("speed=5", "road.shape = table", "integrator.relative_tolerance=1e-8", "vehicle.speed=9")
+        with open_results(write_results(self.folder / "run.h5", overrides=overrides)) as results:
+            caption = make_caption([results])
+        for expected in ("initial speed 5 m/s", "road: table,", "1e-08"):
+            self.assertIn(expected, caption)
+
+    def test_only_what_all_runs_share_is_told(self):
+        with open_results(write_results(self.folder / "slow.h5")) as slow:
+            with open_results(write_results(self.folder / "fast.h5", overrides=("speed=5",))) as fast:
+                caption = make_caption([slow, fast])
+        self.assertNotIn("speed", caption)
+        self.assertIn("road: half-sine", caption)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,43 @@
+"""Every tool: bash can read it, --help explains it with an example, arguments it does not know are refused."""
+
+import os
+import subprocess
+import unittest
+
+from tool_test_case import ROOT, TOOLS, ToolTestCase
+
+BASH = ("setup", "build", "test", "run-truck")
+PYTHON = ("plot_results", "report_peaks", "compare_frequencies")
+
+
+class Scripts(ToolTestCase):
+    def test_the_lists_above_name_every_program_in_the_folder(self):
+        programs = {path.name for path in TOOLS.iterdir() if path.is_file() and os.access(path, os.X_OK)}
+        self.assertEqual(programs, {*BASH, *PYTHON})
+
+    def test_bash_can_read_the_scripts(self):
+        for path in (*(TOOLS / name for name in BASH), ROOT / ".ci/run"):
+            with self.subTest(path.name):
+                process = subprocess.run(["bash", "-n", path], capture_output=True, text=True, check=False)
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                self.assertTrue(os.access(path, os.X_OK))
+
+    def test_help_shows_the_usage_and_an_example_that_calls_the_tool(self):
+        for name in (*BASH, *PYTHON):
+            with self.subTest(name):
+                process = self.run_tool(name, "--help")
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                self.assertRegex(process.stdout, r"(?i)\Ausage: ")
+                self.assertRegex(process.stdout, rf"(?s)Examples?:\n.*  tools/{name}\b")
+
+    def test_unknown_arguments_are_refused_with_exit_code_2(self):
+        for name in ("setup", "run-truck", *PYTHON):
+            with self.subTest(name):
+                process = self.run_tool(name, "--nonsense")
+                self.assertEqual(process.returncode, 2)
+                self.assertIn("error: ", process.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""tools/setup, with stand-ins for dpkg-query, apt-get, id and sudo that write down how they were called."""
+
+import re
+import subprocess
+import unittest
+
+from tool_test_case import TOOLS, ToolTestCase
+
+# What the script itself needs of the system; PATH holds nothing else, so that no real apt-get can be reached.
+NEEDED = ("bash", "cat", "dirname", "env", "mktemp", "readlink", "rm")
+
+
+class Setup(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        self.programs = self.folder / "bin"
+        self.programs.mkdir()
+        self.log = self.folder / "log"
+        self.log.touch()
+        for name in NEEDED:
+            found = subprocess.run(
+                ["/bin/sh", "-c", f"command -v {name}"], capture_output=True, text=True, check=True
+            )
+            (self.programs / name).symlink_to(found.stdout.strip())
+
+    def stand_in(self, name, body):
+        path = self.programs / name
+        path.write_text(f"#!/bin/bash\n{body}\n", encoding="utf-8")
+        path.chmod(0o755)
+
+    def make_debian(self, missing=(), user=0):
+        """A system with dpkg on which these packages are missing, for a user of this number."""
+        absent = "|".join(missing) or "none-at-all"
+        self.stand_in("dpkg-query", f'case "${{@: -1}}" in {absent}) exit 1;; *) echo -n installed;; esac')
+        self.stand_in("apt-get", f'echo "${{DEBIAN_FRONTEND-}} apt-get $*" >>"{self.log}"')
+        self.stand_in("id", f"echo {user}")
+
+    def setup_tool(self):
+        return self.run_tool("setup", PATH=str(self.programs), DEBIAN_FRONTEND="")
+
+    def calls(self):
+        return self.log.read_text(encoding="utf-8").splitlines()
+
+    def test_nothing_is_done_when_nothing_is_missing(self):
+        self.make_debian()
+        process = self.setup_tool()
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertIn("all packages are installed", process.stdout)
+        self.assertEqual(self.calls(), [])
+
+    def test_exactly_what_is_missing_is_installed_after_an_update_without_questions(self):
+        self.make_debian(missing=("catch2", "libgmsh-dev"))
+        process = self.setup_tool()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        update, install = self.calls()
+        self.assertRegex(update, r"^noninteractive apt-get .*\bupdate$")
+        self.assertRegex(
+            install, r"^noninteractive apt-get .*\binstall -y --no-install-recommends libgmsh-dev catch2$"
+        )
+
+    def test_a_removed_package_of_which_only_settings_are_left_is_missing(self):
+        self.make_debian()
+        self.stand_in("dpkg-query", '[[ "${@: -1}" == g++ ]] && echo -n config-files || echo -n installed')
+        self.assertEqual(self.setup_tool().returncode, 0)
+        self.assertRegex(self.calls()[-1], r" g\+\+$")
+
+    def test_an_update_that_fails_does_not_stop_the_installation_but_a_failing_installation_does(self):
+        self.make_debian(missing=("catch2",))
+        self.stand_in("apt-get", f'echo "$*" >>"{self.log}"; [[ "$*" != *update ]]')
+        self.assertEqual(self.setup_tool().returncode, 0)
+        self.stand_in("apt-get", "exit 100")
+        process = self.setup_tool()
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("tools/setup: error: apt-get could not install: catch2", process.stderr)
+
+    def test_other_users_go_through_sudo(self):
+        self.make_debian(missing=("catch2",), user=1000)
+        self.stand_in("sudo", f'echo -n "sudo: " >>"{self.log}"; exec "$@"')
+        self.assertEqual(self.setup_tool().returncode, 0)
+        self.assertTrue(
+            all(re.match(r"sudo: noninteractive apt-get ", call) for call in self.calls()), self.calls()
+        )
+
+    def test_without_root_and_sudo_the_command_is_named(self):
+        self.make_debian(missing=("catch2",), user=1000)
+        process = self.setup_tool()
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("run as root: apt-get install -y --no-install-recommends catch2", process.stderr)
+        self.assertEqual(self.calls(), [])
+
+    def test_elsewhere_the_packages_are_named(self):
+        process = self.setup_tool()
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("no apt-get here and something is missing", process.stderr)
+        self.assertIn("libsundials-dev", process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
