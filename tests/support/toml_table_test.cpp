@@ -55,6 +55,13 @@ TEST_CASE("a missing key is named with its table") {
         "v.toml: error: missing key 'duration'");
 }
 
+TEST_CASE("a missing key is looked for among the misspelt ones") {
+  const TomlDocument document = TomlDocument::parse("mas = 3\nb = 1\n", "v.toml");
+  CHECK(error_message<InputError>([&] { document.root().at("mass"); }) ==
+        "v.toml: error: missing key 'mass'; is 'mas' meant to be it?");
+  CHECK(error_message<InputError>([&] { document.root().at("a"); }) == "v.toml: error: missing key 'a'");
+}
+
 TEST_CASE("a key nobody asked for is refused, at the key, with the nearest that was") {
   const TomlDocument document = TomlDocument::parse(kText, "v.toml");
   const TomlTable chassis = document.root().at("bodies").table().at("chassis").table();

@@ -37,17 +37,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 InputError::InputError(const SourceLocation& where, std::string_view message)
     : std::runtime_error(format_message(where, message)) {}
 
-std::string nearest_name_hint(std::string_view name, std::span<const std::string> candidates) {
-  const std::string* nearest = nullptr;
+std::string find_nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  std::string nearest;
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best) {
       best = distance;
-      nearest = &candidate;
+      nearest = candidate;
     }
   }
-  return nearest ? fmt::format(" (did you mean '{}'?)", *nearest) : std::string{};
+  return nearest;
+}
+
+std::string nearest_name_hint(std::string_view name, std::span<const std::string> candidates) {
+  const std::string nearest = find_nearest_name(name, candidates);
+  return nearest.empty() ? nearest : fmt::format(" (did you mean '{}'?)", nearest);
 }
 
 }  // namespace sprung::support

@@ -24,6 +24,9 @@ class InputError : public std::runtime_error {
   InputError(const SourceLocation& where, std::string_view message);
 };
 
+/// The candidate nearest to `name`; "" where none is near.
+std::string find_nearest_name(std::string_view name, std::span<const std::string> candidates);
+
 /// ` (did you mean 'mass'?)` for the candidate nearest to `name`, or nothing where none is near.
 std::string nearest_name_hint(std::string_view name, std::span<const std::string> candidates);
 

@@ -5,8 +5,8 @@
 
 namespace sprung::support {
 
-/// How far long work has come, on stderr: a bar with the time left on a terminal, a plain line for every tenth
-/// elsewhere, nothing when quiet.
+/// How far long work has come, on stderr: a bar with the time left on a terminal, a plain line for every
+/// tenth elsewhere, nothing when quiet.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);

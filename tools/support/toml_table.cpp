@@ -2,6 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "tools/support/toml.h"
 #include "tools/support/toml_text.h"
@@ -39,7 +41,14 @@ std::optional<TomlValue> TomlTable::find(std::string_view key) const {
 
 TomlValue TomlTable::at(std::string_view key) const {
   if (const std::optional<TomlValue> value = find(key)) return *value;
-  throw InputError(location(), fmt::format("missing key '{}'{}", key, within(node_->key)));
+  // A required key that was misspelt is there under another name.
+  std::vector<std::string> unasked;
+  for (const auto& [name, node] : table_->entries) {
+    if (std::find(table_->asked.begin(), table_->asked.end(), name) == table_->asked.end()) unasked.push_back(name);
+  }
+  const std::string misspelt = key.size() > 3 ? find_nearest_name(key, unasked) : "";
+  throw InputError(location(), fmt::format("missing key '{}'{}{}", key, within(node_->key),
+                                           misspelt.empty() ? "" : fmt::format("; is '{}' meant to be it?", misspelt)));
 }
 
 std::vector<std::pair<std::string, TomlValue>> TomlTable::entries() const {
