@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "reduce/clusters.h"
 #include "reduce/dense_eigen_solver.h"
@@ -57,31 +57,29 @@ ClampedModes take(const EigenPairs& pairs, const Eigen::VectorXi& cluster, Eigen
   return modes;
 }
 
-// The modes up to the end of the last wanted one's cluster, if they are all there; otherwise why not.
-std::optional<ClampedModes> prove(const ModalProblem& problem, const EigenPairs& pairs, int num_modes,
-                                  std::string& reason) {
+}  // namespace
+
+ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, int num_modes) {
   const Eigen::Index found = pairs.omega_squared.size();
   const Eigen::VectorXi cluster = find_clusters(pairs.omega_squared);
   const Eigen::Index end = find_cluster_of(cluster, num_modes - 1).end;
-  if (end == problem.size()) return take(pairs, cluster, end);
+  if (end == problem.size()) return {.modes = take(pairs, cluster, end), .reason = {}};
   if (end == found) {
-    reason = fmt::format("the modes {} … {} at {:.6g} Hz go on", num_modes, found,
-                         as_hz(pairs.omega_squared(end - 1)));
-    return {};
+    return {.modes = {},
+            .reason = fmt::format("the cluster of mode {} at {:.6g} Hz goes on after mode {}", num_modes,
+                                  as_hz(pairs.omega_squared(end - 1)), found)};
   }
   const double shift = choose_shift(pairs.omega_squared(end - 1), pairs.omega_squared(end));
   const int counted = count_modes_below(problem, shift);
   if (counted != end) {
-    reason = fmt::format("{} modes found below {:.6g} Hz, {} counted", end, as_hz(shift), counted);
-    return {};
+    return {.modes = {},
+            .reason = fmt::format("{} modes found below {:.6g} Hz, {} counted", end, as_hz(shift), counted)};
   }
   ClampedModes modes = take(pairs, cluster, end);
   modes.proof_hz = as_hz(shift);
   modes.num_below = counted;
-  return modes;
+  return {.modes = std::move(modes), .reason = {}};
 }
-
-}  // namespace
 
 ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
                                 const ClampedModeOptions& options) {
@@ -98,8 +96,9 @@ ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
     const EigenPairs pairs = dense ? solve_all(problem)
                                    : solve_sparse(problem, static_cast<int>(wanted),
                                                   options.seed + static_cast<std::uint64_t>(attempt));
-    if (std::optional<ClampedModes> modes = prove(problem, pairs, num_modes, reason))
-      return std::move(*modes);
+    ModeProof proof = prove_complete(problem, pairs, num_modes);
+    if (proof.modes) return std::move(*proof.modes);
+    reason = std::move(proof.reason);
     if (dense) break;
   }
   throw support::NumericalError(fmt::format(

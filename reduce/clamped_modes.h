@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "reduce/eigen_pairs.h"
 
@@ -33,6 +35,20 @@ struct ClampedModes {
 /// Checked by tests/reduce/clamped_modes_test.cpp
 ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
                                 const ClampedModeOptions& options = {});
+
+/// Whether solutions are all there are up to the end of the last wanted mode's cluster.
+struct ModeProof {
+  std::optional<ClampedModes> modes;  ///< if so: the modes up to there
+  std::string reason;                 ///< if not: what was found and what counted
+};
+
+/// Counts the modes below a frequency in the gap above the last wanted one's cluster and compares.
+///
+/// @param pairs      solutions found, ascending, at least num_modes
+/// @param num_modes  wanted, ≥ 1
+/// @throws support::NumericalError if the count cannot be made (eigenvalue_count.h)
+/// Checked by tests/reduce/clamped_modes_test.cpp
+ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, int num_modes);
 
 /// The largest n whose modes can all be had: beyond it the dense solution takes too long and too much memory.
 inline constexpr int kMaxDenseSize = 3000;

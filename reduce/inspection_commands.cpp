@@ -58,7 +58,9 @@ int run_check(const std::vector<std::filesystem::path>& paths, bool json) {
 }
 
 int run_diff(const std::filesystem::path& old_path, const std::filesystem::path& new_path, bool json) {
-  const Comparison comparison = compare_modes(read_superelement(old_path), read_superelement(new_path));
+  const Superelement old_body = read_superelement(old_path);
+  const Superelement new_body = read_superelement(new_path);
+  const Comparison comparison = compare_modes(old_body, new_body);
   fmt::print("{}", json ? format_comparison_json(comparison) : format_comparison(comparison));
   return support::kGood;
 }

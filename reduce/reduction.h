@@ -13,7 +13,7 @@ namespace sprung::reduce {
 /// @throws support::InputError for a request that the frame cannot serve (modes, damping ratios)
 ///         support::NumericalError where rounding spoils the lowest mode, the modes cannot be proved
 ///         complete, or a check of the result fails (its value and tolerance)
-/// Checked by tests/reduce/reduction_test.cpp, tests/reduce/truck_test.cpp
+/// Checked by tests/reduce/truck_test.cpp, tests/reduce/design_test.cpp
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options = {});
 
 /// K and M of a frame held at a node. @param node  0-based

@@ -17,6 +17,12 @@ std::string format_percent(double share) {
   return fmt::format("{:.1f}", 100.0 * share);
 }
 
+// Signed percent; what rounds to zero has no sign.
+std::string format_change(double share) {
+  const std::string text = fmt::format("{:+.3f}", 100.0 * share);
+  return text == "-0.000" || text == "+0.000" ? "0.000" : text;
+}
+
 std::string format_kind(double axial_share) {
   if (axial_share > 0.95) return "axial";
   if (axial_share < 0.05) return "bending";
@@ -118,7 +124,7 @@ std::string format_comparison(const Comparison& comparison) {
     const bool both = match.old_modes.size() > 0 && match.new_modes.size() > 0;
     table.add_row({format_range(match.old_modes), format_frequency(match.old_modes, match.old_hz),
                    format_range(match.new_modes), format_frequency(match.new_modes, match.new_hz),
-                   both ? fmt::format("{:+.3f}", 100.0 * (match.new_hz / match.old_hz - 1.0)) : "",
+                   both ? format_change(match.new_hz / match.old_hz - 1.0) : "",
                    std::isnan(match.mac) ? "" : fmt::format("{:.4f}", match.mac)});
   }
   std::string text = table.str();

@@ -1,5 +1,6 @@
 #include "reduce/canonical_basis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -107,7 +108,8 @@ TEST_CASE("the lowest modes of a body have one basis for every start vector and 
       const Superelement sparse = make_superelement(make_design(renumbered, body.reference, request),
                                                     {.method = EigenMethod::kSparse, .seed = seed});
       CHECK(sparse.cluster == dense.cluster);
-      CHECK(calc_difference(dense, sparse) < kSame / calc_separation(dense));
+      // Polished, the low modes come closer to each other than all modes above do.
+      CHECK(calc_difference(dense, sparse) < kSame / std::min(1.0, 10.0 * calc_separation(dense)));
     }
   }
 }

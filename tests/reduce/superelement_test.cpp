@@ -1,0 +1,352 @@
+#include "reduce/superelement.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "reduce/reduction.h"
+#include "tests/catch.h"
+#include "tests/reduce/hdf5_tampering.h"
+#include "tests/reduce/test_bodies.h"
+
+namespace sprung::reduce {
+namespace {
+
+using Catch::Matchers::Contains;
+using support::InputError;
+using testing::message_of;
+
+// Two unlike arms with shear and rotary inertia, seven modes, two named points, a mesh file in its
+// provenance.
+Superelement make_body() {
+  fem::BeamModel model = testing::make_model({testing::make_section(true), testing::make_section()});
+  testing::add_line(model, {0.3, -0.2}, {1.5, 0.4}, 3, 0);
+  testing::add_line(model, {1.5, 0.4}, {1.1, 1.7}, 2, 1);
+  model.mesh.named_nodes = {{.name = "foot", .node = 0}, {.name = "tip", .node = 5}};
+  Design design = testing::make_design(model, {0.3, -0.2}, {.wanted = ModeCount{7}});
+  design.provenance = {.design_text = "# Träger\nname = \"body\"\n",
+                       .design_hash = std::string(64, 'a'),
+                       .input_names = {"frame.geo"},
+                       .input_hashes = {std::string(64, 'b')},
+                       .program_version = "9.8.7",
+                       .algorithm_revision = 3};
+  return make_superelement(design);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST_CASE("a superelement is read as it was written") {
+  const Superelement a = make_body();
+  const std::string hash = write_superelement(a, "round_trip.h5");
+  const Superelement b = read_superelement("round_trip.h5");
+  CHECK(b.content_hash == hash);
+  CHECK(hash.size() == 64);
+  CHECK(b.name == a.name);
+  CHECK(b.node_ids == a.node_ids);
+  CHECK(b.node_positions == a.node_positions);
+  REQUIRE(b.points.size() == 2);
+  CHECK(b.points[1].name == "tip");
+  CHECK(b.points[1].node == 5);
+  CHECK(b.elements == a.elements);
+  CHECK(b.element_sections == a.element_sections);
+  CHECK(b.frequency_hz == a.frequency_hz);
+  CHECK(b.damping_ratio == a.damping_ratio);
+  CHECK(b.cluster == a.cluster);
+  CHECK(b.shapes == a.shapes);
+  CHECK(b.num_elastic_dofs == a.num_elastic_dofs);
+  CHECK(b.stiffness == a.stiffness);
+  CHECK(b.mass == a.mass);
+  CHECK(b.damping == a.damping);
+  CHECK(b.resultants == a.resultants);
+  CHECK(b.inertia.mass == a.inertia.mass);
+  CHECK(b.inertia.first_moment == a.inertia.first_moment);
+  CHECK(b.inertia.second_moment == a.inertia.second_moment);
+  CHECK(b.inertia.P == a.inertia.P);
+  CHECK(b.inertia.c == a.inertia.c);
+  CHECK(b.inertia.d == a.inertia.d);
+  CHECK(b.inertia.M_ff == a.inertia.M_ff);
+  CHECK(b.inertia.B == a.inertia.B);
+  CHECK(b.inertia.x_phi_x == a.inertia.x_phi_x);
+  CHECK(b.inertia.x_phi_y == a.inertia.x_phi_y);
+  CHECK(b.inertia.y_phi_x == a.inertia.y_phi_x);
+  CHECK(b.inertia.y_phi_y == a.inertia.y_phi_y);
+  CHECK(b.inertia.phi_x_phi_x == a.inertia.phi_x_phi_x);
+  CHECK(b.inertia.phi_x_phi_y == a.inertia.phi_x_phi_y);
+  CHECK(b.inertia.phi_y_phi_y == a.inertia.phi_y_phi_y);
+  REQUIRE(b.checks.size() == a.checks.size());
+  CHECK(b.checks[2].name == a.checks[2].name);
+  CHECK(b.checks[2].value == a.checks[2].value);
+  CHECK(b.checks[2].tolerance == a.checks[2].tolerance);
+  CHECK(b.provenance.design_text == a.provenance.design_text);
+  CHECK(b.provenance.design_hash == a.provenance.design_hash);
+  CHECK(b.provenance.input_names == a.provenance.input_names);
+  CHECK(b.provenance.input_hashes == a.provenance.input_hashes);
+  CHECK(b.provenance.program_version == "9.8.7");
+  CHECK(b.provenance.algorithm_revision == 3);
+  CHECK(find_point(b, "tip") == 5);
+  CHECK(find_point(b, "top") == -1);
+}
+
+TEST_CASE("a design text beyond 64 KiB and a body without points or mesh files are written too") {
+  Superelement a = make_body();
+  a.points.clear();
+  a.checks.clear();
+  a.provenance.input_names.clear();
+  a.provenance.input_hashes.clear();
+  a.provenance.design_text = std::string(100000, '#');
+  write_superelement(a, "sparse.h5");
+  const Superelement b = read_superelement("sparse.h5");
+  CHECK(b.points.empty());
+  CHECK(b.checks.empty());
+  CHECK(b.provenance.input_names.empty());
+  CHECK(b.provenance.design_text == a.provenance.design_text);
+}
+
+TEST_CASE("equal superelements give equal bytes") {
+  const Superelement body = make_body();
+  write_superelement(body, "bytes_a.h5");
+  write_superelement(make_body(), "bytes_b.h5");
+  CHECK(read_bytes("bytes_a.h5") == read_bytes("bytes_b.h5"));
+  CHECK(read_bytes("bytes_a.h5").size() > 10000);
+}
+
+TEST_CASE("every part of a superelement enters its hash") {
+  const Superelement body = make_body();
+  const std::string hash = write_superelement(body, "hash.h5");
+  const std::pair<const char*, std::function<void(Superelement&)>> changes[] = {
+      {"name", [](Superelement& s) { s.name = "other"; }},
+      {"node id", [](Superelement& s) { s.node_ids[0] = 77; }},
+      {"position", [](Superelement& s) { s.node_positions(0, 1) += 1e-15; }},
+      {"point name", [](Superelement& s) { s.points[0].name = "root"; }},
+      {"point node", [](Superelement& s) { s.points[0].node = 1; }},
+      {"element", [](Superelement& s) { s.elements(1, 0) = 2; }},
+      {"section", [](Superelement& s) { s.element_sections[0] += "x"; }},
+      {"frequency", [](Superelement& s) { s.frequency_hz(2) *= 1.0 + 1e-15; }},
+      {"damping ratio", [](Superelement& s) { s.damping_ratio(1) = 0.03; }},
+      {"cluster", [](Superelement& s) { s.cluster.array() += 1; }},
+      {"shape", [](Superelement& s) { s.shapes(4, 1) += 1e-15; }},
+      {"freedoms", [](Superelement& s) { s.num_elastic_dofs += 1; }},
+      {"stiffness", [](Superelement& s) { s.stiffness(0, 0) *= 1.01; }},
+      {"mass", [](Superelement& s) { s.mass(0, 0) *= 1.01; }},
+      {"damping", [](Superelement& s) { s.damping(0, 0) *= 1.01; }},
+      {"rigid mass", [](Superelement& s) { s.inertia.mass *= 1.01; }},
+      {"first moment", [](Superelement& s) { s.inertia.first_moment.y() += 1e-9; }},
+      {"second moment", [](Superelement& s) { s.inertia.second_moment *= 1.01; }},
+      {"P", [](Superelement& s) { s.inertia.P(1, 1) += 1e-9; }},
+      {"c", [](Superelement& s) { s.inertia.c(1) += 1e-9; }},
+      {"d", [](Superelement& s) { s.inertia.d(1) += 1e-9; }},
+      {"M_ff", [](Superelement& s) { s.inertia.M_ff(1, 1) += 1e-9; }},
+      {"B", [](Superelement& s) { s.inertia.B *= 2.0; }},
+      {"x_phi_x", [](Superelement& s) { s.inertia.x_phi_x(1) += 1e-9; }},
+      {"x_phi_y", [](Superelement& s) { s.inertia.x_phi_y(1) += 1e-9; }},
+      {"y_phi_x", [](Superelement& s) { s.inertia.y_phi_x(1) += 1e-9; }},
+      {"y_phi_y", [](Superelement& s) { s.inertia.y_phi_y(1) += 1e-9; }},
+      {"phi_x_phi_x", [](Superelement& s) { s.inertia.phi_x_phi_x(1, 1) += 1e-9; }},
+      {"phi_x_phi_y", [](Superelement& s) { s.inertia.phi_x_phi_y(1, 1) += 1e-9; }},
+      {"phi_y_phi_y", [](Superelement& s) { s.inertia.phi_y_phi_y(1, 1) += 1e-9; }},
+      {"resultants", [](Superelement& s) { s.resultants(3, 1) *= 1.01; }},
+      {"check name", [](Superelement& s) { s.checks[0].name += "x"; }},
+      {"check value", [](Superelement& s) { s.checks[0].value = 0.5; }},
+      {"check tolerance", [](Superelement& s) { s.checks[0].tolerance = 0.5; }},
+      {"design text", [](Superelement& s) { s.provenance.design_text += "\n"; }},
+      {"design hash", [](Superelement& s) { s.provenance.design_hash[0] = 'c'; }},
+      {"input name", [](Superelement& s) { s.provenance.input_names[0] = "x.geo"; }},
+      {"input hash", [](Superelement& s) { s.provenance.input_hashes[0][0] = 'c'; }},
+      {"program", [](Superelement& s) { s.provenance.program_version += "x"; }},
+      {"revision", [](Superelement& s) { s.provenance.algorithm_revision = 4; }}};
+  for (const auto& [part, change] : changes) {
+    CAPTURE(part);
+    Superelement changed = body;
+    change(changed);
+    CHECK(write_superelement(changed, "hash.h5") != hash);
+    CHECK(read_superelement("hash.h5").content_hash != hash);
+  }
+}
+
+TEST_CASE("what does not fit together is not written") {
+  const Superelement body = make_body();
+  const auto fault = [&](const std::function<void(Superelement&)>& change) {
+    Superelement changed = body;
+    change(changed);
+    return message_of<std::invalid_argument>([&] { write_superelement(changed, "never.h5"); });
+  };
+  CHECK_THAT(fault([](Superelement& s) { s.name.clear(); }), Contains("'name' is empty"));
+  CHECK_THAT(fault([](Superelement& s) { s.node_ids[1] = s.node_ids[0]; }),
+             Contains("/nodes/id' has node 1 twice"));
+  CHECK_THAT(fault([](Superelement& s) { s.points[1].name = "foot"; }),
+             Contains("has the name 'foot' twice"));
+  CHECK_THAT(fault([](Superelement& s) { s.points[1].node = 6; }),
+             Contains("has node 6 for point 'tip', expected 0 … 5"));
+  CHECK_THAT(fault([](Superelement& s) { s.elements(0, 0) = s.elements(1, 0); }),
+             Contains("/elements/node'"));
+  CHECK_THAT(fault([](Superelement& s) { s.element_sections.pop_back(); }), Contains("/elements/section'"));
+  CHECK_THAT(fault([](Superelement& s) { s.frequency_hz(0) = 0.0; }),
+             Contains("is 0 Hz for mode 1, expected > 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.frequency_hz.row(0).swap(s.frequency_hz.row(3)); }),
+             Contains("falls from"));
+  CHECK_THAT(fault([](Superelement& s) { s.damping_ratio(2) = -0.1; }),
+             Contains("is -0.1 for mode 3, expected ≥ 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.cluster(0) = 5; }), Contains("/modes/cluster'"));
+  CHECK_THAT(fault([](Superelement& s) { s.num_elastic_dofs = 6; }), Contains("num_elastic_dofs is 6"));
+  CHECK_THAT(fault([](Superelement& s) { s.shapes(0, 0) = std::numeric_limits<double>::quiet_NaN(); }),
+             Contains("/modes/shape' contains NaN"));
+  CHECK_THAT(fault([](Superelement& s) { s.stiffness(0, 1) += 1.0; }),
+             Contains("/matrices/stiffness' is not symmetric"));
+  CHECK_THAT(fault([](Superelement& s) { s.mass(0, 1) = s.mass(1, 0) = 2.0; }),
+             Contains("/matrices/mass' is not positive definite"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.mass = -1.0; }),
+             Contains("/inertia/mass' is -1 kg, expected > 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.second_moment = 1e-3; }),
+             Contains("/inertia/second_moment'"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.B(0, 1) += 1.0; }), Contains("/inertia/B' is not skew"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.P.conservativeResize(2, 6); }),
+             Contains("/inertia/P' has 2×6 values, expected 2×7"));
+  CHECK_THAT(fault([](Superelement& s) { s.resultants.conservativeResize(29, 7); }),
+             Contains("/resultants'"));
+  CHECK_THAT(fault([](Superelement& s) { s.provenance.input_hashes.clear(); }),
+             Contains("/provenance/input_hash'"));
+  CHECK_FALSE(std::filesystem::exists("never.h5"));
+  CHECK_FALSE(std::filesystem::exists("never.h5.tmp"));
+}
+
+// The message of reading a whole file after it was tampered with.
+std::string read_tampered(const std::function<void(testing::Hdf5Tampering&)>& change) {
+  write_superelement(make_body(), "tampered.h5");
+  {
+    testing::Hdf5Tampering file("tampered.h5");
+    change(file);
+  }
+  return message_of<InputError>([] { read_superelement("tampered.h5"); });
+}
+
+TEST_CASE("a dataset that is missing, of another shape or type is named") {
+  const std::string prefix = "tampered.h5: error: dataset '";
+  for (const char* name : {"/nodes/id",
+                           "/nodes/position",
+                           "/points/name",
+                           "/points/node",
+                           "/elements/node",
+                           "/elements/section",
+                           "/modes/frequency",
+                           "/modes/damping_ratio",
+                           "/modes/cluster",
+                           "/modes/shape",
+                           "/matrices/stiffness",
+                           "/matrices/mass",
+                           "/matrices/damping",
+                           "/inertia/mass",
+                           "/inertia/first_moment",
+                           "/inertia/second_moment",
+                           "/inertia/P",
+                           "/inertia/c",
+                           "/inertia/d",
+                           "/inertia/M_ff",
+                           "/inertia/B",
+                           "/inertia/x_phi_x",
+                           "/inertia/x_phi_y",
+                           "/inertia/y_phi_x",
+                           "/inertia/y_phi_y",
+                           "/inertia/phi_x_phi_x",
+                           "/inertia/phi_x_phi_y",
+                           "/inertia/phi_y_phi_y",
+                           "/resultants",
+                           "/checks/name",
+                           "/checks/value",
+                           "/checks/tolerance",
+                           "/provenance/design_text",
+                           "/provenance/design_hash",
+                           "/provenance/input_name",
+                           "/provenance/input_hash"}) {
+    CAPTURE(name);
+    CHECK_THAT(read_tampered([&](auto& file) { file.remove(name); }), Contains(prefix + name + "'"));
+    // Five by one reals fit nowhere, whatever the type and shape that belong here.
+    CHECK_THAT(read_tampered([&](auto& file) {
+                 file.replace(name, {5, 1}, std::vector<double>(5, 1.0));
+               }),
+               Contains(prefix));
+  }
+  CHECK_THAT(read_tampered([](auto& file) {
+               file.replace("/matrices/mass", {7, 6}, std::vector<double>(42, 1.0));
+             }),
+             Contains(prefix + "/matrices/mass'"));
+}
+
+TEST_CASE("values that cannot be are named with their dataset") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto fault = [](const std::string& name, std::size_t index, double value) {
+    return read_tampered([&](auto& file) { file.set(name, index, value); });
+  };
+  CHECK_THAT(fault("/inertia/mass", 0, -3.0), Contains("dataset '/inertia/mass' is -3 kg, expected > 0"));
+  CHECK_THAT(fault("/inertia/second_moment", 0, 0.0),
+             Contains("dataset '/inertia/second_moment' is 0 kg·m²"));
+  CHECK_THAT(fault("/inertia/P", 3, nan), Contains("dataset '/inertia/P'"));
+  CHECK_THAT(fault("/modes/shape", 20, nan), Contains("dataset '/modes/shape'"));
+  CHECK_THAT(fault("/nodes/position", 2, std::numeric_limits<double>::infinity()),
+             Contains("dataset '/nodes/position'"));
+  CHECK_THAT(fault("/modes/frequency", 1, -5.0), Contains("dataset '/modes/frequency' is -5 Hz for mode 2"));
+  CHECK_THAT(fault("/matrices/stiffness", 1, 1e6),
+             Contains("dataset '/matrices/stiffness' is not symmetric"));
+  CHECK_THAT(fault("/matrices/mass", 0, -1.0),
+             Contains("dataset '/matrices/mass' has the diagonal entry -1 for mode 1"));
+  CHECK_THAT(fault("/inertia/B", 1, 1.0), Contains("dataset '/inertia/B' is not skew"));
+}
+
+TEST_CASE("a value changed within its range is betrayed by the hash") {
+  CHECK_THAT(read_tampered([](auto& file) { file.set("/inertia/P", 3, 0.25); }),
+             Contains("attribute 'content_hash' is") && Contains("was changed after it was written"));
+}
+
+TEST_CASE("a file of a newer version says so and how to go on") {
+  const std::string message = read_tampered([](auto& file) { file.set_attribute("version", 2); });
+  CHECK_THAT(
+      message,
+      Contains("tampered.h5: error: superelement format version 2, this program reads up to version 1"));
+  CHECK_THAT(message,
+             Contains("use a newer sprung, or make the file again from its design with sprung-reduce build"));
+  CHECK_THAT(read_tampered([](auto& file) { file.set_attribute("version", 0); }),
+             Contains("version 0, expected ≥ 1"));
+  CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("version"); }), Contains("version"));
+}
+
+TEST_CASE("files that are no superelement say what they are") {
+  CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("format"); }),
+             Contains("not a superelement"));
+  CHECK_THAT(message_of<InputError>([] { read_superelement("absent.h5"); }), Contains("absent.h5: error:"));
+  std::ofstream("empty.h5").flush();
+  CHECK_THAT(message_of<InputError>([] { read_superelement("empty.h5"); }),
+             Contains("empty.h5: error:") && Contains("empty"));
+  std::ofstream("text.h5") << "mass = 5, this is no HDF5 file, and never was one\n";
+  CHECK_THAT(message_of<InputError>([] { read_superelement("text.h5"); }),
+             Contains("text.h5: error:") && Contains("HDF5"));
+}
+
+TEST_CASE("a file cut off anywhere or with a damaged byte is refused") {
+  write_superelement(make_body(), "whole.h5");
+  const std::string bytes = read_bytes("whole.h5");
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    std::ofstream("cut.h5", std::ios::binary)
+        << bytes.substr(0, bytes.size() * static_cast<std::size_t>(tenth) / 10);
+    CHECK_THAT(message_of<InputError>([] { read_superelement("cut.h5"); }), Contains("cut.h5: error:"));
+  }
+  // A byte in the middle of the shapes' values: their checksum names the dataset.
+  const Superelement body = read_superelement("whole.h5");
+  const double value = body.shapes(4, 2);
+  const std::string pattern(reinterpret_cast<const char*>(&value), sizeof value);
+  const std::size_t at = bytes.find(pattern);
+  REQUIRE(at != std::string::npos);
+  std::string damaged = bytes;
+  damaged[at + 2] = static_cast<char>(damaged[at + 2] ^ 0x10);
+  std::ofstream("damaged.h5", std::ios::binary) << damaged;
+  CHECK_THAT(message_of<InputError>([] { read_superelement("damaged.h5"); }),
+             Contains("damaged.h5: error: dataset '/modes/shape'"));
+}
+
+}  // namespace
+}  // namespace sprung::reduce
