@@ -17,6 +17,10 @@ namespace sprung::dynamics {
 
 namespace {
 
+// Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a singular position
+// for ever.
+constexpr double kShortestStep = 1e-12;  // s
+
 std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
 }
@@ -95,6 +99,7 @@ CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options) : me
   memory.check(CVodeSetErrHandlerFn(memory.cvode, keep_message, &memory.callback), "CVodeSetErrHandlerFn");
   memory.check(CVodeInit(memory.cvode, evaluate_derivative, 0.0, memory.y), "CVodeInit");
   memory.check(CVodeSetUserData(memory.cvode, &memory.callback), "CVodeSetUserData");
+  memory.check(CVodeSetMinStep(memory.cvode, kShortestStep), "CVodeSetMinStep");
   memory.check(CVodeWFtolerances(memory.cvode, evaluate_weights), "CVodeWFtolerances");
   if (adams) {
     memory.nonlinear_solver =
@@ -131,6 +136,7 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
 CvodeIntegrator::StepResult CvodeIntegrator::step(double longest_step) {
   Memory& memory = *memory_;
   step_start_ = time_;
+  if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;  // started anew by a switch at the very end
   memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0), "CVodeSetMaxStep");
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {

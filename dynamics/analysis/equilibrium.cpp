@@ -31,6 +31,7 @@ double largest_natural(const Model& model, const std::vector<int>& coordinates, 
 struct ModalForce {
   Eigen::MatrixXd V;
   Eigen::VectorXd omega_squared, force;
+  double stiffest = 0.0;         // largest |ω²|; where nothing is stiff, what bounds a step by force alone
   std::vector<bool> is_neutral;  // neither held nor pushed: left where it is
   bool is_falling = false;       // pushed, but not held
 
@@ -40,6 +41,8 @@ struct ModalForce {
     V = solver.eigenvectors();
     omega_squared = solver.eigenvalues();
     force = V.transpose() * system.force;
+    const double largest_acceleration = largest_natural(model, system.partition.independent, V * force);
+    stiffest = std::max(omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);
     const double loose = kNeutralStiffness * omega_squared.cwiseAbs().maxCoeff();
     for (Eigen::Index k = 0; k < force.size(); ++k) {
       const bool is_loose = std::abs(omega_squared[k]) <= loose;
@@ -53,7 +56,7 @@ struct ModalForce {
   /// Downhill step, each direction's stiffness raised by `damping`; neutral directions stay.
   Eigen::VectorXd calc_step(double damping) const {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(force.size());
-    const double least = kNeutralStiffness * omega_squared.cwiseAbs().maxCoeff();
+    const double least = kNeutralStiffness * stiffest;
     for (Eigen::Index k = 0; k < force.size(); ++k) {
       if (is_neutral[static_cast<std::size_t>(k)]) continue;
       step += V.col(k) * (force[k] / (std::max(std::abs(omega_squared[k]), least) + damping));
@@ -112,7 +115,6 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
                               const ModalForce& modal, const Eigen::VectorXd& q_i, double& damping) {
   double potential = 0.0;
   calc_static_force(equations, 0.0, q_i, &potential);
-  const double stiffest = modal.omega_squared.cwiseAbs().maxCoeff();
   for (int attempt = 0; attempt < 40; ++attempt) {
     Eigen::VectorXd step = modal.calc_step(damping);
     const double size = largest_natural(model, system.partition.independent, step);
@@ -124,7 +126,7 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
       damping *= 0.1;
       break;
     }
-    damping = std::max(10.0 * damping, 1e-6 * stiffest);
+    damping = std::max(10.0 * damping, 1e-6 * modal.stiffest);
   }
   return equations.q();
 }

@@ -8,7 +8,9 @@ long count = 0;
 
 }  // namespace
 
-long sprung::test::num_allocations() { return count; }
+long sprung::test::num_allocations() {
+  return count;
+}
 
 #if defined(__SANITIZE_ADDRESS__)
 
@@ -16,8 +18,8 @@ long sprung::test::num_allocations() { return count; }
 
 namespace {
 
-const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { ++count; },
-                                                                [](const volatile void*) {});
+const int installed = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, std::size_t) { ++count; }, [](const volatile void*) {});
 
 }  // namespace
 

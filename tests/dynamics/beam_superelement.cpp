@@ -14,8 +14,8 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Eigen::Index;
 
-// Gauss–Legendre with 4 points on [0, 1], exact to degree 7: the squares of cubic shape functions and x² of them.
-// Source: [Abramowitz & Stegun 1964], table 25.4
+// Gauss–Legendre with 4 points on [0, 1], exact to degree 7: the squares of cubic shape functions and x² of
+// them. Source: [Abramowitz & Stegun 1964], table 25.4
 constexpr std::array<double, 4> kAbscissa{0.5 - 0.5 * 0.861136311594052575, 0.5 - 0.5 * 0.339981043584856265,
                                           0.5 + 0.5 * 0.339981043584856265, 0.5 + 0.5 * 0.861136311594052575};
 constexpr std::array<double, 4> kWeight{0.5 * 0.347854845137453857, 0.5 * 0.652145154862546143,
@@ -32,8 +32,8 @@ BeamGeometry measure(const BeamFrame& frame, const BeamFrame::Beam& beam) {
                                frame.nodes[static_cast<std::size_t>(beam.first)].position;
   BeamGeometry geometry{span.norm(), span.normalized(), Matrix6d::Zero()};
   for (Index end = 0; end < 2; ++end) {
-    geometry.to_local.block<2, 2>(3 * end, 3 * end) << geometry.axis.x(), geometry.axis.y(), -geometry.axis.y(),
-        geometry.axis.x();
+    geometry.to_local.block<2, 2>(3 * end, 3 * end) << geometry.axis.x(), geometry.axis.y(),
+        -geometry.axis.y(), geometry.axis.x();
     geometry.to_local(3 * end + 2, 3 * end + 2) = 1.0;
   }
   return geometry;
@@ -55,11 +55,11 @@ Matrix6d local_stiffness(const BeamFrame::Beam& beam, double length) {
   const double a = beam.EA / length, b = beam.EI / (length * length * length);
   const double l = length;
   Matrix6d K;
-  K << a, 0, 0, -a, 0, 0,                                    //
-      0, 12 * b, 6 * b * l, 0, -12 * b, 6 * b * l,           //
+  K << a, 0, 0, -a, 0, 0,                                         //
+      0, 12 * b, 6 * b * l, 0, -12 * b, 6 * b * l,                //
       0, 6 * b * l, 4 * b * l * l, 0, -6 * b * l, 2 * b * l * l,  //
-      -a, 0, 0, a, 0, 0,                                     //
-      0, -12 * b, -6 * b * l, 0, 12 * b, -6 * b * l,         //
+      -a, 0, 0, a, 0, 0,                                          //
+      0, -12 * b, -6 * b * l, 0, 12 * b, -6 * b * l,              //
       0, 6 * b * l, 2 * b * l * l, 0, -6 * b * l, 4 * b * l * l;
   return K;
 }
@@ -87,7 +87,8 @@ std::vector<BeamPoint> list_points(const BeamFrame& frame) {
       const Eigen::Vector2d r = frame.nodes[static_cast<std::size_t>(beam.first)].position +
                                 kAbscissa[g] * geometry.length * geometry.axis;
       points.push_back({beam.mass_per_length * geometry.length * kWeight[g], r,
-                        axes * shape_functions(kAbscissa[g], geometry.length) * geometry.to_local, freedoms_of(beam)});
+                        axes * shape_functions(kAbscissa[g], geometry.length) * geometry.to_local,
+                        freedoms_of(beam)});
     }
   }
   return points;
@@ -186,8 +187,8 @@ BeamSuperelement make_beam_superelement(const BeamFrame& frame, int num_modes) {
   return result;
 }
 
-BeamFrame make_straight_beam(const std::string& name, const std::vector<double>& positions, double EA, double EI,
-                             double mass_per_length) {
+BeamFrame make_straight_beam(const std::string& name, const std::vector<double>& positions, double EA,
+                             double EI, double mass_per_length) {
   BeamFrame frame{.name = name, .nodes = {}, .beams = {}};
   for (const double x : positions) {
     if (x == 0.0) frame.reference_node = static_cast<int>(frame.nodes.size());
@@ -202,16 +203,14 @@ BeamFrame make_straight_beam(const std::string& name, const std::vector<double>&
 BeamFrame make_crooked_frame() {
   return {.name = "crooked",
           .nodes = {{{0.0, 0.0}},
-                    {{0.7, 0.3}},
-                    {{1.5, -0.1}, "tip"},
-                    {{-0.4, 0.6}, "elbow"},
-                    {{-1.1, 0.2}, "foot"},
-                    {{0.2, -0.8}}},
+                    {{0.5, 0.4}},
+                    {{1.3, -0.1}, "tip"},
+                    {{0.3, 1.1}, "elbow"},
+                    {{-0.6, 0.8}, "foot"}},
           .beams = {{0, 1, 4.0e6, 900.0, 7.0},
                     {1, 2, 3.0e6, 500.0, 4.0},
-                    {0, 3, 2.0e6, 700.0, 6.0},
-                    {3, 4, 5.0e6, 300.0, 3.0},
-                    {0, 5, 2.5e6, 400.0, 5.0}}};
+                    {1, 3, 2.0e6, 700.0, 6.0},
+                    {3, 4, 5.0e6, 300.0, 3.0}}};
 }
 
 }  // namespace sprung::test

@@ -15,9 +15,9 @@ struct BeamFrame {
     std::string name = {};     ///< empty: not named
   };
   struct Beam {
-    int first = 0, last = 0;    ///< 0-based nodes
-    double EA = 0.0;            ///< [N]
-    double EI = 0.0;            ///< [N·m²]
+    int first = 0, last = 0;       ///< 0-based nodes
+    double EA = 0.0;               ///< [N]
+    double EI = 0.0;               ///< [N·m²]
     double mass_per_length = 0.0;  ///< [kg/m]
   };
   std::string name;
@@ -27,8 +27,8 @@ struct BeamFrame {
   double damping_ratio = 0.01;
 };
 
-/// A piece of the body's mass: with enough of them, sums over them are the integrals over the body exactly (Gauss
-/// points of the beams' shape functions).
+/// A piece of the body's mass: with enough of them, sums over them are the integrals over the body exactly
+/// (Gauss points of the beams' shape functions).
 struct MassPoint {
   double dm = 0.0;         ///< [kg]
   Eigen::Vector2d r;       ///< undeformed, body frame [m]
@@ -46,10 +46,11 @@ BeamSuperelement make_beam_superelement(const BeamFrame& frame, int num_modes);
 
 /// A straight uniform beam along x, its frame at the reference node.
 /// @param positions  ascending x of the nodes, 0 among them: the reference node
-BeamFrame make_straight_beam(const std::string& name, const std::vector<double>& positions, double EA, double EI,
-                             double mass_per_length);
+BeamFrame make_straight_beam(const std::string& name, const std::vector<double>& positions, double EA,
+                             double EI, double mass_per_length);
 
-/// A crooked frame of five beams without any symmetry, so that no invariant vanishes. Nodes "tip", "elbow", "foot".
+/// A crooked, branching frame without any symmetry, held at one end, so that no invariant vanishes. Nodes
+/// "tip", "elbow", "foot".
 BeamFrame make_crooked_frame();
 
 }  // namespace sprung::test

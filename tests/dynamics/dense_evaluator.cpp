@@ -36,9 +36,12 @@ DenseEvaluator::DenseEvaluator(const dynamics::Model& model) : model_(&model) {
   for (const auto& force : model.forces) {
     const auto* spring = dynamic_cast<const dynamics::SpringDamper*>(force.get());
     const auto* tyre = dynamic_cast<const dynamics::PointContactTyre*>(force.get());
-    if (spring != nullptr) springs_.push_back(spring);
-    else if (tyre != nullptr) tyres_.push_back(tyre);
-    else throw std::invalid_argument("DenseEvaluator: unknown kind of force: " + force->name);
+    if (spring != nullptr)
+      springs_.push_back(spring);
+    else if (tyre != nullptr)
+      tyres_.push_back(tyre);
+    else
+      throw std::invalid_argument("DenseEvaluator: unknown kind of force: " + force->name);
   }
   for (const dynamics::Body& body : model.bodies) {
     const Index size = body.num_coordinates();
@@ -88,7 +91,8 @@ void DenseEvaluator::update_points(const VectorXd& q) {
   }
 }
 
-// v = J v, and J̇ v: what the acceleration is while the coordinates' accelerations are zero. After update_points.
+// v = J v, and J̇ v: what the acceleration is while the coordinates' accelerations are zero. After
+// update_points.
 void DenseEvaluator::update_point_velocities(const VectorXd& v) {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
@@ -124,7 +128,8 @@ bool DenseEvaluator::solve_positions(std::span<const int> dependent, VectorXd& q
     update_points(q);
     update_constraints();
     if (phi_.size() == 0 || phi_.cwiseAbs().maxCoeff() <= 1e-12 * model_->length_scale) return true;
-    for (std::size_t k = 0; k < dependent.size(); ++k) Phi_d_.col(static_cast<Index>(k)) = Phi_q_.col(dependent[k]);
+    for (std::size_t k = 0; k < dependent.size(); ++k)
+      Phi_d_.col(static_cast<Index>(k)) = Phi_q_.col(dependent[k]);
     lu_d_.compute(Phi_d_);
     correction_ = lu_d_.solve(phi_);
     for (std::size_t k = 0; k < dependent.size(); ++k) q[dependent[k]] -= correction_[static_cast<Index>(k)];
@@ -156,7 +161,9 @@ void DenseEvaluator::calc_body(std::size_t b) {
   Vector2d s = body.first_moment;  // ∫ u dm
   s.noalias() += body.P * terms.q.tail(n);
 
-  const auto set = [](MatrixXd& matrix, Index i, Index j, double value) { matrix(i, j) = matrix(j, i) = value; };
+  const auto set = [](MatrixXd& matrix, Index i, Index j, double value) {
+    matrix(i, j) = matrix(j, i) = value;
+  };
   MatrixXd& M = terms.M;
   MatrixXd& M_theta = terms.dM[0];
   M(0, 0) = M(1, 1) = body.mass;

@@ -11,13 +11,13 @@
 
 namespace sprung::test {
 
-/// A second, plain evaluator of the equations of motion, against which the fast one is tested and timed: dense
-/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ as one system of nq + m unknowns, solved by one LU with partial pivoting.
+/// A second, plain evaluator of the equations of motion, against which the fast one is tested and timed:
+/// dense M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ as one system of nq + m unknowns, solved by one LU with partial pivoting.
 ///
-/// Of the library it uses the model's data alone. Mass and quadratic velocity terms come from the kinetic energy in the
-/// world frame: with M(q) and its derivatives by each coordinate, Q_v = −Ṁv + ½ ∂(vᵀMv)/∂q. Storage is allocated once.
-/// Knows revolute joints, spring-dampers and point-contact tyres.
-/// Source: [Shabana 2013], §§3.5, 5.3 (Lagrange's equations with multipliers)
+/// Of the library it uses the model's data alone. Mass and quadratic velocity terms come from the kinetic
+/// energy in the world frame: with M(q) and its derivatives by each coordinate, Q_v = −Ṁv + ½ ∂(vᵀMv)/∂q.
+/// Storage is allocated once. Knows revolute joints, spring-dampers and point-contact tyres. Source: [Shabana
+/// 2013], §§3.5, 5.3 (Lagrange's equations with multipliers)
 class DenseEvaluator {
  public:
   /// @throws std::invalid_argument for a kind of joint or force that it does not know

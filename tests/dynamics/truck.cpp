@@ -27,7 +27,9 @@ const BumpRoad& bump_road() {
   return road;
 }
 
-double heading(const Vehicle& vehicle, bool mirrored) { return mirrored ? -vehicle.direction : vehicle.direction; }
+double heading(const Vehicle& vehicle, bool mirrored) {
+  return mirrored ? -vehicle.direction : vehicle.direction;
+}
 
 Model make_truck_on(const Vehicle& vehicle, int num_chassis_modes, const PlacedRoad& road, bool mirrored) {
   Model model = make_truck(vehicle, num_chassis_modes, road);
@@ -44,7 +46,8 @@ Vehicle read_truck(const std::vector<std::string>& changes) {
   return read_vehicle(document, SPRUNG_TRUCK_SUPERELEMENTS);
 }
 
-Model make_truck(const Vehicle& vehicle, int num_chassis_modes, const PlacedRoad& road, const ModalDamping& damping) {
+Model make_truck(const Vehicle& vehicle, int num_chassis_modes, const PlacedRoad& road,
+                 const ModalDamping& damping) {
   ModeSelection selection;
   if (num_chassis_modes > 0) {
     std::vector<int>& numbers = selection["chassis"];
@@ -86,7 +89,8 @@ VectorXd mirror_coordinates(const Model& model, const VectorXd& q) {
 
 TruckAtRest::TruckAtRest(int num_chassis_modes, double shift, bool mirrored)
     : vehicle(read_truck()),
-      model(make_truck_on(vehicle, num_chassis_modes, {&flat_road(), heading(vehicle, mirrored), 0.0}, mirrored)) {
+      model(make_truck_on(vehicle, num_chassis_modes, {&flat_road(), heading(vehicle, mirrored), 0.0},
+                          mirrored)) {
   VectorXd q = make_start_positions(model, vehicle);
   for (const Body& body : model.bodies) q[body.first_coordinate] += shift;
   if (mirrored) q = mirror_coordinates(model, q);
@@ -95,7 +99,8 @@ TruckAtRest::TruckAtRest(int num_chassis_modes, double shift, bool mirrored)
 }
 
 VectorXd TruckAtRest::chassis() const {
-  return equilibrium.q.segment<3>(model.bodies[static_cast<std::size_t>(model.find_body("chassis"))].first_coordinate);
+  return equilibrium.q.segment<3>(
+      model.bodies[static_cast<std::size_t>(model.find_body("chassis"))].first_coordinate);
 }
 
 void EnergyClosure::add(const EnergyBook& book) {
@@ -103,30 +108,43 @@ void EnergyClosure::add(const EnergyBook& book) {
   has_first_ = true;
   const Energy& now = book.stored;
   const Energy& then = first_.stored;
-  largest_change_ = std::max(largest_change_, std::abs(now.kinetic - then.kinetic) + std::abs(now.strain - then.strain) +
-                                                  std::abs(now.gravity - then.gravity) +
-                                                  std::abs(now.spring - then.spring));
-  largest_error_ = std::max(largest_error_, std::abs(now.total() - then.total() + book.dissipated - book.input));
+  largest_change_ = std::max(largest_change_,
+                             std::abs(now.kinetic - then.kinetic) + std::abs(now.strain - then.strain) +
+                                 std::abs(now.gravity - then.gravity) + std::abs(now.spring - then.spring));
+  largest_error_ =
+      std::max(largest_error_, std::abs(now.total() - then.total() + book.dissipated - book.input));
 }
 
-BumpResult drive_over_bump(const BumpRun& run) {
-  const TruckAtRest rest(run.num_chassis_modes, run.shift, run.mirrored);
-  const double direction = heading(rest.vehicle, run.mirrored);
+namespace {
+
+// Where the front axle's centre is along the direction of travel.
+double leading_position(const TruckAtRest& rest, double direction) {
   SystemTerms terms(rest.model);
   terms.update_positions(0.0, rest.equilibrium.q);
   const int front_axle = rest.model.find_marker("front_axle.origin");
-  const double leading = direction * terms.markers()[static_cast<std::size_t>(front_axle)].r.x();
-  const Model model =
-      make_truck_on(rest.vehicle, run.num_chassis_modes, {&bump_road(), direction, leading}, run.mirrored);
-  State start{.time = 0.0,
-              .q = rest.equilibrium.q,
-              .v = VectorXd::Zero(model.num_coordinates),
-              .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
-  for (const Body& body : model.bodies) start.v[body.first_coordinate] = 3.0 * direction;
+  return direction * terms.markers()[static_cast<std::size_t>(front_axle)].r.x();
+}
 
+}  // namespace
+
+BumpStart::BumpStart(const BumpRun& run)
+    : rest(run.num_chassis_modes, run.shift, run.mirrored),
+      direction(heading(rest.vehicle, run.mirrored)),
+      model(make_truck_on(rest.vehicle, run.num_chassis_modes,
+                          {&bump_road(), direction, leading_position(rest, direction)}, run.mirrored)),
+      state{.time = 0.0,
+            .q = rest.equilibrium.q,
+            .v = VectorXd::Zero(model.num_coordinates),
+            .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))} {
+  for (const Body& body : model.bodies) state.v[body.first_coordinate] = 3.0 * direction;
+}
+
+BumpResult drive_over_bump(const BumpRun& run) {
+  const BumpStart start(run);
+  const Model& model = start.model;
   BumpResult result;
   EnergyClosure closure;
-  const VectorXd balance = rest.chassis();
+  const VectorXd balance = start.rest.chassis();
   const int chassis = model.bodies[static_cast<std::size_t>(model.find_body("chassis"))].first_coordinate;
   VectorXd phi(model.num_constraints);
   std::vector<Eigen::Vector3d> rows;
@@ -137,12 +155,13 @@ BumpResult drive_over_bump(const BumpRun& run) {
   options.on_output = [&](const Snapshot& snapshot) {
     const VectorXd& q = snapshot.equations.q();
     const double mirror = run.mirrored ? -1.0 : 1.0;
-    rows.emplace_back(direction * (q[chassis] - balance[0]), q[chassis + 1] - balance[1], mirror * q[chassis + 2]);
+    rows.emplace_back(start.direction * (q[chassis] - balance[0]), q[chassis + 1] - balance[1],
+                      mirror * q[chassis + 2]);
     snapshot.equations.terms().calc_residual(phi);
     result.largest_violation = std::max(result.largest_violation, phi.cwiseAbs().maxCoeff());
     closure.add(snapshot.energy);
   };
-  result.statistics = run_transient(model, start, options);
+  result.statistics = run_transient(model, start.state, options);
   result.chassis.resize(3, static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) result.chassis.col(static_cast<Eigen::Index>(i)) = rows[i];
   result.lowest = result.chassis.row(1).minCoeff();

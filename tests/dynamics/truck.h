@@ -17,13 +17,15 @@ namespace sprung::test {
 dynamics::Vehicle read_truck(const std::vector<std::string>& changes = {});
 
 /// The truck with the lowest chassis modes active and rigid arms.
-dynamics::Model make_truck(const dynamics::Vehicle& vehicle, int num_chassis_modes, const dynamics::PlacedRoad& road,
-                           const dynamics::ModalDamping& damping = {});
+dynamics::Model make_truck(const dynamics::Vehicle& vehicle, int num_chassis_modes,
+                           const dynamics::PlacedRoad& road, const dynamics::ModalDamping& damping = {});
 
 /// Assembled start positions of the vehicle file, moved along x.
-Eigen::VectorXd assemble_truck(const dynamics::Model& model, const dynamics::Vehicle& vehicle, double shift = 0.0);
+Eigen::VectorXd assemble_truck(const dynamics::Model& model, const dynamics::Vehicle& vehicle,
+                               double shift = 0.0);
 
-/// The same model seen in a mirror: x against −x. Forces on a road need the mirrored road in their place already.
+/// The same model seen in a mirror: x against −x. Forces on a road need the mirrored road in their place
+/// already.
 void mirror_model(dynamics::Model& model);
 /// Coordinates or velocities of the mirrored model.
 Eigen::VectorXd mirror_coordinates(const dynamics::Model& model, const Eigen::VectorXd& q);
@@ -41,13 +43,13 @@ struct TruckAtRest {
 struct BumpRun {
   int num_chassis_modes = 0;
   double relative_tolerance = 1e-6;
-  double duration = 5.0;    ///< [s]
-  double shift = 0.0;       ///< of the start along x [m]
-  bool mirrored = false;    ///< mirrored truck, driving towards +x
+  double duration = 5.0;  ///< [s]
+  double shift = 0.0;     ///< of the start along x [m]
+  bool mirrored = false;  ///< mirrored truck, driving towards +x
 };
 struct BumpResult {
-  /// Chassis frame at each output (1 ms): distance along the heading and height from static balance [m], angle [rad],
-  /// mirrored back where the truck was mirrored; 3×outputs.
+  /// Chassis frame at each output (1 ms): distance along the heading and height from static balance [m],
+  /// angle [rad], mirrored back where the truck was mirrored; 3×outputs.
   Eigen::Matrix3Xd chassis;
   double lowest = 0.0, highest = 0.0;  ///< of the height
   double largest_violation = 0.0;      ///< of the constraints [m]
@@ -56,6 +58,15 @@ struct BumpResult {
   std::vector<dynamics::Event> events;
 };
 BumpResult drive_over_bump(const BumpRun& run);
+
+/// The start of such a run: the truck at rest, its wheels about to roll.
+struct BumpStart {
+  explicit BumpStart(const BumpRun& run);
+  TruckAtRest rest;
+  double direction;       ///< of travel along x
+  dynamics::Model model;  ///< on the road with the bump
+  dynamics::State state;
+};
 
 /// What the energy book leaves open, as a share of the largest sum of the absolute changes of what is stored.
 class EnergyClosure {

@@ -2,10 +2,13 @@
 #include <cmath>
 #include <vector>
 
+#include "dynamics/analysis/assembly.h"
 #include "dynamics/analysis/vehicle_modes.h"
 #include "dynamics/forces/point_contact_tyre.h"
 #include "tests/catch.h"
+#include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/truck.h"
+#include "tools/support/numerical_error.h"
 
 using namespace sprung;
 
@@ -17,6 +20,10 @@ std::vector<double> frequencies(const test::TruckAtRest& truck) {
     if (!mode.is_rigid_body) found.push_back(mode.undamped_frequency_hz);
   }
   return found;
+}
+
+double chassis_height(const dynamics::Model& model, const Eigen::VectorXd& q) {
+  return q[model.bodies[static_cast<std::size_t>(model.find_body("chassis"))].first_coordinate + 1];
 }
 
 // To the four digits that the reference gives: within half of the last, which is `unit` [Hz].
@@ -46,7 +53,8 @@ TEST_CASE("At balance the tyres carry the whole weight, half of it each axle", "
   // Two tyres per axle, F = 5.649e7 δ² each (Table 1), penetration δ = 0.6 m − height of the axle
   for (const char* axle : {"front_axle", "rear_axle"}) {
     const int b = truck.model.find_body(axle);
-    const double y = truck.equilibrium.q[truck.model.bodies[static_cast<std::size_t>(b)].first_coordinate + 1];
+    const double y =
+        truck.equilibrium.q[truck.model.bodies[static_cast<std::size_t>(b)].first_coordinate + 1];
     CHECK(2.0 * 5.649e7 * std::pow(0.6 - y, 2) == Approx(0.5 * mass * 9.80665).epsilon(1e-9));
   }
 }
@@ -57,7 +65,8 @@ TEST_CASE("Nothing holds the truck along x, and its freedoms are 5, 7 and 9", "[
     CHECK(truck.model.num_freedoms() == 5 + num_modes);
     REQUIRE(truck.equilibrium.neutral.size() == 1);
     CHECK(truck.equilibrium.neutral[0].description == "all bodies along x");
-    const std::vector<dynamics::VehicleMode> modes = dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
+    const std::vector<dynamics::VehicleMode> modes =
+        dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
     REQUIRE(modes.size() == static_cast<std::size_t>(5 + num_modes));
     CHECK(modes[0].is_rigid_body);
     CHECK(modes[0].undamped_frequency_hz == 0.0);
@@ -65,7 +74,8 @@ TEST_CASE("Nothing holds the truck along x, and its freedoms are 5, 7 and 9", "[
   }
 }
 
-// Expected frequencies: an independent calculation with the same data, undamped, linearised about static balance.
+// Expected frequencies: an independent calculation with the same data, undamped, linearised about static
+// balance.
 TEST_CASE("Frequencies of the rigid truck", "[truck]") {
   const std::vector<double> found = frequencies(test::TruckAtRest(0));
   REQUIRE(found.size() == 4);
@@ -118,6 +128,42 @@ TEST_CASE("The suspension's damper counts with the mean of its two slopes", "[tr
   const dynamics::Equilibrium equilibrium = dynamics::find_equilibrium(one_slope, truck.equilibrium.q);
   const Eigen::MatrixXd& expected = equilibrium.linearised.damping;
   CHECK((truck.equilibrium.linearised.damping - expected).norm() < 1e-6 * expected.norm());
-  const std::vector<dynamics::VehicleMode> modes = dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
+  const std::vector<dynamics::VehicleMode> modes =
+      dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
   for (const dynamics::VehicleMode& mode : modes) CHECK((mode.is_rigid_body || mode.damping_ratio > 0.05));
+}
+
+TEST_CASE("A truck put down displaced by a centimetre here and there is assembled, and balances as before",
+          "[truck]") {
+  const test::TruckAtRest truck(2);
+  test::RandomNumbers random(4);
+  Eigen::VectorXd q = dynamics::make_start_positions(truck.model, truck.vehicle);
+  for (const dynamics::Body& body : truck.model.bodies) {
+    q.segment<3>(body.first_coordinate) += random.vector(3, 0.01);
+  }
+  const dynamics::AssemblyReport report = dynamics::assemble_positions(truck.model, q);
+  CHECK(report.residual < 1e-11);
+  CHECK(report.largest_movement > 1e-3);
+  CHECK(report.largest_movement < 0.05);
+  const dynamics::Equilibrium rest = dynamics::find_equilibrium(truck.model, q);
+  CHECK(chassis_height(truck.model, rest.q) == Approx(truck.chassis()[1]).margin(1e-9));
+}
+
+TEST_CASE("A truck let down from 0.3 m above the ground comes to rest on its wheels", "[truck]") {
+  for (const int num_modes : {0, 4}) {
+    const test::TruckAtRest truck(num_modes);
+    Eigen::VectorXd q = test::assemble_truck(truck.model, truck.vehicle);
+    for (const dynamics::Body& body : truck.model.bodies) q[body.first_coordinate + 1] += 0.3;
+    const dynamics::Equilibrium rest = dynamics::find_equilibrium(truck.model, q);
+    CHECK(chassis_height(truck.model, rest.q) == Approx(truck.chassis()[1]).margin(1e-9));
+    CHECK(rest.neutral.size() == 1);
+  }
+}
+
+TEST_CASE("A truck hung upside down over nothing has no equilibrium", "[truck]") {
+  const dynamics::Vehicle vehicle = test::read_truck({"gravity=[0.0, 9.8]"});
+  const test::TruckAtRest truck(0);
+  const dynamics::Model model = test::make_truck(
+      vehicle, 0, dynamic_cast<const dynamics::PointContactTyre&>(*truck.model.forces.back()).road());
+  CHECK_THROWS_AS(dynamics::find_equilibrium(model, truck.equilibrium.q), support::NumericalError);
 }

@@ -1,7 +1,12 @@
 // The truck over the bump: whole runs of the solver.
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
+#include "tests/dynamics/dense_evaluator.h"
 #include "tests/dynamics/truck.h"
 
 using namespace sprung;
@@ -57,7 +62,8 @@ TEST_CASE("The truck with 4 chassis modes over the bump", "[truck]") {
 TEST_CASE("The mirrored truck driving the other way gives the mirrored result", "[truck]") {
   for (const int num_modes : {0, 2}) {
     const test::BumpResult run = test::drive_over_bump({.num_chassis_modes = num_modes});
-    const test::BumpResult mirrored = test::drive_over_bump({.num_chassis_modes = num_modes, .mirrored = true});
+    const test::BumpResult mirrored =
+        test::drive_over_bump({.num_chassis_modes = num_modes, .mirrored = true});
     INFO(num_modes << " chassis modes");
     CHECK((mirrored.chassis - run.chassis).cwiseAbs().maxCoeff() < 1e-5);
   }
@@ -72,4 +78,46 @@ TEST_CASE("A run started a kilometre away gives the same result", "[truck]") {
       CHECK((far.chassis - run.chassis).cwiseAbs().maxCoeff() < 1e-5);
     }
   }
+}
+
+TEST_CASE("The plain evaluator under a plain integrator drives the truck the same way", "[truck]") {
+  // Everything computed a second time: dense equations, classical Runge–Kutta with a fixed step, no located
+  // switches, no partition. Its error is that of stepping over kinks and jumps, of first order in the step.
+  const test::BumpRun run{.num_chassis_modes = 2, .duration = 1.5};
+  const test::BumpStart start(run);
+  const test::BumpResult reference = test::drive_over_bump(run);
+  const Eigen::Index chassis =
+      start.model.bodies[static_cast<std::size_t>(start.model.find_body("chassis"))].first_coordinate;
+  const double balance = start.rest.chassis()[1];
+  constexpr int kStepsPerOutput = 10;
+  constexpr double kStep = 1e-3 / kStepsPerOutput;
+  test::DenseEvaluator plain(start.model);
+  dynamics::PartitionedEquations equations(start.model);
+  equations.choose_partition_at(0.0, start.state.q);
+  const std::vector<int> dependent = equations.partition().dependent;
+
+  Eigen::VectorXd q = start.state.q, v = start.state.v;
+  const auto acceleration = [&](const Eigen::VectorXd& q_at, const Eigen::VectorXd& v_at) {
+    plain.solve_accelerations(q_at, v_at);
+    return Eigen::VectorXd(plain.v_dot());
+  };
+  bool closed = true;
+  double difference = 0.0, highest = 0.0;
+  for (Eigen::Index output = 1; output < reference.chassis.cols(); ++output) {
+    for (int i = 0; i < kStepsPerOutput; ++i) {
+      const Eigen::VectorXd a1 = acceleration(q, v);
+      const Eigen::VectorXd v2 = v + 0.5 * kStep * a1, a2 = acceleration(q + 0.5 * kStep * v, v2);
+      const Eigen::VectorXd v3 = v + 0.5 * kStep * a2, a3 = acceleration(q + 0.5 * kStep * v2, v3);
+      const Eigen::VectorXd v4 = v + kStep * a3, a4 = acceleration(q + kStep * v3, v4);
+      q += kStep / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+      v += kStep / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+      closed &= plain.solve_positions(dependent, q);
+      plain.solve_velocities(dependent, q, v);
+    }
+    difference = std::max(difference, std::abs(q[chassis + 1] - balance - reference.chassis(1, output)));
+    highest = std::max(highest, q[chassis + 1] - balance);
+  }
+  CHECK(closed);
+  CHECK(highest > 0.1);  // it has met the bump
+  CHECK(difference < 3e-4);
 }

@@ -27,7 +27,8 @@ Totals sum_up(const dynamics::Model& model, const VectorXd& q, const VectorXd& v
   Totals totals;
   for (const dynamics::Body& body : model.bodies) {
     const Index first = body.first_coordinate, size = body.num_coordinates();
-    const dynamics::Momentum momentum = dynamics::calc_momentum(body, q.segment(first, size), v.segment(first, size));
+    const dynamics::Momentum momentum =
+        dynamics::calc_momentum(body, q.segment(first, size), v.segment(first, size));
     totals.momentum += momentum.linear;
     totals.angular_momentum += momentum.angular;
     totals.mass += body.mass;
@@ -67,16 +68,19 @@ const std::vector<std::string> kNoDampers{"forces.front_suspension.damper={coeff
 
 }  // namespace
 
-TEST_CASE("Without gravity and dampers the thrown truck keeps momentum, angular momentum and energy", "[truck]") {
+TEST_CASE("Without gravity and dampers the thrown truck keeps momentum, angular momentum and energy",
+          "[truck]") {
   std::vector<std::string> changes = kNoDampers;
   changes.emplace_back("gravity=[0.0, 0.0]");
   const dynamics::Vehicle vehicle = test::read_truck(changes);
   const dynamics::FlatRoad road;
   for (const int num_modes : {2, 4}) {
-    const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0}, {{"chassis", {0.0}}});
+    const dynamics::Model model =
+        test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0}, {{"chassis", {0.0}}});
     const dynamics::State start = throw_truck(model, vehicle);
     const Totals first = sum_up(model, start.q, start.v);
-    // The angular momentum about the centre of mass is what the spin has; about the origin it holds the flight too.
+    // The angular momentum about the centre of mass is what the spin has; about the origin it holds the
+    // flight too.
     double energy = 0.0, momentum_change = 0.0, angular_change = 0.0, energy_change = 0.0, modal_energy = 0.0;
     dynamics::TransientOptions options;
     options.end_time = 2.0;

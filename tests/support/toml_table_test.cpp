@@ -50,7 +50,7 @@ TEST_CASE("a missing key is named with its table") {
   const TomlDocument document = TomlDocument::parse(kText, "v.toml");
   const TomlTable chassis = document.root().at("bodies").table().at("chassis").table();
   CHECK(error_message<InputError>([&] { chassis.number("mass", positive("kg")); }) ==
-        "v.toml:2:1: error: missing key 'mass' in 'bodies.chassis'");
+        "v.toml:2:1: error: missing key 'mass' in 'bodies.chassis'; is 'masss' meant to be it?");
   CHECK(error_message<InputError>([&] { document.root().at("duration"); }) ==
         "v.toml: error: missing key 'duration'");
 }

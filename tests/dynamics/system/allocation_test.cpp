@@ -1,5 +1,5 @@
-// No heap memory is asked for while the equations are evaluated: the truck's whole step loop, and the plain evaluator
-// that stands beside it in comparisons.
+// No heap memory is asked for while the equations are evaluated: the truck's whole step loop, and the plain
+// evaluator that stands beside it in comparisons.
 #include <Eigen/Core>
 #include <memory>
 #include <vector>
@@ -25,7 +25,8 @@ TEST_CASE("The counter of allocations sees C++ and Eigen", "[truck]") {
 }
 
 TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
   const dynamics::Vehicle vehicle = test::read_truck();
   for (const int num_modes : {0, 2, 4, 12, 36}) {
     const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0});
@@ -57,7 +58,8 @@ TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
 }
 
 TEST_CASE("The plain evaluator takes no memory either", "[truck]") {
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 60.0, .height = 0.1});
   const dynamics::Vehicle vehicle = test::read_truck();
   for (const int num_modes : {0, 4}) {
     const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 0.0});

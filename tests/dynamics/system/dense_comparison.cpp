@@ -47,8 +47,8 @@ double EvaluatorDifference::largest() const {
   return std::max({position, velocity, acceleration, multiplier, kinetic_energy});
 }
 
-EvaluatorDifference compare_evaluators(const dynamics::Model& model, const VectorXd& assembled, const VectorXd& q,
-                                       const VectorXd& v, dynamics::State& evaluated) {
+EvaluatorDifference compare_evaluators(const dynamics::Model& model, const VectorXd& assembled,
+                                       const VectorXd& q, const VectorXd& v, dynamics::State& evaluated) {
   PartitionedEquations fast(model);
   fast.choose_partition_at(0.0, assembled);
   const dynamics::Partition partition = fast.partition();

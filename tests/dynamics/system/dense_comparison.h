@@ -6,8 +6,8 @@
 
 namespace sprung::test {
 
-/// Largest differences between the fast and the plain evaluator at one state, relative to the largest value of the
-/// same kind in the system (positions, angles, modal coordinates; multipliers).
+/// Largest differences between the fast and the plain evaluator at one state, relative to the largest value
+/// of the same kind in the system (positions, angles, modal coordinates; multipliers).
 struct EvaluatorDifference {
   double position = 0.0, velocity = 0.0;  ///< of the dependents
   double acceleration = 0.0, multiplier = 0.0;

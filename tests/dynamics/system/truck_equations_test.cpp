@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 namespace {
 
 // The whole vehicle turned about the world's origin and moved: joints stay closed.
-VectorXd move_rigidly(const dynamics::Model& model, const VectorXd& q, double angle, const Eigen::Vector2d& shift) {
+VectorXd move_rigidly(const dynamics::Model& model, const VectorXd& q, double angle,
+                      const Eigen::Vector2d& shift) {
   VectorXd moved = q;
   const Eigen::Rotation2Dd turn(angle);
   for (const dynamics::Body& body : model.bodies) {
@@ -28,8 +29,10 @@ VectorXd move_rigidly(const dynamics::Model& model, const VectorXd& q, double an
   return moved;
 }
 
-// Changes of coordinates or rates: `length` for positions, 1/3 of it in rad for angles; modes bend by up to `bending`.
-VectorXd random_change(const dynamics::Model& model, test::RandomNumbers& random, double length, double bending) {
+// Changes of coordinates or rates: `length` for positions, 1/3 of it in rad for angles; modes bend by up to
+// `bending`.
+VectorXd random_change(const dynamics::Model& model, test::RandomNumbers& random, double length,
+                       double bending) {
   VectorXd change(model.num_coordinates);
   for (const dynamics::Body& body : model.bodies) {
     const Index first = body.first_coordinate;
@@ -86,13 +89,16 @@ Comparison compare_on_truck(int num_modes, int num_states, std::uint64_t seed) {
 
 TEST_CASE("The fast and the plain evaluator agree on general states of the flexible truck", "[truck]") {
   for (const int num_modes : {0, 2, 4, 12, 36}) {
-    const Comparison comparison = compare_on_truck(num_modes, 400, 1000 + static_cast<std::uint64_t>(num_modes));
-    INFO(num_modes << " modes: position " << comparison.worst.position << ", velocity " << comparison.worst.velocity
-                   << ", acceleration " << comparison.worst.acceleration << ", multiplier "
-                   << comparison.worst.multiplier << ", kinetic energy " << comparison.worst.kinetic_energy);
+    const Comparison comparison =
+        compare_on_truck(num_modes, 400, 1000 + static_cast<std::uint64_t>(num_modes));
+    INFO(num_modes << " modes: position " << comparison.worst.position << ", velocity "
+                   << comparison.worst.velocity << ", acceleration " << comparison.worst.acceleration
+                   << ", multiplier " << comparison.worst.multiplier << ", kinetic energy "
+                   << comparison.worst.kinetic_energy);
     CHECK(comparison.worst.largest() < 1e-9);
     CHECK(comparison.all_nonzero);
-    // Every formula of the forces was met: both pieces of the spring and of the damper; air, contact, clipped contact.
+    // Every formula of the forces was met: both pieces of the spring and of the damper; air, contact, clipped
+    // contact.
     CHECK(comparison.suspension_pieces.size() == 2);
     CHECK(comparison.damper_pieces.size() == 2);
     CHECK(comparison.contacts.size() == 3);

@@ -1,0 +1,185 @@
+// Mass matrix, quadratic velocity forces, weight and momentum of a flexible body against sums over the points
+// of its mass, which know nothing of invariants; the body is a crooked frame, so that none of them vanishes.
+#include "dynamics/bodies/body_equations.h"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/random_numbers.h"
+
+using namespace sprung;
+using dynamics::Body;
+using dynamics::FrameRotation;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kNumModes = 6;
+
+// r = R + A(θ)(u₀ + φη) and its derivatives, written out with angles.
+struct PointMotion {
+  double dm;
+  Vector2d r, v, a_bias;
+  MatrixXd J;  // 2×(3+n)
+
+  PointMotion(const test::MassPoint& point, const VectorXd& q, const VectorXd& v_q) : dm(point.dm) {
+    const Index n = point.shape.cols();
+    Eigen::Matrix2d A, A_theta;
+    A << std::cos(q[2]), -std::sin(q[2]), std::sin(q[2]), std::cos(q[2]);
+    A_theta << -std::sin(q[2]), -std::cos(q[2]), std::cos(q[2]), -std::sin(q[2]);
+    const Vector2d u = point.r + point.shape * q.tail(n);
+    const Vector2d u_dot = point.shape * v_q.tail(n);
+    r = q.head<2>() + A * u;
+    J.resize(2, 3 + n);
+    J << Eigen::Matrix2d::Identity(), A_theta * u, A * point.shape;
+    v = J * v_q;
+    a_bias = 2.0 * v_q[2] * (A_theta * u_dot) - v_q[2] * v_q[2] * (A * u);
+  }
+};
+
+struct Case {
+  test::BeamSuperelement frame = test::make_beam_superelement(test::make_crooked_frame(), kNumModes);
+  Body body = dynamics::make_flexible_body("frame", frame.superelement, {1, 2, 3, 4, 5, 6});
+  VectorXd q, v;
+
+  // Bent by up to a metre or so, turning fast: no term is small.
+  explicit Case(std::uint64_t seed) {
+    test::RandomNumbers random(seed);
+    q = random.vector(3 + kNumModes, 3.0);
+    v = random.vector(3 + kNumModes, 5.0);
+    for (Index k = 0; k < kNumModes; ++k) {
+      q[3 + k] *= 0.3 / body.mode_scale[k];
+      v[3 + k] *= 1.0 / body.mode_scale[k];
+    }
+  }
+
+  MatrixXd mass(const VectorXd& at) const {
+    MatrixXd M = MatrixXd::Constant(3 + kNumModes, 3 + kNumModes, std::nan(""));
+    dynamics::calc_mass_matrix(body, FrameRotation::from_angle(at[2]), at.tail(kNumModes), M);
+    return M;
+  }
+  VectorXd quadratic_velocity_forces() const {
+    VectorXd Q = VectorXd::Zero(3 + kNumModes);
+    dynamics::add_quadratic_velocity_forces(body, FrameRotation::from_angle(q[2]), v[2], q.tail(kNumModes),
+                                            v.tail(kNumModes), Q);
+    return Q;
+  }
+};
+
+constexpr double kRounding = 1e-12;  // relative, of sums over 20 points
+
+}  // namespace
+
+TEST_CASE("The crooked frame has no invariant that vanishes", "[bodies]") {
+  const Body body = Case(1).body;
+  CHECK(body.first_moment.cwiseAbs().minCoeff() > 1.0);
+  CHECK(body.P.cwiseAbs().minCoeff() > 0.01);
+  CHECK(body.c.cwiseAbs().minCoeff() > 0.01);
+  CHECK(body.d.cwiseAbs().minCoeff() > 0.01);
+  CHECK(body.B.cwiseAbs().maxCoeff() > 0.1);
+}
+
+TEST_CASE("The mass matrix is the sum over the body's points", "[bodies]") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Case general(seed);
+    MatrixXd expected = MatrixXd::Zero(3 + kNumModes, 3 + kNumModes);
+    for (const test::MassPoint& point : general.frame.points) {
+      const PointMotion motion(point, general.q, general.v);
+      expected += motion.dm * motion.J.transpose() * motion.J;
+    }
+    CHECK((general.mass(general.q) - expected).norm() < kRounding * expected.norm());
+  }
+}
+
+TEST_CASE("The quadratic velocity forces are minus the sum of the points' inertia at zero accelerations",
+          "[bodies]") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Case general(seed);
+    VectorXd expected = VectorXd::Zero(3 + kNumModes);
+    for (const test::MassPoint& point : general.frame.points) {
+      const PointMotion motion(point, general.q, general.v);
+      expected -= motion.dm * motion.J.transpose() * motion.a_bias;
+    }
+    CHECK((general.quadratic_velocity_forces() - expected).norm() < kRounding * expected.norm());
+  }
+}
+
+TEST_CASE("The quadratic velocity forces are what Lagrange's equations leave of the mass matrix",
+          "[bodies]") {
+  // Q_v = −d/dt(M v) + ∂T/∂q at constant v, by central differences: error of the order h² of a motion with
+  // unit times
+  const Case general(3);
+  constexpr double kStep = 1e-5;
+  const VectorXd& q = general.q;
+  const VectorXd& v = general.v;
+  VectorXd expected = -(general.mass(q + kStep * v) - general.mass(q - kStep * v)) * v / (2.0 * kStep);
+  for (Index i = 0; i < q.size(); ++i) {
+    const VectorXd e = VectorXd::Unit(q.size(), i);
+    expected[i] +=
+        0.5 * v.dot((general.mass(q + kStep * e) - general.mass(q - kStep * e)) * v) / (2.0 * kStep);
+  }
+  CHECK((general.quadratic_velocity_forces() - expected).norm() < 1e-7 * expected.norm());
+}
+
+TEST_CASE("The weight is the sum over the body's points, in any direction of gravity", "[bodies]") {
+  const Case general(4);
+  const Vector2d gravity(2.5, -9.1);
+  VectorXd expected = VectorXd::Zero(3 + kNumModes), Q = expected;
+  for (const test::MassPoint& point : general.frame.points) {
+    const PointMotion motion(point, general.q, general.v);
+    expected += motion.dm * motion.J.transpose() * gravity;
+  }
+  dynamics::add_gravity_forces(general.body, FrameRotation::from_angle(general.q[2]), gravity,
+                               general.q.tail(kNumModes), Q);
+  CHECK((Q - expected).norm() < kRounding * expected.norm());
+}
+
+TEST_CASE("Momentum and angular momentum are sums over the body's points", "[bodies]") {
+  const Case general(5);
+  Vector2d linear = Vector2d::Zero(), moment = Vector2d::Zero();
+  double angular = 0.0;
+  for (const test::MassPoint& point : general.frame.points) {
+    const PointMotion motion(point, general.q, general.v);
+    linear += motion.dm * motion.v;
+    angular += motion.dm * (motion.r.x() * motion.v.y() - motion.r.y() * motion.v.x());
+    moment += motion.dm * (point.r + point.shape * general.q.tail(kNumModes));
+  }
+  const dynamics::Momentum momentum = dynamics::calc_momentum(general.body, general.q, general.v);
+  CHECK((momentum.linear - linear).norm() < kRounding * linear.norm());
+  CHECK(std::abs(momentum.angular - angular) < kRounding * std::abs(angular));
+  CHECK((dynamics::calc_first_moment(general.body, general.q.tail(kNumModes)) - moment).norm() <
+        kRounding * moment.norm());
+}
+
+TEST_CASE("Rotary inertia of a point turns with frame and mode and gives no centrifugal force", "[bodies]") {
+  // A disc of inertia I on a point whose rotation is ψη: T gains ½ I (θ̇ + ψη̇)², which depends on no position.
+  const Case plain(6);
+  Case with_disc(6);
+  constexpr double kInertia = 40.0;
+  const Eigen::RowVectorXd psi = test::RandomNumbers(8).vector(kNumModes, 1.0).transpose();
+  with_disc.body.second_moment += kInertia;
+  with_disc.body.c += kInertia * psi;
+  with_disc.body.M_ff += kInertia * psi.transpose() * psi;  // M_tt stays
+  VectorXd turning = VectorXd::Zero(3 + kNumModes);
+  turning << 0.0, 0.0, 1.0, psi.transpose();
+  const MatrixXd expected = plain.mass(plain.q) + kInertia * turning * turning.transpose();
+  CHECK((with_disc.mass(with_disc.q) - expected).norm() < kRounding * expected.norm());
+  CHECK(with_disc.quadratic_velocity_forces() == plain.quadratic_velocity_forces());
+}
+
+TEST_CASE("Turning by a quarter and back", "[bodies]") {
+  const FrameRotation rotation = FrameRotation::from_angle(0.7);
+  const Vector2d p(1.3, -0.4);
+  CHECK((rotation * p -
+         Vector2d(std::cos(0.7) * 1.3 + std::sin(0.7) * 0.4, std::sin(0.7) * 1.3 - std::cos(0.7) * 0.4))
+            .norm() < 1e-15);
+  CHECK((rotation.transposed_times(rotation * p) - p).norm() < 1e-15);
+  CHECK(dynamics::turned(p) == Vector2d(0.4, 1.3));
+}
