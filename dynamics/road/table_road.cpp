@@ -6,32 +6,104 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
+
+#include "dynamics/forces/piecewise_polynomial.h"
 
 namespace sprung::dynamics {
 
-TableRoad::TableRoad(double start, std::span<const double> s, std::span<const double> height) : start_(start) {
+namespace {
+
+constexpr double kVisible = 0.01;  // of the range of the four points around an interval
+
+// Cubic between two points by heights z and slopes m at both ends, an interval h long; u = 0 … 1.
+struct Cubic {
+  double z0, z1, m0, m1, h;
+
+  double height(double u) const {
+    const double secant = z1 - z0;
+    return z0 + u * (h * m0 + u * (3.0 * secant - h * (2.0 * m0 + m1) + u * (h * (m0 + m1) - 2.0 * secant)));
+  }
+  double slope(double u) const {
+    const double secant = (z1 - z0) / h;
+    return m0 + u * (2.0 * (3.0 * secant - 2.0 * m0 - m1) + u * 3.0 * (m0 + m1 - 2.0 * secant));
+  }
+  // How far the cubic goes beyond the heights of its ends.
+  double excursion() const {
+    const double secant = (z1 - z0) / h;
+    const double a = 3.0 * (m0 + m1 - 2.0 * secant), half_b = 3.0 * secant - 2.0 * m0 - m1, c = m0;
+    const double discriminant = half_b * half_b - a * c;
+    if (discriminant <= 0.0) return 0.0;
+    // Roots of a u² + 2 half_b u + c by the pair of formulas that do not cancel; a may be 0.
+    const double q = -(half_b + std::copysign(std::sqrt(discriminant), half_b));
+    const auto [low, high] = std::minmax({z0, z1});
+    double beyond = 0.0;
+    for (const double u : {q / a, c / q}) {
+      if (!(u > 0.0 && u < 1.0)) continue;  // NaN and infinity, too
+      beyond = std::max({beyond, height(u) - high, low - height(u)});
+    }
+    return beyond;
+  }
+};
+
+double limit_slope(double slope, double secant) {
+  return std::clamp(slope, std::min(0.0, 3.0 * secant), std::max(0.0, 3.0 * secant));
+}
+
+}  // namespace
+
+TableRoad::TableRoad(double start, std::span<const double> s, std::span<const double> height)
+    : s_(s.begin(), s.end()), height_(height.begin(), height.end()) {
   if (s.size() < 2 || s.size() != height.size()) {
     throw std::invalid_argument(fmt::format("TableRoad: needs at least 2 points, got {}", s.size()));
   }
   if (!(std::abs(height.front()) <= 1e-9)) {
-    throw std::invalid_argument(
-        fmt::format("TableRoad: the first height must be 0 m, as the road before it, got {}", height.front()));
+    throw std::invalid_argument(fmt::format(
+        "TableRoad: the first height must be 0 m, as the road before it, got {}", height.front()));
   }
-  std::vector<double> shifted(s.begin(), s.end());
-  for (double& value : shifted) value += start - s.front();
-  end_ = shifted.back();
-  end_height_ = height.back();
+  for (double& value : s_) value += start - s.front();
   spacing_ = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < shifted.size(); ++i) spacing_ = std::min(spacing_, shifted[i] - shifted[i - 1]);
-  height_ = PiecewisePolynomial::clamped_spline(shifted, height);
-  slope_ = height_.derivative();
+  for (std::size_t i = 1; i < s_.size(); ++i) spacing_ = std::min(spacing_, s_[i] - s_[i - 1]);
+  const PiecewisePolynomial spline = PiecewisePolynomial::clamped_spline(s_, height_);
+  slope_.assign(s_.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < s_.size(); ++i) slope_[i] = spline.slope(s_[i]);
+  limit_slopes();
+}
+
+bool TableRoad::overshoots(std::size_t i) const {
+  // The road is level before the first and behind the last point.
+  const double before = i > 0 ? height_[i - 1] : height_.front();
+  const double after = i + 2 < height_.size() ? height_[i + 2] : height_.back();
+  if ((height_[i] - before) * (after - height_[i + 1]) < 0.0)
+    return false;  // a crest or a trough between the points
+  const auto [low, high] = std::minmax({before, height_[i], height_[i + 1], after});
+  const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
+  return cubic.excursion() > kVisible * (high - low);
+}
+
+void TableRoad::limit_slopes() {
+  // A limited slope may make its neighbour overshoot; each pass limits one interval at least, once and for
+  // all.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i = 0; i + 1 < s_.size(); ++i) {
+      if (!overshoots(i)) continue;
+      const double secant = (height_[i + 1] - height_[i]) / (s_[i + 1] - s_[i]);
+      slope_[i] = limit_slope(slope_[i], secant);
+      slope_[i + 1] = limit_slope(slope_[i + 1], secant);
+      ++num_limited_;
+      changed = true;
+    }
+  }
 }
 
 RoadSample TableRoad::sample(int segment, double s) const {
   if (segment == 0) return {};
-  if (segment == 2) return {end_height_, 0.0};
-  return {height_.value(s), slope_.value(s)};
+  if (segment == 2) return {height_.back(), 0.0};
+  const auto above = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
+  const std::size_t i = static_cast<std::size_t>(above - s_.begin()) - 1;
+  const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
+  const double u = (s - s_[i]) / cubic.h;
+  return {cubic.height(u), cubic.slope(u)};
 }
 
 double TableRoad::resolution(int segment, double /*s*/) const {

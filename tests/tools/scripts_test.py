@@ -7,7 +7,7 @@ import unittest
 from tool_test_case import ROOT, TOOLS, ToolTestCase
 
 BASH = ("setup", "build", "test", "run-truck")
-PYTHON = ("plot_results", "report_peaks", "compare_frequencies")
+PYTHON = ("plot_results", "report_peaks", "compare_frequencies", "make_road.py", "ride", "paper_figures")
 
 
 class Scripts(ToolTestCase):

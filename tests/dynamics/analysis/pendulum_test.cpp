@@ -118,6 +118,32 @@ TEST_CASE("A pendulum going round keeps its period while its partition changes o
   }
 }
 
+TEST_CASE("The energy book goes on through changes of partition", "[analysis]") {
+  // A damper from the bob to a point beside the circle slows the pendulum while it goes round.
+  Model model = test::make_pendulum(1.0, kArm, kLength, kGravity);
+  test::add_spring(model, "damper", model.find_marker("bar.bob"),
+                   test::add_marker(model, dynamics::kGround, {1.7, 0.4}), 1.0, 5.0, 0.3);
+  dynamics::number_model(model);
+  const dynamics::State start =
+      test::make_state(model, test::place_pendulum(kArm, -0.5 * pi), turning(-0.5 * pi, 14.0));
+  double first = 0.0, dissipated = 0.0, largest_error = 0.0, least_growth = 0.0;
+  dynamics::TransientOptions options;
+  options.end_time = 3.0;
+  options.integrator.relative_tolerance = 1e-8;
+  options.on_output = [&](const dynamics::Snapshot& snapshot) {
+    const dynamics::EnergyBook& book = snapshot.energy;
+    if (snapshot.time == 0.0) first = book.stored.total();
+    least_growth = std::min(least_growth, book.dissipated - dissipated);
+    dissipated = book.dissipated;
+    largest_error = std::max(largest_error, std::abs(book.stored.total() - first + dissipated - book.input));
+  };
+  const dynamics::TransientStatistics statistics = dynamics::run_transient(model, start, options);
+  CHECK(statistics.repartitions >= 5);
+  CHECK(dissipated > 10.0);  // J, of 90 J that it starts with
+  CHECK(largest_error < 1e-5);
+  CHECK(least_growth > -1e-6);
+}
+
 namespace {
 
 // Crank, coupler and rocker between posts 0.9 m apart; the crank can turn right round (Grashof: 0.4 + 1.0 <

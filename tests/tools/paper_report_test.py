@@ -1,0 +1,189 @@
+"""The truck's report dynamics/models/truck/README.md: its cheap rows are made anew and must be those it shows.
+
+Needs the built programs: SPRUNG_REDUCE and SPRUNG_DYNAMICS.
+"""
+
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from tool_test_case import ROOT
+
+from paper_report.claims import list_claims
+from paper_report.markdown import NUMBER, find_differences, format_markdown, parse_markdown, read_part
+from paper_report.paper_runs import (
+    MODE_COUNTS,
+    TRUCK,
+    PaperRun,
+    Programs,
+    build_superelements,
+    list_convergence_runs,
+    list_finer_runs,
+    list_main_runs,
+    list_sensitivity_runs,
+    make_command,
+    run_all,
+    write_roads,
+)
+from paper_report.run_numbers import Numbers
+from paper_report.tables import list_tables
+from results_file import ResultsError, open_results, read_numbers
+from ride_measures import calc_contact
+from rigid_body_loads import calc_rigid_moments, read_superelement
+
+# What another compiler, processor or library may change; the report states these.
+RELATIVE = 0.01
+RELATIVE_EVALUATIONS = 0.10
+COUNTS_RUN_AGAIN = (0, 2, 4, 6)
+OTHER_TERRAIN = "road_1_seed2"
+TIMED = ("cost",)
+EVALUATIONS = ("evaluations", "effort")
+
+
+def rows_of_evaluations(name, row):
+    """Whether a row's numbers count evaluations, which another step of the integrator changes more than results."""
+    return name in EVALUATIONS or any(cell.startswith(EVALUATIONS) for cell in row)
+
+
+class Report(unittest.TestCase):
+    """All runs are made once, in a folder of the class."""
+
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        cls.programs = Programs(Path(os.environ["SPRUNG_REDUCE"]), Path(os.environ["SPRUNG_DYNAMICS"]))
+        build_superelements(cls.programs, cls.folder)
+        write_roads(cls.folder)
+        others = [run for run in list_sensitivity_runs(cls.folder) if OTHER_TERRAIN in run.name]
+        at_rest = PaperRun("at_rest_36modes", "bump.toml", ("modes.chassis=36", "duration=0.01"))
+        runs = [
+            *list_main_runs(),
+            *list_convergence_runs(COUNTS_RUN_AGAIN),
+            *list_finer_runs(),
+            *others,
+            at_rest,
+        ]
+        run_all(cls.programs, runs, cls.folder, report=lambda _: None)
+        cls.numbers = Numbers(cls.folder)
+        cls.text = (TRUCK / "README.md").read_text(encoding="utf-8")
+
+    def test_every_table_still_has_the_numbers_and_answers_of_the_report(self):
+        for name, make in list_tables().items():
+            if name in TIMED:
+                continue
+            headings, rows = make(self.numbers)
+            if (
+                name == "ride"
+            ):  # its columns are models: those not run again are left out of the report's, too
+                kept = keep_columns(parse_markdown(read_part(self.text, name)), headings)
+            else:
+                kept = parse_markdown(read_part(self.text, name))
+            with self.subTest(name):
+                self.assertGreater(len(rows), 0)
+                counts = [row for row in rows if rows_of_evaluations(name, row)]
+                others = [row for row in rows if not rows_of_evaluations(name, row)]
+                found = find_differences(kept, (headings, others), RELATIVE)
+                found += find_differences(kept, (headings, counts), RELATIVE_EVALUATIONS)
+                self.assertEqual(found, [])
+
+    def test_a_number_changed_by_more_than_the_tolerance_is_noticed_in_every_table(self):
+        for name, make in list_tables().items():
+            if name in TIMED:
+                continue
+            headings, rows = make(self.numbers)
+            changed = [
+                (row[0], *(NUMBER.sub(lambda found: change(found[0]), cell) for cell in row[1:]))
+                for row in rows
+            ]
+            kept = parse_markdown(format_markdown(headings, rows))
+            with self.subTest(name):
+                self.assertEqual(len({text.split("'")[1] for text in find_differences(kept, (headings, changed), RELATIVE)}),
+                                 len(rows))  # fmt: skip
+
+    def test_the_report_shows_a_row_for_every_claim_and_every_number_of_modes(self):
+        rows = parse_markdown(read_part(self.text, "claims"))[1]
+        self.assertEqual([row[0] for row in rows], [claim.number for claim in list_claims()])
+        self.assertEqual(
+            [row[1:4] for row in rows], [[one.source, one.says, one.criterion] for one in list_claims()]
+        )
+        for name in ("convergence", "effort"):
+            rows = parse_markdown(read_part(self.text, name))[1]
+            self.assertEqual([row[0] for row in rows], [str(count) for count in MODE_COUNTS])
+        self.assertEqual(len(parse_markdown(read_part(self.text, "sensitivity"))[1]), 9)
+        self.assertEqual(len(parse_markdown(read_part(self.text, "cost"))[1]), 6)
+
+    def test_every_picture_of_the_report_is_there(self):
+        pictures = [
+            part.partition(")")[0] for part in self.text.split("](")[1:] if part.startswith("figures/")
+        ]
+        self.assertGreaterEqual(len(pictures), 7)
+        for picture in pictures:
+            self.assertTrue((TRUCK / picture).is_file(), picture)
+
+    def test_mean_tyre_loads_over_terrain_carry_the_trucks_weight(self):
+        # 14400 kg · 9.80665 m/s² [N]; momentum at the window's ends leaves less than 2 %.
+        run = self.numbers.run("terrain_4modes")
+        mean = sum(np.mean(run.series(f"forces/{axle}_tyre/force")) for axle in ("front", "rear"))
+        self.assertAlmostEqual(mean / (14400.0 * 9.80665), 1.0, delta=0.02)
+        static = sum(
+            calc_contact(run.results, f"{axle}_tyre", run.window).static for axle in ("front", "rear")
+        )
+        # 11950 + 2 · 1185 + 2 · 22.4 + 2 · 17.6 kg
+        self.assertAlmostEqual(static / (14400.0 * 9.80665), 1.0, delta=1e-6)
+
+    def test_a_rigid_chassis_in_balance_has_the_moments_of_all_its_modes(self):
+        rigid = self.numbers.run("bump_rigid").results
+        moments, stations = calc_rigid_moments(
+            rigid, "chassis", read_superelement(self.folder / "chassis.h5")
+        )
+        with open_results(self.folder / "at_rest_36modes.h5") as flexible:
+            elastic, _ = read_numbers(flexible.file, "recovery/chassis/moment")
+            places, _ = read_numbers(flexible.file, "recovery/chassis/station")
+        np.testing.assert_allclose(stations, places, atol=1e-12)
+        # The bent chassis stands a little otherwise on its springs.
+        np.testing.assert_allclose(moments[0], elastic[0], atol=1e-3 * np.max(np.abs(elastic[0])))
+
+    def test_a_rigid_chassis_in_balance_carries_its_overhang(self):
+        # At the foremost pivot: −q L²/2 of the overhang L = 3.8257 − 3.034 m; the element's own load q L²/12, which a
+        # cubic cannot show, is missing from it.
+        rigid = self.numbers.run("bump_rigid").results
+        moments, stations = calc_rigid_moments(
+            rigid, "chassis", read_superelement(self.folder / "chassis.h5")
+        )
+        load, overhang = 1561.8057 * 9.80665, 3.8257 - 3.034
+        self.assertAlmostEqual(stations[1, 0], -3.034, places=9)
+        expected = -load * overhang**2 * (1.0 / 2.0 - 1.0 / 12.0)
+        self.assertAlmostEqual(moments[0, 1] / expected, 1.0, delta=2e-3)
+
+    def test_a_run_that_fails_says_so(self):
+        bad = PaperRun("bad", "bump.toml", ("modes.chassis=3",))
+        with self.assertRaisesRegex(ResultsError, "(?s)modes.chassis=3.*exit code 2"):
+            run_all(self.programs, [bad], self.folder, report=lambda _: None)
+        self.assertIn("modes.chassis=3", make_command(self.programs, bad, self.folder))
+
+    def test_a_missing_run_is_named(self):
+        with self.assertRaisesRegex(ResultsError, "bump_7modes.h5: error: no such file"):
+            self.numbers.run("bump_7modes")
+
+
+def keep_columns(table, headings):
+    """A table's columns of these headings; its first row is kept as parse_markdown() gives it."""
+    columns = [table[0].index(heading) for heading in headings if heading in table[0]]
+    return [table[0][place] for place in columns], [[row[place] for place in columns] for row in table[1]]
+
+
+def change(number):
+    """A number moved by a tenth and three of its last digits."""
+    digits = len(number.partition(".")[2].partition("e")[0])
+    if "e" in number:
+        return "3e-03"
+    value = float(number)
+    return f"{value * 1.1 + np.copysign(3.0 * 10.0**-digits, value):.{digits}f}"
+
+
+if __name__ == "__main__":
+    unittest.main()

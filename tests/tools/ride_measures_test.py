@@ -1,0 +1,158 @@
+"""tools/ride_measures.py: each measure of histories whose values are known."""
+
+import unittest
+
+import h5py
+import numpy as np
+from ride_results import (
+    SEAT_AMPLITUDE,
+    SEAT_FREQUENCY,
+    STATIC_DEFLECTION,
+    STATIC_LOAD,
+    STEP,
+    write_ride_results,
+)
+from tool_test_case import ToolTestCase
+
+from results_file import ResultsError, open_results
+from ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_forces,
+    read_vehicle_file,
+    read_window,
+)
+from ride_weighting import calc_wk
+
+WINDOW = (1.0, 3.0)
+
+
+def calc_dynamic_load():
+    """R.m.s. of what max(0, 1 + 1.5 sin) differs from 1, times the static load [N], by a fine sum over a period."""
+    phase = np.linspace(0.0, 2.0 * np.pi, 200000, endpoint=False)
+    return STATIC_LOAD * np.sqrt(np.mean((np.maximum(0.0, 1.0 + 1.5 * np.sin(phase)) - 1.0) ** 2))
+
+
+class RideMeasures(ToolTestCase):
+    def open(self, *arguments, **options):
+        path = self.folder / f"{len(list(self.folder.iterdir()))}.h5"
+        results = open_results(write_ride_results(path, *arguments, **options))
+        self.addCleanup(results.file.close)
+        return results
+
+    def test_the_window_is_the_run_files_unless_another_is_given(self):
+        self.assertEqual(read_window(self.open()), (1.0, 3.0))
+        self.assertEqual(read_window(self.open(), None, 2.0), (1.0, 2.0))
+        self.assertEqual(read_window(self.open(overrides=("statistics.to=2.5",))), (1.0, 2.5))
+
+    def test_comfort_of_a_sine_is_its_weighted_amplitude(self):
+        comfort = calc_comfort(self.open(), "points/body.seat", WINDOW)
+        weighted = SEAT_AMPLITUDE * abs(calc_wk(SEAT_FREQUENCY))
+        self.assertAlmostEqual(comfort.rms, SEAT_AMPLITUDE / np.sqrt(2.0), delta=1e-3)
+        self.assertAlmostEqual(comfort.peak, SEAT_AMPLITUDE, places=9)
+        self.assertAlmostEqual(comfort.weighted_rms, weighted / np.sqrt(2.0), delta=5e-3)
+        self.assertAlmostEqual(comfort.dose, weighted * (0.375 * 2.0) ** 0.25, delta=5e-3)
+
+    def test_travel_counts_from_balance_and_every_stroke_into_the_stop_is_a_hit(self):
+        results = self.open()
+        self.assertEqual(find_forces(results, "spring-damper"), ["link", "suspension"])
+        travel = calc_travel(results, "suspension", WINDOW)
+        self.assertAlmostEqual(travel.compression, 0.1, places=6)
+        self.assertAlmostEqual(travel.rebound, -0.1, places=6)
+        self.assertAlmostEqual(travel.whole, 0.15 - STATIC_DEFLECTION, places=12)
+        self.assertEqual(
+            travel.hits, 2
+        )  # the window holds two periods, each once above 0.15 - 0.06 = 0.09 of 0.1 m
+        # 0.1 sin > 0.09: 2 · (1/2 - asin(0.9)/π) of each period
+        self.assertAlmostEqual(travel.stopped, 2.0 * (0.5 - np.arcsin(0.9) / np.pi), delta=4 * STEP)
+
+    def test_a_stop_moved_on_the_command_line_counts_where_it_is(self):
+        for name in ("suspension", "0"):
+            results = self.open(overrides=(f"vehicle.forces.{name}.compression_stop.deflection=0.17",))
+            self.assertEqual(calc_travel(results, "suspension", WINDOW).hits, 0)
+
+    def test_a_suspension_without_a_stop_has_neither_hits_nor_a_whole(self):
+        travel = calc_travel(self.open(), "link", WINDOW)
+        self.assertEqual((travel.whole, travel.hits, travel.stopped), (None, None, 0.0))
+
+    def test_a_tyres_load_and_its_time_in_the_air(self):
+        contact = calc_contact(self.open(), "tyre", WINDOW)
+        self.assertAlmostEqual(contact.static, STATIC_LOAD, places=6)
+        self.assertAlmostEqual(contact.greatest, 2.5 * STATIC_LOAD, delta=1.0)
+        # In the air where sin < -2/3
+        self.assertAlmostEqual(contact.off_ground, 2.0 * (0.5 - np.arcsin(2.0 / 3.0) / np.pi), delta=4 * STEP)
+        self.assertAlmostEqual(contact.dynamic_rms / calc_dynamic_load(), 1.0, delta=1e-3)
+
+    def test_the_largest_moment_keeps_its_sign_its_place_and_its_time(self):
+        bending = calc_bending(self.open(), "body", (1.2, 2.8))
+        self.assertAlmostEqual(bending.moment, -3e3, places=6)
+        self.assertEqual((bending.station, round(bending.time, 9)), (0.25, 2.0))
+        self.assertIsNone(calc_bending(self.open(with_moments=False), "body", WINDOW))
+
+    def test_uneven_or_too_few_samples_are_refused(self):
+        results = self.open()
+        results.time = results.time**2
+        with self.assertRaisesRegex(
+            ResultsError, "0.h5: error: the samples in 'time' are not equally spaced"
+        ):
+            calc_comfort(results, "points/body.seat", WINDOW)
+        results.time = 10.0 * STEP * np.arange(results.time.size)
+        with self.assertRaisesRegex(ResultsError, "0.h5: error: a sample every 10 ms is too few"):
+            calc_comfort(results, "points/body.seat", WINDOW)
+
+    def test_a_file_without_its_vehicle_is_refused(self):
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            del file["model/vehicle_text"]
+        with open_results(self.folder / "b.h5") as results:
+            with self.assertRaisesRegex(ResultsError, "b.h5: error: no dataset 'model/vehicle_text'"):
+                read_vehicle_file(results)
+
+
+class Tool(ToolTestCase):
+    def test_it_prints_a_table_for_each_kind_of_measure(self):
+        write_ride_results(self.folder / "a.h5")
+        process = self.run_tool("ride", "truck=a.h5")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("statistics over: truck 1 to 3 s", process.stdout)
+        rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
+        self.assertEqual(rows["body.seat"][2:4], ["1.414", "2"])
+        self.assertEqual(rows["body.center_of_mass"][2:4], ["0.7069", "1"])
+        self.assertEqual(rows["suspension"][2:], ["100.0", "111", "%", "-100.0", "2", "0.286"])
+        self.assertEqual(rows["link"][2:], ["100.0", "–", "-100.0", "–", "–"])
+        static, dynamic, share, greatest, off_ground = map(float, rows["tyre"][2:])
+        self.assertEqual((static, greatest, off_ground), (50.0, 125.0, 0.534))
+        self.assertAlmostEqual(1e3 * dynamic / calc_dynamic_load(), 1.0, delta=1e-3)
+        self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
+        self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
+
+    def test_points_and_the_span_can_be_chosen(self):
+        write_ride_results(self.folder / "a.h5", with_moments=False)
+        process = self.run_tool("ride", "a.h5", "--points", "body.center_of_mass", "--from", "0", "--to", "4")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("rigid 0 to 4 s", process.stdout)
+        self.assertNotIn("body.seat", process.stdout)
+        self.assertNotIn("largest moment", process.stdout)
+
+    def test_what_a_file_does_not_hold_is_refused(self):
+        write_ride_results(self.folder / "a.h5")
+        self.assert_refuses(self.run_tool("ride", "b.h5"), "b.h5: error: no such file")
+        self.assert_refuses(
+            self.run_tool("ride", "a.h5", "--points", "body.knee"),
+            "a.h5: error: no quantity 'points/body.knee/",
+        )
+        self.assert_refuses(
+            self.run_tool("ride", "a.h5", "--from", "9"), "a.h5: error: no samples from 9 to 3 s"
+        )
+
+    def test_a_run_that_did_not_finish_is_refused(self):
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            file.attrs["complete"] = 0
+        self.assert_refuses(
+            self.run_tool("ride", "a.h5"), "a.h5: error: the run that wrote this file did not finish"
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,59 @@
+"""tools/ride_weighting.py: ISO 2631-1's table, and that sampling does not bend the filter."""
+
+import unittest
+
+import numpy as np
+import tool_test_case  # noqa: F401  puts tools/ on the path
+
+from ride_weighting import calc_dose, calc_wk, weight_acceleration
+from spectra import calc_rms
+
+STEP = 1e-3
+# |Wk| by the formula at the exact third-octave centres 10^(n/10) Hz, n = -3 … 19
+BY_FORMULA = (.419, .459, .477, .483, .485, .494, .531, .634, .807, .965, 1.039, 1.054, 1.037, .988, .899, .774, .637,
+              .510, .403, .316, .245, .186, .134)  # fmt: skip
+# ISO 2631-1:1997, table 3, principal weighting Wk × 1000 at the nominal centres 0.5 … 80 Hz
+STANDARD = (418, 459, 477, 482, 484, 494, 531, 631, 804, 967, 1039, 1054, 1036, 988, 902, 768, 636, 513, 405, 314, 246,
+            186, 132)  # fmt: skip
+
+
+class Weighting(unittest.TestCase):
+    def test_the_formula_gives_its_known_values(self):
+        frequency = 10.0 ** (np.arange(-3, 20) / 10.0)
+        np.testing.assert_allclose(np.abs(calc_wk(frequency)), BY_FORMULA, atol=1.01e-3)
+
+    def test_the_formula_is_within_the_rounding_of_the_standards_table(self):
+        frequency = 10.0 ** (np.arange(-3, 20) / 10.0)
+        np.testing.assert_allclose(1e3 * np.abs(calc_wk(frequency)), STANDARD, rtol=0.015)
+
+    def test_sampled_sines_are_weighted_as_the_formula_says_up_to_80_hz(self):
+        for step in (1e-3, 2.5e-3):
+            time = np.arange(0.0, 30.0, step)
+            settled = time >= 10.0
+            for frequency in (0.5, 2.0, 6.3, 20.0, 63.0, 80.0):
+                with self.subTest(step=step, frequency=frequency):
+                    weighted = weight_acceleration(1.7 * np.sin(2 * np.pi * frequency * time), step)[settled]
+                    expected = 1.7 * abs(calc_wk(frequency)) / np.sqrt(2.0)
+                    self.assertAlmostEqual(calc_rms(weighted) / expected, 1.0, delta=2e-3)
+
+    def test_the_filter_looks_only_back(self):
+        signal = np.zeros(20000)
+        signal[12000] = 1.0
+        weighted = weight_acceleration(signal, STEP)
+        # Samples of a band-limited pulse ring a little both ways; a filter that ran round the end would leave far more.
+        self.assertLess(np.max(np.abs(weighted[:11000])), 1e-4 * np.max(np.abs(weighted)))
+
+    def test_too_few_samples_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "a sample every 5 ms is too few"):
+            weight_acceleration(np.zeros(100), 5e-3)
+
+    def test_the_dose_of_a_sine_is_that_of_the_integral(self):
+        # ∫ a⁴ sin⁴ dt = 3/8 a⁴ T over whole periods, and it is not divided by T.
+        for duration in (4.0, 8.0):
+            time = np.arange(0.0, duration + 0.5 * STEP, STEP)
+            dose = calc_dose(2.0 * np.sin(2 * np.pi * 5.0 * time), STEP)
+            self.assertAlmostEqual(dose, 2.0 * (0.375 * duration) ** 0.25, places=9)
+
+
+if __name__ == "__main__":
+    unittest.main()

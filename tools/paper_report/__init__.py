@@ -1,0 +1,1 @@
+"""The report dynamics/models/truck/README.md: its runs, claims, tables and figures; tools/paper_figures puts it together."""

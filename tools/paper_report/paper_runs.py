@@ -1,0 +1,236 @@
+"""All runs that the report on the truck rests on, and running them.
+
+Every run is one of the two run files under dynamics/models/truck with `--set`; nothing else is changed.
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+from typing import NamedTuple
+
+from results_file import ResultsError
+from road_profile import Recipe, format_profile, make_profile
+
+ROOT = Path(__file__).resolve().parents[2]
+TRUCK = ROOT / "dynamics/models/truck"
+DESIGNS = ("meshes/truck/chassis.toml", "meshes/truck/long_arm.toml")
+MODE_COUNTS = (0, 2, 4, 6, 12, 24, 36)  # of the chassis
+EXPENSIVE_MODES = 24  # from this many on a run takes minutes rather than seconds
+LINKS = ("modes.front_long_arm=2", "modes.rear_long_arm=2")
+UNDAMPED = ("modal_damping.chassis=0",)
+FINER = ("integrator.relative_tolerance=1e-8",)
+SEEDS = (1, 2, 3)
+REPEATS = 9  # timed runs of each model
+
+
+class PaperRun(NamedTuple):
+    """A run: the results file's name, its run file's, and what --set changes."""
+
+    name: str
+    file: str
+    overrides: tuple
+
+
+class Band(NamedTuple):
+    """Wavenumbers of a terrain profile [1/m], and its points' spacing [m]: five points on the shortest wave or more."""
+
+    name: str
+    low: float
+    high: float
+    spacing: float
+
+
+# The first is that of terrain_road.txt.
+BANDS = (
+    Band("0.055 to 3.3", 0.0545, 3.33, 0.0508),
+    Band("0.011 to 3.3", 0.0109, 3.33, 0.0508),
+    Band("0.055 to 8.0", 0.0545, 8.0, 0.0127),
+)
+TERRAIN = Recipe(length=91.44, spacing=0.0508, band=(0.0545, 3.33), rms=0.0264, ease=3.0, seed=1)
+
+
+class Programs(NamedTuple):
+    """Paths of the two programs."""
+
+    reduce: Path
+    dynamics: Path
+
+
+def name_modes(count):
+    return f"{count}modes" if count else "rigid"
+
+
+def chassis_modes(count):
+    return (f"modes.chassis={count}",)
+
+
+def count_chassis_modes(run):
+    """How many modes a run gives the chassis by --set, 0 if it says nothing of it."""
+    counts = [one.partition("=")[2] for one in run.overrides if one.startswith("modes.chassis=")]
+    return int(counts[-1]) if counts else 0
+
+
+def list_main_runs():
+    """The paper's own cases: over the bump rigid, 2 and 4 modes, 2 without damping; over terrain rigid, 2 and 4 modes,
+    flexible links, both."""
+    return [
+        *(PaperRun(f"bump_{name_modes(n)}", "bump.toml", chassis_modes(n)) for n in (0, 2, 4)),
+        PaperRun("bump_2modes_undamped", "bump.toml", chassis_modes(2) + UNDAMPED),
+        *(PaperRun(f"terrain_{name_modes(n)}", "terrain.toml", chassis_modes(n)) for n in (0, 2, 4)),
+        PaperRun("terrain_links", "terrain.toml", chassis_modes(0) + LINKS),
+        PaperRun("terrain_2modes_links", "terrain.toml", chassis_modes(2) + LINKS),
+    ]
+
+
+def list_convergence_runs(counts=MODE_COUNTS):
+    """Both runs with each number of modes that the paper's cases do not have."""
+    return [
+        PaperRun(f"{run}_{name_modes(n)}", f"{run}.toml", chassis_modes(n))
+        for n in counts
+        if n not in (0, 2, 4)
+        for run in ("bump", "terrain")
+    ]
+
+
+def list_finer_runs():
+    """The paper's cases with 4 modes at a hundredth of the integrator's tolerance: how far its error reaches."""
+    return [
+        PaperRun(f"{run}_4modes_finer", f"{run}.toml", chassis_modes(4) + FINER)
+        for run in ("bump", "terrain")
+    ]
+
+
+def name_road(band, seed):
+    return f"road_{BANDS.index(band) + 1}_seed{seed}.txt"
+
+
+def list_sensitivity_runs(folder):
+    """Rigid, 2 and 4 modes over each band and seed, but for the profile of terrain.toml itself. folder: of the roads."""
+    return [
+        PaperRun(
+            f"terrain_{name_modes(n)}_{name_road(band, seed)[:-4]}",
+            "terrain.toml",
+            chassis_modes(n) + (f"road.file={(folder / name_road(band, seed)).resolve()}",),
+        )
+        for band in BANDS
+        for seed in SEEDS
+        if (band, seed) != (BANDS[0], TERRAIN.seed)
+        for n in (0, 2, 4)
+    ]
+
+
+def write_roads(folder):
+    """Makes the profiles of list_sensitivity_runs(), each by the recipe of terrain_road.txt with its own band and seed."""
+    for band in BANDS:
+        for seed in SEEDS:
+            recipe = TERRAIN._replace(band=(band.low, band.high), spacing=band.spacing, seed=seed)
+            text = format_profile(recipe, make_profile(recipe), "tools/paper_figures")
+            (folder / name_road(band, seed)).write_text(text, encoding="utf-8")
+
+
+def find_programs(folder):
+    """The programs of a build folder. ResultsError if they are not there."""
+    programs = Programs(folder / "reduce/sprung-reduce", folder / "dynamics/sprung-dynamics")
+    for path in programs:
+        if not os.access(path, os.X_OK):
+            raise ResultsError(f"{path}: error: no such program; tools/build makes build/release")
+    return programs
+
+
+def call(command):
+    """Runs a program in the project's folder. Returns its standard output; ResultsError with its complaint."""
+    done = subprocess.run(
+        command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+    )
+    if done.returncode != 0:
+        raise ResultsError(
+            f"{' '.join(map(str, command))}: error: exit code {done.returncode}: {done.stderr.strip()}"
+        )
+    return done.stdout
+
+
+def build_superelements(programs, folder):
+    """Reduces chassis and long arm into a folder; what is up to date stays."""
+    folder.mkdir(parents=True, exist_ok=True)
+    call([programs.reduce, "build", *DESIGNS, "--output-dir", folder.resolve()])
+
+
+def make_command(programs, run, folder, output=None):
+    """The command line of a run whose superelements are in `folder`."""
+    command = [
+        programs.dynamics,
+        "run",
+        TRUCK / run.file,
+        "--superelements",
+        folder.resolve(),
+        "--quiet",
+        "--json",
+    ]
+    for override in run.overrides:
+        command += ["--set", override]
+    return command + (["-o", output.resolve()] if output else [])
+
+
+def run_all(programs, runs, folder, report=print):
+    """Runs all into FOLDER/NAME.h5, as many at a time as there are processors; report(text) is called as each ends.
+
+    ResultsError at the first that fails; what has begun is waited for.
+    """
+    began = time.monotonic()
+    # The longest first, so that none of them is left alone at the end.
+    ordered = sorted(runs, key=count_chassis_modes, reverse=True)
+
+    def run_one(run):
+        call(make_command(programs, run, folder, folder / f"{run.name}.h5"))
+        return run.name
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        waiting = [pool.submit(run_one, run) for run in ordered]
+        try:
+            for count, done in enumerate(as_completed(waiting), start=1):
+                report(f"[{count:3d}/{len(runs)}] {done.result():<32} {time.monotonic() - began:6.1f} s")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def measure_processor_time(command):
+    """Processor time of a program [s], the system's share included."""
+    process = subprocess.Popen(command, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise ResultsError(f"{' '.join(map(str, command))}: error: exit code {process.returncode}")
+    return usage.ru_utime + usage.ru_stime
+
+
+def measure_costs(programs, folder, repeats=REPEATS, report=print):
+    """Processor time of rigid, 2 and 4 modes over both roads [s]: dict of run name → median.
+
+    No results are written. The models take turns, so that whatever else the machine does hits all of them alike.
+    """
+    runs = [run for run in list_main_runs() if "links" not in run.name and "undamped" not in run.name]
+    times = {run.name: [] for run in runs}
+    for turn in range(repeats):
+        report(f"timing, round {turn + 1} of {repeats}")
+        for run in runs:
+            times[run.name].append(measure_processor_time(make_command(programs, run, folder)))
+    return {name: statistics.median(values) for name, values in times.items()}
+
+
+def write_costs(path, costs):
+    path.write_text(json.dumps(costs, indent=1) + "\n", encoding="utf-8")
+
+
+def read_costs(path):
+    """What write_costs() wrote; None if there is no such file."""
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+
+def print_progress(text):
+    print(text, file=sys.stderr, flush=True)

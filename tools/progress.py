@@ -1,0 +1,43 @@
+"""Progress of long work: a bar with the time left on a terminal; elsewhere a line now and then, so that short work
+stays silent."""
+
+import sys
+import time
+
+BETWEEN_LINES = 10.0  # s, where stderr is not a terminal
+BETWEEN_BARS = 0.1  # s
+WIDTH = 30  # of the bar, characters
+
+
+class Progress:
+    """with Progress("writing", 500) as progress: … progress.step()"""
+
+    def __init__(self, what, total, stream=None):
+        self.what, self.total, self.stream = what, max(total, 1), stream or sys.stderr
+        self.done = 0
+        self.begun = self.shown = time.monotonic()
+        self.on_terminal = self.stream.isatty()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.on_terminal and self.done:
+            self.stream.write("\r\x1b[K")
+            self.stream.flush()
+
+    def step(self, count=1):
+        """So many parts more are done."""
+        self.done += count
+        now = time.monotonic()
+        if now - self.shown < (BETWEEN_BARS if self.on_terminal else BETWEEN_LINES):
+            return
+        self.shown = now
+        left = (now - self.begun) / self.done * (self.total - self.done)
+        share = self.done / self.total
+        if self.on_terminal:
+            bar = ("█" * round(WIDTH * share)).ljust(WIDTH, "░")
+            self.stream.write(f"\r{self.what} {bar} {100 * share:3.0f} %, {left:.0f} s left\x1b[K")
+        else:
+            self.stream.write(f"{self.what}: {100 * share:.0f} %, {left:.0f} s left\n")
+        self.stream.flush()

@@ -1,0 +1,54 @@
+"""How people standing or sitting feel vertical vibration: the weighting Wk, its r.m.s., the vibration dose value.
+
+    H(s) = Hh Hl Ht Hs,   s = j 2π f                                                                   (1)
+    Hh = s²/(s² + √2 ω₁ s + ω₁²),  Hl = ω₂²/(s² + √2 ω₂ s + ω₂²)            band limits, f₁ = 0.4, f₂ = 100 Hz
+    Ht = (1 + s/ω₃)/(1 + s/(Q₄ ω₄) + (s/ω₄)²)                               f₃ = f₄ = 12.5 Hz, Q₄ = 0.63
+    Hs = (1 + s/(Q₅ω₅) + (s/ω₅)²)/(1 + s/(Q₆ω₆) + (s/ω₆)²) (ω₅/ω₆)²         f₅ = 2.37, f₆ = 3.35 Hz, Q₅ = Q₆ = 0.91
+    a_w,rms = √(1/T ∫ a_w² dt)  [m/s²],   VDV = (∫ a_w⁴ dt)^¼  [m/s^1.75]                               (2)
+
+[ISO 2631-1:1997, 6.3.1 and annex A, with the parameters of ISO 8041:2005, table 3]
+
+The filter is applied to the Fourier transform of the samples by the formula itself: no digital filter stands for it, so
+nothing is warped towards half the sampling frequency.
+"""
+
+import numpy as np
+
+SETTLING = (
+    20.0  # s of rest appended to a signal, so that the end of its response does not come round to its start
+)
+HIGHEST = 80.0  # Hz, where the standard's table ends
+SAMPLES_PER_PERIOD = 4.0  # of the highest frequency, below which a record cannot be weighted
+
+
+def calc_wk(frequency):
+    """The complex response H of (1) at frequencies f ≥ 0 [Hz]."""
+    s = 2j * np.pi * np.asarray(frequency, dtype=float)
+    w1, w2, w3, w4, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, 12.5, 12.5, 2.37, 3.35])
+    q4, q5, q6 = 0.63, 0.91, 0.91
+    high_pass = s**2 / (s**2 + np.sqrt(2.0) * w1 * s + w1**2)
+    low_pass = w2**2 / (s**2 + np.sqrt(2.0) * w2 * s + w2**2)
+    transition = (1.0 + s / w3) / (1.0 + s / (q4 * w4) + (s / w4) ** 2)
+    step = (1.0 + s / (q5 * w5) + (s / w5) ** 2) / (1.0 + s / (q6 * w6) + (s / w6) ** 2) * (w5 / w6) ** 2
+    return high_pass * low_pass * transition * step
+
+
+def weight_acceleration(acceleration, step):
+    """a_w [n], m/s², of an acceleration [n] sampled every `step` seconds that was 0 before the record began.
+
+    ValueError for samples too far apart to hold what people feel up to 80 Hz.
+    """
+    if not step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
+        raise ValueError(
+            f"a sample every {1e3 * step:g} ms is too few: Wk goes to {HIGHEST:g} Hz and needs one "
+            f"every {1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms"
+        )
+    size = acceleration.size + int(np.ceil(SETTLING / step))
+    transform = np.fft.rfft(acceleration, size) * calc_wk(np.fft.rfftfreq(size, step))
+    return np.fft.irfft(transform, size)[: acceleration.size]
+
+
+def calc_dose(weighted, step):
+    """Vibration dose value of a weighted acceleration [n]: (∫ a_w⁴ dt)^¼ in m/s^1.75, by the trapezoidal rule."""
+    fourth = np.square(np.square(weighted))
+    return float((step * (fourth.sum() - 0.5 * (fourth[0] + fourth[-1]))) ** 0.25)

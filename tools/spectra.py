@@ -1,0 +1,65 @@
+"""What is in a sampled signal at which frequency: r.m.s. by band, amplitude spectra, the frequency of the highest peak.
+
+Signals are [n] values at equal time steps [s]; frequencies in Hz. Reference: [Welch 1967] P. D. Welch, The use of fast
+Fourier transform for the estimation of power spectra, IEEE Transactions on Audio and Electroacoustics 15, 70–73.
+"""
+
+import numpy as np
+
+
+def calc_rms(values):
+    """√(mean of the squares)."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def calc_band_rms(values, step, limits):
+    """R.m.s. in each band of frequencies [len(limits) + 1]: below limits[0], between them, above the last.
+
+    Their squares add up to the signal's mean square, the mean in the first band. The signal is continued by its mirror
+    image (a cosine series over its length), so that a difference between its ends does not leak into the high bands.
+    """
+    mirrored = np.concatenate([values, values[::-1]])
+    transform = np.fft.rfft(mirrored) / mirrored.size
+    power = np.abs(transform) ** 2
+    power[1:-1] *= 2.0  # the length is even: only 0 and the last stand alone
+    frequency = np.fft.rfftfreq(mirrored.size, step)
+    band = np.searchsorted(limits, frequency, side="right")
+    return np.sqrt(np.bincount(band, weights=power, minlength=len(limits) + 1))
+
+
+def calc_amplitude_spectrum(values, step):
+    """Amplitudes of the cosines that make up a signal over its length. Returns (frequency [m], amplitude [m])."""
+    amplitude = 2.0 * np.abs(np.fft.rfft(values)) / values.size
+    amplitude[0] /= 2.0
+    return np.fft.rfftfreq(values.size, step), amplitude
+
+
+def calc_power_spectrum(values, step, segment_duration):
+    """One-sided power spectral density by averaged periodograms: segments half overlapping, Hann windows, each less its
+    mean [Welch 1967]. Returns (frequency [m], density [m] in unit²/Hz). ValueError if a segment is longer than the signal.
+    """
+    size = round(segment_duration / step)
+    if not 8 <= size <= values.size:
+        raise ValueError(f"segments of {size} samples do not fit a signal of {values.size}")
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(size) / size)
+    starts = range(0, values.size - size + 1, size // 2)
+    density = np.zeros(size // 2 + 1)
+    for start in starts:
+        segment = values[start : start + size]
+        density += np.abs(np.fft.rfft(window * (segment - segment.mean()))) ** 2
+    density *= 2.0 * step / (np.sum(window**2) * len(starts))
+    return np.fft.rfftfreq(size, step), density
+
+
+def find_dominant_frequency(values, step, segment_duration):
+    """The frequency where the power spectral density is highest, by a parabola through its highest three values' logs."""
+    frequency, density = calc_power_spectrum(values, step, segment_duration)
+    top = int(np.argmax(density[1:-1])) + 1
+    below, here, above = np.log(density[top - 1 : top + 2])
+    return frequency[top] + 0.5 * (below - above) / (below - 2.0 * here + above) * frequency[1]
+
+
+def count_upward_crossings(values):
+    """How often a signal goes upwards through its mean."""
+    above = values > values.mean()
+    return int(np.count_nonzero(above[1:] & ~above[:-1]))
