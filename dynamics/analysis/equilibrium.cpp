@@ -138,6 +138,11 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
   PartitionedEquations equations(model);
   Equilibrium equilibrium;
   equilibrium.q = q;
+  if (model.num_freedoms() == 0) {  // nothing is left to come to rest
+    equations.choose_partition_at(0.0, q);
+    equilibrium.linearised.partition = equations.partition();
+    return equilibrium;
+  }
   double damping = 0.0;
   for (int iteration = 0;; ++iteration) {
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q);

@@ -44,7 +44,7 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
 
 bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const auto f = static_cast<std::size_t>(equations_.num_freedoms());
-  if (equations_.update_positions(time, y.first(f)) != PartitionedEquations::Outcome::kGood) return false;
+  if (equations_.update_positions(std::min(time, latest_time_), y.first(f)) != PartitionedEquations::Outcome::kGood) return false;
   equations_.update_velocities(y.subspan(f, f));
   return true;
 }
@@ -78,7 +78,20 @@ double PartitionedOde::calc_longest_step() const {
   for (const auto& force : model_->forces) {
     longest = std::min(longest, force->calc_longest_step(equations_.terms().instant()));
   }
-  return longest;
+  if (model_->has_motions) {
+    for (const auto& joint : model_->joints) {
+      longest = std::min(longest, joint->calc_longest_step(equations_.terms().instant().time, model_->length_scale));
+    }
+  }
+  return std::min(longest, model_->time_resolution);
+}
+
+double PartitionedOde::update_next_break(double time) {
+  const auto next = std::upper_bound(model_->time_breaks.begin(), model_->time_breaks.end(), time);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (next == model_->time_breaks.end()) return latest_time_ = kInfinity;
+  latest_time_ = std::nextafter(*next, -kInfinity);
+  return *next;
 }
 
 bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) {
@@ -93,6 +106,10 @@ bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std
   }
   y_dot[2 * f] = equations_.terms().power().dissipated;
   y_dot[2 * f + 1] = equations_.terms().power().input;
+  if (model_->has_motions) {
+    equations_.update_multipliers();
+    y_dot[2 * f + 1] += equations_.calc_motion_power();
+  }
   return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,8 +39,11 @@ class PartitionedOde final : public OdeSystem {
   const std::vector<int>& branches() const { return branches_; }
   double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
   double input(std::span<const double> y) const { return y[y.size() - 1]; }
-  /// Longest step that no force element would regret, at the state evaluated last [s].
+  /// Longest step that no force element and no prescribed motion would regret, at the state evaluated last [s].
   double calc_longest_step() const;
+  /// The next break in time of a function of time after `time`, infinite where there is none. From now on evaluations
+  /// at the break itself are made a hair before it: the formula that ends there is used up to its end.
+  double update_next_break(double time);
 
   long num_derivatives() const { return num_derivatives_; }
 
@@ -57,6 +61,7 @@ class PartitionedOde final : public OdeSystem {
   std::vector<int> branches_;
   int num_switches_ = 0;
   long num_derivatives_ = 0;
+  double latest_time_ = std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
   std::vector<double> y_;
   double velocity_scale_ = 0.0;  // [natural sizes/s]
   double energy_scale_ = 0.0;    // [J]

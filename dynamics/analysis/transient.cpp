@@ -21,6 +21,7 @@ class TransientRun {
       : options_(options), ode_(model), integrator_(ode_, options.integrator) {}
 
   TransientStatistics run(const State& start) {
+    find_end_of_smoothness(start.time);
     ode_.set_state(start, 0.0, 0.0);
     ode_.make_state(start.time, ode_.y());
     ode_.update_branches();
@@ -28,7 +29,7 @@ class TransientRun {
     start_time_ = start.time;
     write_outputs(start.time, ode_.y());
     if (start.time < options_.end_time) {
-      integrator_.start(start.time, ode_.y(), options_.end_time);
+      integrator_.start(start.time, ode_.y(), smooth_end_);
       integrate();
     }
     statistics_.integrator = integrator_.statistics();
@@ -43,14 +44,39 @@ class TransientRun {
       const CvodeIntegrator::StepResult result = integrator_.step(longest);
       write_outputs(integrator_.time(), {});
       if (options_.on_step && !options_.on_step(integrator_.time())) return;
-      if (result == CvodeIntegrator::StepResult::kEnded) break;
-      if (result == CvodeIntegrator::StepResult::kSwitched) {
+      if (result == CvodeIntegrator::StepResult::kEnded) {
+        if (smooth_end_ >= options_.end_time) break;
+        take_break();
+      } else if (result == CvodeIntegrator::StepResult::kSwitched) {
         take_switch();
       } else if (ode_.equations().partition_decay() > kPartitionDecay) {
         choose_partition();
       }
     }
     statistics_.completed = true;
+  }
+
+  // Functions of time are smooth from `time` to the next of their breaks: the integrator goes no further in one go.
+  void find_end_of_smoothness(double time) {
+    double next = ode_.update_next_break(time);
+    while (next - time < kSamePlace) next = ode_.update_next_break(next);  // too short to be integrated
+    smooth_end_ = std::min(options_.end_time, next);
+  }
+
+  void take_break() {
+    const double time = smooth_end_;
+    y_.assign(integrator_.y().begin(), integrator_.y().end());
+    start_anew(time);
+  }
+
+  // Goes on from y_ with the branches that hold there.
+  void start_anew(double time) {
+    find_end_of_smoothness(time);
+    ode_.make_state(time, y_);
+    for (const BranchChange& change : ode_.update_branches()) {
+      if (options_.on_event) options_.on_event({time, "switch", change.element, change.text});
+    }
+    integrator_.start(time, y_, smooth_end_);
   }
 
   void take_switch() {
@@ -63,11 +89,7 @@ class TransientRun {
     last_switch_ = time;
     ++statistics_.switches;
     y_.assign(integrator_.y().begin(), integrator_.y().end());
-    ode_.make_state(time, y_);
-    for (const BranchChange& change : ode_.update_branches()) {
-      if (options_.on_event) options_.on_event({time, "switch", change.element, change.text});
-    }
-    integrator_.start(time, y_, options_.end_time);
+    start_anew(time);
   }
 
   void choose_partition() {
@@ -77,7 +99,7 @@ class TransientRun {
     ode_.set_state(state, ode_.dissipated(y_), ode_.input(y_));
     ++statistics_.repartitions;
     if (options_.on_event) options_.on_event({time, "partition", "", "independent coordinates chosen anew"});
-    integrator_.start(time, ode_.y(), options_.end_time);
+    integrator_.start(time, ode_.y(), smooth_end_);
   }
 
   // Writes every output time up to `time`; the last one exactly at the end.
@@ -113,6 +135,7 @@ class TransientRun {
   TransientStatistics statistics_;
   std::vector<double> y_;
   double start_time_ = 0.0;
+  double smooth_end_ = 0.0;  // the next break of a function of time, or the end
   double last_switch_ = -std::numeric_limits<double>::infinity();
   int num_in_place_ = 0;
   long next_output_ = 0;

@@ -83,6 +83,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   if (!equilibrium.stable) {
     throw support::NumericalError("modes: the equilibrium is unstable (a direction of negative stiffness)");
   }
+  if (model.num_freedoms() == 0) return {};
   const LinearisedSystem& system = equilibrium.linearised;
   const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);

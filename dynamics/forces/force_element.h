@@ -5,8 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/forces/time_function.h"
 
 namespace sprung::dynamics {
 
@@ -68,6 +70,9 @@ class ForceElement {
 
   /// How far the integrator may go in one step without missing something that the element knows is coming [s].
   virtual double calc_longest_step(const Instant& /*instant*/) const { return std::numeric_limits<double>::infinity(); }
+
+  /// The functions of time in it, whose breaks the integrator has to step to.
+  virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
 
   virtual std::span<const Channel> channels() const = 0;
   virtual void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const = 0;

@@ -92,6 +92,30 @@ PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> 
   return f;
 }
 
+PiecewisePolynomial PiecewisePolynomial::from_pieces(std::vector<double> breaks,
+                                                     std::vector<std::vector<double>> pieces) {
+  const bool has_empty =
+      std::any_of(pieces.begin(), pieces.end(), [](const std::vector<double>& a) { return a.empty(); });
+  if (breaks.empty() || pieces.size() != breaks.size() + 1 || has_empty) {
+    throw std::invalid_argument(
+        fmt::format("PiecewisePolynomial::from_pieces: needs one more piece than breaks and none empty, got {} and {}",
+                    pieces.size(), breaks.size()));
+  }
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    if (!(breaks[i] > breaks[i - 1])) {
+      throw std::invalid_argument(fmt::format("PiecewisePolynomial::from_pieces: breaks must ascend, got {} after {}",
+                                              breaks[i], breaks[i - 1]));
+    }
+  }
+  PiecewisePolynomial f;
+  f.origins_ = breaks;
+  f.origins_.insert(f.origins_.begin(), breaks.front());
+  f.breaks_ = std::move(breaks);
+  f.pieces_ = std::move(pieces);
+  f.rebuild_integrals();
+  return f;
+}
+
 void PiecewisePolynomial::continue_straight(double at, double rate, bool below) {
   const double value_at = value(at);
   const std::size_t piece = find_piece(at);
@@ -165,6 +189,13 @@ PiecewisePolynomial PiecewisePolynomial::derivative() const {
   }
   f.rebuild_integrals();
   return f;
+}
+
+bool PiecewisePolynomial::is_zero() const {
+  const auto vanishes = [](const std::vector<double>& a) {
+    return std::all_of(a.begin(), a.end(), [](double coefficient) { return coefficient == 0.0; });
+  };
+  return std::all_of(pieces_.begin(), pieces_.end(), vanishes);
 }
 
 std::size_t PiecewisePolynomial::find_piece(double x) const {

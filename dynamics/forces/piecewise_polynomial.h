@@ -25,6 +25,12 @@ class PiecewisePolynomial {
   /// @param x ascending, at least 2; y as many
   static PiecewisePolynomial clamped_spline(std::span<const double> x, std::span<const double> y);
 
+  /// Polynomials end to end: pieces[0] up to breaks[0], pieces[k] from breaks[k − 1] on, as coefficients of
+  /// (x − breaks[k − 1])^j; the first of (x − breaks[0])^j.
+  /// @param breaks ascending, at least 1; one more piece than breaks, none empty
+  /// @throws std::invalid_argument
+  static PiecewisePolynomial from_pieces(std::vector<double> breaks, std::vector<std::vector<double>> pieces);
+
   /// From `at` on (or up to `at`, for below = true) the function continues straight with slope `rate`.
   void continue_straight(double at, double rate, bool below);
   /// Below `at` the function is zero (its value at `at` has to be zero).
@@ -35,6 +41,8 @@ class PiecewisePolynomial {
   double integral(double x) const;  ///< ∫₀ˣ
   PiecewisePolynomial derivative() const;  ///< may jump at the breaks
 
+  bool is_zero() const;  ///< everywhere
+
   std::span<const double> breaks() const { return breaks_; }  ///< between pieces, ascending
 
   /// A piece's polynomial, at x that may lie beyond its ends.
@@ -44,7 +52,6 @@ class PiecewisePolynomial {
   int choose_piece(int piece, double x, double dead_band) const;
   /// @param[out] values  2: positive while x has not gone a dead band beyond the lower, the upper end of the piece
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
-
 
  private:
   std::size_t find_piece(double x) const;

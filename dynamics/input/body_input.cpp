@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/input/input_values.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -15,11 +17,6 @@ constexpr std::array<std::string_view, 2> kReservedPoints{"origin", "center_of_m
 
 bool is_reserved(const std::string& point_name) {
   return std::find(kReservedPoints.begin(), kReservedPoints.end(), point_name) != kReservedPoints.end();
-}
-
-Eigen::Vector2d read_vector(const support::TomlValue& value, std::string_view unit) {
-  const std::vector<double> numbers = value.numbers(support::any(unit), 2);
-  return {numbers[0], numbers[1]};
 }
 
 PointDescription read_point_on(const std::string& name, const support::TomlValue& value,

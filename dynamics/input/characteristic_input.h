@@ -1,9 +1,28 @@
 #pragma once
 
+#include <string_view>
+
 #include "dynamics/forces/piecewise_polynomial.h"
 #include "tools/support/toml.h"
 
 namespace sprung::dynamics {
+
+/// Units of a law, for messages: a spring-damper's along a line, or about an axis.
+struct LawUnits {
+  std::string_view deflection, rate, force, coefficient, stiffness, damping;
+};
+inline constexpr LawUnits kTranslation{.deflection = "m",
+                            .rate = "m/s",
+                            .force = "N",
+                            .coefficient = "N/m^k",
+                            .stiffness = "N/m",
+                            .damping = "N·s/m"};
+inline constexpr LawUnits kRotation{.deflection = "rad",
+                         .rate = "rad/s",
+                         .force = "N·m",
+                         .coefficient = "N·m/rad^k",
+                         .stiffness = "N·m/rad",
+                         .damping = "N·m·s/rad"};
 
 /// Reads the law of a spring, F(d) in N over the deflection d in m, positive in compression:
 ///
@@ -11,13 +30,14 @@ namespace sprung::dynamics {
 ///     { table = [[d, F], …] }              straight lines through the points
 ///
 /// @throws support::InputError also for a negative stiffness where the spring is unloaded (d = 0)
-PiecewisePolynomial read_spring(const support::TomlTable& table);
+PiecewisePolynomial read_spring(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
 /// Reads a stop, { deflection, rate }, of a spring's law: from that deflection on, up for compression and
 /// down for rebound, the force goes on straight with `rate` > 0 [N/m].
 /// @param spring  as read_spring gives it, changed
 /// @return the deflection where the stop begins [m]
-double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring);
+double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring,
+                 const LawUnits& units = kTranslation);
 
 /// Reads the law of a damper, F(ḋ) in N over the rate of deflection ḋ in m/s, positive in compression:
 ///
@@ -26,6 +46,6 @@ double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynom
 ///     { table = [[ḋ, F], …] }                      straight lines through the points, F(0) = 0
 ///
 /// @throws support::InputError also for a damper that would put energy in
-PiecewisePolynomial read_damper(const support::TomlTable& table);
+PiecewisePolynomial read_damper(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
 }  // namespace sprung::dynamics

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
+#include "dynamics/forces/applied_force.h"
 #include "dynamics/forces/point_contact_tyre.h"
+#include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
 #include "dynamics/input/characteristic_input.h"
+#include "dynamics/input/time_function_input.h"
 
 namespace sprung::dynamics {
 
@@ -17,22 +21,36 @@ namespace {
 // Reads the keys of one type of force into a description that has name and place already.
 using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force);
 
-PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table) {
+PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table, const LawUnits& units) {
   const std::optional<support::TomlTable> law = table.find_table("spring");
-  PiecewisePolynomial spring = law ? read_spring(*law) : PiecewisePolynomial();
+  PiecewisePolynomial spring = law ? read_spring(*law, units) : PiecewisePolynomial();
   const std::optional<support::TomlTable> compression = table.find_table("compression_stop");
   const std::optional<support::TomlTable> rebound = table.find_table("rebound_stop");
   std::optional<double> begins;
-  if (compression) begins = read_stop(*compression, false, spring);
+  if (compression) begins = read_stop(*compression, false, spring, units);
   if (rebound) {
     const support::TomlValue at = rebound->at("deflection");
-    if (begins && !(at.number(support::any("m")) < *begins)) {
-      throw at.error(fmt::format("must lie below the compression stop's {} m, got {} m", *begins,
-                                 at.number(support::any("m"))));
+    const double deflection = at.number(support::any(units.deflection));
+    if (begins && !(deflection < *begins)) {
+      throw at.error(fmt::format("must lie below the compression stop's {} {}, got {} {}", *begins, units.deflection,
+                                 deflection, units.deflection));
     }
-    read_stop(*rebound, true, spring);
+    read_stop(*rebound, true, spring, units);
   }
   return spring;
+}
+
+// Spring, stops and damper, of which there must be one.
+template <typename Parameters>
+void read_laws(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.spring = read_spring_with_stops(table, units);
+  const std::optional<support::TomlTable> damper = table.find_table("damper");
+  if (damper) parameters.damper = read_damper(*damper, units);
+  if (!damper && !table.has("spring") && !table.has("compression_stop") && !table.has("rebound_stop")) {
+    table.reject_unknown_keys();
+    throw table.error("must have a 'spring', a stop or a 'damper'");
+  }
 }
 
 void read_spring_damper(const support::TomlTable& table, ForceDescription& force) {
@@ -40,19 +58,53 @@ void read_spring_damper(const support::TomlTable& table, ForceDescription& force
   force.along_line = true;
   SpringDamper::Parameters parameters;
   parameters.free_length = table.number("free_length", support::positive("m"));
-  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
-  parameters.spring = read_spring_with_stops(table);
-  const std::optional<support::TomlTable> damper = table.find_table("damper");
-  if (damper) parameters.damper = read_damper(*damper);
-  if (!damper && !table.has("spring") && !table.has("compression_stop") && !table.has("rebound_stop")) {
-    table.reject_unknown_keys();
-    throw table.error("must have a 'spring', a stop or a 'damper'");
-  }
+  read_laws(table, kTranslation, parameters);
   force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
     SpringDamper::Parameters placed = parameters;
     placed.marker_a = markers[0];
     placed.marker_b = markers[1];
     return std::make_unique<SpringDamper>(name, std::move(placed));
+  };
+}
+
+void read_rotational_spring_damper(const support::TomlTable& table, ForceDescription& force) {
+  force.points = {read_point(table.at("a")), read_point(table.at("b"))};
+  RotationalSpringDamper::Parameters parameters;
+  parameters.free_angle = table.number_or("free_angle", 0.0, support::any("rad"));
+  read_laws(table, kRotation, parameters);
+  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
+    RotationalSpringDamper::Parameters placed = parameters;
+    placed.marker_a = markers[0];
+    placed.marker_b = markers[1];
+    return std::make_unique<RotationalSpringDamper>(name, std::move(placed));
+  };
+}
+
+void read_applied(const support::TomlTable& table, ForceDescription& force) {
+  static const std::array<std::string, 2> kAxes{"world", "following"};
+  force.points = {read_point(table.at("point"))};
+  AppliedForce::Parameters parameters;
+  if (const std::optional<support::TomlValue> axes = table.find("axes")) {
+    parameters.axes = axes->one_of(kAxes) == "world" ? AppliedForce::Axes::kWorld : AppliedForce::Axes::kFollowing;
+  }
+  const std::optional<support::TomlValue> components = table.find("force");
+  if (components) {
+    if (!components->is_array() || components->items().size() != 2) {
+      throw components->error("must be [x, y], each a number [N] or a function of time");
+    }
+    parameters.force_x = read_time_function(components->items()[0], "N", TimeFunctionUse::kForce);
+    parameters.force_y = read_time_function(components->items()[1], "N", TimeFunctionUse::kForce);
+  }
+  const std::optional<support::TomlValue> torque = table.find("torque");
+  if (torque) parameters.torque = read_time_function(*torque, "N·m", TimeFunctionUse::kForce);
+  if (!components && !torque) {
+    table.reject_unknown_keys();
+    throw table.error("must have a 'force' or a 'torque'");
+  }
+  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
+    AppliedForce::Parameters placed = parameters;
+    placed.marker = markers[0];
+    return std::make_unique<AppliedForce>(name, std::move(placed));
   };
 }
 
@@ -89,6 +141,8 @@ void read_tyre(const support::TomlTable& table, ForceDescription& force) {
 const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
   static const std::vector<std::pair<std::string, ForceReader>> readers{
       {"spring-damper", read_spring_damper},
+      {"rotational-spring-damper", read_rotational_spring_damper},
+      {"applied", read_applied},
       {"tyre", read_tyre},
   };
   return readers;

@@ -70,10 +70,22 @@ Marker make_marker(const Vehicle& vehicle, const VehiclePoint& point, const std:
   return marker;
 }
 
+double start_angle(const Vehicle& vehicle, const Marker& marker) {
+  return marker.body == kGround ? 0.0 : vehicle.bodies[static_cast<std::size_t>(marker.body)].angle;
+}
+
+JointPlace place_joint(const Vehicle& vehicle, const Model& model, const PointReference& a, const PointReference& b,
+                       MotionUse motions) {
+  JointPlace place{.marker_a = model.find_marker(a.name), .marker_b = model.find_marker(b.name), .motions = motions};
+  place.angle = start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_b)]) -
+                start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_a)]);
+  return place;
+}
+
 }  // namespace
 
 Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
-                 const ModalDamping& damping) {
+                 const ModalDamping& damping, MotionUse motions) {
   for (const auto& [body, numbers] : selection) {
     if (vehicle.find_body(body) == nullptr) {
       throw std::invalid_argument(fmt::format("make_model: modes selected of '{}', which is no body", body));
@@ -88,7 +100,10 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
     model.markers.push_back(make_marker(vehicle, point, model.bodies));
   }
   for (const JointDescription& joint : vehicle.joints) {
-    model.joints.push_back(joint.make(model.find_marker(joint.a.name), model.find_marker(joint.b.name)));
+    model.joints.push_back(joint.make(place_joint(vehicle, model, joint.a, joint.b, motions)));
+  }
+  for (const MotionDescription& motion : vehicle.motions) {
+    model.joints.push_back(motion.make(place_joint(vehicle, model, motion.a, motion.b, motions)));
   }
   for (const ForceDescription& force : vehicle.forces) {
     if (force.on_road && road.road == nullptr) {

@@ -128,8 +128,9 @@ Run read_run(const support::TomlDocument& document) {
   read_times(root, run);
   read_statistics(root, run);
   if (const std::optional<support::TomlValue> start = root.find("start")) {
-    static const std::array<std::string, 2> kStarts{"equilibrium", "as-given"};
-    run.start = start->one_of(kStarts) == "equilibrium" ? Run::Start::kEquilibrium : Run::Start::kAsGiven;
+    static const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
+    const auto found = std::find(kStarts.begin(), kStarts.end(), start->one_of(kStarts));
+    run.start = static_cast<Run::Start>(found - kStarts.begin());
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);

@@ -36,7 +36,11 @@ struct IntegratorSettings {
 
 /// What a run file says.
 struct Run {
-  enum class Start { kEquilibrium, kAsGiven };
+  enum class Start {
+    kEquilibrium,  ///< static balance, prescribed motion standing still
+    kSteady,       ///< balance while prescribed motion goes on at its rate
+    kAsGiven,
+  };
 
   std::string text;                    ///< the file as read
   std::filesystem::path vehicle_path;  ///< made relative to the working folder

@@ -44,6 +44,27 @@ std::vector<JointDescription> read_joints(const support::TomlTable& root,
   return joints;
 }
 
+std::vector<MotionDescription> read_motions(const support::TomlTable& root, const std::vector<JointDescription>& joints,
+                                            std::span<const std::string> points) {
+  std::vector<MotionDescription> motions;
+  const std::optional<support::TomlValue> list = root.find("motions");
+  if (!list) return motions;
+  for (const support::TomlValue& item : list->items()) {
+    MotionDescription motion = read_motion(item.table(), joints);
+    check_new_name(motions, motion, "motion");
+    const auto same = [&](const JointDescription& joint) { return joint.name == motion.name; };
+    if (std::any_of(joints.begin(), joints.end(), same)) {
+      throw support::InputError(motion.location, fmt::format("motion '{}' has the name of a joint", motion.name));
+    }
+    check_point(motion.b, points);
+    if (motion.b.name.starts_with("ground.")) {
+      throw support::InputError(motion.b.location, fmt::format("motion '{}' moves the ground", motion.name));
+    }
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
 std::vector<ForceDescription> read_forces(const support::TomlTable& root,
                                           std::span<const std::string> points) {
   std::vector<ForceDescription> forces;
@@ -83,18 +104,24 @@ Eigen::Vector2d start_position(const Vehicle& vehicle, const std::vector<Vehicle
   return body.position + FrameRotation::from_angle(body.angle) * found->p_BP;
 }
 
-// The line of a force needs a direction to begin with.
-void check_lines_of_action(const Vehicle& vehicle) {
+// The line of a force or a link needs a direction to begin with.
+void check_lines(const Vehicle& vehicle) {
   const std::vector<VehiclePoint> points = list_points(vehicle);
+  const auto check = [&](const auto& acting, const char* what, const PointReference& point_a,
+                         const PointReference& point_b) {
+    const Eigen::Vector2d a = start_position(vehicle, points, point_a.name);
+    const Eigen::Vector2d b = start_position(vehicle, points, point_b.name);
+    if ((b - a).norm() > 1e-9) return;
+    throw support::InputError(acting.location,
+                              fmt::format("{} '{}' acts along the line between '{}' and '{}', which "
+                                          "are at one place ({:.6g} m, {:.6g} m)",
+                                          what, acting.name, point_a.name, point_b.name, a.x(), a.y()));
+  };
   for (const ForceDescription& force : vehicle.forces) {
-    if (!force.along_line) continue;
-    const Eigen::Vector2d a = start_position(vehicle, points, force.points[0].name);
-    const Eigen::Vector2d b = start_position(vehicle, points, force.points[1].name);
-    if ((b - a).norm() > 1e-9) continue;
-    throw support::InputError(
-        force.location, fmt::format("force '{}' acts along the line between '{}' and '{}', which "
-                                    "are at one place ({:.6g} m, {:.6g} m)",
-                                    force.name, force.points[0].name, force.points[1].name, a.x(), a.y()));
+    if (force.along_line) check(force, "force", force.points[0], force.points[1]);
+  }
+  for (const JointDescription& joint : vehicle.joints) {
+    if (joint.needs_distance) check(joint, "joint", joint.a, joint.b);
   }
 }
 
@@ -124,7 +151,9 @@ Vehicle read_vehicle(const support::TomlDocument& document,
   vehicle.text = document.text();
   vehicle.name = root.string("name");
   static const std::array<std::string, 2> kHeadings{"+x", "-x"};
-  vehicle.direction = root.at("heading").one_of(kHeadings) == "+x" ? 1.0 : -1.0;
+  if (const std::optional<support::TomlValue> heading = root.find("heading")) {
+    vehicle.direction = heading->one_of(kHeadings) == "+x" ? 1.0 : -1.0;
+  }
   if (const std::optional<support::TomlValue> gravity = root.find("gravity")) {
     const std::vector<double> g = gravity->numbers(support::any("m/s²"), 2);
     vehicle.gravity = {g[0], g[1]};
@@ -135,14 +164,15 @@ Vehicle read_vehicle(const support::TomlDocument& document,
     ground->reject_unknown_keys();
   }
   // Everything that needs no other file first.
-  for (const std::string_view key : {"joints", "forces", "monitor"}) root.find(key);
+  for (const std::string_view key : {"joints", "motions", "forces", "monitor"}) root.find(key);
   root.reject_unknown_keys();
   vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);
   const std::vector<std::string> points = point_names(vehicle);
   vehicle.joints = read_joints(root, points);
+  vehicle.motions = read_motions(root, vehicle.joints, points);
   vehicle.forces = read_forces(root, points);
   vehicle.monitor = read_monitor(root, vehicle, points);
-  check_lines_of_action(vehicle);
+  check_lines(vehicle);
   return vehicle;
 }
 

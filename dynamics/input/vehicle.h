@@ -8,6 +8,7 @@
 
 #include "dynamics/input/force_input.h"
 #include "dynamics/input/joint_input.h"
+#include "dynamics/input/motion_input.h"
 #include "dynamics/input/point_reference.h"
 #include "reduce/superelement.h"
 #include "tools/support/toml.h"
@@ -44,6 +45,7 @@ struct Vehicle {
   std::vector<BodyDescription> bodies;
   std::vector<PointDescription> ground_points;
   std::vector<JointDescription> joints;
+  std::vector<MotionDescription> motions;
   std::vector<ForceDescription> forces;
   std::vector<PointReference>
       monitor;  ///< points whose motion is reported; every body's origin if the file has none
@@ -72,7 +74,7 @@ struct VehiclePoint {
 };
 
 /// Every point of a vehicle: of each body `origin` and `center_of_mass`, the named nodes of its superelement
-/// and the points that the file gives it; then those of the ground.
+/// and the points that the file gives it; then those of the ground, last its `origin`, the world's.
 std::vector<VehiclePoint> list_points(const Vehicle& vehicle);
 std::vector<std::string> point_names(const Vehicle& vehicle);
 

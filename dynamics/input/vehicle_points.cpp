@@ -54,6 +54,7 @@ std::vector<VehiclePoint> list_points(const Vehicle& vehicle) {
   for (const PointDescription& point : vehicle.ground_points) {
     points.push_back(place_point(point, nullptr, kGround, "ground."));
   }
+  points.push_back({.name = "ground.origin", .body = kGround});
   return points;
 }
 

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/forces/time_function.h"
+#include "dynamics/joints/relative_coordinate.h"
 #include "tools/support/input_error.h"
 
 namespace sprung::dynamics {
@@ -26,9 +31,16 @@ class Joint {
       : name(std::move(joint_name)), marker_a(marker_of_a), marker_b(marker_of_b), location(std::move(where)) {}
   virtual ~Joint() = default;
 
+  virtual std::string_view kind() const = 0;
+  /// Prescribed motion: moves its markers by a function of time, doing work.
+  virtual bool is_motion() const { return false; }
+  /// What the joint leaves free and prescribed motion may drive; none where it leaves nothing, or more than one.
+  virtual std::optional<RelativeCoordinate> coordinate() const { return std::nullopt; }
+
   virtual int num_constraints() const = 0;
   /// What constraint k (0-based) holds, for messages: "x", "y".
   virtual std::string_view constraint_name(int k) const = 0;
+  virtual std::string_view constraint_unit(int /*k*/) const { return "m"; }
 
   /// @param[out] phi  k residuals [m, rad]
   virtual void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const = 0;
@@ -43,6 +55,14 @@ class Joint {
   /// @param[out] drift  k terms of φ̈ that do not contain accelerations of the markers: Ġa (v_a, ω_a) + Ġb (v_b, ω_b)
   ///                    + explicit time terms [m/s², rad/s²]
   virtual void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const = 0;
+
+  /// The functions of time in it, whose breaks the integrator has to step to.
+  virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
+  /// How far the integrator may go in one step for its motion to be followed [s].
+  /// @param length_scale  of the model [m]
+  virtual double calc_longest_step(double /*time*/, double /*length_scale*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
 
   const std::string name;
   const int marker_a;

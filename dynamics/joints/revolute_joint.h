@@ -8,6 +8,10 @@ namespace sprung::dynamics {
 class RevoluteJoint final : public Joint {
  public:
   using Joint::Joint;
+  std::string_view kind() const override { return "revolute"; }
+  std::optional<RelativeCoordinate> coordinate() const override {
+    return RelativeCoordinate(RelativeCoordinate::Kind::kAngle);
+  }
   int num_constraints() const override { return 2; }
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
   void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const override;

@@ -143,7 +143,30 @@ void ResultsWriter::add_joint_series() {
                      -Ga.transpose() * now.equations.multipliers().segment(row_of_joint, joint.num_constraints());
                  put(row, reaction);
                });
+    file_.attribute("/joints/" + joint.name, "kind", joint.kind());
+    add_joint_coordinate(joint, row_of_joint);
   }
+}
+
+void ResultsWriter::add_joint_coordinate(const Joint& joint, int row_of_joint) {
+  const std::optional<RelativeCoordinate> coordinate = joint.coordinate();
+  if (!coordinate) return;
+  const std::string group = "/joints/" + joint.name, unit = coordinate->is_angle() ? "rad" : "m";
+  const auto a = static_cast<std::size_t>(joint.marker_a), b = static_cast<std::size_t>(joint.marker_b);
+  add_series(group + "/coordinate", 0, unit, [=](const Snapshot& now, std::vector<double>& row) {
+    const auto markers = now.equations.terms().markers();
+    row[0] = coordinate->value(markers[a], markers[b]);
+  });
+  add_series(group + "/rate", 0, unit + "/s", [=](const Snapshot& now, std::vector<double>& row) {
+    const auto markers = now.equations.terms().markers();
+    row[0] = coordinate->rate(markers[a], markers[b]);
+  });
+  if (!joint.is_motion()) return;
+  // Work of the constraint −λ δφ with φ = coordinate − f(t): what drives the coordinate is −λ.
+  add_series(group + "/drive", 0, coordinate->is_angle() ? "N m" : "N",
+             [row_of_joint](const Snapshot& now, std::vector<double>& row) {
+               row[0] = -now.equations.multipliers()[row_of_joint];
+             });
 }
 
 void ResultsWriter::add_force_series() {

@@ -58,6 +58,7 @@ class ResultsWriter {
   void add_point_series();
   void add_body_series();
   void add_joint_series();
+  void add_joint_coordinate(const Joint& joint, int row_of_joint);
   void add_force_series();
   void add_recovery_series(const Vehicle& vehicle);
   void write_events();

@@ -47,10 +47,11 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
 
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.balance_model =
-      make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping);
+      make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
+                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
-  if (preparation == Preparation::kBalance || run.start == Run::Start::kEquilibrium) {
+  if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
     prepared.equilibrium = find_equilibrium(prepared.balance_model, q);
     q = prepared.equilibrium->q;
   }

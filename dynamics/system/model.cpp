@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace sprung::dynamics {
@@ -14,6 +15,25 @@ const Body& body_of_coordinate(const Model& model, int coordinate) {
     if (coordinate < body.first_coordinate + body.num_coordinates()) return body;
   }
   throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, model.num_coordinates));
+}
+
+void collect_time_functions(Model& model) {
+  model.has_motions = false;
+  model.time_breaks.clear();
+  model.time_resolution = std::numeric_limits<double>::infinity();
+  const auto add = [&](const std::vector<const TimeFunction*>& functions) {
+    for (const TimeFunction* function : functions) {
+      model.time_breaks.insert(model.time_breaks.end(), function->breaks().begin(), function->breaks().end());
+      model.time_resolution = std::min(model.time_resolution, function->resolution());
+    }
+  };
+  for (const auto& joint : model.joints) {
+    add(joint->time_functions());
+    model.has_motions |= !joint->time_functions().empty();
+  }
+  for (const auto& force : model.forces) add(force->time_functions());
+  std::sort(model.time_breaks.begin(), model.time_breaks.end());
+  model.time_breaks.erase(std::unique(model.time_breaks.begin(), model.time_breaks.end()), model.time_breaks.end());
 }
 
 }  // namespace
@@ -61,6 +81,7 @@ void number_model(Model& model) {
     model.force_branches.push_back(model.num_branches);
     model.num_branches += force->num_branches();
   }
+  collect_time_functions(model);
   double extent = 0.0;
   for (const Marker& marker : model.markers) {
     if (marker.body != kGround) extent = std::max(extent, marker.p_BP.norm());

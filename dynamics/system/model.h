@@ -28,6 +28,9 @@ struct Model {
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
   double length_scale = 1.0;        ///< largest distance of a marker from its body's frame [m]
+  bool has_motions = false;         ///< some joint moves by itself
+  std::vector<double> time_breaks;  ///< where functions of time have a kink or jump, ascending [s]
+  double time_resolution = 0.0;     ///< step in time that misses nothing of any function of time [s]
 
   int num_freedoms() const { return num_coordinates - num_constraints; }
   /// "chassis.x", "chassis.angle", "chassis.mode 3"

@@ -172,6 +172,12 @@ void PartitionedEquations::update_multipliers() {
   lambda_.noalias() = lu_d_.permutationP().transpose() * correction_;
 }
 
+double PartitionedEquations::calc_motion_power() {
+  if (!model_->has_motions) return 0.0;
+  terms_.calc_time_rate(phi_);
+  return lambda_.dot(phi_);
+}
+
 double PartitionedEquations::scaled_growth() const {
   double growth = 0.0;
   for (std::size_t i = 0; i < partition_.dependent.size(); ++i) {

@@ -39,6 +39,9 @@ class PartitionedEquations {
   /// Multipliers, after update_accelerations; φ_qᵀλ = Q − M q̈.
   void update_multipliers();
 
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_multipliers [W] (dynamics/README.md, eq. 11).
+  double calc_motion_power();
+
   const SystemTerms& terms() const { return terms_; }
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "dynamics/forces/force_element.h"
+#include "dynamics/forces/time_function.h"
+
+namespace sprung::dynamics {
+
+/// Force and torque on one marker as functions of time, in axes that stay with the world or follow the marker
+/// (dynamics/README.md, eq. 18). The work they do is energy put in.
+class AppliedForce final : public ForceElement {
+ public:
+  enum class Axes {
+    kWorld,
+    kFollowing,  ///< turn with the marker: its body's frame and, on a flexible body, its node's rotation
+  };
+  struct Parameters {
+    int marker = 0;
+    Axes axes = Axes::kWorld;
+    TimeFunction force_x, force_y;  ///< [N]
+    TimeFunction torque;            ///< counter-clockwise [N·m]
+  };
+  AppliedForce(std::string element_name, Parameters parameters)
+      : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
+
+  std::string_view kind() const override { return "applied"; }
+  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  std::vector<const TimeFunction*> time_functions() const override;
+
+  std::span<const Channel> channels() const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+
+ private:
+  Wrench calc_wrench(const Instant& instant) const;
+  Parameters parameters_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "dynamics/forces/force_element.h"
+#include "dynamics/forces/piecewise_polynomial.h"
+
+namespace sprung::dynamics {
+
+/// Spring and damper between the angles of two markers (dynamics/README.md, eq. 17). Deflection d = free angle −
+/// (angle_b − angle_a); the torque T = spring(d) + damper(ḋ) turns b counter-clockwise when positive, and a the other
+/// way. Angles count full turns.
+class RotationalSpringDamper final : public ForceElement {
+ public:
+  struct Parameters {
+    int marker_a = 0;
+    int marker_b = 0;
+    double free_angle = 0.0;     ///< [rad]
+    double multiplicity = 1.0;   ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;  ///< T(d) [N·m], with its stops
+    PiecewisePolynomial damper;  ///< T(ḋ) [N·m]
+  };
+  RotationalSpringDamper(std::string element_name, Parameters parameters)
+      : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
+
+  const Parameters& parameters() const { return parameters_; }
+  std::string_view kind() const override { return "rotational-spring-damper"; }
+  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
+  /// Branches: pieces of spring and damper. Switches: the ends of both.
+  int num_branches() const override { return 2; }
+  void choose_branches(const Instant& instant, std::span<int> branches) const override;
+  int num_switches() const override { return 4; }
+  void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+
+  std::span<const Channel> channels() const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+
+ private:
+  struct Twist {
+    double deflection;
+    double rate;  // ḋ
+  };
+  Twist calc_twist(const Instant& instant) const;
+  Parameters parameters_;
+};
+
+}  // namespace sprung::dynamics

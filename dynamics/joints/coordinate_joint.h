@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/forces/time_function.h"
+#include "dynamics/joints/joint.h"
+
+namespace sprung::dynamics {
+
+/// Holds up to three relative coordinates of two markers at values that may be functions of time:
+/// φ_k = c_k(a, b) − f_k(t). Every kind of joint but the revolute one, and all prescribed motion, is made of these
+/// (dynamics/README.md, eqs. 8 to 11).
+class CoordinateJoint final : public Joint {
+ public:
+  struct Held {
+    RelativeCoordinate coordinate;
+    TimeFunction value;
+    std::string_view name;  ///< for messages: "across the axis"
+  };
+  struct Parts {
+    std::string_view kind;
+    std::vector<Held> held;                         ///< 1 to 3
+    std::optional<RelativeCoordinate> coordinate;   ///< what the joint is moved in; none where nothing is free
+    bool is_motion = false;                         ///< prescribed motion: the first held coordinate is driven
+  };
+  /// @throws std::invalid_argument for no held coordinate, or more than three
+  CoordinateJoint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where, Parts parts);
+
+  std::string_view kind() const override { return parts_.kind; }
+  bool is_motion() const override { return parts_.is_motion; }
+  std::optional<RelativeCoordinate> coordinate() const override { return parts_.coordinate; }
+
+  int num_constraints() const override { return static_cast<int>(parts_.held.size()); }
+  std::string_view constraint_name(int k) const override { return held(k).name; }
+  std::string_view constraint_unit(int k) const override { return held(k).coordinate.is_angle() ? "rad" : "m"; }
+
+  void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const override;
+  void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga, JointJacobian& Gb) const override;
+  void calc_time_rate(const MarkerState& a, const MarkerState& b, double time, JointVector& phi_t) const override;
+  void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const override;
+
+  std::vector<const TimeFunction*> time_functions() const override;
+  double calc_longest_step(double time, double length_scale) const override;
+
+ private:
+  const Held& held(int k) const { return parts_.held[static_cast<std::size_t>(k)]; }
+  Parts parts_;
+};
+
+/// b slides along an axis through a that turns with a, without turning against it: two constraints.
+/// @param axis   in the axes of a's body, not zero
+/// @param angle  of b against a [rad]
+CoordinateJoint::Parts make_translational_joint(const Eigen::Vector2d& axis, double angle);
+/// b stays in a's place and at an angle against it: three constraints. @param angle [rad]
+CoordinateJoint::Parts make_fixed_joint(double angle);
+/// A massless link: b keeps its distance from a, free to turn at both ends: one constraint.
+/// @param length  > 0 at all times [m]
+CoordinateJoint::Parts make_distance_joint(TimeFunction length);
+/// A pin, b, stays on a line through a that turns with a, free to turn: one constraint.
+/// @param axis  in the axes of a's body, not zero
+CoordinateJoint::Parts make_pin_in_slot_joint(const Eigen::Vector2d& axis);
+/// Prescribed motion: a coordinate follows a function of time, one constraint.
+/// @param value  continuous with its first derivative [m, rad]
+CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, TimeFunction value);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+
+#include "dynamics/bodies/marker.h"
+
+namespace sprung::dynamics {
+
+/// A scalar that says where marker b is as seen from marker a: what joints hold and prescribed motion drives
+/// (dynamics/README.md, eq. 8).
+class RelativeCoordinate {
+ public:
+  enum class Kind {
+    kX,         ///< x_b − x_a, world axes [m]
+    kY,         ///< y_b − y_a, world axes [m]
+    kAngle,     ///< angle_b − angle_a [rad]
+    kAlong,     ///< (r_b − r_a) · axis, the axis turning with a [m]
+    kDistance,  ///< |r_b − r_a| [m]; has no derivative where b is in a's place
+  };
+  /// @param axis  for kAlong: its direction in the axes of a's body, not zero
+  explicit RelativeCoordinate(Kind kind, const Eigen::Vector2d& axis = Eigen::Vector2d::UnitX())
+      : kind_(kind), axis_(axis.normalized()) {}
+
+  Kind kind() const { return kind_; }
+  bool is_angle() const { return kind_ == Kind::kAngle; }
+
+  double value(const MarkerState& a, const MarkerState& b) const;
+  double rate(const MarkerState& a, const MarkerState& b) const;
+
+  /// ∂c/∂(δx, δy, δangle) of a and of b.
+  struct Gradient {
+    Eigen::RowVector3d a, b;
+  };
+  Gradient gradient(const MarkerState& a, const MarkerState& b) const;
+  /// What c̈ is while no marker accelerates: Ġ_a (v_a, ω_a) + Ġ_b (v_b, ω_b).
+  double drift(const MarkerState& a, const MarkerState& b) const;
+
+ private:
+  Eigen::Vector2d world_axis(const MarkerState& a) const;
+  Kind kind_;
+  Eigen::Vector2d axis_;  // unit, axes of a's body
+};
+
+}  // namespace sprung::dynamics
