@@ -11,7 +11,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kPartitionDecay = 10.0;   // partition_decay() at which another one is chosen
+constexpr double kPartitionDecay = 3.0;    // partition_decay() at which another one is chosen
 constexpr int kMaxSwitchesInPlace = 100;   // switches within kSamePlace of each other before the run is given up
 constexpr double kSamePlace = 1e-9;        // s
 
@@ -41,7 +41,7 @@ class TransientRun {
   void integrate() {
     while (true) {
       const double longest = std::min(options_.largest_step, ode_.calc_longest_step());
-      const CvodeIntegrator::StepResult result = integrator_.step(longest);
+      const CvodeIntegrator::StepResult result = take_step(longest);
       write_outputs(integrator_.time(), {});
       if (options_.on_step && !options_.on_step(integrator_.time())) return;
       if (result == CvodeIntegrator::StepResult::kEnded) {
@@ -54,6 +54,19 @@ class TransientRun {
       }
     }
     statistics_.completed = true;
+  }
+
+  // A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is seen to
+  // grow bad: beyond it no position can be found. Another partition goes on from there.
+  CvodeIntegrator::StepResult take_step(double longest) {
+    try {
+      return integrator_.step(longest);
+    } catch (const support::NumericalError&) {
+      if (integrator_.time() - last_rescue_ < kSamePlace) throw;
+      last_rescue_ = integrator_.time();
+      choose_partition();
+      return CvodeIntegrator::StepResult::kStepped;
+    }
   }
 
   // Functions of time are smooth from `time` to the next of their breaks: the integrator goes no further in one go.
@@ -137,6 +150,7 @@ class TransientRun {
   double start_time_ = 0.0;
   double smooth_end_ = 0.0;  // the next break of a function of time, or the end
   double last_switch_ = -std::numeric_limits<double>::infinity();
+  double last_rescue_ = -std::numeric_limits<double>::infinity();
   int num_in_place_ = 0;
   long next_output_ = 0;
 };

@@ -34,6 +34,7 @@ PartitionedEquations::PartitionedEquations(const Model& model)
   M_hat_ = Eigen::MatrixXd::Zero(f, f);
   lu_d_ = Eigen::PartialPivLU<Eigen::MatrixXd>(m);
   llt_ = Eigen::LLT<Eigen::MatrixXd>(f);
+  visited_.resize(static_cast<std::size_t>(m));
 }
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
@@ -54,6 +55,23 @@ void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorX
   gather(q_, partition_.dependent, q_d_);
   factorise();
   growth_at_choice_ = std::max(1.0, scaled_growth());
+  is_mirrored_ = is_determinant_negative();
+}
+
+// Sign of det φ_d = sign of the permutation · signs of the pivots. It cannot change while the motion is followed: a
+// mechanism goes through det φ_d = 0 only where its independents turn round, and there another partition is due.
+bool PartitionedEquations::is_determinant_negative() {
+  const Eigen::VectorXi& permutation = lu_d_.permutationP().indices();
+  bool is_negative = false;
+  std::fill(visited_.begin(), visited_.end(), false);
+  for (int start = 0; start < num_constraints_; ++start) {
+    is_negative ^= lu_d_.matrixLU()(start, start) < 0.0;
+    for (int i = permutation[start]; !visited_[static_cast<std::size_t>(start)] && i != start; i = permutation[i]) {
+      visited_[static_cast<std::size_t>(i)] = true;
+      is_negative = !is_negative;  // a cycle of k elements is k − 1 exchanges
+    }
+  }
+  return is_negative;
 }
 
 // Factors of φ_d, T = −φ_d⁻¹φ_i and the directions [I; T] at the present positions.
@@ -105,7 +123,12 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   q_d_.noalias() += T_ * a_i_;
   q_i_ = target;
   scatter(q_i_, partition_.independent, q_);
-  const bool assembled = solve_dependents(time);
+  bool assembled = solve_dependents(time);
+  if (assembled) {
+    terms_.update_jacobian();
+    factorise();
+    assembled = is_determinant_negative() == is_mirrored_;
+  }
   if (assembled) {
     last_good_q_ = q_;
   } else {  // the next search starts where the last one ended well
@@ -113,9 +136,9 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
     gather(q_, partition_.independent, q_i_);
     gather(q_, partition_.dependent, q_d_);
     terms_.update_positions(time, q_);
+    terms_.update_jacobian();
+    factorise();
   }
-  terms_.update_jacobian();
-  factorise();
   return assembled ? Outcome::kGood : Outcome::kNotAssembled;
 }
 

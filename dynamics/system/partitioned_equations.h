@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <span>
+#include <vector>
 
 #include "dynamics/system/partition.h"
 #include "dynamics/system/system_terms.h"
@@ -18,7 +19,8 @@ class PartitionedEquations {
  public:
   enum class Outcome {
     kGood,
-    kNotAssembled,  ///< the dependent coordinates did not converge: too far a step, or near a singular position
+    kNotAssembled,  ///< the dependent coordinates did not converge, or to another way of assembling the mechanism:
+                    ///< too far a step, or near a singular position
     kNotFinite,     ///< NaN or infinity came out
   };
 
@@ -59,6 +61,7 @@ class PartitionedEquations {
  private:
   double scaled_growth() const;
   bool solve_dependents(double time);
+  bool is_determinant_negative();
   void factorise();
 
   const Model* model_;
@@ -66,6 +69,8 @@ class PartitionedEquations {
   Partition partition_;
   int num_freedoms_, num_constraints_;
   double growth_at_choice_ = 1.0;
+  bool is_mirrored_ = false;  // sign of det φ_d at the choice of partition
+  std::vector<bool> visited_;
 
   Eigen::VectorXd q_, v_, v_dot_, lambda_;
   Eigen::VectorXd last_good_q_;
