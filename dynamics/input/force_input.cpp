@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/forces/applied_force.h"
+#include "dynamics/forces/distributed_tyre.h"
 #include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
@@ -108,9 +109,8 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
   };
 }
 
-void read_tyre(const support::TomlTable& table, ForceDescription& force) {
-  force.points = {read_point(table.at("wheel"))};
-  force.on_road = true;
+// What both kinds of tyre are made from; DistributedTyre has no use for one_sided.
+PointContactTyre::Parameters read_tyre_laws(const support::TomlTable& table) {
   PointContactTyre::Parameters parameters;
   parameters.radius = table.number("radius", support::positive("m"));
   parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
@@ -131,7 +131,30 @@ void read_tyre(const support::TomlTable& table, ForceDescription& force) {
         "of a tyre that is not one-sided must pull at a penetration of -{} m, got {} N; odd powers do",
         parameters.radius, parameters.spring.value(-parameters.radius)));
   }
-  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& road) {
+  return parameters;
+}
+
+void read_tyre(const support::TomlTable& table, ForceDescription& force) {
+  static const std::array<std::string, 2> kContacts{"point", "distributed"};
+  force.points = {read_point(table.at("wheel"))};
+  force.on_road = true;
+  const std::optional<support::TomlValue> contact = table.find("contact");
+  const bool is_distributed = contact && contact->one_of(kContacts) == "distributed";
+  const PointContactTyre::Parameters parameters = read_tyre_laws(table);
+  if (is_distributed && !parameters.one_sided) {
+    throw table.at("one_sided").error("must be true of a tyre with distributed contact, which cannot pull");
+  }
+  force.make = [name = force.name, parameters, is_distributed](
+                   std::span<const int> markers, const PlacedRoad& road) -> std::unique_ptr<ForceElement> {
+    if (is_distributed) {
+      return std::make_unique<DistributedTyre>(name,
+                                               DistributedTyre::Parameters{.marker = markers[0],
+                                                                           .radius = parameters.radius,
+                                                                           .multiplicity = parameters.multiplicity,
+                                                                           .spring = parameters.spring,
+                                                                           .damping = parameters.damping},
+                                               road);
+    }
     PointContactTyre::Parameters placed = parameters;
     placed.marker = markers[0];
     return std::make_unique<PointContactTyre>(name, std::move(placed), road);
