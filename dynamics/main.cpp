@@ -35,6 +35,8 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "static equilibrium, then the run; writes results and a summary");
   add_input_options(*run, request, output);
   run->add_option("-o,--output", output.results, "results file (HDF5); none is written without it");
+  run->add_flag("--dry-run", output.dry_run,
+                "says what would be run: bodies, modes, joints, freedoms and static balance; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
   add_input_options(*equilibrium, request, output);
   CLI::App* modes = app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");

@@ -102,11 +102,12 @@ std::string format_equilibrium_json(const BalanceReport& report) {
          "\n";
 }
 
-std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes) {
+std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
+                         bool is_steady) {
   std::string text = fmt::format(
-      "{}: modes about static equilibrium, {} freedoms\n"
+      "{}: modes about {}, {} freedoms\n"
       "Where a force has two slopes at rest (dampers that differ in compression and rebound), their mean is taken.\n\n",
-      vehicle.name, model.num_freedoms());
+      vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_freedoms());
   support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
   int number = 0;
   for (const VehicleMode& mode : modes) {

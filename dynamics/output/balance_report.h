@@ -24,7 +24,9 @@ std::string format_equilibrium(const BalanceReport& report);
 std::string format_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes.
-std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes);
+/// @param is_steady  about steady motion, not at rest
+std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
+                         bool is_steady = false);
 std::string format_modes_json(const std::vector<VehicleMode>& modes);
 
 }  // namespace sprung::dynamics

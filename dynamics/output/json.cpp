@@ -50,4 +50,8 @@ JsonObject& JsonObject::add(std::string_view name, const std::vector<std::string
   return add_raw(name, list(texts, [](const std::string& text) { return quoted(text); }));
 }
 
+JsonObject& JsonObject::add(std::string_view name, const std::vector<int>& numbers) {
+  return add_raw(name, list(numbers, [](int number) { return fmt::format("{}", number); }));
+}
+
 }  // namespace sprung::dynamics

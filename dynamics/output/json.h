@@ -16,6 +16,7 @@ class JsonObject {
   JsonObject& add(std::string_view name, const JsonObject& object);
   JsonObject& add(std::string_view name, const std::vector<JsonObject>& objects);
   JsonObject& add(std::string_view name, const std::vector<std::string>& texts);
+  JsonObject& add(std::string_view name, const std::vector<int>& numbers);
   std::string str() const { return "{" + members_ + "}"; }
 
  private:

@@ -19,7 +19,8 @@ int equilibrium_command(const RunRequest& request, bool json) {
 int modes_command(const RunRequest& request, bool json) {
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
   const std::vector<VehicleMode> modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
-  fmt::print("{}", json ? format_modes_json(modes) : format_modes(prepared.balance_model, prepared.vehicle, modes));
+  fmt::print("{}", json ? format_modes_json(modes) : format_modes(prepared.balance_model, prepared.vehicle, modes,
+                                                                   prepared.run.start == Run::Start::kSteady));
   return support::kGood;
 }
 

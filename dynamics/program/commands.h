@@ -9,6 +9,7 @@ namespace sprung::dynamics {
 /// What `run` is told on the command line besides the input.
 struct RunOutput {
   std::filesystem::path results;  ///< file to write; empty: none
+  bool dry_run = false;           ///< says what would be run, and runs nothing
   bool json = false;              ///< summary as JSON on standard output, in place of tables
 };
 

@@ -9,6 +9,7 @@
 #include "dynamics/output/results_writer.h"
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
+#include "dynamics/program/model_report.h"
 #include "tools/support/numerical_error.h"
 #include "tools/support/program.h"
 #include "tools/support/progress_bar.h"
@@ -39,6 +40,10 @@ TransientOptions make_options(const Run& run) {
 
 int run_command(const RunRequest& request, const RunOutput& output) {
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
+  if (output.dry_run) {
+    fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
+    return support::kGood;
+  }
   const Run& run = prepared.run;
   std::vector<VehicleMode> modes;
   if (prepared.equilibrium && prepared.equilibrium->stable) {

@@ -1,0 +1,98 @@
+#include "dynamics/program/model_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "dynamics/output/balance_report.h"
+#include "dynamics/output/json.h"
+#include "dynamics/output/run_report.h"
+#include "tools/support/text_table.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+std::string list_modes(const reduce::Superelement* superelement, const Body& body) {
+  if (superelement == nullptr) return "rigid";
+  if (body.num_modes() == 0) return fmt::format("rigid, 0 of {}", superelement->num_modes());
+  std::vector<std::string> modes;
+  for (const int number : body.mode_numbers) {
+    modes.push_back(fmt::format("{} ({:.2f} Hz)", number, superelement->frequency_hz[number - 1]));
+  }
+  return fmt::format("{}", fmt::join(modes, ", "));
+}
+
+std::vector<std::string> held_directions(const Joint& joint) {
+  std::vector<std::string> names;
+  for (int k = 0; k < joint.num_constraints(); ++k) names.emplace_back(joint.constraint_name(k));
+  return names;
+}
+
+const std::string& name_of(const Model& model, int marker) {
+  return model.markers[static_cast<std::size_t>(marker)].name;
+}
+
+BalanceReport balance_of(const PreparedRun& prepared) {
+  return {prepared.balance_model, prepared.vehicle, *prepared.equilibrium, prepared.assembly,
+          make_start_positions(prepared.balance_model, prepared.vehicle)};
+}
+
+}  // namespace
+
+std::string format_model(const PreparedRun& prepared) {
+  const Model& model = prepared.model;
+  support::TextTable bodies({"body", "mass kg", "inertia kg·m²", "superelement", "modes"});
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const BodyDescription& description = prepared.vehicle.bodies[b];
+    bodies.add_row({body.name, fmt::format("{:.6g}", body.mass), fmt::format("{:.6g}", body.second_moment),
+                    description.superelement, list_modes(prepared.vehicle.superelement_of(description), body)});
+  }
+  support::TextTable joints({"joint", "type", "a", "b", "holds"});
+  for (const auto& joint : model.joints) {
+    joints.add_row({joint->name, std::string(joint->kind()), name_of(model, joint->marker_a),
+                    name_of(model, joint->marker_b), fmt::format("{}", fmt::join(held_directions(*joint), ", "))});
+  }
+  support::TextTable forces({"force element", "type"});
+  for (const auto& force : model.forces) forces.add_row({force->name, std::string(force->kind())});
+
+  const Equilibrium* equilibrium = prepared.equilibrium ? &*prepared.equilibrium : nullptr;
+  std::string text = describe_run(prepared.vehicle, model, prepared.run, prepared.assembly, equilibrium);
+  text += fmt::format("\nInertia is about the origin of the body's frame.\n{}", bodies.str());
+  if (!model.joints.empty()) text += fmt::format("\n{}", joints.str());
+  if (!model.forces.empty()) text += fmt::format("\n{}", forces.str());
+  if (equilibrium != nullptr) text += fmt::format("\n{}", format_equilibrium(balance_of(prepared)));
+  return text;
+}
+
+std::string format_model_json(const PreparedRun& prepared) {
+  const Model& model = prepared.model;
+  JsonObject bodies, joints, forces;
+  for (const Body& body : model.bodies) {
+    bodies.add(
+        body.name,
+        JsonObject().add("mass", body.mass).add("inertia", body.second_moment).add("modes", body.mode_numbers));
+  }
+  for (const auto& joint : model.joints) {
+    joints.add(joint->name, JsonObject().add("type", joint->kind()).add("holds", held_directions(*joint)));
+  }
+  for (const auto& force : model.forces) forces.add(force->name, JsonObject().add("type", force->kind()));
+  JsonObject report;
+  report.add("bodies", bodies)
+      .add("joints", joints)
+      .add("forces", forces)
+      .add("coordinates", static_cast<double>(model.num_coordinates))
+      .add("constraints", static_cast<double>(model.num_constraints))
+      .add("freedoms", static_cast<double>(model.num_freedoms()));
+  if (prepared.equilibrium) {
+    JsonObject places;
+    for (const Body& body : model.bodies) {
+      const Eigen::Vector3d place = prepared.equilibrium->q.segment<3>(body.first_coordinate);
+      places.add(body.name, JsonObject().add("x", place[0]).add("y", place[1]).add("angle", place[2]));
+    }
+    report.add("equilibrium", places);
+  }
+  return report.str() + "\n";
+}
+
+}  // namespace sprung::dynamics
