@@ -1,6 +1,7 @@
 #include "dynamics/input/force_input.h"
 
 #include <array>
+#include <cmath>
 
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
@@ -193,4 +194,44 @@ TEST_CASE("A tyre begins to push where it touches") {
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0, 5.0] }\none_sided = false")) ==
         "f.toml:6:10: error: 'forces.0.spring' of a tyre that is not one-sided must pull at a penetration of "
         "-0.5 m, got 1.25 N; odd powers do");
+}
+
+TEST_CASE("A rotational spring-damper's laws are over angles") {
+  const std::string head = "name = \"r\"\ntype = \"rotational-spring-damper\"\na = \"p.origin\"\nb = \"q.origin\"\n";
+  const std::unique_ptr<dynamics::ForceElement> force =
+      read(head + "free_angle = 0.2\nspring = { polynomial = [0.0, 50.0] }\ndamper = { coefficient = 3.0 }")
+          .make(std::array{0, 1}, {});
+  std::array<dynamics::MarkerState, 2> markers;
+  markers[1].angle = 0.3;
+  markers[1].omega = -2.0;
+  std::array<int, 2> branches{};
+  std::array<double, 4> channels{};
+  force->calc_channels({.markers = markers}, branches, channels);
+  CHECK(channels[3] == Approx(50.0 * -0.1 + 3.0 * 2.0).epsilon(kRounding));
+  CHECK(error_of(head + "spring = { table = [[0.0, 0.0]] }") ==
+        "f.toml:6:20: error: 'forces.0.spring.table' must be at least 2 pairs [rad, N·m], got 1");
+  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.0' must have a 'spring', a stop or a 'damper'");
+}
+
+TEST_CASE("An applied force has components in time, in the world's axes or following") {
+  const std::string head = "name = \"a\"\ntype = \"applied\"\npoint = \"p.origin\"\n";
+  const std::unique_ptr<dynamics::ForceElement> force =
+      read(head + "axes = \"following\"\nforce = [2.0, { polynomial = [0.0, 3.0] }]\ntorque = 5.0")
+          .make(std::array{0}, {});
+  std::array<dynamics::MarkerState, 1> markers;
+  markers[0].angle = 0.7;
+  std::array<double, 3> channels{};
+  force->calc_channels({.time = 0.5, .markers = markers}, {}, channels);
+  CHECK(channels[0] == Approx(2.0 * std::cos(0.7) - 1.5 * std::sin(0.7)).epsilon(kRounding));
+  CHECK(channels[2] == 5.0);
+  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.0' must have a 'force' or a 'torque'");
+  CHECK(error_of(head + "force = 3.0") ==
+        "f.toml:5:9: error: 'forces.0.force' must be [x, y], each a number [N] or a function of time");
+  CHECK(error_of(head + "torque = { step = { before = 0.0 } }") ==
+        "f.toml:5:19: error: missing key 'after' in 'forces.0.torque.step'");
+}
+
+TEST_CASE("A tyre of distributed contact cannot pull") {
+  CHECK(error_of(tyre("contact = \"distributed\"\nspring = { polynomial = [0.0, 5.0] }\none_sided = false")) ==
+        "f.toml:8:13: error: 'forces.0.one_sided' must be true of a tyre with distributed contact, which cannot pull");
 }

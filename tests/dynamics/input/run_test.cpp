@@ -137,7 +137,7 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
   CHECK(error_of("speed = 3.0", "speed = \"3 m/s\"") ==
         "runs/first.toml:2:9: error: 'speed' must be a number [m/s], got a string \"3 m/s\"");
   CHECK(error_of("start = \"as-given\"", "start = \"as_given\"") ==
-        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"as-given\"; got a string "
+        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a string "
         "\"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
         "runs/first.toml:24:10: error: 'integrator.method' must be one of \"adams\", \"bdf\"; got a string "

@@ -62,7 +62,8 @@ TEST_CASE(
   const std::vector<dynamics::VehiclePoint> points = dynamics::list_points(read_cart(cart_text()));
   const std::vector<std::string> expected{
       "frame.origin", "frame.center_of_mass", "frame.left", "frame.right", "frame.top", "frame.seat",
-      "arm.origin",   "arm.center_of_mass",   "arm.tip",    "arm.root",    "ground.peg"};
+      "arm.origin",   "arm.center_of_mass",   "arm.tip",    "arm.root",    "ground.peg",
+      "ground.origin"};
   CHECK(dynamics::point_names(read_cart(cart_text())) == expected);
   // Σ m r / Σ m of the frame's four point masses.
   const Eigen::Vector2d center((2.0 * -1.2 + 4.0 * 1.3 + 1.5 * 0.2) / 10.5,
@@ -188,11 +189,11 @@ TEST_CASE("A joint joins two bodies, and a kind that is not known is refused") {
         "cart.toml:28:5: error: joint 'hinge' must join two bodies, 'arm.tip' and 'arm.root' are both on "
         "'arm'");
   CHECK(error_of_cart("type = \"revolute\"", "type = \"revolut\"") ==
-        "cart.toml:26:8: error: 'joints.0.type' must be one of \"revolute\"; got a string \"revolut\" (did "
-        "you mean 'revolute'?)");
+        "cart.toml:26:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
+        "\"distance\", \"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
   CHECK(error_of_cart("type = \"tyre\"", "type = \"tire\"") ==
-        "cart.toml:44:8: error: 'forces.1.type' must be one of \"spring-damper\", \"tyre\"; got a string "
-        "\"tire\" (did you mean 'tyre'?)");
+        "cart.toml:44:8: error: 'forces.1.type' must be one of \"spring-damper\", "
+        "\"rotational-spring-damper\", \"applied\", \"tyre\"; got a string \"tire\" (did you mean 'tyre'?)");
 }
 
 TEST_CASE("A force along a line of no length is refused") {
@@ -229,7 +230,7 @@ TEST_CASE("A node may be called origin only where it is the origin") {
                         .frequencies = {5.0}};
   const support::TomlDocument document = support::TomlDocument::parse(cart_text(), "cart.toml");
   test::write_lumped_superelement(body, "origin");
-  CHECK(dynamics::point_names(dynamics::read_vehicle(document, "origin")).size() == 11);
+  CHECK(dynamics::point_names(dynamics::read_vehicle(document, "origin")).size() == 12);
   body.nodes.push_back({"center_of_mass", {0.3, 0.1}});
   test::write_lumped_superelement(body, "origin");
   CHECK(input_error_of([&] { dynamics::read_vehicle(document, "origin"); }) ==

@@ -1,0 +1,178 @@
+// dynamics/models/README.md, the reference of all input keys, against the keys that the readers ask for, and its examples
+// against the readers.
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/run.h"
+#include "dynamics/input/vehicle.h"
+#include "tests/catch.h"
+#include "tests/dynamics/input/input_cases.h"
+#include "tools/support/read_text_file.h"
+
+using namespace sprung;
+
+namespace {
+
+using Keys = std::set<std::string>;
+
+// A section of the reference: "### Title", a table of keys, examples.
+struct Section {
+  Keys keys;
+  std::vector<std::string> examples;
+};
+
+struct Reference {
+  std::map<std::string, Section> sections;   // by title
+  std::string vehicle;                       // all examples of "## Vehicle file"
+  std::vector<std::string> runs;             // those of "## Run file"
+};
+
+// The words in backticks of a row's first cell, where the row describes keys (its table has a column "meaning").
+Keys read_row_keys(const std::string& line) {
+  Keys keys;
+  const std::string cell = line.substr(0, line.find(" |", 1));
+  for (std::size_t at = cell.find('`'); at != std::string::npos;) {
+    const std::size_t end = cell.find('`', at + 1);
+    keys.insert(cell.substr(at + 1, end - at - 1));
+    at = cell.find('`', end + 1);
+  }
+  return keys;
+}
+
+Reference read_reference() {
+  Reference reference;
+  std::istringstream text(support::read_text_file(SPRUNG_MODELS "/README.md"));
+  std::string part, title, example;
+  bool in_example = false, in_key_table = false;
+  for (std::string line; std::getline(text, line);) {
+    if (in_example && line == "```") {
+      in_example = false;
+      if (part == "Vehicle file") reference.vehicle += example + "\n";
+      else reference.runs.push_back(example);
+    } else if (in_example) {
+      example += line + "\n";
+    } else if (line == "```toml") {
+      in_example = true;
+      example.clear();
+    } else if (line.starts_with("## ")) {
+      part = line.substr(3);
+    } else if (line.starts_with("### ")) {
+      title = line.substr(4);
+    } else if (line.starts_with("| key |")) {
+      in_key_table = true;
+    } else if (!line.starts_with("|")) {
+      in_key_table = false;
+    } else if (in_key_table && line.starts_with("| `")) {
+      reference.sections[title].keys.merge(read_row_keys(line));
+    }
+  }
+  return reference;
+}
+
+// "forces.3.spring" → "forces.*.spring": names and positions under lists and tables of free names.
+std::string path_of(const std::string& key) {
+  static const Keys kFreeNames{"bodies", "joints", "motions", "forces", "initial", "points", "force"};
+  std::istringstream parts(key);
+  std::string path, last;
+  for (std::string part; std::getline(parts, part, '.');) {
+    const bool is_free = kFreeNames.contains(last);
+    last = is_free ? "" : part;
+    if (!path.empty()) path.push_back('.');
+    path.append(is_free ? "*" : part);
+  }
+  return path;
+}
+
+// The section that describes a table, "" for tables whose keys are names.
+std::string section_of(const std::string& path, const std::string& type) {
+  static const std::map<std::string, std::string> kSections{
+      {"", "Vehicle"},
+      {"bodies.*", "Bodies"},
+      {"bodies.*.points.*", "Points of a superelement"},
+      {"motions.*", "Motions"},
+      {"motions.*.function", "Functions of time"},
+      {"joints.*.length", "Functions of time"},
+      {"forces.*.torque", "Functions of time"},
+      {"forces.*.force.*", "Functions of time"},
+      {"forces.*.spring", "Laws: spring"},
+      {"forces.*.compression_stop", "Laws: stops"},
+      {"forces.*.rebound_stop", "Laws: stops"},
+      {"forces.*.damper", "Laws: damper"},
+      {"statistics", "Statistics"},
+      {"integrator", "Integrator"},
+      {"output", "Output"},
+      {"initial.*", "Initial"},
+  };
+  if (path == "joints.*") return "Joints: " + type;
+  if (path == "forces.*") return "Forces: " + type;
+  if (path == "road") return type == "flat" || type == "table" ? "Road: " + type : "Road: a bump";
+  if (path.ends_with(".harmonic")) return "Functions of time: harmonic";
+  if (path.ends_with(".step")) return "Functions of time: step";
+  const auto found = kSections.find(path);
+  return found == kSections.end() ? "" : found->second;
+}
+
+struct Found {
+  std::map<std::string, Keys> asked, used;  // by section
+};
+
+// Walks a document that has been read.
+void collect(const support::TomlValue& value, Found& found, const std::string& root_section);
+void collect(const support::TomlTable& table, Found& found, const std::string& root_section) {
+  const Keys asked(table.asked_keys().begin(), table.asked_keys().end());
+  Keys used;
+  std::string type;
+  for (const auto& [key, value] : table.entries()) {
+    used.insert(key);
+    if ((key == "type" || key == "shape") && value.is_string()) type = value.string();
+    collect(value, found, root_section);
+  }
+  const std::string path = path_of(table.key());
+  const std::string section = path.empty() ? root_section : section_of(path, type);
+  if (section.empty()) return;
+  found.asked[section].insert(asked.begin(), asked.end());
+  found.used[section].merge(used);
+}
+void collect(const support::TomlValue& value, Found& found, const std::string& root_section) {
+  if (value.is_table()) collect(value.table(), found, root_section);
+  if (!value.is_array()) return;
+  for (const support::TomlValue& item : value.items()) collect(item, found, root_section);
+}
+
+Found read_examples(const Reference& reference) {
+  Found found;
+  const auto vehicle = support::TomlDocument::parse(reference.vehicle, "vehicle example");
+  dynamics::read_vehicle(vehicle, test::superelement_folder());
+  collect(vehicle.root(), found, "Vehicle");
+  for (const std::string& example : reference.runs) {
+    const bool is_whole = example.find("vehicle =") != std::string::npos;
+    const auto run = support::TomlDocument::parse(
+        (is_whole ? "" : "vehicle = \"vehicle.toml\"\nduration = 5.0\n") + example, "run example");
+    dynamics::read_run(run);
+    collect(run.root(), found, "Run");
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("The reference names exactly the keys that the program reads, and every one has an example") {
+  const Reference reference = read_reference();
+  const Found found = read_examples(reference);
+  CHECK(found.asked.size() == 27);  // sections with keys
+  for (const auto& [title, section] : reference.sections) {
+    CAPTURE(title);
+    REQUIRE(found.asked.contains(title));
+    CHECK(section.keys == found.asked.at(title));
+    // Tables of the run file stand in examples of their own.
+    Keys used = found.used.at(title);
+    CHECK(section.keys == used);
+  }
+  for (const auto& [title, keys] : found.asked) {
+    CAPTURE(title);
+    CHECK(reference.sections.contains(title));
+  }
+}

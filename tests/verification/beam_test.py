@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""Beams: frequencies of one body from stage one, and of bodies assembled in stage two, against the theory of beams.
+
+(βL)² = ω √(μL⁴/EI): clamped–free 3.516…, free–free 22.373…, pinned–free 15.418… from cos βL cosh βL = ∓1 and
+tan βL = tanh βL; the designs' √(EI/μL⁴) is 5 rad/s.
+"""
+
+import json
+import math
+import os
+import subprocess
+import unittest
+
+from verification_case import MODELS, SUPERELEMENTS, VerificationCase
+
+UNIT = 5.0  # rad/s
+CLAMPED_FREE = [3.51601527, 22.03449156, 61.69721441]
+FREE_FREE = [22.37328545, 61.67282287, 120.90339173]
+PINNED_FREE = [15.41820572, 49.96486203, 104.24769646]
+GUIDED_FREE = [5.59332, 30.22585, 74.63888]  # tan βL + tanh βL = 0
+
+
+def reduce_frequencies(path):
+    """Frequencies [Hz] in a superelement."""
+    process = subprocess.run([os.environ["SPRUNG_REDUCE"], "info", "--json", str(path)], capture_output=True, check=True)
+    return [mode["frequency_hz"] for mode in json.loads(process.stdout)["modes"]]
+
+
+class Bodies(VerificationCase):
+    def test_cantilever(self):
+        omega = [2.0 * math.pi * f / UNIT for f in reduce_frequencies(f"{SUPERELEMENTS}/beam_at_end.h5")[:3]]
+        self.assert_close(omega, CLAMPED_FREE, relative=1e-4)
+
+    def test_cantilever_converges_at_the_order_of_the_element(self):
+        # Cubic bending elements: frequencies converge with the fourth power of their length.
+        errors = []
+        for elements in (4, 8, 16):
+            design = (MODELS / "beam_at_end.toml").read_text(encoding="utf-8")
+            design = design.replace("elements = 32", f"elements = {elements}").replace("count = 20", "count = 3")
+            path = self.folder / "beam.toml"
+            path.write_text(design, encoding="utf-8")
+            subprocess.run([os.environ["SPRUNG_REDUCE"], "build", str(path), "--output-dir", str(self.folder)],
+                           capture_output=True, check=True)
+            omega = 2.0 * math.pi * reduce_frequencies(self.folder / "beam.h5")[2] / UNIT
+            errors.append(omega / CLAMPED_FREE[2] - 1.0)
+        for coarse, fine in zip(errors, errors[1:]):
+            self.assertAlmostEqual(math.log2(coarse / fine), 4.0, delta=0.2)
+
+    def test_thick_cantilever_with_shear_and_rotary_inertia(self):
+        # Bending and axial frequencies from an independent Timoshenko program with 128 elements.
+        frequencies = reduce_frequencies(f"{SUPERELEMENTS}/timoshenko_cantilever.h5")[:5]
+        self.assert_close(frequencies, [83.160, 498.406, 1297.194, 1310.905, 2378.04], relative=1e-5)
+
+
+class AssembledBeams(VerificationCase):
+    """A floating frame gives the frequencies of the beam as it is held in the assembled system, not those of its modes."""
+
+    def test_unattached_wherever_clamped(self):
+        for superelement in ("beam_at_end", "beam_inside"):
+            omega, num_rigid = self.modes(
+                MODELS / "unattached_beam_run.toml", "--set", f"vehicle.bodies.beam.superelement={superelement}"
+            )
+            self.assertEqual(num_rigid, 3)
+            self.assert_close(omega[:3] / UNIT, FREE_FREE, relative=1e-4)
+
+    def test_pinned_at_the_end(self):
+        omega, num_rigid = self.modes(
+            MODELS / "pinned_beam_run.toml", "--set", "vehicle.bodies.beam.superelement=beam_at_end",
+            "--set", "vehicle.bodies.beam.position=[2.4243368787481967, -1.2433864639429066]",
+        )
+        self.assertEqual(num_rigid, 1)
+        self.assert_close(omega[:3] / UNIT, PINNED_FREE, relative=1e-4)
+        # Clamped elsewhere, more modes are needed for the third frequency: 40 for the same tolerance.
+        omega, num_rigid = self.modes(MODELS / "pinned_beam_run.toml", "--set", "modes.beam=40")
+        self.assertEqual(num_rigid, 1)
+        self.assert_close(omega[:3] / UNIT, PINNED_FREE, relative=1e-4)
+
+    def test_converges_from_above_as_modes_are_added(self):
+        for case, expected in (("unattached", FREE_FREE), ("pinned", PINNED_FREE)):
+            errors = [
+                self.modes(MODELS / f"{case}_beam_run.toml", "--set", f"modes.beam={n}")[0][1] / UNIT / expected[1] - 1.0
+                for n in (4, 8, 16, 32)
+            ]
+            for few, more in zip(errors, errors[1:]):
+                self.assertGreater(few, more)
+            self.assertGreater(errors[-1], 0.0)
+            self.assertLess(errors[-1], errors[0] / 30.0)
+
+    def test_held_by_joints_at_a_node(self):
+        # Welded at its end the beam is a cantilever; on a slide across its axis it is guided–free.
+        joint = '\n[[joints]]\nname = "end"\ntype = "{}"\na = "ground.end"\nb = "beam.left"\n'
+        vehicle = (
+            'name = "beam"\ngravity = [0.0, 0.0]\n[bodies.beam]\nsuperelement = "beam_inside"\n'
+            "position = [0.625, 0.0]\n[ground.points]\nend = [0.0, 0.0]\n"
+        )
+        for held, expected in (
+            (joint.format("fixed"), CLAMPED_FREE),
+            (joint.format("translational") + "axis = [0.0, 1.0]\n", GUIDED_FREE),
+        ):
+            (self.folder / "vehicle.toml").write_text(vehicle + held, encoding="utf-8")
+            (self.folder / "run.toml").write_text(
+                'vehicle = "vehicle.toml"\nduration = 1.0\n[modes]\nbeam = 40\n', encoding="utf-8"
+            )
+            omega, num_rigid = self.modes(self.folder / "run.toml")
+            self.assertEqual(num_rigid, 1 if "translational" in held else 0)
+            self.assert_close(omega[:2] / UNIT, expected[:2], relative=5e-4)
+
+
+class RotatingBeam(VerificationCase):
+    def test_without_stress_stiffening_rotation_softens(self):
+        # Clamped to a shaft at γ = Ω/5 rad/s, linear bending in the plane: ω̂² = 3.51601527² − γ².
+        for gamma in (0.0, 1.0, 2.0, 3.0, 3.4):
+            omega, num_rigid = self.modes(
+                MODELS / "rotating_beam_run.toml",
+                "--set", f"vehicle.motions.speed.function.polynomial=[0.3, {UNIT * gamma}]",
+            )
+            self.assertEqual(num_rigid, 0)
+            self.assert_close((omega[0] / UNIT) ** 2, CLAMPED_FREE[0] ** 2 - gamma**2, relative=1e-4)
+
+    def test_unstable_beyond_its_first_frequency(self):
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], "modes", str(MODELS / "rotating_beam_run.toml"), "--superelements",
+             SUPERELEMENTS, "--set", "vehicle.motions.speed.function.polynomial=[0.3, 18.0]"],
+            capture_output=True, text=True, check=False,
+        )
+        self.assertEqual(process.returncode, 3)
+        self.assertIn("unstable", process.stderr)
+
+
+class SoftPendulum(VerificationCase):
+    def test_falls_as_the_exact_beam_does_while_bending_is_all_there_is(self):
+        # Geometrically exact reference; later in the fall its stress stiffening counts for more than 1e-3 m, which
+        # bending modes alone do not have.
+        results = self.run_to_results(MODELS / "soft_pendulum_run.toml")
+        tip = results["points/beam.tip/position"]
+        self.assert_close(tip[results.row(0.20)], [0.95866, -0.28460], absolute=1e-3)
+        self.assert_close(tip[results.row(1.00)], [-0.99996, -0.00496], absolute=1e-3)
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+"""Forces in time and about axes, against closed forms."""
+
+import math
+import unittest
+
+import numpy as np
+
+from verification_case import VerificationCase
+
+DISC = """
+name = "disc"
+gravity = {0}
+[bodies.disc]
+mass = 2.0
+inertia = 0.5
+position = [0.0, 0.0]
+"""
+
+
+class Applied(VerificationCase):
+    def test_kinks_in_time_are_stepped_to(self):
+        # Momentum is the integral of the force, here of straight lines; at a loose tolerance no step may run over a
+        # pulse of a millisecond after seconds of nothing.
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]")
+            + """
+[[forces]]
+name = "hammer"
+type = "applied"
+point = "disc.origin"
+force = [{ table = [[1.5, 0.0], [1.5003, 9000.0], [1.501, 0.0]] }, 0.0]
+torque = { step = { before = 0.0, after = 3.0, start = 2.0, end = 2.002 } }
+""",
+            'start = "as-given"\nduration = 4.0\n[integrator]\nrelative_tolerance = 1e-3\n',
+        )
+        velocity = results["bodies/disc/velocity"]
+        self.assert_close(velocity[results.row(1.5), 0], 0.0, absolute=1e-12)
+        self.assert_close(velocity[-1, 0], 0.5 * 9000.0 * 1e-3 / 2.0, relative=1e-6)
+        # 3 N·m from 2.002 s on, and half of that for the 2 ms before.
+        self.assert_close(velocity[-1, 2], 3.0 / 0.5 * (1.998 + 0.001), relative=1e-6)
+
+    def test_following_force_turns_with_its_body(self):
+        # A disc that turns at 3 rad/s under a force along its own x: v = F/(m ω) (sin ωt, 1 − cos ωt).
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]")
+            + """
+[[forces]]
+name = "jet"
+type = "applied"
+point = "disc.origin"
+axes = "following"
+force = [10.0, 0.0]
+""",
+            'start = "as-given"\nduration = 2.0\n[initial.disc]\nangular_velocity = 3.0\n'
+            "[integrator]\nrelative_tolerance = 1e-8\n",
+        )
+        angle = 3.0 * results.time
+        expected = 10.0 / (2.0 * 3.0) * np.column_stack([np.sin(angle), 1.0 - np.cos(angle)])
+        self.assert_close(results["bodies/disc/velocity"][:, :2], expected, absolute=1e-7)
+        self.assertLess(results.summary["energy_closure"], 1e-7)
+
+    def test_gravity_in_any_direction(self):
+        results = self.run_text(DISC.format("[3.0, -4.0]"), 'start = "as-given"\nduration = 1.0\n')
+        t = results.time
+        self.assert_close(results["bodies/disc/position"][:, :2], np.column_stack([1.5 * t**2, -2.0 * t**2]), absolute=1e-8)
+        self.assertLess(results.summary["energy_closure"], 1e-8)
+
+
+class TorsionPendulum(VerificationCase):
+    def test_spring_and_damper_about_an_axis(self):
+        # J = 0.5, k = 2 · 40, c = 2 · 0.3: decaying oscillation about the free angle of 0.4 rad, from 0 at rest.
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]")
+            + """
+[[joints]]
+name = "axle"
+type = "revolute"
+a = "ground.origin"
+b = "disc.origin"
+[[forces]]
+name = "wire"
+type = "rotational-spring-damper"
+a = "ground.origin"
+b = "disc.origin"
+free_angle = 0.4
+multiplicity = 2
+spring = { polynomial = [0.0, 40.0] }
+damper = { coefficient = 0.3 }
+""",
+            'start = "as-given"\nduration = 2.0\n[integrator]\nrelative_tolerance = 1e-8\n',
+        )
+        decay = 0.6 / (2.0 * 0.5)
+        omega = math.sqrt(80.0 / 0.5 - decay**2)
+        t = results.time
+        shape = np.exp(-decay * t) * (np.cos(omega * t) + decay / omega * np.sin(omega * t))
+        self.assert_close(results["bodies/disc/position"][:, 2], 0.4 * (1.0 - shape), absolute=1e-7)
+        self.assert_close(results["joints/axle/coordinate"], results["bodies/disc/position"][:, 2], absolute=1e-14)
+        modes = self.program("modes", self.folder / "run.toml")["modes"]
+        self.assert_close(modes[0]["undamped_frequency"], math.sqrt(160.0) / (2.0 * math.pi), relative=1e-8)
+        self.assert_close(modes[0]["damping_ratio"], decay / math.sqrt(160.0), relative=1e-8)
+
+    def test_stops_are_located(self):
+        # Free between −0.1 and 0.1 rad, thrown from one stop to the other without loss: the same speed each time.
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]")
+            + """
+[[joints]]
+name = "axle"
+type = "revolute"
+a = "ground.origin"
+b = "disc.origin"
+[[forces]]
+name = "stops"
+type = "rotational-spring-damper"
+a = "ground.origin"
+b = "disc.origin"
+compression_stop = { deflection = 0.1, rate = 5.0e4 }
+rebound_stop = { deflection = -0.1, rate = 5.0e4 }
+""",
+            'start = "as-given"\nduration = 3.0\n[initial.disc]\nangular_velocity = 1.0\n',
+        )
+        self.assertGreaterEqual(results.summary["switches"], 24)
+        free = np.abs(results["bodies/disc/position"][:, 2]) < 0.1
+        self.assert_close(np.abs(results["bodies/disc/velocity"][free, 2]), 1.0, absolute=1e-5)
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Mechanisms of rigid bodies: the examples, each against numbers from elsewhere."""
+
+import unittest
+
+import numpy as np
+
+from verification_case import EXAMPLES, MODELS, VerificationCase
+
+
+class Andrews(VerificationCase):
+    """Angles at the end: an independent calculation by two formulations, and for β the source's 15.81077119629904."""
+
+    def test_squeezing_mechanism(self):
+        results = self.run_to_results(EXAMPLES / "andrews_run.toml")
+        angle = {name: results[f"bodies/{name}/position"][:, 2] for name in results.file["bodies"]}
+        self.assert_close(results["bodies/K1/acceleration"][0, 2], 14222.4439199541, relative=1e-12)
+        last = {name: values[-1] for name, values in angle.items()}
+        beta, delta, epsilon = last["K1"], last["K5"], last["K7"]
+        self.assert_close(
+            [beta, last["K2"] - beta, last["K3"], last["K4"] - delta, delta, epsilon],
+            [15.81077119515, -15.75637105841, 0.040822240119, -0.53473011634, 0.52440996588, 1.04808074102],
+            absolute=1e-7,
+        )
+        self.assert_close(results["bodies/K1/velocity"][-1, 2], 1139.92030226, relative=1e-6)
+        stored = results.energy()
+        work = 0.033 * (angle["K1"] - angle["K1"][0])
+        self.assert_close(stored - stored[0], work, absolute=1e-8)
+        self.assert_close(results["energy/input"], work, absolute=1e-8)
+        self.assertLess(results.summary["constraint_violation"], 1e-10)
+
+
+class Pendulum(VerificationCase):
+    def test_simple_pendulum(self):
+        results = self.run_to_results(EXAMPLES / "pendulum_run.toml")
+        position = results["bodies/bob/position"][:, :2]
+        self.assert_close(position[results.row(10.0)], [0.2750874625761, -0.9614192050991], absolute=1e-5)
+        self.assert_close(position[results.row(100.0)], [0.1815133514, -0.9833884803], absolute=1e-3)
+        # The link carries weight and centripetal force: along it, m (g cos + v²/L), away from the pin on point a.
+        pull = results["joints/link/reaction"][:, :2]
+        velocity = results["bodies/bob/velocity"][:, :2]
+        expected = (-9.81 * position[:, 1] + np.sum(velocity**2, axis=1))[:, None] * position
+        self.assert_close(pull, expected, absolute=1e-4)
+
+
+class FourBar(VerificationCase):
+    def test_positions_and_drive(self):
+        results = self.run_to_results(EXAMPLES / "four_bar_run.toml")
+        crank = 10.0 * results.time
+        self.assert_close(results["bodies/crank/position"][:, 2], crank, absolute=1e-12)
+        # Rocker: the end of the crank and the rocker's pin are two points from which the last joint is at 0.5, 0.4 m.
+        end = 0.2 * np.column_stack([np.cos(crank), np.sin(crank)])
+        span = np.array([0.5, 0.0]) - end
+        length = np.hypot(span[:, 0], span[:, 1])
+        along = (length**2 + 0.5**2 - 0.4**2) / (2.0 * length)
+        across = np.sqrt(0.5**2 - along**2)
+        unit = span / length[:, None]
+        joint = end + along[:, None] * unit + across[:, None] * np.column_stack([-unit[:, 1], unit[:, 0]])
+        self.assert_close(results["points/coupler.far/position"], joint, absolute=1e-9)
+        # All freedom is driven: what the motor gives is what the stored energy takes.
+        power = results["joints/motor/drive"] * 10.0
+        self.assert_close(results["joints/motor/rate"], 10.0, relative=1e-12)
+        step = results.time[1] - results.time[0]
+        stored = results.energy()
+        rate = (8.0 * (stored[3:-1] - stored[1:-3]) - (stored[4:] - stored[:-4])) / (12.0 * step)
+        self.assert_close(power[2:-2], rate, absolute=1e-6 * np.max(np.abs(rate)))
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+class SliderCrank(VerificationCase):
+    def test_piston_and_reactions(self):
+        results = self.run_to_results(EXAMPLES / "slider_crank_run.toml")
+        angle = results["bodies/crank/position"][:, 2]
+        piston = results["bodies/piston/position"]
+        expected = 0.05 * np.cos(angle) + np.sqrt(0.2**2 - (0.05 * np.sin(angle)) ** 2)
+        self.assert_close(piston[:, 0], expected, absolute=1e-10)
+        self.assert_close(piston[:, 1:], 0.0, absolute=1e-10)
+        self.assert_close(results["joints/cylinder/coordinate"], piston[:, 0], absolute=1e-12)
+        # Five turns of the motor, then rest; the crank comes after.
+        motor = results["bodies/motor/position"][:, 2]
+        self.assert_close(motor[[0, -1]], [0.0, 10.0 * np.pi], absolute=1e-10)
+        self.assert_close(angle[-1], 10.0 * np.pi, absolute=0.1)
+        # The motor's balance: J α = drive − torque of the coupling.
+        torque = results["forces/coupling/torque"]  # on the crank
+        self.assert_close(
+            0.01 * results["bodies/motor/acceleration"][:, 2], results["joints/motor/drive"] - torque, absolute=1e-8
+        )
+        # Newton's law for the piston: pin, cylinder, gas and weight.
+        pin = -results["joints/piston_pin/reaction"][:, :2]      # the reaction is on the rod
+        wall = -results["joints/cylinder/reaction"][:, :2]       # the reaction is on the ground
+        gas = np.column_stack([results["forces/gas/force_x"], results["forces/gas/force_y"]])
+        weight = np.array([0.0, -0.3 * 9.81])
+        self.assert_close(0.3 * results["bodies/piston/acceleration"][:, :2], pin + wall + gas + weight, absolute=1e-7)
+        self.assert_close(wall[:, 0], 0.0, absolute=1e-9)  # a slide holds across its axis alone
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+class Chains(VerificationCase):
+    def test_track_hangs_with_its_weight_on_two_pins(self):
+        balance = self.program("equilibrium", EXAMPLES / "track_run.toml")
+        self.assertTrue(balance["stable"])
+        results = self.run_to_results(EXAMPLES / "track_run.toml", "--set", "start=equilibrium", "--set", "duration=0.1")
+        lift = -sum(results[f"joints/{name}/reaction"][0, 1] for name in ("front", "rear"))
+        self.assert_close(lift, 16.0 * 9.81, relative=1e-9)
+
+    def test_track_let_go(self):
+        results = self.run_to_results(EXAMPLES / "track_run.toml")
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+        self.assertGreater(results["energy/dissipated"][-1], 1.0)
+
+    def test_folding_chain_keeps_its_energy_through_new_partitions(self):
+        results = self.run_to_results(MODELS / "folding_chain_run.toml", "--set", "duration=1.0")
+        self.assertGreaterEqual(results.summary["repartitions"], 3)
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()

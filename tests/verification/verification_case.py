@@ -1,0 +1,77 @@
+"""What the verification tests share: running the programs as a user does, and reading what they leave."""
+
+import json
+import math
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "dynamics/models/examples"
+MODELS = Path(__file__).resolve().parent / "models"
+SUPERELEMENTS = os.environ["SPRUNG_SUPERELEMENTS"]
+
+
+class VerificationCase(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def program(self, verb, run_file, *arguments, superelements=SUPERELEMENTS):
+        """What the program prints with --json."""
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], verb, str(run_file), "--superelements", str(superelements), "--json",
+             "--quiet", *arguments],
+            cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+        )
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return json.loads(process.stdout)
+
+    def run_to_results(self, run_file, *arguments, **options):
+        """Runs; returns the open results file, with the printed summary as `.summary`."""
+        path = self.folder / "results.h5"
+        summary = self.program("run", run_file, *arguments, "-o", str(path), **options)
+        self.assertLess(summary["constraint_violation"], 1e-10)
+        results = Results(path, summary)
+        self.addCleanup(results.file.close)
+        return results
+
+    def run_text(self, vehicle, run, *arguments):
+        """The same for a vehicle and a run written down in the test."""
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\n' + run, encoding="utf-8")
+        return self.run_to_results(self.folder / "run.toml", *arguments)
+
+    def modes(self, run_file, *arguments, **options):
+        """Undamped angular frequencies [rad/s] of what is no rigid-body mode, and the number of rigid-body modes."""
+        modes = self.program("modes", run_file, *arguments, **options)["modes"]
+        elastic = [2.0 * math.pi * mode["undamped_frequency"] for mode in modes if not mode["rigid_body"]]
+        return np.array(elastic), sum(mode["rigid_body"] for mode in modes)
+
+    def assert_close(self, values, expected, *, relative=0.0, absolute=0.0):
+        np.testing.assert_allclose(values, expected, rtol=relative, atol=absolute)
+
+
+class Results:
+    def __init__(self, path, summary):
+        self.file = h5py.File(path, "r")
+        self.summary = summary
+        self.time = self.file["time"][:]
+
+    def __getitem__(self, name):
+        return self.file[name][:]
+
+    def energy(self):
+        """Stored energy [J] at each output."""
+        return sum(self[f"energy/{name}"] for name in ("kinetic", "strain", "gravity", "spring"))
+
+    def row(self, time):
+        row = int(np.argmin(np.abs(self.time - time)))
+        assert abs(self.time[row] - time) < 1e-9
+        return row
