@@ -131,6 +131,7 @@ Run read_run(const support::TomlDocument& document) {
     static const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
     const auto found = std::find(kStarts.begin(), kStarts.end(), start->one_of(kStarts));
     run.start = static_cast<Run::Start>(found - kStarts.begin());
+    run.start_location = start->location();
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);

@@ -38,7 +38,7 @@ struct IntegratorSettings {
 struct Run {
   enum class Start {
     kEquilibrium,  ///< static balance, prescribed motion standing still
-    kSteady,       ///< balance while prescribed motion goes on at its rate
+    kSteady,       ///< balance of the bodies' modes while prescribed motion goes on at its rate
     kAsGiven,
   };
 
@@ -49,6 +49,7 @@ struct Run {
   double duration = 0.0;               ///< > 0 [s]
   double output_step = 1e-3;           ///< > 0, ≤ duration [s]
   Start start = Start::kEquilibrium;
+  support::SourceLocation start_location;
   double statistics_from = 0.0;  ///< [s]
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;

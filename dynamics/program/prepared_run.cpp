@@ -24,6 +24,22 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
   return {.time = 0.0, .q = q, .v = v, .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
+// Steady motion is a balance in coordinates that stand still in it: modes do, places and angles of bodies that are
+// carried round do not.
+void check_steady(const PreparedRun& prepared) {
+  const Model& model = prepared.balance_model;
+  if (!model.has_motions) return;
+  for (const int i : prepared.equilibrium->linearised.partition.independent) {
+    const std::string name = model.coordinate_name(i);
+    if (name.find(".mode ") != std::string::npos) continue;
+    throw support::InputError(
+        prepared.run.start_location,
+        fmt::format("'start' can be \"steady\" only where prescribed motion leaves nothing free but modes of flexible "
+                    "bodies, clamped where they are held; '{}' is free",
+                    name));
+  }
+}
+
 }  // namespace
 
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
@@ -54,6 +70,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
     prepared.equilibrium = find_equilibrium(prepared.balance_model, q);
     q = prepared.equilibrium->q;
+    if (run.start == Run::Start::kSteady) check_steady(prepared);
   }
 
   SystemTerms terms(prepared.balance_model);
