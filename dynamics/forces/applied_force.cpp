@@ -9,7 +9,8 @@ Wrench AppliedForce::calc_wrench(const Instant& instant) const {
   Wrench wrench;
   wrench.force = {parameters_.force_x.value(instant.time), parameters_.force_y.value(instant.time)};
   wrench.torque = parameters_.torque.value(instant.time);
-  if (parameters_.axes == Axes::kFollowing) wrench.force = FrameRotation::from_angle(marker.angle) * wrench.force;
+  if (parameters_.axes == Axes::kFollowing)
+    wrench.force = FrameRotation::from_angle(marker.angle) * wrench.force;
   return wrench;
 }
 

@@ -6,7 +6,7 @@
 namespace sprung::dynamics {
 
 /// Force and torque on one marker as functions of time, in axes that stay with the world or follow the marker
-/// (dynamics/README.md, eq. 18). The work they do is energy put in.
+/// (dynamics/README.md, eq. 32). The work they do is energy put in.
 class AppliedForce final : public ForceElement {
  public:
   enum class Axes {
@@ -23,11 +23,13 @@ class AppliedForce final : public ForceElement {
       : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
 
   std::string_view kind() const override { return "applied"; }
-  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  Power add_wrenches(const Instant& instant, std::span<const int> branches,
+                     std::span<Wrench> wrenches) const override;
   std::vector<const TimeFunction*> time_functions() const override;
 
   std::span<const Channel> channels() const override;
-  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
  private:
   Wrench calc_wrench(const Instant& instant) const;

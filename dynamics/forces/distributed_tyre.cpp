@@ -52,7 +52,8 @@ DistributedTyre::Wheel DistributedTyre::calc_wheel(const Instant& instant) const
   const double radius = parameters_.radius;
   Wheel wheel{};
   wheel.height = center.r.y();
-  wheel.overlap = calc_wheel_overlap(*road_.road, road_.distance(center.r.x()), center.r.y(), radius, num_cells_);
+  wheel.overlap =
+      calc_wheel_overlap(*road_.road, road_.distance(center.r.x()), center.r.y(), radius, num_cells_);
   const WheelOverlap& overlap = wheel.overlap;
   wheel.penetration = find_level_penetration(radius, overlap.area);
   wheel.level_width = 2.0 * std::sqrt(wheel.penetration * (2.0 * radius - wheel.penetration));
@@ -103,8 +104,9 @@ void DistributedTyre::choose_branches(const Instant& instant, std::span<int> bra
     branches[0] = kInAir;
   } else {
     const double half_band = 0.5 * dead_band_;
-    branches[0] =
-        wheel.elastic + wheel.viscous > (branches[0] == kTouching ? half_band : -half_band) ? kPressed : kTouching;
+    branches[0] = wheel.elastic + wheel.viscous > (branches[0] == kTouching ? half_band : -half_band)
+                      ? kPressed
+                      : kTouching;
   }
 }
 
@@ -158,7 +160,8 @@ void DistributedTyre::calc_channels(const Instant& instant, std::span<const int>
   values[1] = wheel.penetration;
   values[2] = wheel.rate;
   values[3] = branches[0] == kInAir ? 0.0 : 1.0;
-  values[4] = wheel.height - parameters_.radius + (wheel.overlap.area > 0.0 ? wheel.penetration : wheel.overlap.depth);
+  values[4] = wheel.height - parameters_.radius +
+              (wheel.overlap.area > 0.0 ? wheel.penetration : wheel.overlap.depth);
   values[5] = -road_.direction * force * wheel.drag;
 }
 

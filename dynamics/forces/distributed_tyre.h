@@ -7,11 +7,12 @@
 
 namespace sprung::dynamics {
 
-/// A wheel that touches the road along a length of it, and so envelopes what is short (dynamics/README.md, eqs. 23 to
-/// 26). The penetration δ is the one that gives the same overlap of the wheel's circle on level ground, where this tyre
-/// is the point-contact tyre of the same spring; the pressure spring(δ) + damping δ̇ over the width on level ground acts
-/// normal to the road wherever it touches. The force has a potential, hence a part along the road: an edge holds the
-/// wheel back. Rolling resistance and traction are other elements' matter.
+/// A wheel that touches the road along a length of it, and so envelopes what is short (dynamics/README.md,
+/// eqs. 33 to 36). The penetration δ is the one that gives the same overlap of the wheel's circle on level
+/// ground, where this tyre is the point-contact tyre of the same spring; the pressure spring(δ) + damping δ̇
+/// over the width on level ground acts normal to the road wherever it touches. The force has a potential,
+/// hence a part along the road: an edge holds the wheel back. Rolling resistance and traction are other
+/// elements' matter.
 class DistributedTyre final : public ForceElement {
  public:
   struct Parameters {
@@ -24,21 +25,25 @@ class DistributedTyre final : public ForceElement {
   DistributedTyre(std::string element_name, Parameters parameters, PlacedRoad road);
 
   std::string_view kind() const override { return "tyre"; }
-  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  Power add_wrenches(const Instant& instant, std::span<const int> branches,
+                     std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
 
-  /// Branches: kind of contact (0 in the air, 1 pressed, 2 touching without force), segment of the road that the
-  /// wheel's front is on.
+  /// Branches: kind of contact (0 in the air, 1 pressed, 2 touching without force), segment of the road that
+  /// the wheel's front is on.
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
   /// Switches: depth of contact, force, the segment's two ends.
   int num_switches() const override { return 4; }
-  void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
-  std::string describe_change(std::span<const int> old_branches, std::span<const int> new_branches) const override;
+  void calc_switches(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
+  std::string describe_change(std::span<const int> old_branches,
+                              std::span<const int> new_branches) const override;
   double calc_longest_step(const Instant& instant) const override;
 
   std::span<const Channel> channels() const override;
-  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
  private:
   struct Wheel;

@@ -23,13 +23,15 @@ Power RotationalSpringDamper::add_wrenches(const Instant& instant, std::span<con
   const Twist twist = calc_twist(instant);
   const double spring_torque =
       parameters_.multiplicity * parameters_.spring.value_in_piece(branches[0], twist.deflection);
-  const double damper_torque = parameters_.multiplicity * parameters_.damper.value_in_piece(branches[1], twist.rate);
+  const double damper_torque =
+      parameters_.multiplicity * parameters_.damper.value_in_piece(branches[1], twist.rate);
   wrenches[static_cast<std::size_t>(parameters_.marker_b)].torque += spring_torque + damper_torque;
   wrenches[static_cast<std::size_t>(parameters_.marker_a)].torque -= spring_torque + damper_torque;
   return {.dissipated = damper_torque * twist.rate};
 }
 
-double RotationalSpringDamper::calc_stored_energy(const Instant& instant, std::span<const int> /*branches*/) const {
+double RotationalSpringDamper::calc_stored_energy(const Instant& instant,
+                                                  std::span<const int> /*branches*/) const {
   return parameters_.multiplicity * parameters_.spring.integral(calc_twist(instant).deflection);
 }
 

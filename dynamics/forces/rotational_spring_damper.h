@@ -5,9 +5,9 @@
 
 namespace sprung::dynamics {
 
-/// Spring and damper between the angles of two markers (dynamics/README.md, eq. 17). Deflection d = free angle −
-/// (angle_b − angle_a); the torque T = spring(d) + damper(ḋ) turns b counter-clockwise when positive, and a the other
-/// way. Angles count full turns.
+/// Spring and damper between the angles of two markers (dynamics/README.md, eq. 31). Deflection d = free
+/// angle − (angle_b − angle_a); the torque T = spring(d) + damper(ḋ) turns b counter-clockwise when positive,
+/// and a the other way. Angles count full turns.
 class RotationalSpringDamper final : public ForceElement {
  public:
   struct Parameters {
@@ -23,16 +23,19 @@ class RotationalSpringDamper final : public ForceElement {
 
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "rotational-spring-damper"; }
-  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  Power add_wrenches(const Instant& instant, std::span<const int> branches,
+                     std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
   /// Branches: pieces of spring and damper. Switches: the ends of both.
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
   int num_switches() const override { return 4; }
-  void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void calc_switches(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
   std::span<const Channel> channels() const override;
-  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
  private:
   struct Twist {

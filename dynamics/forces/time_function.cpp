@@ -57,8 +57,9 @@ TimeFunction TimeFunction::spline(std::span<const double> t, std::span<const dou
 TimeFunction TimeFunction::smooth_step(const Step& parameters) {
   const double duration = parameters.end - parameters.start;
   if (!(duration > 0.0)) {
-    throw std::invalid_argument(fmt::format("TimeFunction::smooth_step: end must come after start, got {} s and {} s",
-                                            parameters.end, parameters.start));
+    throw std::invalid_argument(
+        fmt::format("TimeFunction::smooth_step: end must come after start, got {} s and {} s", parameters.end,
+                    parameters.start));
   }
   const double change = parameters.after - parameters.before;
   const double cubed = duration * duration * duration;

@@ -8,9 +8,9 @@
 
 namespace sprung::dynamics {
 
-/// A function of time with its first two derivatives: applied forces, prescribed motion (dynamics/README.md, eqs. 12
-/// to 14). Smooth between its breaks; at a break the formula of what follows holds. The integrator steps to every
-/// break exactly and starts anew there.
+/// A function of time with its first two derivatives: applied forces, prescribed motion (dynamics/README.md,
+/// eq. 30). Smooth between its breaks; at a break the formula of what follows holds. The integrator steps to
+/// every break exactly and starts anew there.
 class TimeFunction {
  public:
   TimeFunction() = default;
@@ -33,7 +33,8 @@ class TimeFunction {
   /// @param t ascending, at least 2 [s]; x as many
   /// @throws std::invalid_argument
   static TimeFunction lines(std::span<const double> t, std::span<const double> x);
-  /// Cubic spline through points, twice continuously differentiable, starting and ending level and level outside.
+  /// Cubic spline through points, twice continuously differentiable, starting and ending level and level
+  /// outside.
   /// @param t ascending, at least 2 [s]; x as many
   /// @throws std::invalid_argument
   static TimeFunction spline(std::span<const double> t, std::span<const double> x);

@@ -12,8 +12,8 @@ namespace {
 // Gauss–Legendre, 5 points on (−1, 1).
 constexpr std::array<double, 5> kAbscissae{-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
                                            0.906179845938664};
-constexpr std::array<double, 5> kWeights{0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366,
-                                         0.236926885056189};
+constexpr std::array<double, 5> kWeights{0.236926885056189, 0.478628670499366, 0.568888888888889,
+                                         0.478628670499366, 0.236926885056189};
 
 // e(ξ) and its slope on one segment of the road.
 struct Depth {
@@ -27,12 +27,13 @@ struct Depth {
   Sample sample(double xi) const {
     const RoadSample point = road.sample(segment, s + xi);
     const double half = std::sqrt(std::max(0.0, radius * radius - xi * xi));
-    const double circle_slope = half > 0.0 ? xi / half : std::copysign(std::numeric_limits<double>::infinity(), xi);
+    const double circle_slope =
+        half > 0.0 ? xi / half : std::copysign(std::numeric_limits<double>::infinity(), xi);
     return {xi, point.height - y + half, point.slope - circle_slope, point.slope, point.height};
   }
 
-  // Where e, or its slope, goes through zero between two places of opposite sign: Newton for e kept in bounds by
-  // halving, halving alone for the slope, whose errors count only squared.
+  // Where e, or its slope, goes through zero between two places of opposite sign: Newton for e kept in bounds
+  // by halving, halving alone for the slope, whose errors count only squared.
   Sample find_zero(Sample left, Sample right) const {
     double guess = 0.5 * (left.at + right.at);
     for (int iteration = 0; iteration < 60; ++iteration) {
@@ -62,7 +63,8 @@ void take_deepest(const Depth::Sample& sample, WheelOverlap& overlap) {
 }
 
 // The part between two places all of which touches.
-void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right, WheelOverlap& overlap) {
+void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right,
+                  WheelOverlap& overlap) {
   const double middle = 0.5 * (left.at + right.at), half = 0.5 * (right.at - left.at);
   for (std::size_t i = 0; i < kAbscissae.size(); ++i) {
     const double xi = middle + half * kAbscissae[i];
@@ -75,16 +77,20 @@ void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sa
 }
 
 // One cell, in which e has at most one maximum or minimum.
-void add_cell(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right, WheelOverlap& overlap) {
+void add_cell(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right,
+              WheelOverlap& overlap) {
   const bool touches_left = left.value > 0.0, touches_right = right.value > 0.0;
   take_deepest(left, overlap);
   take_deepest(right, overlap);
-  const bool has_maximum = left.slope > 0.0 && right.slope < 0.0, has_minimum = left.slope < 0.0 && right.slope > 0.0;
+  const bool has_maximum = left.slope > 0.0 && right.slope < 0.0,
+             has_minimum = left.slope < 0.0 && right.slope > 0.0;
   if (touches_left != touches_right) {
     if (has_maximum) take_deepest(depth.find_level(left, right), overlap);
     const Depth::Sample edge = depth.find_zero(left, right);
-    if (touches_left) add_touching(depth, left, edge, overlap);
-    else add_touching(depth, edge, right, overlap);
+    if (touches_left)
+      add_touching(depth, left, edge, overlap);
+    else
+      add_touching(depth, edge, right, overlap);
     return;
   }
   if (!has_maximum && !(has_minimum && touches_left)) {
@@ -138,9 +144,10 @@ double find_level_penetration(double radius, double area) {
   for (int iteration = 0; iteration < 30; ++iteration) {
     // x − sin x without cancellation where x is small: x³/6 (1 − x²/20 (1 − x²/42 (1 − x²/72 (1 − x²/110))))
     const double x2 = twice * twice;
-    const double gap = twice > 0.5 ? twice - std::sin(twice)
-                                   : twice * x2 / 6.0 *
-                                         (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0))));
+    const double gap =
+        twice > 0.5 ? twice - std::sin(twice)
+                    : twice * x2 / 6.0 *
+                          (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0))));
     const double sine = std::sin(0.5 * twice);
     const double step = (target - gap) / (2.0 * sine * sine);
     twice += step;

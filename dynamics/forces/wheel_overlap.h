@@ -4,10 +4,11 @@
 
 namespace sprung::dynamics {
 
-/// What a wheel's circle and the road have in common, and how it changes as the wheel moves: with the wheel's centre at
-/// distance s and height y, e(ξ) = h(s + ξ) − y + √(R² − ξ²) is how deep the road stands in the circle at s + ξ, and
+/// What a wheel's circle and the road have in common, and how it changes as the wheel moves: with the wheel's
+/// centre at distance s and height y, e(ξ) = h(s + ξ) − y + √(R² − ξ²) is how deep the road stands in the
+/// circle at s + ξ, and
 ///
-///     area = ∫ max(0, e) dξ,   ∂area/∂y = −width,   ∂area/∂s = rise            (dynamics/README.md, eq. 23)
+///     area = ∫ max(0, e) dξ,   ∂area/∂y = −width,   ∂area/∂s = rise            (dynamics/README.md, eq. 33)
 struct WheelOverlap {
   double area = 0.0;         ///< [m²]
   double width = 0.0;        ///< of what touches, along the road [m]
@@ -16,8 +17,8 @@ struct WheelOverlap {
   double depth_slope = 0.0;  ///< slope of the road there
 };
 
-/// Exact but for a Gauss quadrature of the area and for what the road hides between samples 2R/num_cells apart, to
-/// which the ends of its segments come; no allocation.
+/// Exact but for a Gauss quadrature of the area and for what the road hides between samples 2R/num_cells
+/// apart, to which the ends of its segments come; no allocation.
 /// @param s, y       of the wheel's centre [m]
 /// @param radius     > 0 [m]
 /// @param num_cells  ≥ 2

@@ -18,8 +18,9 @@ using Kind = RelativeCoordinate::Kind;
 
 void read_driven_joint(const support::TomlValue& value, std::span<const JointDescription> joints,
                        MotionDescription& motion) {
-  const auto found = std::find_if(joints.begin(), joints.end(),
-                                  [&](const JointDescription& joint) { return joint.name == value.string(); });
+  const auto found = std::find_if(joints.begin(), joints.end(), [&](const JointDescription& joint) {
+    return joint.name == value.string();
+  });
   if (found == joints.end()) {
     std::vector<std::string> names;
     for (const JointDescription& joint : joints) names.push_back(joint.name);
@@ -27,8 +28,9 @@ void read_driven_joint(const support::TomlValue& value, std::span<const JointDes
                                   support::nearest_name_hint(value.string(), names)));
   }
   if (!found->coordinate) {
-    throw value.error(fmt::format("names a {} joint, which has no coordinate to be driven{}", found->kind,
-                                  found->kind == "distance" ? "; its 'length' may be a function of time" : ""));
+    throw value.error(
+        fmt::format("names a {} joint, which has no coordinate to be driven{}", found->kind,
+                    found->kind == "distance" ? "; its 'length' may be a function of time" : ""));
   }
   motion.a = found->a;
   motion.b = found->b;
@@ -40,8 +42,9 @@ void read_driven_point(const support::TomlTable& table, MotionDescription& motio
   motion.b = read_point(table.at("point"));
   motion.a = {"ground.origin", motion.b.location};
   const std::string& coordinate = table.at("coordinate").one_of(kCoordinates);
-  motion.coordinate =
-      RelativeCoordinate(coordinate == "x" ? Kind::kX : coordinate == "y" ? Kind::kY : Kind::kAngle);
+  motion.coordinate = RelativeCoordinate(coordinate == "x"   ? Kind::kX
+                                         : coordinate == "y" ? Kind::kY
+                                                             : Kind::kAngle);
 }
 
 }  // namespace

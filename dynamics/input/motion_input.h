@@ -23,8 +23,8 @@ struct MotionDescription {
 
 /// Reads one entry of `[[motions]]`: name, `joint` or `point` with `coordinate`, and the function of time.
 /// @param joints  of the vehicle
-/// @throws support::InputError for a missing, unknown or unfit key, and for a joint that has no free coordinate;
-/// whether the point exists is the vehicle's matter
+/// @throws support::InputError for a missing, unknown or unfit key, and for a joint that has no free
+/// coordinate; whether the point exists is the vehicle's matter
 MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints);
 
 }  // namespace sprung::dynamics

@@ -27,7 +27,8 @@ TimeFunction read_step(const support::TomlTable& table, std::string_view unit) {
                                 .end = table.number("end", support::any("s"))};
   table.reject_unknown_keys();
   if (!(step.end > step.start)) {
-    throw table.at("end").error(fmt::format("must come after the start of {} s, got {} s", step.start, step.end));
+    throw table.at("end").error(
+        fmt::format("must come after the start of {} s, got {} s", step.start, step.end));
   }
   return TimeFunction::smooth_step(step);
 }
@@ -50,7 +51,8 @@ TimeFunction read_time_function(const support::TomlValue& value, std::string_vie
                                            : TimeFunction::lines(points.x, points.y);
   }
   const std::vector<double> coefficients = table.at(way).numbers(support::any(unit));
-  if (coefficients.empty()) throw table.at(way).error(fmt::format("must have at least one coefficient [{}/s^k]", unit));
+  if (coefficients.empty())
+    throw table.at(way).error(fmt::format("must have at least one coefficient [{}/s^k]", unit));
   return TimeFunction::polynomial(coefficients);
 }
 

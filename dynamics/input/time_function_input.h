@@ -16,9 +16,10 @@ enum class TimeFunctionUse {
 /// Reads a function of time t [s]: a number, which stays the same, or one of
 ///
 ///     { polynomial = [a_0, a_1, …] }                                  Σ a_k t^k
-///     { harmonic = { mean, amplitude, frequency, phase } }            mean + amplitude sin(2π frequency t + phase)
-///     { table = [[t, x], …] }                                         level before the first and after the last point
-///     { step = { before, after, start, end } }                        smooth between start and end
+///     { harmonic = { mean, amplitude, frequency, phase } }            mean + amplitude sin(2π frequency t +
+///     phase) { table = [[t, x], …] }                                         level before the first and
+///     after the last point { step = { before, after, start, end } }                        smooth between
+///     start and end
 ///
 /// @param unit  of the function's value, for messages
 /// @throws support::InputError

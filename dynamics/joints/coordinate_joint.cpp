@@ -12,8 +12,8 @@ namespace {
 
 using Kind = RelativeCoordinate::Kind;
 
-// Most that a prescribed motion may move in one step, of the length scale or of 1 rad: from there the dependent
-// coordinates are found on the same branch of the mechanism.
+// Most that a prescribed motion may move in one step, of the length scale or of 1 rad: from there the
+// dependent coordinates are found on the same branch of the mechanism.
 constexpr double kLargestMovement = 0.25;
 
 }  // namespace
@@ -22,14 +22,16 @@ CoordinateJoint::CoordinateJoint(std::string joint_name, int marker_of_a, int ma
                                  support::SourceLocation where, Parts parts)
     : Joint(std::move(joint_name), marker_of_a, marker_of_b, std::move(where)), parts_(std::move(parts)) {
   if (parts_.held.empty() || parts_.held.size() > kMaxJointConstraints) {
-    throw std::invalid_argument(fmt::format("CoordinateJoint: holds 1 to {} coordinates, got {}", kMaxJointConstraints,
-                                            parts_.held.size()));
+    throw std::invalid_argument(fmt::format("CoordinateJoint: holds 1 to {} coordinates, got {}",
+                                            kMaxJointConstraints, parts_.held.size()));
   }
 }
 
-void CoordinateJoint::calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const {
+void CoordinateJoint::calc_residual(const MarkerState& a, const MarkerState& b, double time,
+                                    JointVector& phi) const {
   phi.resize(num_constraints());
-  for (int k = 0; k < num_constraints(); ++k) phi[k] = held(k).coordinate.value(a, b) - held(k).value.value(time);
+  for (int k = 0; k < num_constraints(); ++k)
+    phi[k] = held(k).coordinate.value(a, b) - held(k).value.value(time);
 }
 
 void CoordinateJoint::calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
@@ -49,7 +51,8 @@ void CoordinateJoint::calc_time_rate(const MarkerState& /*a*/, const MarkerState
   for (int k = 0; k < num_constraints(); ++k) phi_t[k] = -held(k).value.rate(time);
 }
 
-void CoordinateJoint::calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const {
+void CoordinateJoint::calc_drift(const MarkerState& a, const MarkerState& b, double time,
+                                 JointVector& drift) const {
   drift.resize(num_constraints());
   for (int k = 0; k < num_constraints(); ++k) {
     drift[k] = held(k).coordinate.drift(a, b) - held(k).value.acceleration(time);

@@ -9,8 +9,8 @@
 namespace sprung::dynamics {
 
 /// Holds up to three relative coordinates of two markers at values that may be functions of time:
-/// φ_k = c_k(a, b) − f_k(t). Every kind of joint but the revolute one, and all prescribed motion, is made of these
-/// (dynamics/README.md, eqs. 8 to 11).
+/// φ_k = c_k(a, b) − f_k(t). Every kind of joint but the revolute one, and all prescribed motion, is made of
+/// these (dynamics/README.md, eqs. 26 to 29).
 class CoordinateJoint final : public Joint {
  public:
   struct Held {
@@ -20,12 +20,13 @@ class CoordinateJoint final : public Joint {
   };
   struct Parts {
     std::string_view kind;
-    std::vector<Held> held;                         ///< 1 to 3
-    std::optional<RelativeCoordinate> coordinate;   ///< what the joint is moved in; none where nothing is free
-    bool is_motion = false;                         ///< prescribed motion: the first held coordinate is driven
+    std::vector<Held> held;                        ///< 1 to 3
+    std::optional<RelativeCoordinate> coordinate;  ///< what the joint is moved in; none where nothing is free
+    bool is_motion = false;                        ///< prescribed motion: the first held coordinate is driven
   };
   /// @throws std::invalid_argument for no held coordinate, or more than three
-  CoordinateJoint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where, Parts parts);
+  CoordinateJoint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where,
+                  Parts parts);
 
   std::string_view kind() const override { return parts_.kind; }
   bool is_motion() const override { return parts_.is_motion; }
@@ -33,11 +34,16 @@ class CoordinateJoint final : public Joint {
 
   int num_constraints() const override { return static_cast<int>(parts_.held.size()); }
   std::string_view constraint_name(int k) const override { return held(k).name; }
-  std::string_view constraint_unit(int k) const override { return held(k).coordinate.is_angle() ? "rad" : "m"; }
+  std::string_view constraint_unit(int k) const override {
+    return held(k).coordinate.is_angle() ? "rad" : "m";
+  }
 
-  void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const override;
-  void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga, JointJacobian& Gb) const override;
-  void calc_time_rate(const MarkerState& a, const MarkerState& b, double time, JointVector& phi_t) const override;
+  void calc_residual(const MarkerState& a, const MarkerState& b, double time,
+                     JointVector& phi) const override;
+  void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
+                     JointJacobian& Gb) const override;
+  void calc_time_rate(const MarkerState& a, const MarkerState& b, double time,
+                      JointVector& phi_t) const override;
   void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const override;
 
   std::vector<const TimeFunction*> time_functions() const override;

@@ -8,7 +8,7 @@
 namespace sprung::dynamics {
 
 /// A scalar that says where marker b is as seen from marker a: what joints hold and prescribed motion drives
-/// (dynamics/README.md, eq. 8).
+/// (dynamics/README.md, eqs. 26, 28).
 class RelativeCoordinate {
  public:
   enum class Kind {

@@ -46,12 +46,14 @@ std::string format_model(const PreparedRun& prepared) {
     const Body& body = model.bodies[b];
     const BodyDescription& description = prepared.vehicle.bodies[b];
     bodies.add_row({body.name, fmt::format("{:.6g}", body.mass), fmt::format("{:.6g}", body.second_moment),
-                    description.superelement, list_modes(prepared.vehicle.superelement_of(description), body)});
+                    description.superelement,
+                    list_modes(prepared.vehicle.superelement_of(description), body)});
   }
   support::TextTable joints({"joint", "type", "a", "b", "holds"});
   for (const auto& joint : model.joints) {
     joints.add_row({joint->name, std::string(joint->kind()), name_of(model, joint->marker_a),
-                    name_of(model, joint->marker_b), fmt::format("{}", fmt::join(held_directions(*joint), ", "))});
+                    name_of(model, joint->marker_b),
+                    fmt::format("{}", fmt::join(held_directions(*joint), ", "))});
   }
   support::TextTable forces({"force element", "type"});
   for (const auto& force : model.forces) forces.add_row({force->name, std::string(force->kind())});
@@ -69,9 +71,10 @@ std::string format_model_json(const PreparedRun& prepared) {
   const Model& model = prepared.model;
   JsonObject bodies, joints, forces;
   for (const Body& body : model.bodies) {
-    bodies.add(
-        body.name,
-        JsonObject().add("mass", body.mass).add("inertia", body.second_moment).add("modes", body.mode_numbers));
+    bodies.add(body.name, JsonObject()
+                              .add("mass", body.mass)
+                              .add("inertia", body.second_moment)
+                              .add("modes", body.mode_numbers));
   }
   for (const auto& joint : model.joints) {
     joints.add(joint->name, JsonObject().add("type", joint->kind()).add("holds", held_directions(*joint)));

@@ -41,7 +41,7 @@ class PartitionedEquations {
   /// Multipliers, after update_accelerations; φ_qᵀλ = Q − M q̈.
   void update_multipliers();
 
-  /// Power that prescribed motion puts in, λᵀφ_t, after update_multipliers [W] (dynamics/README.md, eq. 11).
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_multipliers [W] (dynamics/README.md, eq. 29).
   double calc_motion_power();
 
   const SystemTerms& terms() const { return terms_; }

@@ -24,9 +24,9 @@ constexpr double kRadius = 0.6, kDamping = 4000.0;
 const PiecewisePolynomial kSpring({0.0, 1.0e5, 5.0e7});
 
 DistributedTyre make_tyre(const dynamics::Road& road, double direction = 1.0) {
-  return DistributedTyre("tyre",
-                         {.marker = 0, .radius = kRadius, .multiplicity = 2.0, .spring = kSpring, .damping = kDamping},
-                         {&road, direction, 0.0});
+  return DistributedTyre(
+      "tyre", {.marker = 0, .radius = kRadius, .multiplicity = 2.0, .spring = kSpring, .damping = kDamping},
+      {&road, direction, 0.0});
 }
 
 // One marker in uniform motion.
@@ -76,7 +76,8 @@ TEST_CASE("On level ground distributed and point contact are one tyre", "[forces
 }
 
 TEST_CASE("Over an obstacle the tyre's energy is kept but for what its damper takes", "[forces]") {
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
   constexpr double h = 1e-6;  // s
   for (const double direction : {1.0, -1.0}) {
     const DistributedTyre tyre = make_tyre(road, direction);
@@ -97,11 +98,13 @@ TEST_CASE("Over an obstacle the tyre's energy is kept but for what its damper ta
 }
 
 TEST_CASE("An edge ahead holds the wheel back and lifts it less than it would a point", "[forces]") {
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kRamp, .start = 5.2, .length = 1e-6, .height = 0.05});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kRamp, .start = 5.2, .length = 1e-6, .height = 0.05});
   const DistributedTyre tyre = make_tyre(road);
   const double y = kRadius - 0.03;
   const Acting acting = act(tyre, Wheel({5.0, y}, {0.0, 0.0}));
-  // At rest, pressure p = spring(δ)/level width acts over the width upwards and over the step's face backwards.
+  // At rest, pressure p = spring(δ)/level width acts over the width upwards and over the step's face
+  // backwards.
   const dynamics::WheelOverlap overlap = dynamics::calc_wheel_overlap(road, 5.0, y, kRadius, 480);
   const double penetration = dynamics::find_level_penetration(kRadius, overlap.area);
   const double pressure =
@@ -113,7 +116,8 @@ TEST_CASE("An edge ahead holds the wheel back and lifts it less than it would a 
 }
 
 TEST_CASE("The integrator is stopped where the wheel's front reaches what comes", "[forces]") {
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
   const DistributedTyre tyre = make_tyre(road);
   const Wheel wheel({4.3, 0.58}, {3.0, 0.0});
   const Acting acting = act(tyre, wheel);

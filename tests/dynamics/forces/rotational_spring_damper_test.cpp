@@ -34,8 +34,10 @@ RotationalSpringDamper make(PiecewisePolynomial spring, PiecewisePolynomial damp
 
 }  // namespace
 
-TEST_CASE("A rotational spring turns its markers towards the free angle, its damper against their turning", "[forces]") {
-  const RotationalSpringDamper element = make(PiecewisePolynomial({0.0, 40.0, 5.0}), PiecewisePolynomial({0.0, 2.0}));
+TEST_CASE("A rotational spring turns its markers towards the free angle, its damper against their turning",
+          "[forces]") {
+  const RotationalSpringDamper element =
+      make(PiecewisePolynomial({0.0, 40.0, 5.0}), PiecewisePolynomial({0.0, 2.0}));
   const Pair pair(0.2, -1.0, 0.4, 0.5);  // deflection 0.5 − 0.2 = 0.3, its rate −1.5
   std::array<int, 2> branches{};
   element.choose_branches(pair.instant(), branches);

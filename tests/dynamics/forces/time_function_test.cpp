@@ -17,16 +17,19 @@ constexpr std::array kTimes{0.2, 0.5, 0.9, 1.6}, kValues{1.0, -2.0, 0.5, 0.7};
 
 TEST_CASE("Rate and acceleration are the derivatives of the value", "[forces]") {
   const std::array functions{
-      TimeFunction(3.0), TimeFunction::polynomial({1.0, -2.0, 0.5, 4.0}),
+      TimeFunction(3.0),
+      TimeFunction::polynomial({1.0, -2.0, 0.5, 4.0}),
       TimeFunction::harmonic({.mean = 0.1, .amplitude = 0.7, .frequency_hz = 0.8, .phase = 1.1}),
-      TimeFunction::spline(kTimes, kValues), TimeFunction::lines(kTimes, kValues),
+      TimeFunction::spline(kTimes, kValues),
+      TimeFunction::lines(kTimes, kValues),
       TimeFunction::smooth_step({.before = -1.0, .after = 2.0, .start = 0.3, .end = 1.5})};
   constexpr double h = 1e-3;  // s; errors of about 1e-11 and 1e-9
   for (std::size_t i = 0; i < functions.size(); ++i) {
     const TimeFunction& f = functions[i];
     for (const double t : {0.1, 0.35, 0.77, 1.31, 1.9}) {
       CAPTURE(i, t);
-      const double rate = (8.0 * (f.value(t + h) - f.value(t - h)) - (f.value(t + 2 * h) - f.value(t - 2 * h))) / (12.0 * h);
+      const double rate =
+          (8.0 * (f.value(t + h) - f.value(t - h)) - (f.value(t + 2 * h) - f.value(t - 2 * h))) / (12.0 * h);
       const double acceleration =
           (8.0 * (f.rate(t + h) - f.rate(t - h)) - (f.rate(t + 2 * h) - f.rate(t - 2 * h))) / (12.0 * h);
       CHECK(f.rate(t) == Approx(rate).margin(1e-9));
@@ -39,19 +42,22 @@ TEST_CASE("Functions of time have the values they are given", "[forces]") {
   CHECK(TimeFunction(3.0).value(7.0) == 3.0);
   CHECK(TimeFunction::polynomial({1.0, 2.0, 3.0}).value(2.0) == 17.0);
   // A quarter of a period after the phase's zero.
-  CHECK(TimeFunction::harmonic({.mean = 1.0, .amplitude = 2.0, .frequency_hz = 0.25, .phase = 0.0}).value(1.0) ==
-        Approx(3.0).epsilon(1e-15));
+  CHECK(TimeFunction::harmonic({.mean = 1.0, .amplitude = 2.0, .frequency_hz = 0.25, .phase = 0.0})
+            .value(1.0) == Approx(3.0).epsilon(1e-15));
   for (std::size_t i = 0; i < kTimes.size(); ++i) {
     CHECK(TimeFunction::lines(kTimes, kValues).value(kTimes[i]) == Approx(kValues[i]).epsilon(1e-14));
     CHECK(TimeFunction::spline(kTimes, kValues).value(kTimes[i]) == Approx(kValues[i]).epsilon(1e-14));
   }
   CHECK(TimeFunction::lines(kTimes, kValues).value(0.35) == Approx(-0.5).epsilon(1e-14));
-  const TimeFunction step = TimeFunction::smooth_step({.before = -1.0, .after = 2.0, .start = 0.3, .end = 1.5});
+  const TimeFunction step =
+      TimeFunction::smooth_step({.before = -1.0, .after = 2.0, .start = 0.3, .end = 1.5});
   CHECK(step.value(0.9) == Approx(0.5).epsilon(1e-14));  // half way, by symmetry
 }
 
-TEST_CASE("Tables and steps are level outside; splines and steps set out and arrive with no velocity", "[forces]") {
-  const TimeFunction lines = TimeFunction::lines(kTimes, kValues), spline = TimeFunction::spline(kTimes, kValues);
+TEST_CASE("Tables and steps are level outside; splines and steps set out and arrive with no velocity",
+          "[forces]") {
+  const TimeFunction lines = TimeFunction::lines(kTimes, kValues),
+                     spline = TimeFunction::spline(kTimes, kValues);
   for (const TimeFunction* f : {&lines, &spline}) {
     CHECK(f->value(-5.0) == 1.0);
     CHECK(f->value(9.0) == Approx(0.7).epsilon(1e-14));
@@ -59,7 +65,8 @@ TEST_CASE("Tables and steps are level outside; splines and steps set out and arr
   }
   CHECK(std::abs(spline.rate(0.2)) < 1e-13);
   CHECK(std::abs(spline.rate(1.6 - 1e-12)) < 1e-9);
-  const TimeFunction step = TimeFunction::smooth_step({.before = -1.0, .after = 2.0, .start = 0.3, .end = 1.5});
+  const TimeFunction step =
+      TimeFunction::smooth_step({.before = -1.0, .after = 2.0, .start = 0.3, .end = 1.5});
   for (const double t : {0.3, 1.5}) {
     CHECK(std::abs(step.rate(t - 1e-9)) < 1e-12);
     CHECK(std::abs(step.rate(t + 1e-9)) < 1e-12);

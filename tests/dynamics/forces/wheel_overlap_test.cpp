@@ -39,7 +39,9 @@ TEST_CASE("On level ground the overlap is a segment of the circle", "[forces]") 
     // e = δ − R + √(R² − ξ²) from −half to half.
     const double area = 2.0 * (circle_integral(half) - (kRadius - penetration) * half);
     CHECK(found.area == Approx(area).epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
-    CHECK(found.area == Approx(dynamics::calc_level_overlap(kRadius, penetration)).epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
+    CHECK(
+        found.area ==
+        Approx(dynamics::calc_level_overlap(kRadius, penetration)).epsilon(penetration > 1e-4 ? 1e-9 : 1e-5));
     CHECK(found.width == Approx(2.0 * half).epsilon(1e-9));
     CHECK(found.rise == 0.0);
     CHECK(found.depth == Approx(penetration).epsilon(1e-9));
@@ -49,12 +51,14 @@ TEST_CASE("On level ground the overlap is a segment of the circle", "[forces]") 
   CHECK(overlap(road, 0.0, kRadius + 0.1).depth == Approx(-0.1).epsilon(1e-12));
 }
 
-TEST_CASE("At a step the overlap is two pieces of segments, and the step's face holds the wheel back", "[forces]") {
-  // A step of 0.08 m, 1e-7 m long, 0.1 m before the centre of a wheel that is pressed 0.03 m into the lower road.
+TEST_CASE("At a step the overlap is two pieces of segments, and the step's face holds the wheel back",
+          "[forces]") {
+  // A step of 0.08 m, 1e-7 m long, 0.1 m before the centre of a wheel that is pressed 0.03 m into the lower
+  // road.
   const BumpRoad road({.shape = BumpShape::kRamp, .start = 5.1, .length = 1e-7, .height = 0.08});
   const double y = kRadius - 0.03;
   const WheelOverlap found = overlap(road, 5.0, y);
-  const double low_end = std::sqrt(kRadius * kRadius - y * y);                  // left end, on the lower road
+  const double low_end = std::sqrt(kRadius * kRadius - y * y);  // left end, on the lower road
   const double high_end = std::sqrt(kRadius * kRadius - std::pow(y - 0.08, 2));  // right end, on the upper
   const double area = circle_integral(0.1) + circle_integral(low_end) - y * (0.1 + low_end) +
                       circle_integral(high_end) - circle_integral(0.1) - (y - 0.08) * (high_end - 0.1);
@@ -77,8 +81,10 @@ TEST_CASE("Width and rise are the derivatives of the area, over bumps, edges and
         CAPTURE(road, at, y);
         const WheelOverlap found = overlap(*road, at, y);
         REQUIRE(found.area > 0.0);
-        const double by_y = (overlap(*road, at, y + step).area - overlap(*road, at, y - step).area) / (2.0 * step);
-        const double by_s = (overlap(*road, at + step, y).area - overlap(*road, at - step, y).area) / (2.0 * step);
+        const double by_y =
+            (overlap(*road, at, y + step).area - overlap(*road, at, y - step).area) / (2.0 * step);
+        const double by_s =
+            (overlap(*road, at + step, y).area - overlap(*road, at - step, y).area) / (2.0 * step);
         CHECK(found.width == Approx(-by_y).epsilon(1e-6));
         CHECK(found.rise == Approx(by_s).margin(1e-6));
       }

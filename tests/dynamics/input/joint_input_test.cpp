@@ -20,8 +20,8 @@ std::string error_of(const std::string& rest) {
   return input_error_of([&] { read(rest); });
 }
 
-dynamics::JointVector residual_of(const std::string& rest, const MarkerState& b, const dynamics::JointPlace& place = {},
-                                  double time = 0.0) {
+dynamics::JointVector residual_of(const std::string& rest, const MarkerState& b,
+                                  const dynamics::JointPlace& place = {}, double time = 0.0) {
   dynamics::JointVector phi;
   read(rest).make(place)->calc_residual(MarkerState(), b, time, phi);
   return phi;
@@ -49,17 +49,20 @@ TEST_CASE("Joints are made as the file says") {
 TEST_CASE("A driven length moves, or stands still for a balance") {
   const std::string actuator = "type = \"distance\"\nlength = { polynomial = [4.0, 0.5] }";
   CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {}, 2.0)[0] == Approx(0.0).margin(1e-15));
-  CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {.motions = dynamics::MotionUse::kHeld}, 2.0)[0] == Approx(1.0));
+  CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {.motions = dynamics::MotionUse::kHeld}, 2.0)[0] ==
+        Approx(1.0));
 }
 
 TEST_CASE("Joints that cannot be are refused at their place") {
   CHECK(error_of("type = \"revolut\"") ==
-        "j.toml:5:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", \"distance\", "
+        "j.toml:5:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
+        "\"distance\", "
         "\"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
   CHECK(error_of("type = \"translational\"\naxis = [0.0, 0.0]") ==
         "j.toml:6:8: error: 'joints.0.axis' must be a direction [x, y], got [0, 0]");
   CHECK(error_of("type = \"pin-in-slot\"") == "j.toml:1:1: error: missing key 'axis' in 'joints.0'");
-  CHECK(error_of("type = \"distance\"\nlength = 0.0") == "j.toml:6:10: error: 'joints.0.length' must be > 0 m, got 0");
+  CHECK(error_of("type = \"distance\"\nlength = 0.0") ==
+        "j.toml:6:10: error: 'joints.0.length' must be > 0 m, got 0");
   CHECK(error_of("type = \"fixed\"\nangle = inf") ==
         "j.toml:6:9: error: 'joints.0.angle' must be a finite number [rad], got inf");
   CHECK(error_of("type = \"fixed\"\naxis = [1.0, 0.0]").starts_with("j.toml:6:1: error: unknown key 'axis'"));

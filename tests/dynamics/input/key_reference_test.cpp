@@ -1,5 +1,5 @@
-// dynamics/models/README.md, the reference of all input keys, against the keys that the readers ask for, and its examples
-// against the readers.
+// dynamics/models/README.md, the reference of all input keys, against the keys that the readers ask for, and
+// its examples against the readers.
 #include <map>
 #include <set>
 #include <sstream>
@@ -25,12 +25,13 @@ struct Section {
 };
 
 struct Reference {
-  std::map<std::string, Section> sections;   // by title
-  std::string vehicle;                       // all examples of "## Vehicle file"
-  std::vector<std::string> runs;             // those of "## Run file"
+  std::map<std::string, Section> sections;  // by title
+  std::string vehicle;                      // all examples of "## Vehicle file"
+  std::vector<std::string> runs;            // those of "## Run file"
 };
 
-// The words in backticks of a row's first cell, where the row describes keys (its table has a column "meaning").
+// The words in backticks of a row's first cell, where the row describes keys (its table has a column
+// "meaning").
 Keys read_row_keys(const std::string& line) {
   Keys keys;
   const std::string cell = line.substr(0, line.find(" |", 1));
@@ -50,8 +51,10 @@ Reference read_reference() {
   for (std::string line; std::getline(text, line);) {
     if (in_example && line == "```") {
       in_example = false;
-      if (part == "Vehicle file") reference.vehicle += example + "\n";
-      else reference.runs.push_back(example);
+      if (part == "Vehicle file")
+        reference.vehicle += example + "\n";
+      else
+        reference.runs.push_back(example);
     } else if (in_example) {
       example += line + "\n";
     } else if (line == "```toml") {

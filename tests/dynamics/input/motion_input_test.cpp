@@ -13,7 +13,8 @@ namespace {
 
 // The cart with a weld and one motion more, which begins in line 50.
 std::string cart_with(const std::string& motion) {
-  return cart_text() + "\n[[joints]]\nname = \"weld\"\ntype = \"fixed\"\na = \"ground.peg\"\nb = \"arm.tip\"\n\n" +
+  return cart_text() +
+         "\n[[joints]]\nname = \"weld\"\ntype = \"fixed\"\na = \"ground.peg\"\nb = \"arm.tip\"\n\n" +
          "[[motions]]\n" + motion;
 }
 
@@ -30,17 +31,18 @@ TEST_CASE("Motions drive a joint's coordinate or a point's") {
   CHECK(of_joint.motions[0].a.name == "frame.right");
   CHECK(of_joint.motions[0].b.name == "arm.root");
   CHECK(of_joint.motions[0].coordinate.is_angle());
-  const dynamics::Vehicle of_point = read_cart(
-      cart_with("name = \"m\"\npoint = \"arm.tip\"\ncoordinate = \"y\"\nfunction = { polynomial = [0.1, 0.2] }"));
+  const dynamics::Vehicle of_point = read_cart(cart_with(
+      "name = \"m\"\npoint = \"arm.tip\"\ncoordinate = \"y\"\nfunction = { polynomial = [0.1, 0.2] }"));
   CHECK(of_point.motions[0].a.name == "ground.origin");
   CHECK(of_point.motions[0].coordinate.kind() == RelativeCoordinate::Kind::kY);
   CHECK(of_point.motions[0].value.value(2.0) == Approx(0.5));
 }
 
 TEST_CASE("A table of a motion is smooth") {
-  const dynamics::Vehicle cart = read_cart(
-      cart_with("name = \"m\"\njoint = \"hinge\"\nfunction = { table = [[0.0, 0.0], [1.0, 2.0], [2.0, 0.0]] }"));
-  CHECK(cart.motions[0].value.rate(1.0) == Approx(0.0).margin(1e-14));  // by symmetry; straight lines have a kink there
+  const dynamics::Vehicle cart = read_cart(cart_with(
+      "name = \"m\"\njoint = \"hinge\"\nfunction = { table = [[0.0, 0.0], [1.0, 2.0], [2.0, 0.0]] }"));
+  CHECK(cart.motions[0].value.rate(1.0) ==
+        Approx(0.0).margin(1e-14));  // by symmetry; straight lines have a kink there
   CHECK(cart.motions[0].value.rate(0.0) == Approx(0.0).margin(1e-14));
 }
 
@@ -51,8 +53,10 @@ TEST_CASE("Motions that cannot be are refused") {
         "error: 'motions.0.joint' names a fixed joint, which has no coordinate to be driven");
   CHECK(error_of("name = \"m\"\nfunction = 0.0") ==
         "error: 'motions.0' must have either a 'joint', or a 'point' and its 'coordinate'");
-  CHECK(error_of("name = \"m\"\njoint = \"hinge\"\npoint = \"arm.tip\"\ncoordinate = \"x\"\nfunction = 0.0") ==
-        "error: 'motions.0' must have either a 'joint', or a 'point' and its 'coordinate', not several of them");
+  CHECK(
+      error_of("name = \"m\"\njoint = \"hinge\"\npoint = \"arm.tip\"\ncoordinate = \"x\"\nfunction = 0.0") ==
+      "error: 'motions.0' must have either a 'joint', or a 'point' and its 'coordinate', not several of "
+      "them");
   CHECK(error_of("name = \"m\"\njoint = \"hinge\"\ncoordinate = \"x\"\nfunction = 0.0") ==
         "error: 'motions.0.coordinate' must be left out: the joint has its own");
   CHECK(error_of("name = \"m\"\npoint = \"ground.peg\"\ncoordinate = \"x\"\nfunction = 0.0") ==
@@ -75,5 +79,6 @@ TEST_CASE("Functions of time that cannot be are refused") {
         "error: 'motions.0.function.polynomial' must have at least one coefficient [rad/s^k]");
   CHECK(error("{ table = [[0.0, 1.0], [0.0, 2.0]] }") ==
         "error: 'motions.0.function.table.1' must ascend: 0 s comes after 0 s");
-  CHECK(error("{}") == "error: 'motions.0.function' must have one of 'polynomial', 'harmonic', 'table' and 'step'");
+  CHECK(error("{}") ==
+        "error: 'motions.0.function' must have one of 'polynomial', 'harmonic', 'table' and 'step'");
 }

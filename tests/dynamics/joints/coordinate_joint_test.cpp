@@ -18,7 +18,8 @@ CoordinateJoint make(CoordinateJoint::Parts parts) {
   return CoordinateJoint("joint", 1, 2, {"vehicle.toml", 3, 4}, std::move(parts));
 }
 
-JointVector residual(const CoordinateJoint& joint, const MarkerState& a, const MarkerState& b, double time = 0.0) {
+JointVector residual(const CoordinateJoint& joint, const MarkerState& a, const MarkerState& b,
+                     double time = 0.0) {
   JointVector phi;
   joint.calc_residual(a, b, time, phi);
   return phi;
@@ -69,7 +70,8 @@ TEST_CASE("Each kind of joint holds what it says and leaves the rest", "[joints]
 }
 
 TEST_CASE("Prescribed motion enters with its rate and acceleration", "[joints]") {
-  const TimeFunction swing = TimeFunction::harmonic({.mean = 0.3, .amplitude = 0.2, .frequency_hz = 1.5, .phase = 0.4});
+  const TimeFunction swing =
+      TimeFunction::harmonic({.mean = 0.3, .amplitude = 0.2, .frequency_hz = 1.5, .phase = 0.4});
   const CoordinateJoint motion = make(dynamics::make_motion(RelativeCoordinate(Kind::kAngle), swing));
   CHECK(motion.is_motion());
   CHECK(motion.time_functions().size() == 1);

@@ -32,13 +32,14 @@ struct Motion {
 const Motion kA{{0.3, -0.4}, {1.1, 0.7}, {-0.6, 2.0}, 0.8, 1.3, -0.9};
 const Motion kB{{1.7, 0.9}, {-0.5, 0.4}, {1.4, -0.3}, -2.1, -0.7, 1.6};
 
-const std::array kCoordinates{
-    RelativeCoordinate(Kind::kX), RelativeCoordinate(Kind::kY), RelativeCoordinate(Kind::kAngle),
-    RelativeCoordinate(Kind::kAlong, {2.0, -1.0}), RelativeCoordinate(Kind::kDistance)};
+const std::array kCoordinates{RelativeCoordinate(Kind::kX), RelativeCoordinate(Kind::kY),
+                              RelativeCoordinate(Kind::kAngle), RelativeCoordinate(Kind::kAlong, {2.0, -1.0}),
+                              RelativeCoordinate(Kind::kDistance)};
 
 }  // namespace
 
-TEST_CASE("A relative coordinate's gradient and drift are the derivatives of its value along any motion", "[joints]") {
+TEST_CASE("A relative coordinate's gradient and drift are the derivatives of its value along any motion",
+          "[joints]") {
   constexpr double h = 1e-3;  // s; differences of fourth order: errors of about 1e-12 and 1e-10
   for (const RelativeCoordinate& coordinate : kCoordinates) {
     CAPTURE(static_cast<int>(coordinate.kind()));
