@@ -75,7 +75,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   for (int iteration = 0; size > kTolerance * model.length_scale; ++iteration) {
     if (iteration == kMaxIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
-    const Eigen::MatrixXd Phi_q = terms.jacobian();
+    const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
     const Eigen::MatrixXd weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
     const Eigen::MatrixXd normal = Phi_q * weighted;
     Eigen::JacobiSVD<Eigen::MatrixXd> svd(normal, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -123,18 +123,18 @@ void project_velocities(const Model& model, double time, const Eigen::VectorXd& 
   terms.update_jacobian();
   terms.update_mass();
   // v ← v − M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ (φ_q v + φ_t)
-  Eigen::MatrixXd weighted = terms.jacobian().transpose();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    const Eigen::LLT<Eigen::MatrixXd> llt(terms.mass(b));
-    weighted.middleRows(body.first_coordinate, body.num_coordinates()) =
-        llt.solve(terms.jacobian().middleCols(body.first_coordinate, body.num_coordinates()).transpose());
+  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
+  Eigen::MatrixXd weighted = Phi_q.transpose();
+  for (Eigen::Index k = 0; k < weighted.cols(); ++k) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      terms.masses()[b].solve(weighted.col(k).data() + model.bodies[b].first_coordinate);
+    }
   }
   Eigen::VectorXd rate(model.num_constraints);
   terms.calc_time_rate(rate);
   for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
-    const Eigen::VectorXd violation = terms.jacobian() * v + rate;
-    v -= weighted * (terms.jacobian() * weighted).ldlt().solve(violation);
+    const Eigen::VectorXd violation = Phi_q * v + rate;
+    v -= weighted * (Phi_q * weighted).ldlt().solve(violation);
   }
 }
 

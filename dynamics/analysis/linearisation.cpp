@@ -34,7 +34,7 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time, 
     const Energy energy = calc_energy(equations.terms(), branches);
     *potential = energy.total() - energy.kinetic;
   }
-  return equations.reduced_force();
+  return equations.calc_reduced_force(equations.calc_directions());
 }
 
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q) {
@@ -50,8 +50,8 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   if (system.force.size() != f) {
     throw support::NumericalError("linearise: the constraints cannot be satisfied at the given positions");
   }
-  system.mass = equations.reduced_mass();
-  system.directions = equations.freedom_directions();
+  system.directions = equations.calc_directions();
+  system.mass = equations.calc_reduced_mass(system.directions);
 
   // Damping: at fixed positions, the reduced force against the independents' velocities.
   system.damping.resize(f, f);
@@ -60,7 +60,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
     v[k] = value;
     equations.update_velocities({v.data(), static_cast<std::size_t>(f)});
     equations.update_accelerations(branches_at(equations));
-    return Eigen::VectorXd(equations.reduced_force());
+    return equations.calc_reduced_force(system.directions);
   };
   for (Eigen::Index k = 0; k < f; ++k) {
     const double step =

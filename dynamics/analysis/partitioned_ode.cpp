@@ -106,10 +106,7 @@ bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std
   }
   y_dot[2 * f] = equations_.terms().power().dissipated;
   y_dot[2 * f + 1] = equations_.terms().power().input;
-  if (model_->has_motions) {
-    equations_.update_multipliers();
-    y_dot[2 * f + 1] += equations_.calc_motion_power();
-  }
+  y_dot[2 * f + 1] += equations_.calc_motion_power();
   return true;
 }
 

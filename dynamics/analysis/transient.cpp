@@ -132,7 +132,7 @@ class TransientRun {
 
   void write_output(double time) {
     ode_.make_state(time, y_);
-    ode_.equations().update_multipliers();
+    ode_.equations().update_all_markers();
     ++statistics_.output_evaluations;
     if (!options_.on_output) return;
     options_.on_output({.time = time,

@@ -47,6 +47,8 @@ class ForceElement {
   virtual ~ForceElement() = default;
 
   virtual std::string_view kind() const = 0;
+  /// The markers that it sees.
+  virtual std::vector<int> markers() const = 0;
 
   /// Adds the element's wrenches on its markers.
   /// @param branches  the element's own, as chosen last

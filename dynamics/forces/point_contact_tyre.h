@@ -24,6 +24,7 @@ class PointContactTyre final : public ForceElement {
   const Parameters& parameters() const { return parameters_; }
   const PlacedRoad& road() const { return road_; }
   std::string_view kind() const override { return "tyre"; }
+  std::vector<int> markers() const override { return {parameters_.marker}; }
   Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
 

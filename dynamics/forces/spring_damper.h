@@ -22,6 +22,7 @@ class SpringDamper final : public ForceElement {
 
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "spring-damper"; }
+  std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
   Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
   /// Branches: pieces of spring and damper. Switches: the ends of both.

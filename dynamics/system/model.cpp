@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace sprung::dynamics {
@@ -81,6 +82,12 @@ void number_model(Model& model) {
     model.force_branches.push_back(model.num_branches);
     model.num_branches += force->num_branches();
   }
+  std::set<int> acting;
+  for (const auto& joint : model.joints) acting.insert({joint->marker_a, joint->marker_b});
+  for (const auto& force : model.forces) {
+    for (const int marker : force->markers()) acting.insert(marker);
+  }
+  model.acting_markers.assign(acting.begin(), acting.end());
   collect_time_functions(model);
   double extent = 0.0;
   for (const Marker& marker : model.markers) {

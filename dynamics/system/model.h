@@ -27,6 +27,7 @@ struct Model {
   std::vector<int> joint_rows;      ///< first constraint of each joint
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
+  std::vector<int> acting_markers;  ///< those that joints and forces see, ascending; the rest are for results
   double length_scale = 1.0;        ///< largest distance of a marker from its body's frame [m]
   bool has_motions = false;         ///< some joint moves by itself
   std::vector<double> time_breaks;  ///< where functions of time have a kink or jump, ascending [s]

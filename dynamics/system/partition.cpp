@@ -11,7 +11,7 @@ namespace {
 
 // φ_q with columns scaled by 1/√M_ii: the constraints as the masses feel them.
 Eigen::MatrixXd scaled_jacobian(const SystemTerms& terms) {
-  Eigen::MatrixXd scaled = terms.jacobian();
+  Eigen::MatrixXd scaled = terms.jacobian().dense();
   const Model& model = terms.model();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     for (int k = 0; k < model.bodies[b].num_coordinates(); ++k) {

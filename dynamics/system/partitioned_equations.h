@@ -1,19 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <memory>
 #include <span>
-#include <vector>
 
+#include "dynamics/system/dependent_solver.h"
+#include "dynamics/system/multiplier_solver.h"
 #include "dynamics/system/partition.h"
 #include "dynamics/system/system_terms.h"
 
 namespace sprung::dynamics {
 
 /// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i and v_i,
-/// finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). No allocation in the
-/// evaluating functions. f freedoms, m constraints.
+/// finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost grows with the
+/// number of joints and, for each body, with its modes; no allocation in the evaluating functions (but see
+/// MultiplierSolver for large systems). f freedoms, m constraints, nq coordinates.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
@@ -36,51 +37,45 @@ class PartitionedEquations {
   Outcome update_positions(double time, std::span<const double> q_independent);
   /// Velocities, after update_positions.
   void update_velocities(std::span<const double> v_independent);
-  /// Accelerations, after update_velocities.
+  /// Accelerations and multipliers, after update_velocities: M q̈ + φ_qᵀλ = Q.
   Outcome update_accelerations(std::span<const int> branches);
-  /// Multipliers, after update_accelerations; φ_qᵀλ = Q − M q̈.
-  void update_multipliers();
 
-  /// Power that prescribed motion puts in, λᵀφ_t, after update_multipliers [W] (dynamics/README.md, eq. 29).
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (dynamics/README.md, eq. 29).
   double calc_motion_power();
+
+  /// Brings the markers that only results ask for up to date as well.
+  void update_all_markers() { terms_.update_all_markers(); }
 
   const SystemTerms& terms() const { return terms_; }
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& v_dot() const { return v_dot_; }
   const Eigen::VectorXd& multipliers() const { return lambda_; }
-  /// ∂v/∂v_i, nq×f: what the constraints leave free.
-  const Eigen::MatrixXd& freedom_directions() const { return directions_; }
-  const Eigen::MatrixXd& reduced_mass() const { return M_hat_; }      ///< f×f, after update_accelerations
-  const Eigen::VectorXd& reduced_force() const { return Q_hat_; }     ///< f, after update_accelerations
 
-  /// How much worse the dependents follow the independents than when the partition was chosen: the largest entry of
-  /// the mass-scaled ∂v_d/∂v_i over its value then (at least 1).
-  double partition_decay() const;
+  /// D = ∂v/∂v_i, nq×f, what the constraints leave free, at the positions evaluated last.
+  Eigen::MatrixXd calc_directions() const;
+  /// Dᵀ M D, f×f, after update_accelerations.
+  Eigen::MatrixXd calc_reduced_mass(const Eigen::MatrixXd& directions) const;
+  /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
+  Eigen::VectorXd calc_reduced_force(const Eigen::MatrixXd& directions) const;
+
+  /// How much worse the dependents follow the independents than when the partition was chosen, at least 1.
+  double partition_decay() const { return dependents_.decay(); }
 
  private:
-  double scaled_growth() const;
   bool solve_dependents(double time);
-  bool is_determinant_negative();
-  void factorise();
+  void refactor();
 
   const Model* model_;
   SystemTerms terms_;
   Partition partition_;
+  DependentSolver dependents_;
+  MultiplierSolver multipliers_;
   int num_freedoms_, num_constraints_;
-  double growth_at_choice_ = 1.0;
-  bool is_mirrored_ = false;  // sign of det φ_d at the choice of partition
-  std::vector<bool> visited_;
 
-  Eigen::VectorXd q_, v_, v_dot_, lambda_;
-  Eigen::VectorXd last_good_q_;
-  Eigen::VectorXd q_i_, v_i_, a_i_, Q_hat_;               // f
-  Eigen::VectorXd q_d_, phi_, correction_, gamma_;        // m
-  Eigen::VectorXd alpha_, residual_force_;                // nq
-  Eigen::MatrixXd Phi_d_, Phi_i_, T_, directions_, M_hat_, M_directions_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu_d_;
-  Eigen::LLT<Eigen::MatrixXd> llt_;
-  Eigen::VectorXd mass_scale_;  // √M_ii at the choice of partition
+  Eigen::VectorXd q_, v_, v_dot_, lambda_, last_good_q_;
+  Eigen::VectorXd residual_, correction_;  // m
+  Eigen::VectorXd step_;                   // nq
 };
 
 }  // namespace sprung::dynamics

@@ -1,8 +1,11 @@
 #include "dynamics/system/system_terms.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace sprung::dynamics {
 
-SystemTerms::SystemTerms(const Model& model)
+SystemTerms::SystemTerms(const Model& model, Markers scope)
     : model_(&model),
       q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       v_(Eigen::VectorXd::Zero(model.num_coordinates)),
@@ -10,9 +13,17 @@ SystemTerms::SystemTerms(const Model& model)
       rotations_(model.bodies.size()),
       markers_(model.markers.size()),
       wrenches_(model.markers.size()),
-      Phi_q_(Eigen::MatrixXd::Zero(model.num_constraints, model.num_coordinates)) {
-  for (const Body& body : model.bodies) {
-    mass_.emplace_back(Eigen::MatrixXd::Zero(body.num_coordinates(), body.num_coordinates()));
+      Phi_q_(model.num_constraints, model.num_coordinates) {
+  if (scope == Markers::kActing) {
+    kept_markers_ = model.acting_markers;
+  } else {
+    kept_markers_.resize(model.markers.size());
+    std::iota(kept_markers_.begin(), kept_markers_.end(), 0);
+  }
+  for (const Body& body : model.bodies) masses_.emplace_back(body);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    add_block(j, model.joints[j]->marker_a);
+    add_block(j, model.joints[j]->marker_b);
   }
   for (std::size_t i = 0; i < model.markers.size(); ++i) {
     markers_[i].r = model.markers[i].p_BP;  // of ground markers, for good
@@ -26,12 +37,30 @@ void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::Ve
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
   }
-  for (std::size_t i = 0; i < markers_.size(); ++i) {
-    const Marker& marker = model_->markers[i];
-    if (marker.body == kGround) continue;
-    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
-    calc_marker_position(marker, rotations_[static_cast<std::size_t>(marker.body)],
-                         q_.segment(body.first_coordinate, body.num_coordinates()), markers_[i]);
+  for (const int i : kept_markers_) place_marker(i);
+}
+
+void SystemTerms::place_marker(int index) {
+  const Marker& marker = model_->markers[static_cast<std::size_t>(index)];
+  if (marker.body == kGround) return;
+  const auto b = static_cast<std::size_t>(marker.body);
+  const Body& body = model_->bodies[b];
+  calc_marker_position(marker, rotations_[b], q_.segment(body.first_coordinate, body.num_coordinates()),
+                       markers_[static_cast<std::size_t>(index)]);
+}
+
+void SystemTerms::move_marker(int index) {
+  const Marker& marker = model_->markers[static_cast<std::size_t>(index)];
+  if (marker.body == kGround) return;
+  const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
+  calc_marker_velocity(marker, v_.segment(body.first_coordinate, body.num_coordinates()),
+                       markers_[static_cast<std::size_t>(index)]);
+}
+
+void SystemTerms::update_all_markers() {
+  for (int i = 0; i < static_cast<int>(markers_.size()); ++i) {
+    place_marker(i);
+    move_marker(i);
   }
 }
 
@@ -44,30 +73,40 @@ void SystemTerms::calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const {
   }
 }
 
-void SystemTerms::place_block(const JointJacobian& G, int row, int marker_index) {
+void SystemTerms::add_block(std::size_t joint, int marker_index) {
+  const int index = model_->markers[static_cast<std::size_t>(marker_index)].body;
+  if (index == kGround) return;
+  const Body& body = model_->bodies[static_cast<std::size_t>(index)];
+  Phi_q_.add_block({.row = model_->joint_rows[joint],
+                    .num_rows = model_->joints[joint]->num_constraints(),
+                    .column = body.first_coordinate,
+                    .num_columns = body.num_coordinates(),
+                    .body = index});
+}
+
+// The blocks come in the order in which the constructor added them.
+void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block) {
   const Marker& point = model_->markers[static_cast<std::size_t>(marker_index)];
   if (point.body == kGround) return;
-  const Body& body = model_->bodies[static_cast<std::size_t>(point.body)];
   const MarkerState& state = marker(marker_index);
-  const int column = body.first_coordinate;
+  double* value = Phi_q_.values(next_block++);
   for (int k = 0; k < G.rows(); ++k) {
-    Phi_q_(row + k, column) = G(k, 0);
-    Phi_q_(row + k, column + 1) = G(k, 1);
-    Phi_q_(row + k, column + 2) = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
-    for (int n = 0; n < body.num_modes(); ++n) {
-      Phi_q_(row + k, column + 3 + n) =
-          G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * point.Phi_rotation[n];
+    *value++ = G(k, 0);
+    *value++ = G(k, 1);
+    *value++ = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
+    for (Eigen::Index n = 0; n < state.r_eta.cols(); ++n) {
+      *value++ = G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * point.Phi_rotation[n];
     }
   }
 }
 
 void SystemTerms::update_jacobian() {
   JointJacobian Ga, Gb;
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), Ga, Gb);
-    place_block(Ga, model_->joint_rows[j], joint.marker_a);
-    place_block(Gb, model_->joint_rows[j], joint.marker_b);
+  std::size_t next_block = 0;
+  for (const auto& joint : model_->joints) {
+    joint->calc_jacobian(marker(joint->marker_a), marker(joint->marker_b), Ga, Gb);
+    fill_block(Ga, joint->marker_a, next_block);
+    fill_block(Gb, joint->marker_b, next_block);
   }
 }
 
@@ -83,18 +122,13 @@ void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
 void SystemTerms::update_mass() {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
-    calc_mass_matrix(body, rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()), mass_[b]);
+    masses_[b].update(rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()));
   }
 }
 
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
   v_ = v;
-  for (std::size_t i = 0; i < markers_.size(); ++i) {
-    const Marker& marker = model_->markers[i];
-    if (marker.body == kGround) continue;
-    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
-    calc_marker_velocity(marker, v_.segment(body.first_coordinate, body.num_coordinates()), markers_[i]);
-  }
+  for (const int i : kept_markers_) move_marker(i);
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
@@ -128,7 +162,7 @@ void SystemTerms::add_wrench(int marker_index, const Wrench& wrench) {
 }
 
 void SystemTerms::update_forces(std::span<const int> branches) {
-  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  for (const int i : model_->acting_markers) wrenches_[static_cast<std::size_t>(i)] = Wrench{};
   power_ = {};
   const Instant now = instant();
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
@@ -140,8 +174,9 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     power_.input += power.input;
   }
   Q_.setZero();
-  for (std::size_t i = 0; i < wrenches_.size(); ++i) {
-    if (!wrenches_[i].force.isZero(0.0) || wrenches_[i].torque != 0.0) add_wrench(static_cast<int>(i), wrenches_[i]);
+  for (const int i : model_->acting_markers) {
+    const Wrench& wrench = wrenches_[static_cast<std::size_t>(i)];
+    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(i, wrench);
   }
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];

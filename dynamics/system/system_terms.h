@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/bodies/body_mass.h"
+#include "dynamics/system/block_jacobian.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
@@ -13,20 +15,26 @@ namespace sprung::dynamics {
 /// nq coordinates, m constraints.
 class SystemTerms {
  public:
-  explicit SystemTerms(const Model& model);
+  /// Which markers are kept up to date.
+  enum class Markers {
+    kAll,
+    kActing,  ///< those that joints and forces see; the others by `update_all_markers`
+  };
+  explicit SystemTerms(const Model& model, Markers scope = Markers::kAll);
 
-  /// Positions of all markers.
+  /// Positions of the markers.
   void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
   void update_jacobian();
-  const Eigen::MatrixXd& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
+  const BlockJacobian& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
   void calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const;  ///< m
 
   void update_mass();
   /// Mass matrix of body b, (3+n)×(3+n), at Body::first_coordinate of the system's block-diagonal M.
-  const Eigen::MatrixXd& mass(std::size_t body) const { return mass_[body]; }
+  const Eigen::MatrixXd& mass(std::size_t body) const { return masses_[body].matrix(); }
+  const std::vector<BodyMass>& masses() const { return masses_; }
 
-  /// Velocities of all markers.
+  /// Velocities of the markers.
   void update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v);
   void calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const;  ///< m, right-hand side of φ_q q̈ = γ
 
@@ -36,6 +44,8 @@ class SystemTerms {
   const Power& power() const { return power_; }
 
   void choose_branches(std::span<int> branches) const;
+  /// Positions and velocities of all markers at the present q and v, whatever the scope.
+  void update_all_markers();
 
   std::span<const MarkerState> markers() const { return markers_; }
   Instant instant() const { return {time_, markers_}; }
@@ -44,18 +54,22 @@ class SystemTerms {
   const Eigen::VectorXd& v() const { return v_; }
 
  private:
+  void place_marker(int index);
+  void move_marker(int index);
   const MarkerState& marker(int index) const { return markers_[static_cast<std::size_t>(index)]; }
-  void place_block(const JointJacobian& G, int row, int marker_index);
+  void add_block(std::size_t joint, int marker_index);
+  void fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block);
   void add_wrench(int marker_index, const Wrench& wrench);
 
   const Model* model_;
+  std::vector<int> kept_markers_;
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
   std::vector<MarkerState> markers_;
-  std::vector<Eigen::MatrixXd> mass_;
+  std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_;
-  Eigen::MatrixXd Phi_q_;
+  BlockJacobian Phi_q_;
   Power power_;
 };
 

@@ -136,14 +136,14 @@ TEST_CASE("Velocities are made to fit the joints with the least change in the ma
   terms.update_positions(0.0, q);
   terms.update_jacobian();
   terms.update_mass();
-  CHECK((terms.jacobian() * v).norm() < 1e-12 * v.norm());
+  CHECK((terms.jacobian().dense() * v).norm() < 1e-12 * v.norm());
   // Least: the change is orthogonal, in the mass metric, to every velocity that the joints allow.
   VectorXd mass_change(9);
   for (std::size_t b = 0; b < 3; ++b) {
     const auto first = static_cast<Eigen::Index>(3 * b);
     mass_change.segment<3>(first) = terms.mass(b) * (v - wanted).segment<3>(first);
   }
-  const VectorXd allowed = terms.jacobian().fullPivLu().kernel().col(0);
+  const VectorXd allowed = terms.jacobian().dense().fullPivLu().kernel().col(0);
   CHECK(std::abs(allowed.dot(mass_change)) < 1e-11 * allowed.norm() * mass_change.norm());
   // One that fits already stays
   VectorXd again = v;

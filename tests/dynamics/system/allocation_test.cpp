@@ -47,7 +47,6 @@ TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
       good &= ode.calc_derivative(0.0, y, rate);
       good &= ode.calc_switches(0.0, y, switches);
       ode.calc_error_scales(y, scales);
-      ode.equations().update_multipliers();
       good &= ode.calc_longest_step() > 0.0 && ode.equations().partition_decay() > 0.0;
     }
     const long taken = test::num_allocations() - before;

@@ -60,7 +60,6 @@ EvaluatorDifference compare_evaluators(const dynamics::Model& model, const Vecto
   std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
   fast.terms().choose_branches(branches);
   fast.update_accelerations(branches);
-  fast.update_multipliers();
   evaluated = {.time = 0.0, .q = fast.q(), .v = fast.v(), .branches = branches};
 
   DenseEvaluator plain(model);

@@ -68,7 +68,7 @@ TEST_CASE("Independent and dependent coordinates part all of them, and the depen
     all.insert(all.end(), partition.independent.begin(), partition.independent.end());
     std::sort(all.begin(), all.end());
     for (int i = 0; i < 9; ++i) CHECK(all[static_cast<std::size_t>(i)] == i);
-    const Eigen::MatrixXd Phi_d = terms.jacobian()(Eigen::all, partition.dependent);
+    const Eigen::MatrixXd Phi_d = terms.jacobian().dense()(Eigen::all, partition.dependent);
     CHECK(Phi_d.jacobiSvd().singularValues().minCoeff() > 0.05);
   }
 }

@@ -1,0 +1,46 @@
+#include "dynamics/system/block_jacobian.h"
+
+namespace sprung::dynamics {
+
+std::size_t BlockJacobian::add_block(const Block& block) {
+  blocks_.push_back(block);
+  blocks_.back().offset = values_.size();
+  values_.resize(values_.size() + static_cast<std::size_t>(block.num_rows * block.num_columns), 0.0);
+  return blocks_.size() - 1;
+}
+
+void BlockJacobian::add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const {
+  for (const Block& block : blocks_) {
+    const double* value = values_.data() + block.offset;
+    const double* part = v.data() + block.column;
+    for (int i = 0; i < block.num_rows; ++i) {
+      double sum = 0.0;
+      for (int j = 0; j < block.num_columns; ++j) sum += *value++ * part[j];
+      r[block.row + i] += sum;
+    }
+  }
+}
+
+void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const {
+  for (const Block& block : blocks_) {
+    const double* value = values_.data() + block.offset;
+    double* part = Q.data() + block.column;
+    for (int i = 0; i < block.num_rows; ++i) {
+      const double factor = lambda[block.row + i];
+      for (int j = 0; j < block.num_columns; ++j) part[j] += *value++ * factor;
+    }
+  }
+}
+
+Eigen::MatrixXd BlockJacobian::dense() const {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(num_rows_, num_columns_);
+  for (const Block& block : blocks_) {
+    const double* value = values_.data() + block.offset;
+    for (int i = 0; i < block.num_rows; ++i) {
+      for (int j = 0; j < block.num_columns; ++j) matrix(block.row + i, block.column + j) += *value++;
+    }
+  }
+  return matrix;
+}
+
+}  // namespace sprung::dynamics

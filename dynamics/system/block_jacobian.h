@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+
+namespace sprung::dynamics {
+
+/// φ_q as the blocks it consists of: a joint touches the coordinates of two bodies and no others.
+class BlockJacobian {
+ public:
+  /// Rows of one joint, columns of one body; stored row by row.
+  struct Block {
+    int row = 0, num_rows = 0;        ///< constraints
+    int column = 0, num_columns = 0;  ///< coordinates
+    int body = 0;
+    std::size_t offset = 0;  ///< of its values
+  };
+
+  BlockJacobian() = default;
+  BlockJacobian(int num_rows, int num_columns) : num_rows_(num_rows), num_columns_(num_columns) {}
+  /// Adds a block of zeros. @return its number
+  std::size_t add_block(const Block& block);
+
+  const std::vector<Block>& blocks() const { return blocks_; }
+  const double* values(std::size_t block) const { return values_.data() + blocks_[block].offset; }
+  double* values(std::size_t block) { return values_.data() + blocks_[block].offset; }
+  const double* data() const { return values_.data(); }
+
+  /// r += φ_q v.  @param r num_rows  @param v num_columns
+  void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;
+  /// Q += φ_qᵀ λ.  @param lambda num_rows  @param Q num_columns
+  void add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const;
+  /// The dense matrix, num_rows×num_columns: for what is done once.
+  Eigen::MatrixXd dense() const;
+
+ private:
+  int num_rows_ = 0, num_columns_ = 0;
+  std::vector<Block> blocks_;
+  std::vector<double> values_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dynamics/system/block_jacobian.h"
+#include "dynamics/system/partition.h"
+#include "dynamics/system/small_lu.h"
+
+namespace sprung::dynamics {
+
+/// Solves φ_d x = r, φ_d being the columns of φ_q that belong to the dependent coordinates.
+///
+/// The pattern of φ_d is brought to block triangular form once for a partition: independent loops and links of a chain
+/// become blocks of their own, solved one after the other, so that the cost grows with the number of joints and not
+/// with its cube. Source: [Duff & Reid 1978], [Tarjan 1972]
+class DependentSolver {
+ public:
+  DependentSolver() = default;
+  DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
+
+  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing.
+  void factorise(const BlockJacobian& jacobian);
+  /// x = φ_d⁻¹ r.  @param r, x  num_constraints; x in the order of Partition::dependent
+  void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
+  /// Marks the present factors as those of a good partition.
+  void set_reference();
+  /// Largest factor by which the determinant of a block has fallen since `set_reference`.
+  double decay() const;
+  int num_blocks() const { return static_cast<int>(blocks_.size()); }
+
+ private:
+  struct Entry {
+    int target;          // in the block's matrix, or row of the block for an entry outside it
+    int column;          // dependent coordinate (position in the partition), for an entry outside the block
+    std::size_t source;  // in the Jacobian's values
+  };
+  struct DiagonalBlock {
+    std::vector<int> rows, columns;  // constraints; positions in Partition::dependent
+    std::vector<Entry> inside, outside;
+    SmallLu lu{0};
+    double reference_determinant = 0.0;
+  };
+
+  std::vector<DiagonalBlock> blocks_;
+  const double* values_ = nullptr;  // of the Jacobian that was factorised
+  mutable std::vector<double> work_;
+};
+
+}  // namespace sprung::dynamics
