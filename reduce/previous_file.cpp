@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reduce/design.h"
+#include "tools/support/foreign_file.h"
 #include "tools/support/hdf5_file.h"
 #include "tools/support/input_error.h"
 
@@ -12,13 +13,11 @@ namespace sprung::reduce {
 
 namespace {
 
-bool is_foreign(const std::filesystem::path& path) {
+bool is_newer(const std::filesystem::path& path) {
   try {
     const support::Hdf5Reader file(path);
-    return !file.has_attribute("/", "format") ||
-           file.string_attribute("/", "format") != "sprung-superelement" ||
-           (file.has_attribute("/", "version") &&
-            file.integer_attribute("/", "version") > kSuperelementVersion);
+    return file.has_attribute("/", "version") &&
+           file.integer_attribute("/", "version") > kSuperelementVersion;
   } catch (const support::InputError&) {
     return false;  // cut off or overwritten: nothing that anybody could want back
   }
@@ -35,7 +34,7 @@ PreviousFile read_previous_file(const std::filesystem::path& path) {
     previous.superelement = read_superelement(path);
   } catch (const support::InputError& error) {
     previous.reason = error.what();
-    previous.foreign = is_foreign(path);
+    previous.foreign = support::is_foreign_file(path, "sprung-superelement") || is_newer(path);
   }
   return previous;
 }

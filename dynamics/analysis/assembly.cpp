@@ -116,8 +116,10 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   return report;
 }
 
-void project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v) {
-  if (model.num_constraints == 0) return;
+VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v) {
+  VelocityReport report;
+  if (model.num_constraints == 0) return report;
+  const Eigen::VectorXd asked = v;
   SystemTerms terms(model);
   terms.update_positions(time, q);
   terms.update_jacobian();
@@ -136,6 +138,12 @@ void project_velocities(const Model& model, double time, const Eigen::VectorXd& 
     const Eigen::VectorXd violation = Phi_q * v + rate;
     v -= weighted * (Phi_q * weighted).ldlt().solve(violation);
   }
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    const double change = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
+    if (change <= report.largest_change) continue;
+    report = {change, model.coordinate_name(i)};
+  }
+  return report;
 }
 
 }  // namespace sprung::dynamics

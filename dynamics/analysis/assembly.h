@@ -20,9 +20,15 @@ struct AssemblyReport {
 ///         redundant (all that take part are named)
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q);
 
+/// What the joints made of the velocities asked for.
+struct VelocityReport {
+  double largest_change = 0.0;  ///< [natural sizes/s]
+  std::string coordinate;       ///< whose it is
+};
+
 /// The velocity nearest to v, in the mass metric, that the constraints allow; for prescribed motion it is the one
 /// that follows it.
 /// @param q  assembled
-void project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v);
+VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v);
 
 }  // namespace sprung::dynamics

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <array>
 
@@ -39,6 +41,11 @@ void read_statistics(const support::TomlTable& root, Run& run) {
   if (!(run.statistics_to > run.statistics_from)) {
     throw table->error(fmt::format("must end after it begins, got from {} s to {} s", run.statistics_from,
                                    run.statistics_to));
+  }
+  const double first_output = std::ceil(run.statistics_from / run.output_step - 1e-6) * run.output_step;
+  if (first_output > run.statistics_to * (1.0 + 1e-12)) {
+    throw table->error(fmt::format("must hold an output; from {} s to {} s there is none at an output_step of {} s",
+                                   run.statistics_from, run.statistics_to, run.output_step));
   }
 }
 

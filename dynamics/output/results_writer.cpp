@@ -24,7 +24,7 @@ void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& valu
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header)
     : model_(&header.model), file_(path, partial_name(path)) {
-  file_.attribute("/", "format", "sprung-results");
+  file_.attribute("/", "format", kResultsFormat);
   file_.attribute("/", "version", kResultsVersion);
   file_.attribute("/", "title", header.vehicle.name);
   file_.attribute("/", "units", "SI");

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dynamics/analysis/equilibrium.h"
@@ -29,6 +30,9 @@ struct ResultsHeader {
   const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
   std::vector<VehicleMode> modes;          ///< about the equilibrium
 };
+
+/// Root attribute `format` of a results file.
+inline constexpr std::string_view kResultsFormat = "sprung-results";
 
 /// Writes the results file of a run as it goes (dynamics/output/results.md). It stands as NAME.partial.h5 until the
 /// run is whole.

@@ -23,7 +23,7 @@ std::string describe_modes(const Model& model) {
 }  // namespace
 
 std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& run, const AssemblyReport& assembly,
-                         const Equilibrium* equilibrium) {
+                         const VelocityReport& velocities, const Equilibrium* equilibrium) {
   std::string text = fmt::format("{}: {} bodies ({}), {} joints, {} coordinates, {} constraints, {} freedoms\n",
                                  vehicle.name, model.bodies.size(), describe_modes(model), model.joints.size(),
                                  model.num_coordinates, model.num_constraints, model.num_freedoms());
@@ -39,6 +39,10 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
                         neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
   } else {
     text += "Start: positions as given\n";
+  }
+  if (velocities.largest_change > 1e-9) {
+    text += fmt::format("Initial velocities changed to those that the joints allow: {} by {:.3g} of its natural size per s\n",
+                        velocities.coordinate, velocities.largest_change);
   }
   text += fmt::format("Road: {}; speed {} m/s; {} s, output every {} s, relative tolerance {}\n", run.road.shape, run.speed,
                       run.duration, run.output_step, run.integrator.relative_tolerance);

@@ -12,7 +12,7 @@ namespace sprung::dynamics {
 /// What is going to be run, in a few lines: vehicle, modes, freedoms, assembly, balance, road, speed.
 /// @param equilibrium  null for a run that starts as given
 std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& run, const AssemblyReport& assembly,
-                         const Equilibrium* equilibrium);
+                         const VelocityReport& velocities, const Equilibrium* equilibrium);
 
 /// What came out of a run.
 struct RunSummary {

@@ -59,7 +59,8 @@ std::string format_model(const PreparedRun& prepared) {
   for (const auto& force : model.forces) forces.add_row({force->name, std::string(force->kind())});
 
   const Equilibrium* equilibrium = prepared.equilibrium ? &*prepared.equilibrium : nullptr;
-  std::string text = describe_run(prepared.vehicle, model, prepared.run, prepared.assembly, equilibrium);
+  std::string text = describe_run(prepared.vehicle, model, prepared.run, prepared.assembly,
+                                  prepared.initial_velocities, equilibrium);
   text += fmt::format("\nInertia is about the origin of the body's frame.\n{}", bodies.str());
   if (!model.joints.empty()) text += fmt::format("\n{}", joints.str());
   if (!model.forces.empty()) text += fmt::format("\n{}", forces.str());

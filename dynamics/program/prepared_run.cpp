@@ -88,7 +88,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
     assemble_positions(prepared.model, q);
   }
   Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
-  project_velocities(prepared.model, 0.0, q, v);
+  prepared.initial_velocities = project_velocities(prepared.model, 0.0, q, v);
   prepared.start = make_state(prepared.model, q, v);
   return prepared;
 }

@@ -28,6 +28,7 @@ struct PreparedRun {
   ModeSelection selection;
   std::vector<std::string> output_points;
   AssemblyReport assembly;
+  VelocityReport initial_velocities;
   std::unique_ptr<Road> level_road, road;
   Model balance_model;                     ///< on level ground
   std::optional<Equilibrium> equilibrium;  ///< none for a run that starts as given

@@ -10,6 +10,7 @@
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "tools/support/foreign_file.h"
 #include "tools/support/numerical_error.h"
 #include "tools/support/program.h"
 #include "tools/support/progress_bar.h"
@@ -30,15 +31,21 @@ TransientOptions make_options(const Run& run) {
   return options;
 }
 
+constexpr double kAlarmingClosure = 1e-3;  // far above what any usable tolerance gives
+
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
-  if (!writer) throw support::Interrupted(fmt::format("interrupted at t = {:.6g} s", time));
-  throw support::Interrupted(fmt::format("interrupted at t = {:.6g} s; what there is so far: {}", time,
+  if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
+  throw support::Interrupted(fmt::format("at t = {:.6g} s; what there is so far: {}", time,
                                          writer->abandon().string()));
 }
 
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
+  if (support::is_foreign_file(output.results, kResultsFormat)) {
+    throw support::InputError({.path = output.results.string()},
+                              "is in the way and is left alone: it is no results file; move it or name another with -o");
+  }
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   if (output.dry_run) {
     fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
@@ -51,7 +58,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   }
   if (!output.json && !request.quiet) {
     fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
-                                  prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+                                  prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
   }
 
   std::unique_ptr<ResultsWriter> writer;
@@ -95,6 +102,12 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (writer) writer->finish(statistics, transient);
 
   const RunSummary summary{statistics, transient, run.duration, elapsed};
+  if (statistics.energy_closure() > kAlarmingClosure) {
+    fmt::print(stderr,
+               "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
+               "relative tolerance, and look for motion far below the vehicle's size\n",
+               statistics.energy_closure());
+  }
   fmt::print("{}", output.json ? format_summary_json(prepared.model, summary) : format_summary(prepared.model, summary));
   if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
   return support::kGood;

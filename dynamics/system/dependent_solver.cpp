@@ -168,6 +168,12 @@ void DependentSolver::set_reference() {
   for (DiagonalBlock& block : blocks_) block.reference_determinant = block.lu.determinant();
 }
 
+bool DependentSolver::is_mirrored() const {
+  return std::any_of(blocks_.begin(), blocks_.end(), [](const DiagonalBlock& block) {
+    return (block.lu.determinant() < 0.0) != (block.reference_determinant < 0.0);
+  });
+}
+
 double DependentSolver::decay() const {
   double decay = 1.0;
   for (const DiagonalBlock& block : blocks_) {

@@ -27,6 +27,9 @@ class Converter {
     } else if (const auto* array = node.as_array()) {
       result.value = convert_array(*array, result);
     } else if (const auto* text = node.as_string()) {
+      if (text->get().find('\0') != std::string::npos) {
+        throw InputError(result.location, fmt::format("'{}' contains the character NUL", result.key));
+      }
       result.value = text->get();
     } else if (const auto* integer = node.as_integer()) {
       result.value = integer->get();

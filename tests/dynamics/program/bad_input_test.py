@@ -54,7 +54,7 @@ SPOILT_TEXT = [
 
 class SpoiltText(DynamicsTestCase):
     def test_each_fault_is_located_and_nothing_is_lost(self):
-        self.results.write_bytes(b"an earlier result")
+        self.make_earlier_result()
         for name, file, old, new, fragments in SPOILT_TEXT:
             with self.subTest(name):
                 before = self.files()
@@ -83,12 +83,12 @@ class SpoiltText(DynamicsTestCase):
 class SpoiltSuperelement(DynamicsTestCase):
     def setUp(self):
         super().setUp()
-        self.results.write_bytes(b"an earlier result")
+        self.earlier = self.make_earlier_result()
         self.chassis = self.folder / "chassis.h5"
 
     def check(self, *fragments):
         self.assert_refused(self.run_to_results("--superelements", "."), "chassis.h5", *fragments)
-        self.assertEqual(self.results.read_bytes(), b"an earlier result")
+        self.assertEqual(self.results.read_bytes(), self.earlier)
         self.assertFalse((self.folder / "results.partial.h5").exists())
 
     def test_missing(self):

@@ -26,6 +26,12 @@ class DynamicsTestCase(unittest.TestCase):
             shutil.copy(path, self.folder)
         self.results = self.folder / "results.h5"
 
+    def make_earlier_result(self):
+        """A whole results file in results.h5. Returns its bytes."""
+        process = self.run_to_results("--set", "speed=1")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return self.results.read_bytes()
+
     def edit(self, name, old, new):
         """Replaces the first occurrence of `old`, which must be there."""
         path = self.folder / name

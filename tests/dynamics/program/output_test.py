@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 
-from dynamics_test_case import DynamicsTestCase
+from dynamics_test_case import SHORT, DynamicsTestCase
 
 
 class Results(DynamicsTestCase):
@@ -55,8 +55,19 @@ class Results(DynamicsTestCase):
         self.assert_refused(process, "blocked")
         self.assertEqual((self.folder / "blocked").read_text(encoding="utf-8"), "not a folder")
 
+    def test_files_that_are_no_results_are_left_alone(self):
+        before = self.files()
+        for target in ("bump.toml", "vehicle.toml", "chassis.h5"):
+            with self.subTest(target):
+                self.assert_refused(self.run_program(*SHORT, "-o", target), target, "no results file")
+                self.assertEqual(self.files(), before)
+
+    def test_a_statistics_window_without_output_is_refused(self):
+        process = self.run_to_results("--set", "statistics.from=0.00051", "--set", "statistics.to=0.0009")
+        self.assert_refused(process, "statistics", "there is none")
+
     def test_disk_full_leaves_the_earlier_result(self):
-        self.results.write_bytes(b"an earlier result")
+        self.make_earlier_result()
         before = self.files()
         limit = 300_000  # bytes a process may write to a file: stands for a full disk, which root would not see
         process = self.run_program(
@@ -69,7 +80,7 @@ class Results(DynamicsTestCase):
 
 class Interrupt(DynamicsTestCase):
     def test_interrupted_run_leaves_a_readable_partial_file(self):
-        self.results.write_bytes(b"an earlier result")
+        earlier = self.make_earlier_result()
         partial = self.folder / "results.partial.h5"
         # A run that would take minutes; it is interrupted once it has begun to write.
         process = subprocess.Popen(
@@ -82,7 +93,7 @@ class Interrupt(DynamicsTestCase):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("results.partial.h5", errors)
-        self.assertEqual(self.results.read_bytes(), b"an earlier result")
+        self.assertEqual(self.results.read_bytes(), earlier)
         with h5py.File(partial, "r") as file:
             self.assertEqual(file.attrs["complete"], 0)
             self.assertGreaterEqual(file["time"].shape[0], 1)
