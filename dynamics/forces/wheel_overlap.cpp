@@ -1,19 +1,19 @@
 #include "dynamics/forces/wheel_overlap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace sprung::dynamics {
 
 namespace {
 
-// Gauss–Legendre, 5 points on (−1, 1).
-constexpr std::array<double, 5> kAbscissae{-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
-                                           0.906179845938664};
-constexpr std::array<double, 5> kWeights{0.236926885056189, 0.478628670499366, 0.568888888888889,
-                                         0.478628670499366, 0.236926885056189};
+// ∫ √(R² − ξ²) dξ from 0.
+double calc_circle_integral(double radius, double xi) {
+  const double half = std::sqrt(std::max(0.0, radius * radius - xi * xi));
+  return 0.5 * (xi * half + radius * radius * std::asin(std::clamp(xi / radius, -1.0, 1.0)));
+}
 
 // e(ξ) and its slope on one segment of the road.
 struct Depth {
@@ -65,14 +65,13 @@ void take_deepest(const Depth::Sample& sample, WheelOverlap& overlap) {
 // The part between two places all of which touches.
 void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right,
                   WheelOverlap& overlap) {
-  const double middle = 0.5 * (left.at + right.at), half = 0.5 * (right.at - left.at);
-  for (std::size_t i = 0; i < kAbscissae.size(); ++i) {
-    const double xi = middle + half * kAbscissae[i];
-    // A road that stands higher than the wheel fills its circle, not more.
-    const double whole = 2.0 * std::sqrt(std::max(0.0, depth.radius * depth.radius - xi * xi));
-    overlap.area += half * kWeights[i] * std::clamp(depth.sample(xi).value, 0.0, whole);
-  }
-  overlap.width += right.at - left.at;
+  const double width = right.at - left.at;
+  const double road = depth.road.integral(depth.segment, depth.s + right.at) -
+                      depth.road.integral(depth.segment, depth.s + left.at);
+  const double circle =
+      calc_circle_integral(depth.radius, right.at) - calc_circle_integral(depth.radius, left.at);
+  overlap.area += road - depth.y * width + circle;
+  overlap.width += width;
   overlap.rise += right.road_height - left.road_height;
 }
 
@@ -129,6 +128,7 @@ WheelOverlap calc_wheel_overlap(const Road& road, double s, double y, double rad
       if (segment_end <= cell_end) ++depth.segment;
     }
   }
+  overlap.area = std::max(0.0, overlap.area);  // a difference of larger areas, where it only just touches
   return overlap;
 }
 
@@ -139,8 +139,8 @@ double calc_level_overlap(double radius, double penetration) {
 
 double find_level_penetration(double radius, double area) {
   if (!(area > 0.0)) return 0.0;
-  const double target = 2.0 * area / (radius * radius);  // 2α − sin 2α
-  double twice = std::cbrt(6.0 * target);                // exact where small; below the solution always
+  const double target = std::min(2.0 * area / (radius * radius), std::numbers::pi);  // 2α − sin 2α
+  double twice = std::cbrt(6.0 * target);  // exact where small; below the solution always
   for (int iteration = 0; iteration < 30; ++iteration) {
     // x − sin x without cancellation where x is small: x³/6 (1 − x²/20 (1 − x²/42 (1 − x²/72 (1 − x²/110))))
     const double x2 = twice * twice;

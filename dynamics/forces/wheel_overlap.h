@@ -17,8 +17,9 @@ struct WheelOverlap {
   double depth_slope = 0.0;  ///< slope of the road there
 };
 
-/// Exact but for a Gauss quadrature of the area and for what the road hides between samples 2R/num_cells
-/// apart, to which the ends of its segments come; no allocation.
+/// Exact but for what the road hides between samples 2R/num_cells apart, to which the ends of its segments
+/// come; no allocation. For roads below the wheel's centre: all of a higher one counts as standing in the
+/// circle.
 /// @param s, y       of the wheel's centre [m]
 /// @param radius     > 0 [m]
 /// @param num_cells  ≥ 2
@@ -28,7 +29,7 @@ WheelOverlap calc_wheel_overlap(const Road& road, double s, double y, double rad
 /// @param penetration  from 0 to radius [m] @return [m²]
 double calc_level_overlap(double radius, double penetration);
 /// The penetration on level ground that gives an overlap, its inverse.
-/// @param area  ≥ 0, at most half the wheel's [m²] @return [m]
+/// @param area  ≥ 0, more than half the wheel's counts as half [m²] @return [m]
 double find_level_penetration(double radius, double area);
 
 }  // namespace sprung::dynamics

@@ -55,6 +55,26 @@ RoadSample BumpRoad::sample(int segment, double s) const {
   return {};
 }
 
+double BumpRoad::integral(int segment, double s) const {
+  if (segment == 0) return 0.0;
+  const double u = (s - parameters_.start) / parameters_.length;
+  const double scale = parameters_.height * parameters_.length;
+  const bool behind = segment == num_segments() - 1;
+  const double pi = std::numbers::pi;
+  switch (parameters_.shape) {
+    case BumpShape::kHalfSine:
+      return behind ? 0.0 : -scale / pi * std::cos(pi * u);
+    case BumpShape::kHaversine:
+      return behind ? 0.0 : 0.5 * scale * (u - std::sin(2.0 * pi * u) / (2.0 * pi));
+    case BumpShape::kTriangle:
+      if (behind) return 0.0;
+      return segment == 1 ? scale * u * u : scale * u * (2.0 - u);
+    case BumpShape::kRamp:
+      return behind ? scale * u : 0.5 * scale * u * u;
+  }
+  return 0.0;
+}
+
 double BumpRoad::resolution(int segment, double /*s*/) const {
   const bool flat = segment == 0 || segment == num_segments() - 1;
   return flat ? std::numeric_limits<double>::infinity() : 0.125 * parameters_.length;

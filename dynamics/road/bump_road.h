@@ -33,6 +33,7 @@ class BumpRoad final : public Road {
   int num_segments() const override;
   double segment_end(int k) const override;
   RoadSample sample(int segment, double s) const override;
+  double integral(int segment, double s) const override;
   double resolution(int segment, double s) const override;
 
  private:

@@ -12,6 +12,7 @@ class FlatRoad final : public Road {
   int num_segments() const override { return 1; }
   double segment_end(int /*k*/) const override { return std::numeric_limits<double>::infinity(); }
   RoadSample sample(int /*segment*/, double /*s*/) const override { return {}; }
+  double integral(int /*segment*/, double /*s*/) const override { return 0.0; }
   double resolution(int /*segment*/, double /*s*/) const override { return std::numeric_limits<double>::infinity(); }
 };
 

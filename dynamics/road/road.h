@@ -22,6 +22,8 @@ class Road {
   virtual double segment_end(int k) const = 0;
   /// @param segment  0-based; s may lie outside
   virtual RoadSample sample(int segment, double s) const = 0;
+  /// ∫ of the height over s, from a place of the segment's own [m²]: differences within a segment count.
+  virtual double integral(int segment, double s) const = 0;
   /// Distance over which the road at s holds nothing finer [m]: an integrator should not go much further in a step.
   virtual double resolution(int segment, double s) const = 0;
 

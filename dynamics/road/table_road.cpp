@@ -27,6 +27,12 @@ struct Cubic {
     const double secant = (z1 - z0) / h;
     return m0 + u * (2.0 * (3.0 * secant - 2.0 * m0 - m1) + u * 3.0 * (m0 + m1 - 2.0 * secant));
   }
+  double integral(double u) const {  // from u = 0
+    const double secant = z1 - z0;
+    return h * u *
+           (z0 + u * (h * m0 / 2.0 +
+                      u * ((3.0 * secant - h * (2.0 * m0 + m1)) / 3.0 + u * (h * (m0 + m1) - 2.0 * secant) / 4.0)));
+  }
   // How far the cubic goes beyond the heights of its ends.
   double excursion() const {
     const double secant = (z1 - z0) / h;
@@ -67,6 +73,11 @@ TableRoad::TableRoad(double start, std::span<const double> s, std::span<const do
   slope_.assign(s_.size(), 0.0);
   for (std::size_t i = 1; i + 1 < s_.size(); ++i) slope_[i] = spline.slope(s_[i]);
   limit_slopes();
+  integral_.assign(s_.size(), 0.0);
+  for (std::size_t i = 0; i + 1 < s_.size(); ++i) {
+    const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
+    integral_[i + 1] = integral_[i] + cubic.integral(1.0);
+  }
 }
 
 bool TableRoad::overshoots(std::size_t i) const {
@@ -104,6 +115,15 @@ RoadSample TableRoad::sample(int segment, double s) const {
   const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
   const double u = (s - s_[i]) / cubic.h;
   return {cubic.height(u), cubic.slope(u)};
+}
+
+double TableRoad::integral(int segment, double s) const {
+  if (segment == 0) return 0.0;
+  if (segment == 2) return height_.back() * s;
+  const auto above = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
+  const std::size_t i = static_cast<std::size_t>(above - s_.begin()) - 1;
+  const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
+  return integral_[i] + cubic.integral((s - s_[i]) / cubic.h);
 }
 
 double TableRoad::resolution(int segment, double /*s*/) const {

@@ -32,6 +32,7 @@ class TableRoad final : public Road {
   int num_segments() const override { return 3; }
   double segment_end(int k) const override { return k == 0 ? s_.front() : s_.back(); }
   RoadSample sample(int segment, double s) const override;
+  double integral(int segment, double s) const override;
   double resolution(int segment, double s) const override;
 
   /// In how many intervals between points the spline was limited.
@@ -42,6 +43,7 @@ class TableRoad final : public Road {
   void limit_slopes();
 
   std::vector<double> s_, height_, slope_;  // at the points
+  std::vector<double> integral_;            // from the first point to each
   std::size_t num_limited_ = 0;
   double spacing_;  // the smallest
 };

@@ -92,6 +92,27 @@ TEST_CASE("Width and rise are the derivatives of the area, over bumps, edges and
   }
 }
 
+TEST_CASE("The integral of a road is that of its height", "[road]") {
+  const std::vector<double> s{0.0, 0.3, 0.5, 0.9, 1.2, 1.3}, h{0.0, 0.05, -0.06, 0.08, 0.02, 0.04};
+  const dynamics::TableRoad table(4.5, s, h);
+  constexpr double step = 1e-4;
+  const auto check = [&](const dynamics::Road& road, double at) {
+    const int k = road.find_segment(at, true);
+    const double rate = (8.0 * (road.integral(k, at + step) - road.integral(k, at - step)) -
+                         (road.integral(k, at + 2 * step) - road.integral(k, at - 2 * step))) /
+                        (12.0 * step);
+    CAPTURE(at, k);
+    CHECK(rate == Approx(road.sample(k, at).height).margin(1e-11));
+  };
+  for (const double at : {4.0, 4.6, 4.91, 5.1, 5.33, 5.75, 6.2}) {
+    check(table, at);
+    for (int shape = 0; shape < 4; ++shape) {
+      check(BumpRoad({.shape = static_cast<BumpShape>(shape), .start = 4.7, .length = 0.8, .height = 0.15}),
+            at);
+    }
+  }
+}
+
 TEST_CASE("A narrow obstacle between samples and a hole under the wheel are seen whole", "[forces]") {
   // Against a plain sum over two million strips.
   const BumpRoad edge({.shape = BumpShape::kTriangle, .start = 4.99, .length = 0.013, .height = 0.05});
