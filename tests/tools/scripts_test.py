@@ -7,7 +7,10 @@ import unittest
 from tool_test_case import ROOT, TOOLS, ToolTestCase
 
 BASH = ("setup", "build", "test", "run-truck")
-PYTHON = ("plot_results", "report_peaks", "compare_frequencies", "make_road.py", "ride", "paper_figures")
+PYTHON = (
+    "plot_results", "report_peaks", "compare_frequencies", "make_road.py", "ride", "paper_figures",
+    "convert_mesh", "export_csv", "export_paraview", "report",
+)  # fmt: skip
 
 
 class Scripts(ToolTestCase):

@@ -1,0 +1,90 @@
+"use strict";
+// What all parts of the page share: the data, colours, units, numbers, and the one clock.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+/** base64 of little-endian float32 → Float32Array. */
+function decode(text) {
+  const raw = atob(text);
+  const bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  return new Float32Array(bytes.buffer);
+}
+
+/** Okabe and Ito's colours, which stay apart for colour-blind readers, each for light and dark paper. */
+const PALETTE = [["#111111", "#f2f2f2"], ["#0072b2", "#56b4e9"], ["#d98600", "#f0a830"], ["#00875f", "#2fd09a"],
+                 ["#b0588f", "#e592c6"], ["#c2410c", "#ff8a4c"], ["#6b5bd2", "#a99cff"], ["#5f6b76", "#aab4bd"]];
+const colourOf = (index) => PALETTE[index % PALETTE.length][dark.matches ? 1 : 0];
+const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** A unit as it is printed, and what a number is multiplied by, so that its size is readable. */
+function readable(unit, peak) {
+  if (unit === "m" && peak < 0.5) return {unit: "mm", factor: 1e3};
+  if (unit === "N") return {unit: "kN", factor: 1e-3};
+  if (unit === "N m") return {unit: "kN m", factor: 1e-3};
+  if (unit === "J") return {unit: "kJ", factor: 1e-3};
+  if (unit === "rad") return {unit: "°", factor: 180 / Math.PI};
+  return {unit: unit.replace("^2", "²").replace("^3", "³"), factor: 1};
+}
+
+/** Four digits; powers of ten only where they are needed. */
+function format(value, digits = 4) {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(Math.max(digits - 3, 1)).replace("-", "−").replace("e−", "e−");
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return value.toFixed(Number.isInteger(value) ? 0 : Math.min(decimals, 6)).replace("-", "−");
+}
+
+/** An element with text or children. */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
+function fillSelect(select, options) {
+  select.replaceChildren();
+  const groups = new Map();
+  for (const {value, label, group} of options) {
+    let parent = select;
+    if (group) {
+      if (!groups.has(group)) {
+        groups.set(group, element("optgroup", {label: group}));
+        select.append(groups.get(group));
+      }
+      parent = groups.get(group);
+    }
+    parent.append(element("option", {value}, label));
+  }
+}
+
+/** The time that animation and diagrams point at [s]. */
+const clock = {
+  time: Math.min(...data.runs.map((run) => run.frames.first)),
+  first: Math.min(...data.runs.map((run) => run.frames.first)),
+  last: Math.max(...data.runs.map((run) => run.frames.last)),
+  listeners: [],
+  set(time) {
+    this.time = Math.min(Math.max(time, this.first), this.last);
+    for (const listener of this.listeners) listener(this.time);
+  },
+};
+
+/** A canvas made as sharp as the screen. Returns its context with units of CSS pixels, and its size. */
+function prepareCanvas(canvas, height) {
+  const width = canvas.clientWidth;
+  const ratio = window.devicePixelRatio || 1;
+  canvas.style.height = `${height}px`;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return {context, width, height};
+}

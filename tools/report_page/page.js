@@ -1,0 +1,57 @@
+"use strict";
+// Puts the page together, and offers what tests ask it.
+
+function fillHead() {
+  byId("title").textContent = data.title;
+  const fact = (run, name) => (run.facts.find(([other]) => other === name) || [])[1];
+  const shared = ["road", "initial speed", "duration"].map((name) => {
+    const texts = new Set(data.runs.map((run) => fact(run, name)));
+    return texts.size === 1 ? [...texts][0] : undefined;
+  });
+  byId("subtitle").textContent = shared.filter(Boolean).join(" · ");
+  byId("run-keys").replaceChildren(...data.runs.map((run, index) => element("li", {}, element("span", {class: "key",
+    style: `--c:${colourOf(index)}`}), run.label)));
+  byId("summary-note").textContent = (data.runs.length > 1 ? `Differences are to ${data.runs[0].label}. ` : "") +
+    "Displacements are vertical, from the static balance of the run; accelerations are vertical. The statistics of the points are over " +
+    "the run's own statistics window.";
+}
+
+const errors = [];
+window.addEventListener("error", (event) => errors.push(event.message));
+
+function drawAll() {
+  fillHead();
+  fillTables();
+  for (const draw of charts) draw();
+  drawScene();
+}
+
+fillHead();
+fillTables();
+makePlayer();
+makeCharts();
+dark.addEventListener("change", drawAll);
+let resizing = 0;
+window.addEventListener("resize", () => {
+  cancelAnimationFrame(resizing);
+  resizing = requestAnimationFrame(() => {
+    drawScene();
+    linked.forEach(placeCursor);
+  });
+});
+
+/** For tests: where the shown run's main body is at the clock's time, and what went wrong. */
+window.sprungReport = {
+  errors,
+  clock,
+  mainBody() {
+    const main = player.runs[player.main], at = frameAt(main, clock.time);
+    const [x, y, angle] = main.places[main.vehicle.main].map((column) => between(column, at));
+    return {x, y, angle};
+  },
+  tip: (body, node) => {
+    const main = player.runs[player.main];
+    return nodesOf(main, main.vehicle.bodies.find((one) => one.name === body), frameAt(main, clock.time), player.magnification)[node];
+  },
+};
+document.documentElement.dataset.ready = "true";

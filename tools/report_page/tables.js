@@ -1,0 +1,127 @@
+"use strict";
+// The tables: summary, frequencies, checks, what was run.
+
+/** Rows of all runs by what they are of and their name: [{of, name, unit, values: [one a run, or null]}]. */
+function collectStatistics() {
+  const rows = new Map();
+  data.runs.forEach((run, index) => {
+    for (const row of run.statistics) {
+      const key = `${row.of}\u0000${row.name}`;
+      if (!rows.has(key)) rows.set(key, {...row, values: data.runs.map(() => null)});
+      rows.get(key).values[index] = row.value;
+    }
+  });
+  return [...rows.values()];
+}
+
+function runHeadings() {
+  return data.runs.map((run, index) =>
+    element("th", {class: "number", scope: "col"}, element("span", {class: "key", style: `--c:${colourOf(index)}`}), run.label));
+}
+
+/** The difference to the first run, in per cent; nothing where the first is nearly 0. */
+function difference(value, first) {
+  if (value === null || first === null || Math.abs(first) < 1e-12) return "";
+  const percent = 100 * (value / first - 1);
+  if (!Number.isFinite(percent) || Math.abs(percent) > 999) return "";
+  return `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 9.95 ? 1 : 0)} %`;
+}
+
+function fillStatistics(table, rows) {
+  const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), ...runHeadings(), element("th", {scope: "col"}, "unit"));
+  table.replaceChildren(element("thead", {}, head));
+  let body = null, of = null;
+  for (const row of rows) {
+    if (row.of !== of) {
+      of = row.of;
+      body = element("tbody");
+      body.append(element("tr", {}, element("th", {class: "group", colspan: data.runs.length + 2, scope: "rowgroup"}, of)));
+      table.append(body);
+    }
+    const known = row.values.filter((value) => value !== null);
+    const {unit, factor} = readable(row.unit, Math.max(...known.map(Math.abs)));
+    const cells = row.values.map((value, index) => {
+      const cell = element("td", {class: "number"}, value === null ? "–" : format(factor * value));
+      if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" ? difference(value, row.values[0]) : ""));
+      return cell;
+    });
+    body.append(element("tr", {}, element("th", {scope: "row"}, row.name), ...cells, element("td", {}, unit)));
+  }
+}
+
+/** What stands in the summary: the rest is under "All numbers". */
+const inSummary = (row) => row.of !== "computation" && !/displacement, r\.m\.s\.|acceleration, lowest|axial/.test(row.name);
+
+function fillFrequencies(table) {
+  const most = Math.max(...data.runs.map((run) => run.frequencies.length));
+  const section = table.parentElement;
+  section.hidden = most === 0;
+  const head = element("tr", {}, element("th", {class: "number", scope: "col"}, "mode"));
+  data.runs.forEach((run, index) => head.append(runHeadings()[index], element("th", {class: "number", scope: "col"}, "damping"),
+    element("th", {scope: "col"}, "who moves")));
+  table.replaceChildren(element("caption", {class: "note"}, "Modes about the equilibrium, undamped frequency in Hz"), element("thead", {}, head));
+  const body = element("tbody");
+  for (let mode = 0; mode < Math.min(most, 24); ++mode) {
+    const row = element("tr", {}, element("td", {class: "number"}, String(mode + 1)));
+    for (const run of data.runs) {
+      const found = run.frequencies[mode];
+      row.append(element("td", {class: "number"}, found ? format(found.f) : ""),
+        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {}, found ? found.who : ""));
+    }
+    body.append(row);
+  }
+  table.append(body);
+}
+
+function fillChecks(place) {
+  place.replaceChildren();
+  if (!data.superelements.length) place.append(element("p", {}, "No body of these runs comes from a superelement."));
+  for (const found of data.superelements) {
+    place.append(element("h3", {}, found.name), element("p", {class: "note"}, `Content hash `, element("code", {}, found.hash),
+      `, used by ${found.runs.join(", ")}.`));
+    if (found.problem) {
+      place.append(element("p", {}, found.problem));
+      continue;
+    }
+    const frequencies = found.frequencies.map((value) => format(value)).join(", ");
+    place.append(element("p", {class: "note"}, `Clamped frequencies: ${frequencies} Hz${found.frequencies.length === 12 ? " …" : ""}`));
+    const table = element("table", {}, element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "check"),
+      element("th", {class: "number", scope: "col"}, "value"), element("th", {class: "number", scope: "col"}, "allowed"),
+      element("th", {scope: "col"}, "result"))));
+    const body = element("tbody");
+    for (const check of found.checks) {
+      const passed = check.value <= check.tolerance;
+      body.append(element("tr", {}, element("th", {scope: "row"}, check.name), element("td", {class: "number"}, format(check.value)),
+        element("td", {class: "number"}, format(check.tolerance)), element("td", {class: passed ? "good" : "bad"}, passed ? "✓ passed" : "✗ failed")));
+    }
+    table.append(body);
+    place.append(element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Checks of ${found.name}`}, table));
+  }
+}
+
+function fillFacts(table) {
+  const names = [...new Set(data.runs.flatMap((run) => run.facts.map(([name]) => name)))];
+  const body = element("tbody");
+  for (const name of names) {
+    const texts = data.runs.map((run) => (run.facts.find(([other]) => other === name) || [name, "–"])[1]);
+    const row = element("tr", {}, element("th", {scope: "row"}, name));
+    if (texts.every((text) => text === texts[0])) {
+      row.append(element("td", {class: "text", colspan: texts.length}, texts[0]));
+    } else {
+      row.append(...texts.map((text) => element("td", {class: "text"}, text)));
+    }
+    body.append(row);
+  }
+  const headings = runHeadings();
+  for (const heading of headings) heading.className = "";
+  table.replaceChildren(element("thead", {}, element("tr", {}, element("td"), ...headings)), body);
+}
+
+function fillTables() {
+  const rows = collectStatistics();
+  fillStatistics(byId("summary-table"), rows.filter(inSummary));
+  fillStatistics(byId("statistics-table"), rows);
+  fillFrequencies(byId("frequency-table"));
+  fillChecks(byId("check-tables"));
+  fillFacts(byId("fact-table"));
+}
