@@ -23,6 +23,7 @@ from paper_report.paper_runs import (
     list_finer_runs,
     list_main_runs,
     list_sensitivity_runs,
+    list_tyre_runs,
     make_command,
     run_all,
     write_roads,
@@ -65,6 +66,7 @@ class Report(unittest.TestCase):
             *list_convergence_runs(COUNTS_RUN_AGAIN),
             *list_finer_runs(),
             *others,
+            *list_tyre_runs(),
             at_rest,
         ]
         run_all(cls.programs, runs, cls.folder, report=lambda _: None)

@@ -23,6 +23,7 @@ MODE_COUNTS = (0, 2, 4, 6, 12, 24, 36)  # of the chassis
 EXPENSIVE_MODES = 24  # from this many on a run takes minutes rather than seconds
 LINKS = ("modes.front_long_arm=2", "modes.rear_long_arm=2")
 UNDAMPED = ("modal_damping.chassis=0",)
+DISTRIBUTED = tuple(f"vehicle.forces.{axle}_tyre.contact=distributed" for axle in ("front", "rear"))
 FINER = ("integrator.relative_tolerance=1e-8",)
 SEEDS = (1, 2, 3)
 REPEATS = 9  # timed runs of each model
@@ -102,6 +103,15 @@ def list_finer_runs():
     return [
         PaperRun(f"{run}_4modes_finer", f"{run}.toml", chassis_modes(4) + FINER)
         for run in ("bump", "terrain")
+    ]
+
+
+def list_tyre_runs():
+    """Rigid, 2 and 4 modes over both roads on tyres that touch along a length of road instead of in a point."""
+    return [
+        PaperRun(f"{run}_{name_modes(n)}_distributed", f"{run}.toml", chassis_modes(n) + DISTRIBUTED)
+        for run in ("bump", "terrain")
+        for n in (0, 2, 4)
     ]
 
 

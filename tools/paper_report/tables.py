@@ -228,6 +228,37 @@ def make_ride_column(results, superelements, count):
     return column
 
 
+def make_tyres_table(numbers):
+    """Point contact beside distributed contact: the chassis, the front tyres, and the speed that the road takes."""
+    rows = []
+    for road in ROADS:
+        for count in (0, 2, 4):
+            for contact, suffix in (("point", ""), ("distributed", "_distributed")):
+                name = f"{road}_{name_modes(count)}{suffix}"
+                if not numbers.has(name):
+                    continue
+                run = numbers.run(name)
+                load = calc_contact(run.results, "front_tyre", run.window)
+                speed = np.abs(run.series("bodies/chassis/velocity.x"))
+                rows.append(
+                    (
+                        f"{road}, {MODELS[count]}, {contact}",
+                        f"{1e3 * run.displacement(MIDDLE).max():.1f}",
+                        f"{run.peak_acceleration(MIDDLE):.1f}",
+                        f"{run.rms_acceleration(MIDDLE):.2f}",
+                        f"{run.rms_acceleration(SEAT):.2f}",
+                        f"{load.greatest / load.static:.1f}",
+                        f"{load.off_ground:.2f}",
+                        f"{speed[-1]:.2f}",
+                    )
+                )
+    headings = (
+        "", "highest middle mm", "peak middle m/s²", "r.m.s. middle m/s²", "r.m.s. seat m/s²",
+        "greatest front load over static", "front wheels off the ground s", "speed at the end m/s",
+    )  # fmt: skip
+    return headings, rows
+
+
 def make_accuracy_table(numbers):
     """The paper's cases with 4 modes at the runs' tolerance and at a hundredth of it."""
     rows = []
@@ -264,6 +295,7 @@ def list_tables():
         "effort": make_effort_table,
         "sensitivity": make_sensitivity_table,
         "ride": make_ride_table,
+        "tyres": make_tyres_table,
         "accuracy": make_accuracy_table,
         "cost": make_cost_table,
     }
