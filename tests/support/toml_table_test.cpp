@@ -55,6 +55,11 @@ TEST_CASE("a missing key is named with its table") {
         "v.toml: error: missing key 'duration'");
 }
 
+TEST_CASE("a text with the character NUL is refused where it stands") {
+  CHECK(error_message<InputError>([] { TomlDocument::parse("name = \"a\\u0000b\"\n", "v.toml"); }) ==
+        "v.toml:1:8: error: 'name' contains the character NUL");
+}
+
 TEST_CASE("a missing key is looked for among the misspelt ones") {
   const TomlDocument document = TomlDocument::parse("mas = 3\nb = 1\n", "v.toml");
   CHECK(error_message<InputError>([&] { document.root().at("mass"); }) ==

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -131,7 +132,13 @@ TEST_CASE("Velocities are made to fit the joints with the least change in the ma
   dynamics::assemble_positions(model, q);
   const VectorXd wanted = test::RandomNumbers(13).vector(9, 2.0);
   VectorXd v = wanted;
-  dynamics::project_velocities(model, 0.0, q, v);
+  const dynamics::VelocityReport report = dynamics::project_velocities(model, 0.0, q, v);
+  double largest_change = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    largest_change = std::max(largest_change, std::abs(v[i] - wanted[i]) / model.coordinate_scale(i));
+  }
+  CHECK(report.largest_change == largest_change);
+  CHECK_FALSE(report.coordinate.empty());
   dynamics::SystemTerms terms(model);
   terms.update_positions(0.0, q);
   terms.update_jacobian();
@@ -147,6 +154,6 @@ TEST_CASE("Velocities are made to fit the joints with the least change in the ma
   CHECK(std::abs(allowed.dot(mass_change)) < 1e-11 * allowed.norm() * mass_change.norm());
   // One that fits already stays
   VectorXd again = v;
-  dynamics::project_velocities(model, 0.0, q, again);
+  CHECK(dynamics::project_velocities(model, 0.0, q, again).largest_change < 1e-12);
   CHECK((again - v).norm() < 1e-13 * v.norm());
 }
