@@ -33,7 +33,8 @@ MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constr
   const std::vector<Block>& blocks = jacobian.blocks();
   if (is_dense_) {
     dense_ = Eigen::MatrixXd::Zero(num_constraints, num_constraints);
-    dense_factor_ = Eigen::LLT<Eigen::MatrixXd>(num_constraints);
+    // By computing: a factor of a size alone would be copied with its outcome not set.
+    dense_factor_.compute(Eigen::MatrixXd::Identity(num_constraints, num_constraints));
   } else {
     sparse_ = make_pattern(blocks, num_constraints);
     sparse_factor_.analyzePattern(sparse_);
