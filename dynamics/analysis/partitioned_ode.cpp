@@ -21,6 +21,7 @@ PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), branches_(static_cast<std::size_t>(model.num_branches)) {
   for (const auto& force : model.forces) num_switches_ += force->num_switches();
   y_.resize(static_cast<std::size_t>(size()));
+  evaluated_y_.resize(2 * static_cast<std::size_t>(num_freedoms()));
   // A natural velocity: what gravity gives over a length scale, at least one natural size per second. Neither depends
   // on where the origin is.
   velocity_scale_ = std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale));
@@ -31,6 +32,8 @@ PartitionedOde::PartitionedOde(const Model& model)
 
 void PartitionedOde::set_state(const State& state, double dissipated, double input) {
   equations_.choose_partition_at(state.time, state.q);
+  ++coordinate_version_;
+  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   branches_ = state.branches;
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
@@ -44,8 +47,12 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
 
 bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const auto f = static_cast<std::size_t>(equations_.num_freedoms());
+  if (time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin())) return true;
+  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   if (equations_.update_positions(std::min(time, latest_time_), y.first(f)) != PartitionedEquations::Outcome::kGood) return false;
   equations_.update_velocities(y.subspan(f, f));
+  evaluated_time_ = time;
+  std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(2 * f), evaluated_y_.begin());
   return true;
 }
 
@@ -71,6 +78,29 @@ std::vector<BranchChange> PartitionedOde::update_branches() {
     if (!text.empty()) changes.push_back({force.name, text});
   }
   return changes;
+}
+
+// Differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
+bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
+  constexpr double kShift = 1e-6;  // of the natural size
+  const Eigen::Index f = num_freedoms();
+  std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
+  if (!calc_derivative(time, moved, y_dot)) return false;
+  motion.mass = equations_.calc_reduced_mass(equations_.calc_directions());
+  const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f);
+  Eigen::MatrixXd gradient(f, 2 * f);
+  for (Eigen::Index k = 0; k < 2 * f; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double shift = kShift * model_->coordinate_scale(equations_.partition().independent[static_cast<std::size_t>(k % f)]);
+    moved[i] = y[i] + shift;
+    const bool good = calc_derivative(time, moved, y_dot);
+    moved[i] = y[i];
+    if (!good) return false;
+    gradient.col(k) = (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base) / shift;
+  }
+  motion.stiffness = -motion.mass * gradient.leftCols(f);
+  motion.damping = -motion.mass * gradient.rightCols(f);
+  return true;
 }
 
 double PartitionedOde::calc_longest_step() const {

@@ -48,6 +48,9 @@ class PartitionedOde final : public OdeSystem {
   long num_derivatives() const { return num_derivatives_; }
 
   int size() const override { return 2 * equations_.num_freedoms() + 2; }
+  int num_freedoms() const override { return equations_.num_freedoms(); }
+  bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) override;
+  int coordinate_version() const override { return coordinate_version_; }
   bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
   int num_switches() const override { return num_switches_; }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
@@ -63,6 +66,10 @@ class PartitionedOde final : public OdeSystem {
   long num_derivatives_ = 0;
   double latest_time_ = std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
   std::vector<double> y_;
+  int coordinate_version_ = 0;
+  // The arguments at which the motion of the equations was evaluated last.
+  double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> evaluated_y_;
   double velocity_scale_ = 0.0;  // [natural sizes/s]
   double energy_scale_ = 0.0;    // [J]
 };
