@@ -5,50 +5,64 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 
-#include "dynamics/analysis/oscillator_response.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kNodes = 4;
-const double kRoot5 = std::sqrt(5.0);
-const std::array<double, kNodes> kNode = {0.0, (5.0 - kRoot5) / 10.0, (5.0 + kRoot5) / 10.0, 1.0};
-// (θ − c₀)…(θ − c₃) by powers of θ.
-const std::array<double, kNodes + 1> kNodePolynomial = {0.0, -0.2, 1.2, -2.0, 1.0};
-constexpr std::array<double, kNodes + 1> kFactorial = {1.0, 1.0, 2.0, 6.0, 24.0};
+using lobatto::cubic_weights;
+using lobatto::node_polynomial;
 
+constexpr double kFirstLength = 1e-3;       // s; too long a step is found out
 constexpr double kShortestStep = 1e-12;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
+
 constexpr int kMaxSweeps = 6;
+constexpr double kIterationShare = 0.3;    // error of the iteration, of what is allowed
+constexpr double kFirstContraction = 0.3;  // until it is known
+constexpr double kLeastContraction = 0.02;
+constexpr double kUselessContraction = 0.9;
+constexpr double kHopelessError =
+    2.0;  // of what is allowed, at which a step is given up before its iteration ends
+constexpr int kFailuresBeforeLinearising = 3;
 
-// Row k: coefficient of θ^k from the values at the nodes.
-Eigen::Matrix4d make_interpolation() {
-  Eigen::Matrix4d powers;
-  for (int j = 0; j < kNodes; ++j) {
-    for (int k = 0; k < kNodes; ++k) powers(j, k) = k == 0 ? 1.0 : std::pow(kNode[static_cast<std::size_t>(j)], k);
+// Step control: the truncation within a step is of order 5.
+constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
+constexpr double kMemory =
+    0.5;  // share of the last step's error that counts: an estimate may pass through zero
+// A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
+constexpr double kWorthwhile = 1.15;
+constexpr double kTruncationOfFirst =
+    0.3;  // part of fourth degree, of that of third, where no step was before
+
+// out = Σ_j weight_j values_j
+template <class Out>
+void combine(const lobatto::NodeValues& values, const lobatto::NodeWeights& weights, Out&& out) {
+  out = weights[0] * values.col(0) + weights[1] * values.col(1) + weights[2] * values.col(2) +
+        weights[3] * values.col(3);
+}
+
+bool crosses(double before, double after) {
+  return before * after < 0.0 || (after == 0.0 && before != 0.0);
+}
+
+template <class Before, class After>
+bool any_crosses(const Before& before, const After& after) {
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    if (crosses(before[i], after[i])) return true;
   }
-  return powers.inverse();
-}
-const Eigen::Matrix4d kInterpolation = make_interpolation();
-
-// Weights of the values at the nodes for the value of the cubic at θ.
-Eigen::Vector4d cubic_weights(double theta) {
-  return kInterpolation.transpose() * Eigen::Vector4d(1.0, theta, theta * theta, theta * theta * theta);
+  return false;
 }
 
-double node_polynomial(double theta) {
-  double product = 1.0;
-  for (const double c : kNode) product *= theta - c;
-  return product;
+std::span<double> span_of(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
-double knob(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
+[[noreturn]] void throw_stopped(double time, const char* reason) {
+  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
 }
 
 }  // namespace
@@ -58,377 +72,326 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       tolerance_(relative_tolerance),
       f_(system.num_freedoms()),
       num_quadratures_(system.size() - 2 * system.num_freedoms()),
-      num_switches_(system.num_switches()) {
-  y_ = y_dot_ = scales_ = stage_y_ = difference_ = output_y_ = Vector::Zero(system.size());
+      num_switches_(system.num_switches()),
+      contraction_(kFirstContraction) {
+  y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   const Motion motion{Vector::Zero(f_), Vector::Zero(f_), Vector::Zero(num_quadratures_)};
-  end_ = delta_ = output_ = motion;
+  end_ = difference_ = between_motion_ = motion;
   stages_.fill(motion);
-  now_ = {.x = motion.x,
-          .x_dot = motion.x_dot,
-          .w = motion.w,
-          .forces = NodeValues::Zero(f_, kNodes),
-          .rates = NodeValues::Zero(num_quadratures_, kNodes)};
+  now_.motion = motion;
+  now_.drive.force = lobatto::NodeValues::Zero(f_, kNumNodes);
+  now_.drive.rate = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);
+  now_.quartic_force = force_jump_ = motion.x;
+  now_.quartic_rate = rate_jump_ = motion.w;
   last_ = now_;
-  switches_ = Eigen::MatrixXd::Zero(num_switches_, kNodes);
-}
-
-void ExponentialIntegrator::linearise() {
-  SmallMotion motion;
-  if (!system_.calc_small_motion(time_, y(), motion)) {
-    motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_), Eigen::MatrixXd::Zero(f_, f_)};
-  }
-  const Eigen::MatrixXd K = 0.5 * (motion.stiffness + motion.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, motion.mass);
-  Phi_ = eigen.eigenvectors();
-  inverse_ = Phi_.transpose() * motion.mass;
-  stiffness_ = eigen.eigenvalues().cwiseMax(0.0);
-  decay_ = (0.5 * (Phi_.transpose() * motion.damping * Phi_).diagonal()).cwiseMax(0.0);
-  version_ = system_.coordinate_version();
-  wants_linearisation_ = false;
-  last_linearisation_ = statistics_.steps;
-  propagator_length_ = 0.0;
-  has_begun_ = has_history_ = can_predict_ = false;
+  switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
+  switch_low_ = switch_high_ = switch_between_ = Vector::Zero(num_switches_);
 }
 
 void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
   if (statistics_.steps > 0) ++statistics_.restarts;
-  time_ = step_start_ = time;
+  const bool follows = last_.length > 0.0 && time == time_;
+  time_ = time;
   end_time_ = end_time;
   std::copy(y.begin(), y.end(), y_.data());
-  has_begun_ = has_history_ = false;
-  can_predict_ = can_predict_ && last_.length > 0.0 && time >= last_.start && time <= last_.start + last_.length;
+  has_begun_ = false;
+  past_ = follows ? Past::kSwitched : Past::kNone;
   if (version_ != system_.coordinate_version()) wants_linearisation_ = true;
-  if (next_length_ <= 0.0) next_length_ = 1e-3;
+  if (next_length_ == 0.0) next_length_ = kFirstLength;
 }
 
-void ExponentialIntegrator::update_propagator(double theta, double step, Propagator& propagator) const {
-  Propagator& P = propagator;
-  if (P.c.size() != f_) {
-    P.c = P.s = P.c_rate = P.s_rate = P.truncation = P.truncation_rate = Eigen::ArrayXd::Zero(f_);
-    P.force = P.force_rate = Eigen::Array<double, Eigen::Dynamic, kNodes>::Zero(f_, kNodes);
+// Modes of small undamped motion, each with its own share of the damping. Any choice is right: what the
+// oscillators leave out of the accelerations stays in the forces on them.
+void ExponentialIntegrator::linearise() {
+  SmallMotion motion;
+  if (!system_.calc_small_motion(time_, y(), motion)) {
+    motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_),
+              Eigen::MatrixXd::Zero(f_, f_)};
   }
-  const double t = theta * step;
-  std::array<double, kNodes + 1> scale;  // k!/h^k
-  double power = 1.0;
-  for (std::size_t k = 0; k <= kNodes; ++k) {
-    scale[k] = kFactorial[k] / power;
-    power *= step;
-  }
-  for (Eigen::Index m = 0; m < f_; ++m) {
-    const OscillatorResponse r = calc_oscillator_response(stiffness_[m], decay_[m], t);
-    P.c[m] = r.c;
-    P.s[m] = r.s;
-    P.c_rate[m] = r.c_rate;
-    P.s_rate[m] = r.s_rate;
-    std::array<double, kNodes + 1> forced, rate;
-    for (int k = 0; k <= kNodes; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      forced[i] = scale[i] * r.forced[i];
-      rate[i] = scale[i] * r.forced_rate(k);
-    }
-    double truncation = 0.0, truncation_rate = 0.0;
-    for (std::size_t k = 0; k <= kNodes; ++k) {
-      truncation += kNodePolynomial[k] * forced[k];
-      truncation_rate += kNodePolynomial[k] * rate[k];
-    }
-    P.truncation[m] = truncation;
-    P.truncation_rate[m] = truncation_rate;
-    for (int j = 0; j < kNodes; ++j) {
-      double sum = 0.0, sum_rate = 0.0;
-      for (int k = 0; k < kNodes; ++k) {
-        sum += kInterpolation(k, j) * forced[static_cast<std::size_t>(k)];
-        sum_rate += kInterpolation(k, j) * rate[static_cast<std::size_t>(k)];
-      }
-      P.force(m, j) = sum;
-      P.force_rate(m, j) = sum_rate;
-    }
-  }
-  for (int j = 0; j < kNodes; ++j) {
-    double sum = 0.0, theta_power = theta;
-    for (int k = 0; k < kNodes; ++k) {
-      sum += kInterpolation(k, j) * theta_power / (k + 1);
-      theta_power *= theta;
-    }
-    P.quadrature[static_cast<std::size_t>(j)] = step * sum;
-  }
-  double sum = 0.0, theta_power = theta;
-  for (int k = 0; k <= kNodes; ++k) {
-    sum += kNodePolynomial[static_cast<std::size_t>(k)] * theta_power / (k + 1);
-    theta_power *= theta;
-  }
-  P.quadrature_truncation = step * sum;
+  const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, motion.mass);
+  if (modes.info() != Eigen::Success) throw_stopped(time_, "the modes of small motion were not found");
+  Phi_ = modes.eigenvectors();
+  inverse_ = Phi_.transpose() * motion.mass;
+  stiffness_ = modes.eigenvalues().cwiseMax(0.0);
+  decay_ = (0.5 * (Phi_.transpose() * motion.damping * Phi_).diagonal()).cwiseMax(0.0);
+  version_ = system_.coordinate_version();
+  wants_linearisation_ = has_begun_ = false;
+  last_linearisation_ = statistics_.steps;
+  propagator_length_ = 0.0;
+  past_ = Past::kNone;
 }
 
-void ExponentialIntegrator::propagate(const Propagator& P, const Step& step, Motion& motion) const {
-  motion.x.array() = P.c * step.x.array() + P.s * step.x_dot.array();
-  motion.x_dot.array() = P.c_rate * step.x.array() + P.s_rate * step.x_dot.array();
-  motion.w = step.w;
-  for (int j = 0; j < kNodes; ++j) {
-    motion.x.array() += P.force.col(j) * step.forces.col(j).array();
-    motion.x_dot.array() += P.force_rate.col(j) * step.forces.col(j).array();
-    motion.w += P.quadrature[static_cast<std::size_t>(j)] * step.rates.col(j);
+void ExponentialIntegrator::begin() {
+  now_.motion.x.noalias() = inverse_ * y_.head(f_);
+  now_.motion.x_rate.noalias() = inverse_ * y_.segment(f_, f_);
+  now_.motion.w = y_.tail(num_quadratures_);
+  stage_y_ = y_;
+  if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there");
+  has_begun_ = true;
+}
+
+void ExponentialIntegrator::propagate(const OscillatorPropagator& P, const Step& step, Motion& motion) const {
+  const Motion& start = step.motion;
+  motion.x.array() = P.c * start.x.array() + P.s * start.x_rate.array();
+  motion.x_rate.array() = P.c_rate * start.x.array() + P.s_rate * start.x_rate.array();
+  motion.w = start.w;
+  for (int j = 0; j < kNumNodes; ++j) {
+    motion.x.array() += P.force.col(j).array() * step.drive.force.col(j).array();
+    motion.x_rate.array() += P.force_rate.col(j).array() * step.drive.force.col(j).array();
+    motion.w += P.integral[static_cast<std::size_t>(j)] * step.drive.rate.col(j);
   }
 }
 
 void ExponentialIntegrator::to_physical(const Motion& motion, Vector& y) const {
   y.head(f_).noalias() = Phi_ * motion.x;
-  y.segment(f_, f_).noalias() = Phi_ * motion.x_dot;
+  y.segment(f_, f_).noalias() = Phi_ * motion.x_rate;
   y.tail(num_quadratures_) = motion.w;
 }
 
-double ExponentialIntegrator::calc_norm(const Motion& motion) {
-  to_physical(motion, difference_);
-  return std::sqrt((difference_.array() / scales_.array()).square().mean());
+// Root mean square over the components of y, each by its size that is allowed.
+double ExponentialIntegrator::calc_norm(const Motion& difference) {
+  to_physical(difference, difference_y_);
+  return std::sqrt((difference_y_.array() / scales_.array()).square().mean());
 }
 
-bool ExponentialIntegrator::evaluate(double time, const Vector& y, const Vector& x, const Vector& x_dot, int node) {
-  const std::span<const double> at{y.data(), static_cast<std::size_t>(y.size())};
-  if (!system_.calc_derivative(time, at, {y_dot_.data(), static_cast<std::size_t>(y_dot_.size())})) return false;
-  now_.forces.col(node).noalias() = inverse_ * y_dot_.segment(f_, f_);
-  now_.forces.col(node).array() += stiffness_ * x.array() + 2.0 * decay_ * x_dot.array();
-  now_.rates.col(node) = y_dot_.tail(num_quadratures_);
-  return num_switches_ == 0 ||
-         system_.calc_switches(time, at, {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
+// The drive at stage_y_, which `motion` stands for.
+bool ExponentialIntegrator::evaluate(double time, const Motion& motion, int node) {
+  if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
+    return false;
+  auto force = now_.drive.force.col(node);
+  force.noalias() = inverse_ * y_dot_.segment(f_, f_);
+  force.array() += stiffness_ * motion.x.array() + 2.0 * decay_ * motion.x_rate.array();
+  now_.drive.rate.col(node) = y_dot_.tail(num_quadratures_);
+  if (num_switches_ == 0) return true;
+  return system_.calc_switches(time, span_of(stage_y_),
+                               {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
 }
 
-bool ExponentialIntegrator::begin() {
-  now_.x = inverse_ * y_.head(f_);
-  now_.x_dot = inverse_ * y_.segment(f_, f_);
-  now_.w = y_.tail(num_quadratures_);
-  has_begun_ = true;
-  return evaluate(time_, y_, now_.x, now_.x_dot, 0);
-}
-
-// The polynomial of the last step goes on; behind a switch it goes on beside itself, through the force that holds now.
-void ExponentialIntegrator::predict_forces() {
-  if (!can_predict_) {
-    now_.forces.rightCols<kNodes - 1>().colwise() = now_.forces.col(0);
-    now_.rates.rightCols<kNodes - 1>().colwise() = now_.rates.col(0);
+// The polynomial of the last step goes on; behind a switch, beside itself through the drive that holds there.
+void ExponentialIntegrator::predict_drive() {
+  Drive& drive = now_.drive;
+  if (past_ == Past::kNone) {
+    for (int j = 1; j < kNumNodes; ++j) {
+      drive.force.col(j) = drive.force.col(0);
+      drive.rate.col(j) = drive.rate.col(0);
+    }
     return;
   }
   const double origin = (now_.start - last_.start) / last_.length;
-  Vector force_jump = Vector::Zero(f_), rate_jump = Vector::Zero(num_quadratures_);
-  if (!has_history_) {
-    const Eigen::Vector4d weights = cubic_weights(origin);
-    force_jump = now_.forces.col(0) - last_.forces * weights;
-    rate_jump = now_.rates.col(0) - last_.rates * weights;
+  const bool switched = past_ == Past::kSwitched;
+  if (switched) {
+    const lobatto::NodeWeights weights = cubic_weights(origin);
+    combine(last_.drive.force, weights, force_jump_);
+    combine(last_.drive.rate, weights, rate_jump_);
+    force_jump_ = drive.force.col(0) - force_jump_;
+    rate_jump_ = drive.rate.col(0) - rate_jump_;
   }
-  for (int j = 1; j < kNodes; ++j) {
-    const double theta = origin + kNode[static_cast<std::size_t>(j)] * now_.length / last_.length;
-    const Eigen::Vector4d weights = cubic_weights(theta);
-    now_.forces.col(j) = last_.forces * weights + force_jump;
-    now_.rates.col(j) = last_.rates * weights + rate_jump;
-    if (has_history_ && quartic_valid_) {
-      now_.forces.col(j) += node_polynomial(theta) * last_quartic_force_;
-      now_.rates.col(j) += node_polynomial(theta) * last_quartic_rate_;
+  for (int j = 1; j < kNumNodes; ++j) {
+    const double theta = origin + lobatto::node(j) * now_.length / last_.length;
+    const lobatto::NodeWeights weights = cubic_weights(theta);
+    combine(last_.drive.force, weights, drive.force.col(j));
+    combine(last_.drive.rate, weights, drive.rate.col(j));
+    if (switched) {
+      drive.force.col(j) += force_jump_;
+      drive.rate.col(j) += rate_jump_;
+    } else if (last_.has_quartic) {
+      drive.force.col(j) += node_polynomial(theta) * last_.quartic_force;
+      drive.rate.col(j) += node_polynomial(theta) * last_.quartic_rate;
     }
   }
 }
 
+// Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
 bool ExponentialIntegrator::iterate() {
-  static const double accept = knob("X_ACCEPT", 0.2);
-  static const double reject = knob("X_REJECT", 4.0);
   double last_change = 0.0;
   for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
-    for (int i = 1; i < kNodes; ++i) {
+    for (int i = 1; i < kNumNodes; ++i) {
       const auto node = static_cast<std::size_t>(i);
-      Motion& stage = stages_[node];
-      propagate(propagators_[node], now_, stage);
-      to_physical(stage, stage_y_);
-      if (!stage_y_.allFinite() || !evaluate(time_ + kNode[node] * now_.length, stage_y_, stage.x, stage.x_dot, i)) {
-        return false;
-      }
+      propagate(propagators_[node], now_, stages_[node]);
+      to_physical(stages_[node], stage_y_);
+      if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
     }
     double change = 0.0;
     for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
       propagate(propagators_[node], now_, end_);
-      delta_.x = end_.x - stages_[node].x;
-      delta_.x_dot = end_.x_dot - stages_[node].x_dot;
-      change = std::max(change, calc_norm(delta_));
+      difference_.x = end_.x - stages_[node].x;
+      difference_.x_rate = end_.x_rate - stages_[node].x_rate;
+      difference_.w.setZero();
+      change = std::max(change, calc_norm(difference_));
     }
     if (!std::isfinite(change)) return false;
-    if (sweep > 1 && last_change > 0.0) contraction_ = std::max(0.02, 0.5 * (contraction_ + change / last_change));
+    if (sweep > 1 && last_change > 0.0) {
+      contraction_ = std::max(kLeastContraction, 0.5 * (contraction_ + change / last_change));
+      if (sweep > 2 && contraction_ > kUselessContraction) return false;
+    }
     last_change = change;
-    if (sweep < kMaxSweeps && calc_truncation() > reject) {
-      sweeps_ = sweep;
-      return true;
-    }
-    const double rate = std::min(0.9, contraction_);
-    if (change * rate / (1.0 - rate) <= accept) {
-      sweeps_ = sweep;
-      return true;
-    }
-    if (sweep > 2 && contraction_ > 0.9) return false;
+    const double rate = std::min(kUselessContraction, contraction_);
+    if (change * rate / (1.0 - rate) <= kIterationShare || calc_truncation() > kHopelessError) return true;
   }
   return false;
 }
 
-double ExponentialIntegrator::calc_truncation() {
-  static const double first_factor = knob("X_FIRST", 0.3);
-  Vector& force = quartic_force_;
-  Vector& rate = quartic_rate_;
-  if (has_history_) {
-    const double theta = (kNode[2] - 1.0) * last_.length / now_.length;
-    const Eigen::Vector4d weights = cubic_weights(theta);
-    const double divisor = node_polynomial(theta);
-    force = (last_.forces.col(2) - now_.forces * weights) / divisor;
-    rate = (last_.rates.col(2) - now_.rates * weights) / divisor;
-  } else {
-    force = first_factor * (now_.forces * kInterpolation.row(3).transpose());
-    rate = first_factor * (now_.rates * kInterpolation.row(3).transpose());
+// Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
+// before.
+void ExponentialIntegrator::evaluate_quartic() {
+  now_.has_quartic = past_ == Past::kSmooth;
+  if (!now_.has_quartic) {
+    const lobatto::NodeWeights third = kTruncationOfFirst * lobatto::third_degree_weights();
+    combine(now_.drive.force, third, now_.quartic_force);
+    combine(now_.drive.rate, third, now_.quartic_rate);
+    return;
   }
+  const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
+  const lobatto::NodeWeights weights = cubic_weights(theta);
+  combine(now_.drive.force, weights, now_.quartic_force);
+  combine(now_.drive.rate, weights, now_.quartic_rate);
+  const double divisor = node_polynomial(theta);
+  now_.quartic_force = (last_.drive.force.col(2) - now_.quartic_force) / divisor;
+  now_.quartic_rate = (last_.drive.rate.col(2) - now_.quartic_rate) / divisor;
+}
+
+// What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
+double ExponentialIntegrator::calc_truncation() {
+  evaluate_quartic();
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-    const Propagator& P = propagators_[node];
-    delta_.x.array() = P.truncation * force.array();
-    delta_.x_dot.array() = P.truncation_rate * force.array();
-    delta_.w = P.quadrature_truncation * rate;
-    sum += std::pow(calc_norm(delta_), 2);
+    const OscillatorPropagator& P = propagators_[node];
+    difference_.x.array() = P.quartic * now_.quartic_force.array();
+    difference_.x_rate.array() = P.quartic_rate * now_.quartic_force.array();
+    difference_.w = P.integral_quartic * now_.quartic_rate;
+    sum += std::pow(calc_norm(difference_), 2);
   }
-  delta_.w.setZero();
   return std::sqrt(sum);
 }
 
+double ExponentialIntegrator::choose_length(double longest_step) const {
+  const double left = end_time_ - time_;
+  const double length = std::min(next_length_, longest_step);
+  if (length >= left * (1.0 - 1e-9)) return left;
+  return 2.0 * length > left ? 0.5 * left : length;
+}
+
 Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
-  step_start_ = time_;
-  if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;
-  static const double grow = knob("X_GROW", 1.8);
-  static const double gamma = knob("X_GAMMA", 0.8);
-  static const double order = knob("X_ORDER", 5.0);
-  static const bool verbose = knob("X_VERBOSE", 0.0) > 0.0;
-  if (wants_linearisation_) linearise();
-  if (!has_begun_ && !begin()) {
-    throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: no accelerations there", time_));
+  if (end_time_ - time_ <= kShortestStep) {
+    time_ = end_time_;
+    return StepResult::kEnded;
   }
-  system_.calc_error_scales(y(), {scales_.data(), static_cast<std::size_t>(scales_.size())});
+  if (wants_linearisation_) linearise();
+  if (!has_begun_) begin();
+  system_.calc_error_scales(y(), span_of(scales_));
   scales_ *= tolerance_;
 
   double factor = 1.0;
-  int rejections = 0;
-  while (true) {
-    double h = std::min(next_length_, longest_step);
-    const double left = end_time_ - time_;
-    bool to_end = false;
-    if (h >= left * (1.0 - 1e-9)) h = left, to_end = true;
-    else if (2.0 * h > left) h = 0.5 * left;
-    if (h < kShortestStep) {
-      throw support::NumericalError(fmt::format(
-          "integration stopped at t = {:.9g} s: the step has become too short; look at forces and positions there", time_));
-    }
+  for (int failures = 0;;) {
     now_.start = time_;
-    now_.length = h;
-    if (h != propagator_length_) {
-      for (std::size_t i = 1; i < kNodes; ++i) update_propagator(kNode[i], h, propagators_[i]);
-      propagator_length_ = h;
+    now_.length = choose_length(longest_step);
+    if (now_.length < kShortestStep) {
+      throw_stopped(time_,
+                    "the step has become too short; look at forces and positions just before that time");
     }
-    predict_forces();
+    if (now_.length != propagator_length_) {
+      for (int i = 1; i < kNumNodes; ++i) {
+        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, stiffness_, decay_);
+      }
+      propagator_length_ = now_.length;
+    }
+    predict_drive();
     if (!iterate()) {
-      if (verbose) fmt::print("t {:.6f} h {:.2e} iteration failed {:.2f}\n", time_, h, contraction_);
       ++statistics_.iteration_failures;
-      contraction_ = 0.3;
-      has_history_ = can_predict_ = false;
-      next_length_ = 0.5 * h;
-      if (++rejections % 3 == 0 && last_linearisation_ < statistics_.steps) {
-        wants_linearisation_ = true;
-        return step(longest_step);
+      contraction_ = kFirstContraction;
+      past_ = Past::kNone;
+      next_length_ = 0.5 * now_.length;
+      // The oscillators may be those of a state long past.
+      if (++failures == kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
+        linearise();
+        begin();
       }
       continue;
     }
     const double error = calc_truncation();
-    static const double memory = knob("X_MEMORY", 0.3);
-    factor = std::clamp(gamma * std::pow(std::max({error, memory * last_error_, 1e-10}), -1.0 / order), 0.2, grow);
+    factor = kSafety * std::pow(std::max({error, kMemory * last_error_, 1e-10}), -1.0 / kOrder);
+    factor = std::clamp(factor, kLeastFactor, kLargestFactor);
     last_error_ = error;
-    if (verbose) fmt::print("t {:.6f} h {:.2e} err {:.2e} contraction {:.2f} hist {} sweeps {}\n", time_, h, error, contraction_, has_history_, sweeps_);
-    if (error <= 1.0) {
-      time_ = to_end ? end_time_ : time_ + h;
-      if (factor > 1.15 || factor < 0.95) next_length_ = factor < 1.0 ? h * factor : std::max(next_length_, h * factor);
-      break;
-    }
+    if (error <= 1.0) break;
     ++statistics_.error_test_failures;
-    next_length_ = std::min(factor, 0.9) * h;
+    next_length_ = std::min(factor, 0.9) * now_.length;
   }
   ++statistics_.steps;
-  const bool switched = num_switches_ > 0 && locate_switch();
-  std::swap(now_, last_);
-  can_predict_ = true;
-  quartic_valid_ = has_history_;
-  std::swap(last_quartic_force_, quartic_force_);
-  std::swap(last_quartic_rate_, quartic_rate_);
-  if (switched) {
-    to_physical(output_, y_);
-    has_begun_ = false;
-    return StepResult::kSwitched;
-  }
-  propagate(propagators_[3], last_, end_);
-  to_physical(end_, y_);
-  now_.x = end_.x;
-  now_.x_dot = end_.x_dot;
-  now_.w = end_.w;
-  now_.forces.col(0) = last_.forces.col(3);
-  now_.rates.col(0) = last_.rates.col(3);
-  if (num_switches_ > 0) switches_.col(0) = switches_.col(3).eval();
-  has_history_ = true;
+  if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
+  if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
+  if (finish_step()) return StepResult::kSwitched;
   return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 
-bool ExponentialIntegrator::locate_switch() {
-  const auto crosses = [](double before, double after) {
-    return before * after < 0.0 || (after == 0.0 && before != 0.0);
-  };
-  const auto any_crosses = [&](const auto& before, const auto& after) {
-    for (Eigen::Index i = 0; i < num_switches_; ++i) {
-      if (crosses(before[i], after[i])) return true;
-    }
-    return false;
-  };
-  int bracket = 0;
-  for (int j = 1; j < kNodes && bracket == 0; ++j) {
-    if (any_crosses(switches_.col(j - 1), switches_.col(j))) bracket = j;
+// now_ becomes last_, and the next one starts at its end. @return true if a switch cut it off
+bool ExponentialIntegrator::finish_step() {
+  const bool switched = num_switches_ > 0 && locate_switch();
+  if (switched) {
+    std::swap(now_, last_);
+    to_physical(between_motion_, y_);
+    has_begun_ = false;
+    return true;
   }
-  if (bracket == 0) return false;
-  double low = kNode[static_cast<std::size_t>(bracket - 1)], high = kNode[static_cast<std::size_t>(bracket)];
-  Vector g_low = switches_.col(bracket - 1), g_high = switches_.col(bracket), g(num_switches_);
+  time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
+  propagate(propagators_[kNumNodes - 1], now_, end_);
+  to_physical(end_, y_);
+  std::swap(now_, last_);
+  std::swap(now_.motion, end_);
+  now_.drive.force.col(0) = last_.drive.force.col(kNumNodes - 1);
+  now_.drive.rate.col(0) = last_.drive.rate.col(kNumNodes - 1);
+  if (num_switches_ > 0) switches_.col(0) = switches_.col(kNumNodes - 1);
+  past_ = Past::kSmooth;
+  return false;
+}
+
+// The first zero of a switch function in now_, between two of its nodes: by the Illinois rule, to the far
+// side of it. time_ and between_motion_ are there.
+bool ExponentialIntegrator::locate_switch() {
+  int after = 1;
+  while (after < kNumNodes && !any_crosses(switches_.col(after - 1), switches_.col(after))) ++after;
+  if (after == kNumNodes) return false;
+  double low = lobatto::node(after - 1), high = lobatto::node(after);
+  switch_low_ = switches_.col(after - 1);
+  switch_high_ = switches_.col(after);
+  const auto move_to = [this](double theta) {
+    between_.update(theta, now_.length, stiffness_, decay_);
+    propagate(between_, now_, between_motion_);
+  };
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
-  double weight = 1.0;  // of the value at `high`; the Illinois rule
-  int side = 0;
-  for (int iteration = 0; iteration < 60 && high - low > tolerance; ++iteration) {
+  double weight = 1.0;  // of the value at `high`
+  int last_moved = 0;
+  for (int iteration = 0; iteration < 100 && high - low > tolerance; ++iteration) {
     double theta = high;
     for (Eigen::Index i = 0; i < num_switches_; ++i) {
-      if (!crosses(g_low[i], g_high[i])) continue;
-      theta = std::min(theta, low + (high - low) * g_low[i] / (g_low[i] - weight * g_high[i]));
+      if (!crosses(switch_low_[i], switch_high_[i])) continue;
+      theta =
+          std::min(theta, low + (high - low) * switch_low_[i] / (switch_low_[i] - weight * switch_high_[i]));
     }
     theta = std::clamp(theta, low + 0.5 * tolerance, high - 0.5 * tolerance);
-    update_propagator(theta, now_.length, output_propagator_);
-    propagate(output_propagator_, now_, output_);
-    to_physical(output_, stage_y_);
-    if (!system_.calc_switches(now_.start + theta * now_.length,
-                               {stage_y_.data(), static_cast<std::size_t>(stage_y_.size())},
-                               {g.data(), static_cast<std::size_t>(num_switches_)})) {
-      throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: no positions there", time_));
+    move_to(theta);
+    to_physical(between_motion_, stage_y_);
+    if (!system_.calc_switches(now_.start + theta * now_.length, span_of(stage_y_),
+                               span_of(switch_between_))) {
+      throw_stopped(now_.start + theta * now_.length, "no positions can be found there");
     }
-    if (any_crosses(g_low, g)) {
-      high = theta;
-      g_high = g;
-      weight = side == 1 ? 2.0 * weight : 1.0;
-      side = 1;
-    } else {
-      low = theta;
-      g_low = g;
-      weight = side == -1 ? 0.5 * weight : 1.0;
-      side = -1;
-    }
+    const bool is_behind = any_crosses(switch_low_, switch_between_);
+    (is_behind ? high : low) = theta;
+    (is_behind ? switch_high_ : switch_low_).swap(switch_between_);
+    const int moved = is_behind ? 1 : -1;
+    weight = moved != last_moved ? 1.0 : is_behind ? 2.0 * weight : 0.5 * weight;
+    last_moved = moved;
   }
   time_ = now_.start + high * now_.length;
-  update_propagator(high, now_.length, output_propagator_);
-  propagate(output_propagator_, now_, output_);
+  move_to(high);
   return true;
 }
 
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
-  update_propagator((time - last_.start) / last_.length, last_.length, output_propagator_);
-  propagate(output_propagator_, last_, output_);
-  to_physical(output_, output_y_);
-  std::copy(output_y_.begin(), output_y_.end(), y.begin());
+  between_.update((time - last_.start) / last_.length, last_.length, stiffness_, decay_);
+  propagate(between_, last_, between_motion_);
+  to_physical(between_motion_, between_y_);
+  std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }
 
 }  // namespace sprung::dynamics

@@ -2,20 +2,21 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vector>
 
 #include "dynamics/analysis/integrator.h"
+#include "dynamics/analysis/oscillator_propagator.h"
 
 namespace sprung::dynamics {
 
-/// Exponential collocation. Small motion about a state seen on the way is taken apart into uncoupled oscillators,
-/// which are solved exactly whatever their frequency; what is left of the accelerations is a polynomial over the step
-/// through its values at the four Lobatto points, found by iteration. So the step follows what excites the stiff
-/// modes, and not their period. Order 6 at the ends of steps, 4 within. One step needs nothing from before: after a
-/// switch it goes on with the step it had.
-/// Source: variation of constants; [Hochbruck & Ostermann 2010] (dynamics/README.md, eqs. 41–45).
+/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled oscillators,
+/// which are solved exactly whatever their frequency; what is left of the accelerations is a cubic over the
+/// step through its values at the four Lobatto points, found by iteration. So the step follows what excites
+/// stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a switch is
+/// needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck & Ostermann
+/// 2010] (dynamics/README.md, eqs. 41–46).
 class ExponentialIntegrator final : public Integrator {
  public:
+  /// @param system  f > 0 freedoms; has to outlive this
   ExponentialIntegrator(OdeSystem& system, double relative_tolerance);
 
   void start(double time, std::span<const double> y, double end_time) override;
@@ -26,41 +27,45 @@ class ExponentialIntegrator final : public Integrator {
   Statistics statistics() const override { return statistics_; }
 
  private:
-  static constexpr int kNodes = 4;
+  static constexpr int kNumNodes = lobatto::kNumNodes;
   using Vector = Eigen::VectorXd;
-  using NodeValues = Eigen::Matrix<double, Eigen::Dynamic, kNodes>;
 
-  // From the start of the step and the forces at the nodes to one instant of it; rows are oscillators.
-  struct Propagator {
-    Eigen::ArrayXd c, s, c_rate, s_rate;
-    Eigen::Array<double, Eigen::Dynamic, kNodes> force, force_rate;
-    Eigen::ArrayXd truncation, truncation_rate;  // from the part of the force of fourth degree
-    std::array<double, kNodes> quadrature;       // of the plain integrals
-    double quadrature_truncation;
+  // Oscillators and quadratures at one instant.
+  struct Motion {
+    Vector x, x_rate, w;
   };
-
-  // A step: the state at its start and the forces at its nodes tell all of it.
+  // What drives them: forces on the oscillators, rates of the quadratures.
+  struct Drive {
+    lobatto::NodeValues force, rate;
+  };
+  // The start and the drive tell all of a step.
   struct Step {
     double start = 0.0, length = 0.0;  // [s]
-    Vector x, x_dot, w;                // at the start
-    NodeValues forces, rates;          // of the oscillators; of the quadratures
+    Motion motion;
+    Drive drive;
+    Vector quartic_force, quartic_rate;  // coefficients of node_polynomial, estimated
+    bool has_quartic = false;
   };
-  // What each oscillator does up to one instant of a step.
-  struct Motion {
-    Vector x, x_dot, w;
+  // What the forces at the nodes are predicted from.
+  enum class Past {
+    kNone,
+    kSwitched,  // last_ was cut off where now_ starts
+    kSmooth,    // last_ ended where now_ starts
   };
 
   void linearise();
-  bool begin();
-  bool evaluate(double time, const Vector& y, const Vector& x, const Vector& x_dot, int node);
-  void update_propagator(double theta, double length, Propagator& propagator) const;
-  void propagate(const Propagator& propagator, const Step& step, Motion& motion) const;
-  void to_physical(const Motion& motion, Vector& y) const;
-  void predict_forces();
+  void begin();
+  double choose_length(double longest_step) const;
+  bool evaluate(double time, const Motion& motion, int node);
+  void evaluate_quartic();
+  void predict_drive();
   bool iterate();
   double calc_truncation();
-  double calc_norm(const Motion& motion);
+  bool finish_step();
   bool locate_switch();
+  void propagate(const OscillatorPropagator& propagator, const Step& step, Motion& motion) const;
+  void to_physical(const Motion& motion, Vector& y) const;
+  double calc_norm(const Motion& difference);
 
   OdeSystem& system_;
   double tolerance_;
@@ -68,33 +73,33 @@ class ExponentialIntegrator final : public Integrator {
   int num_switches_;
   Statistics statistics_;
 
-  // Oscillators: q = Φ x.
-  int version_ = -1;
+  // q = Φ x, with oscillators x″ + 2d x′ + ω² x = force.
   Eigen::MatrixXd Phi_, inverse_;  // f×f
   Eigen::ArrayXd stiffness_, decay_;
+  int version_ = 0;  // of the coordinates that they are for
   bool wants_linearisation_ = true;
-  long last_linearisation_ = 0;
+  long last_linearisation_ = 0;  // step
 
-  double time_ = 0.0, end_time_ = 0.0, step_start_ = 0.0;
+  double time_ = 0.0, end_time_ = 0.0;
   double next_length_ = 0.0;
-  Vector y_;
-  Step now_, last_;           // being made; finished
-  bool has_begun_ = false;    // now_ has its start
-  bool has_history_ = false;  // last_ ended where now_ starts, and nothing switched
-  std::array<Motion, kNodes> stages_;
-  std::array<Propagator, kNodes> propagators_;  // 1…3 used
+  Vector y_;         // at time_
+  Step now_, last_;  // being made; finished
+  bool has_begun_ = false;
+  Past past_ = Past::kNone;
+  double contraction_;                                       // of the iteration, from sweep to sweep
+  double last_error_ = 0.0;                                  // of the step before, of the tolerance
+  std::array<OscillatorPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
-  double contraction_ = 0.3;
-  int sweeps_ = 0;
-  bool can_predict_ = false, quartic_valid_ = false;
-  Vector quartic_force_, quartic_rate_, last_quartic_force_, last_quartic_rate_;
-  double last_error_ = 0.0;
-  Eigen::MatrixXd switches_;  // num_switches × kNodes
-  Vector y_dot_, scales_, stage_y_, difference_;
-  Motion end_, delta_;
-  mutable Propagator output_propagator_;
-  mutable Motion output_;
-  mutable Vector output_y_;
+  std::array<Motion, kNumNodes> stages_;
+  Eigen::MatrixXd switches_;  // num_switches × 4
+  Vector switch_low_, switch_high_, switch_between_;
+
+  Motion end_, difference_;
+  Vector y_dot_, scales_, stage_y_, difference_y_;
+  Vector force_jump_, rate_jump_;
+  mutable OscillatorPropagator between_;
+  mutable Motion between_motion_;
+  mutable Vector between_y_;
 };
 
 }  // namespace sprung::dynamics

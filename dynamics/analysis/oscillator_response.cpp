@@ -16,8 +16,12 @@ constexpr double kSeriesLimit = 1.5;
 // ωt below which the forward recurrence would divide by too small a number.
 constexpr double kStiffnessLimit = 0.3;
 
-double sinc(double x) { return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
-double sinhc(double x) { return std::abs(x) < 1e-4 ? 1.0 + x * x / 6.0 : std::sinh(x) / x; }
+double sinc(double x) {
+  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
+}
+double sinhc(double x) {
+  return std::abs(x) < 1e-4 ? 1.0 + x * x / 6.0 : std::sinh(x) / x;
+}
 
 double power_term(int k, double time) {
   double value = kInverseFactorial[k];
@@ -25,7 +29,8 @@ double power_term(int k, double time) {
   return value;
 }
 
-// Highest two forced responses by their power series, the lower ones by the equation itself, which only multiplies.
+// Highest two forced responses by their power series, the lower ones by the equation itself, which only
+// multiplies.
 OscillatorResponse by_series(double stiffness, double decay, double time) {
   // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
   double before = 0.0, term = power_term(kTop + 2, time);

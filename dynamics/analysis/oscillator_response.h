@@ -11,7 +11,8 @@ struct OscillatorResponse {
 
   double c, c_rate;  ///< from x = 1, x′ = 0 [1, 1/s]
   double s, s_rate;  ///< from x = 0, x′ = 1 [s, 1]
-  /// From rest under p = t^k/k!, k = 0…kMaxPower [s^(k+2)]; the rate of the k-th is the (k−1)-th, of the first s.
+  /// From rest under p = t^k/k!, k = 0…kMaxPower [s^(k+2)]; the rate of the k-th is the (k−1)-th, of the
+  /// first s.
   std::array<double, kMaxPower + 1> forced;
 
   double forced_rate(int k) const { return k > 0 ? forced[static_cast<std::size_t>(k - 1)] : s; }
