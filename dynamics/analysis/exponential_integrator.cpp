@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,14 +74,14 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       num_switches_(system.num_switches()),
       contraction_(kFirstContraction) {
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
-  const Motion motion{Vector::Zero(f_), Vector::Zero(f_), Vector::Zero(num_quadratures_)};
+  const Motion motion{Vector::Zero(2 * f_), Vector::Zero(num_quadratures_)};
   end_ = difference_ = between_motion_ = motion;
   stages_.fill(motion);
   now_.motion = motion;
-  now_.drive.force = lobatto::NodeValues::Zero(f_, kNumNodes);
-  now_.drive.rate = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);
-  now_.quartic_force = force_jump_ = motion.x;
-  now_.quartic_rate = rate_jump_ = motion.w;
+  now_.drive.pairs = lobatto::NodeValues::Zero(2 * f_, kNumNodes);
+  now_.drive.rates = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);
+  now_.quartic_pairs = pairs_jump_ = motion.u;
+  now_.quartic_rates = rates_jump_ = motion.w;
   last_ = now_;
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
   switch_low_ = switch_high_ = switch_between_ = Vector::Zero(num_switches_);
@@ -100,21 +99,14 @@ void ExponentialIntegrator::start(double time, std::span<const double> y, double
   if (next_length_ == 0.0) next_length_ = kFirstLength;
 }
 
-// Modes of small undamped motion, each with its own share of the damping. Any choice is right: what the
-// oscillators leave out of the accelerations stays in the forces on them.
+// Any basis is right: what it leaves out of the accelerations stays in the drive.
 void ExponentialIntegrator::linearise() {
   SmallMotion motion;
   if (!system_.calc_small_motion(time_, y(), motion)) {
     motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_),
               Eigen::MatrixXd::Zero(f_, f_)};
   }
-  const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, motion.mass);
-  if (modes.info() != Eigen::Success) throw_stopped(time_, "the modes of small motion were not found");
-  Phi_ = modes.eigenvectors();
-  inverse_ = Phi_.transpose() * motion.mass;
-  stiffness_ = modes.eigenvalues().cwiseMax(0.0);
-  decay_ = (0.5 * (Phi_.transpose() * motion.damping * Phi_).diagonal()).cwiseMax(0.0);
+  basis_ = make_vibration_basis(motion);
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
@@ -123,29 +115,22 @@ void ExponentialIntegrator::linearise() {
 }
 
 void ExponentialIntegrator::begin() {
-  now_.motion.x.noalias() = inverse_ * y_.head(f_);
-  now_.motion.x_rate.noalias() = inverse_ * y_.segment(f_, f_);
+  now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there");
   has_begun_ = true;
 }
 
-void ExponentialIntegrator::propagate(const OscillatorPropagator& P, const Step& step, Motion& motion) const {
-  const Motion& start = step.motion;
-  motion.x.array() = P.c * start.x.array() + P.s * start.x_rate.array();
-  motion.x_rate.array() = P.c_rate * start.x.array() + P.s_rate * start.x_rate.array();
-  motion.w = start.w;
-  for (int j = 0; j < kNumNodes; ++j) {
-    motion.x.array() += P.force.col(j).array() * step.drive.force.col(j).array();
-    motion.x_rate.array() += P.force_rate.col(j).array() * step.drive.force.col(j).array();
-    motion.w += P.integral[static_cast<std::size_t>(j)] * step.drive.rate.col(j);
-  }
+void ExponentialIntegrator::propagate(const LobattoPropagator& propagator, const Step& step,
+                                      Motion& motion) const {
+  propagator.apply(basis_.blocks, step.motion.u, step.drive.pairs, motion.u);
+  motion.w = step.motion.w;
+  for (int j = 0; j < kNumNodes; ++j) motion.w += propagator.integral_weight(j) * step.drive.rates.col(j);
 }
 
 void ExponentialIntegrator::to_physical(const Motion& motion, Vector& y) const {
-  y.head(f_).noalias() = Phi_ * motion.x;
-  y.segment(f_, f_).noalias() = Phi_ * motion.x_rate;
+  y.head(2 * f_).noalias() = basis_.T * motion.u;
   y.tail(num_quadratures_) = motion.w;
 }
 
@@ -159,10 +144,10 @@ double ExponentialIntegrator::calc_norm(const Motion& difference) {
 bool ExponentialIntegrator::evaluate(double time, const Motion& motion, int node) {
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
-  auto force = now_.drive.force.col(node);
-  force.noalias() = inverse_ * y_dot_.segment(f_, f_);
-  force.array() += stiffness_ * motion.x.array() + 2.0 * decay_ * motion.x_rate.array();
-  now_.drive.rate.col(node) = y_dot_.tail(num_quadratures_);
+  auto pairs = now_.drive.pairs.col(node);
+  pairs.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+  basis_.blocks.subtract_product(motion.u, pairs);
+  now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
   if (num_switches_ == 0) return true;
   return system_.calc_switches(time, span_of(stage_y_),
                                {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
@@ -173,8 +158,8 @@ void ExponentialIntegrator::predict_drive() {
   Drive& drive = now_.drive;
   if (past_ == Past::kNone) {
     for (int j = 1; j < kNumNodes; ++j) {
-      drive.force.col(j) = drive.force.col(0);
-      drive.rate.col(j) = drive.rate.col(0);
+      drive.pairs.col(j) = drive.pairs.col(0);
+      drive.rates.col(j) = drive.rates.col(0);
     }
     return;
   }
@@ -182,22 +167,22 @@ void ExponentialIntegrator::predict_drive() {
   const bool switched = past_ == Past::kSwitched;
   if (switched) {
     const lobatto::NodeWeights weights = cubic_weights(origin);
-    combine(last_.drive.force, weights, force_jump_);
-    combine(last_.drive.rate, weights, rate_jump_);
-    force_jump_ = drive.force.col(0) - force_jump_;
-    rate_jump_ = drive.rate.col(0) - rate_jump_;
+    combine(last_.drive.pairs, weights, pairs_jump_);
+    combine(last_.drive.rates, weights, rates_jump_);
+    pairs_jump_ = drive.pairs.col(0) - pairs_jump_;
+    rates_jump_ = drive.rates.col(0) - rates_jump_;
   }
   for (int j = 1; j < kNumNodes; ++j) {
     const double theta = origin + lobatto::node(j) * now_.length / last_.length;
     const lobatto::NodeWeights weights = cubic_weights(theta);
-    combine(last_.drive.force, weights, drive.force.col(j));
-    combine(last_.drive.rate, weights, drive.rate.col(j));
+    combine(last_.drive.pairs, weights, drive.pairs.col(j));
+    combine(last_.drive.rates, weights, drive.rates.col(j));
     if (switched) {
-      drive.force.col(j) += force_jump_;
-      drive.rate.col(j) += rate_jump_;
+      drive.pairs.col(j) += pairs_jump_;
+      drive.rates.col(j) += rates_jump_;
     } else if (last_.has_quartic) {
-      drive.force.col(j) += node_polynomial(theta) * last_.quartic_force;
-      drive.rate.col(j) += node_polynomial(theta) * last_.quartic_rate;
+      drive.pairs.col(j) += node_polynomial(theta) * last_.quartic_pairs;
+      drive.rates.col(j) += node_polynomial(theta) * last_.quartic_rates;
     }
   }
 }
@@ -215,8 +200,7 @@ bool ExponentialIntegrator::iterate() {
     double change = 0.0;
     for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
       propagate(propagators_[node], now_, end_);
-      difference_.x = end_.x - stages_[node].x;
-      difference_.x_rate = end_.x_rate - stages_[node].x_rate;
+      difference_.u = end_.u - stages_[node].u;
       difference_.w.setZero();
       change = std::max(change, calc_norm(difference_));
     }
@@ -238,17 +222,17 @@ void ExponentialIntegrator::evaluate_quartic() {
   now_.has_quartic = past_ == Past::kSmooth;
   if (!now_.has_quartic) {
     const lobatto::NodeWeights third = kTruncationOfFirst * lobatto::third_degree_weights();
-    combine(now_.drive.force, third, now_.quartic_force);
-    combine(now_.drive.rate, third, now_.quartic_rate);
+    combine(now_.drive.pairs, third, now_.quartic_pairs);
+    combine(now_.drive.rates, third, now_.quartic_rates);
     return;
   }
   const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
   const lobatto::NodeWeights weights = cubic_weights(theta);
-  combine(now_.drive.force, weights, now_.quartic_force);
-  combine(now_.drive.rate, weights, now_.quartic_rate);
+  combine(now_.drive.pairs, weights, now_.quartic_pairs);
+  combine(now_.drive.rates, weights, now_.quartic_rates);
   const double divisor = node_polynomial(theta);
-  now_.quartic_force = (last_.drive.force.col(2) - now_.quartic_force) / divisor;
-  now_.quartic_rate = (last_.drive.rate.col(2) - now_.quartic_rate) / divisor;
+  now_.quartic_pairs = (last_.drive.pairs.col(2) - now_.quartic_pairs) / divisor;
+  now_.quartic_rates = (last_.drive.rates.col(2) - now_.quartic_rates) / divisor;
 }
 
 // What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
@@ -256,10 +240,8 @@ double ExponentialIntegrator::calc_truncation() {
   evaluate_quartic();
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-    const OscillatorPropagator& P = propagators_[node];
-    difference_.x.array() = P.quartic * now_.quartic_force.array();
-    difference_.x_rate.array() = P.quartic_rate * now_.quartic_force.array();
-    difference_.w = P.integral_quartic * now_.quartic_rate;
+    propagators_[node].apply_quartic(basis_.blocks, now_.quartic_pairs, difference_.u);
+    difference_.w = propagators_[node].integral_quartic() * now_.quartic_rates;
     sum += std::pow(calc_norm(difference_), 2);
   }
   return std::sqrt(sum);
@@ -292,7 +274,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     }
     if (now_.length != propagator_length_) {
       for (int i = 1; i < kNumNodes; ++i) {
-        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, stiffness_, decay_);
+        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, basis_.blocks);
       }
       propagator_length_ = now_.length;
     }
@@ -338,8 +320,8 @@ bool ExponentialIntegrator::finish_step() {
   to_physical(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
-  now_.drive.force.col(0) = last_.drive.force.col(kNumNodes - 1);
-  now_.drive.rate.col(0) = last_.drive.rate.col(kNumNodes - 1);
+  now_.drive.pairs.col(0) = last_.drive.pairs.col(kNumNodes - 1);
+  now_.drive.rates.col(0) = last_.drive.rates.col(kNumNodes - 1);
   if (num_switches_ > 0) switches_.col(0) = switches_.col(kNumNodes - 1);
   past_ = Past::kSmooth;
   return false;
@@ -355,7 +337,7 @@ bool ExponentialIntegrator::locate_switch() {
   switch_low_ = switches_.col(after - 1);
   switch_high_ = switches_.col(after);
   const auto move_to = [this](double theta) {
-    between_.update(theta, now_.length, stiffness_, decay_);
+    between_.update(theta, now_.length, basis_.blocks);
     propagate(between_, now_, between_motion_);
   };
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
@@ -388,7 +370,7 @@ bool ExponentialIntegrator::locate_switch() {
 }
 
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
-  between_.update((time - last_.start) / last_.length, last_.length, stiffness_, decay_);
+  between_.update((time - last_.start) / last_.length, last_.length, basis_.blocks);
   propagate(between_, last_, between_motion_);
   to_physical(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());

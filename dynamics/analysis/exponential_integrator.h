@@ -4,16 +4,16 @@
 #include <array>
 
 #include "dynamics/analysis/integrator.h"
-#include "dynamics/analysis/oscillator_propagator.h"
+#include "dynamics/analysis/lobatto_step.h"
 
 namespace sprung::dynamics {
 
-/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled oscillators,
-/// which are solved exactly whatever their frequency; what is left of the accelerations is a cubic over the
-/// step through its values at the four Lobatto points, found by iteration. So the step follows what excites
-/// stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a switch is
-/// needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck & Ostermann
-/// 2010] (dynamics/README.md, eqs. 41–46).
+/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
+/// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
+/// the step through its values at the four Lobatto points, found by iteration. So the step follows what
+/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a
+/// switch is needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck &
+/// Ostermann 2010] (dynamics/README.md, eqs. 41–46).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -30,20 +30,20 @@ class ExponentialIntegrator final : public Integrator {
   static constexpr int kNumNodes = lobatto::kNumNodes;
   using Vector = Eigen::VectorXd;
 
-  // Oscillators and quadratures at one instant.
+  // Pairs, 2f, and quadratures at one instant.
   struct Motion {
-    Vector x, x_rate, w;
+    Vector u, w;
   };
-  // What drives them: forces on the oscillators, rates of the quadratures.
+  // What drives them at the nodes.
   struct Drive {
-    lobatto::NodeValues force, rate;
+    lobatto::NodeValues pairs, rates;
   };
   // The start and the drive tell all of a step.
   struct Step {
     double start = 0.0, length = 0.0;  // [s]
     Motion motion;
     Drive drive;
-    Vector quartic_force, quartic_rate;  // coefficients of node_polynomial, estimated
+    Vector quartic_pairs, quartic_rates;  // coefficients of node_polynomial, estimated
     bool has_quartic = false;
   };
   // What the forces at the nodes are predicted from.
@@ -63,7 +63,7 @@ class ExponentialIntegrator final : public Integrator {
   double calc_truncation();
   bool finish_step();
   bool locate_switch();
-  void propagate(const OscillatorPropagator& propagator, const Step& step, Motion& motion) const;
+  void propagate(const LobattoPropagator& propagator, const Step& step, Motion& motion) const;
   void to_physical(const Motion& motion, Vector& y) const;
   double calc_norm(const Motion& difference);
 
@@ -73,10 +73,8 @@ class ExponentialIntegrator final : public Integrator {
   int num_switches_;
   Statistics statistics_;
 
-  // q = Φ x, with oscillators x″ + 2d x′ + ω² x = force.
-  Eigen::MatrixXd Phi_, inverse_;  // f×f
-  Eigen::ArrayXd stiffness_, decay_;
-  int version_ = 0;  // of the coordinates that they are for
+  VibrationBasis basis_;
+  int version_ = 0;  // of the coordinates that it is for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
 
@@ -86,9 +84,9 @@ class ExponentialIntegrator final : public Integrator {
   Step now_, last_;  // being made; finished
   bool has_begun_ = false;
   Past past_ = Past::kNone;
-  double contraction_;                                       // of the iteration, from sweep to sweep
-  double last_error_ = 0.0;                                  // of the step before, of the tolerance
-  std::array<OscillatorPropagator, kNumNodes> propagators_;  // to each node but the first
+  double contraction_;                                    // of the iteration, from sweep to sweep
+  double last_error_ = 0.0;                               // of the step before, of the tolerance
+  std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
   std::array<Motion, kNumNodes> stages_;
   Eigen::MatrixXd switches_;  // num_switches × 4
@@ -96,8 +94,8 @@ class ExponentialIntegrator final : public Integrator {
 
   Motion end_, difference_;
   Vector y_dot_, scales_, stage_y_, difference_y_;
-  Vector force_jump_, rate_jump_;
-  mutable OscillatorPropagator between_;
+  Vector pairs_jump_, rates_jump_;
+  mutable LobattoPropagator between_;
   mutable Motion between_motion_;
   mutable Vector between_y_;
 };

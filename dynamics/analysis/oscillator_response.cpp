@@ -125,9 +125,9 @@ OscillatorResponse by_two_decays(double stiffness, double decay, double time) {
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time) {
   if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
   const double omega_t = std::sqrt(stiffness) * time;
-  OscillatorResponse r = omega_t + decay * time <= kSeriesLimit ? by_series(stiffness, decay, time)
-                         : omega_t >= kStiffnessLimit           ? by_recurrence(stiffness, decay, time)
-                                                                : by_two_decays(stiffness, decay, time);
+  OscillatorResponse r = omega_t + std::abs(decay) * time <= kSeriesLimit ? by_series(stiffness, decay, time)
+                         : omega_t >= kStiffnessLimit ? by_recurrence(stiffness, decay, time)
+                                                      : by_two_decays(stiffness, decay, time);
   r.c = r.s_rate + 2.0 * decay * r.s;
   r.c_rate = -stiffness * r.s;
   return r;

@@ -19,7 +19,7 @@ struct OscillatorResponse {
 };
 
 /// @param stiffness  ω² ≥ 0 [1/s²]
-/// @param decay  d, at least 0 [1/s]
+/// @param decay  d [1/s]
 /// @param time  at least 0 [s]
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time);
 
