@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "tools/support/numerical_error.h"
 
@@ -73,10 +74,13 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       num_quadratures_(system.size() - 2 * system.num_freedoms()),
       num_switches_(system.num_switches()),
       contraction_(kFirstContraction) {
+  if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   const Motion motion{Vector::Zero(2 * f_), Vector::Zero(num_quadratures_)};
   end_ = difference_ = between_motion_ = motion;
   stages_.fill(motion);
+  between_ = LobattoPropagator(f_);
+  propagators_.fill(between_);
   now_.motion = motion;
   now_.drive.pairs = lobatto::NodeValues::Zero(2 * f_, kNumNodes);
   now_.drive.rates = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);

@@ -2,7 +2,7 @@
 
 #include <memory>
 #include <span>
-#include <vector>
+#include <string_view>
 
 #include "dynamics/analysis/ode_system.h"
 
@@ -17,7 +17,7 @@ class Integrator {
     kExponential,  ///< exponential collocation: linear vibration exactly, the rest by a quadrature of order 6
   };
   struct Options {
-    Method method = Method::kAdams;
+    Method method = Method::kExponential;
     double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
   };
   enum class StepResult {
@@ -44,7 +44,14 @@ class Integrator {
   virtual Statistics statistics() const = 0;
 };
 
+/// As in run files: "exponential".
+std::string_view method_name(Integrator::Method method);
+/// The method for who does not choose: exponential where there are vibrations to be known beforehand, and not
+/// so many freedoms that its full matrices, 2f×2f, cost more than the equations.
+Integrator::Method default_method(int num_freedoms);
+
 /// @param system  has to outlive the integrator
+/// @throws std::invalid_argument for the exponential method without a freedom
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options);
 
 }  // namespace sprung::dynamics

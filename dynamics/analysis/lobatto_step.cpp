@@ -54,13 +54,14 @@ lobatto::NodeWeights lobatto::third_degree_weights() {
   return coefficients().row(3).transpose();
 }
 
+LobattoPropagator::LobattoPropagator(Eigen::Index num_pairs) {
+  alpha_start_ = beta_start_ = alpha_quartic_ = beta_quartic_ = Eigen::ArrayXd::Zero(num_pairs);
+  alpha_.fill(alpha_start_);
+  beta_.fill(alpha_start_);
+}
+
 void LobattoPropagator::update(double theta, double length, const PairBlocks& blocks) {
   const Eigen::Index f = blocks.size();
-  if (alpha_start_.size() != f) {
-    alpha_start_ = beta_start_ = alpha_quartic_ = beta_quartic_ = Eigen::ArrayXd::Zero(f);
-    alpha_.fill(alpha_start_);
-    beta_.fill(alpha_start_);
-  }
   const Eigen::Matrix4d& C = coefficients();
   // θ^k = k!/h^k · t^k/k!, and the responses are those to t^k/k!.
   std::array<double, kNumNodes + 1> scale;

@@ -25,11 +25,15 @@ NodeWeights third_degree_weights();
 }  // namespace lobatto
 
 /// What pairs and plain integrals do from the start of a step up to one instant of it, exactly, under a drive
-/// that is the cubic through its values at the Lobatto points (dynamics/README.md, eq. 43). f pairs.
+/// that is the cubic through its values at the Lobatto points (dynamics/README.md, eq. 54). f pairs.
 class LobattoPropagator {
  public:
+  LobattoPropagator() = default;
+  explicit LobattoPropagator(Eigen::Index num_pairs);
+
   /// @param theta  the instant, 0 to 1
   /// @param length  of the step [s]
+  /// @param blocks  as many as when it was made
   void update(double theta, double length, const PairBlocks& blocks);
 
   /// u ← e^{Bt} u₀ + the response to the drive. @param start, u  2f @param drive  2f×4

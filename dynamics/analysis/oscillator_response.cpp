@@ -13,8 +13,9 @@ static_assert(kTop + 2 < static_cast<int>(std::size(kInverseFactorial)));
 
 // Scaled time below which the power series is used; its terms then fall from the first on.
 constexpr double kSeriesLimit = 1.5;
-// ωt below which the forward recurrence would divide by too small a number.
-constexpr double kStiffnessLimit = 0.3;
+// d/ω above which the two decays of an overdamped oscillator are far enough apart to be told from each other,
+// and below which the recurrence divides by no small number.
+constexpr double kOverdamped = 1.2;
 
 double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
@@ -124,10 +125,10 @@ OscillatorResponse by_two_decays(double stiffness, double decay, double time) {
 
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time) {
   if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
-  const double omega_t = std::sqrt(stiffness) * time;
-  OscillatorResponse r = omega_t + std::abs(decay) * time <= kSeriesLimit ? by_series(stiffness, decay, time)
-                         : omega_t >= kStiffnessLimit ? by_recurrence(stiffness, decay, time)
-                                                      : by_two_decays(stiffness, decay, time);
+  const double omega = std::sqrt(stiffness);
+  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit ? by_series(stiffness, decay, time)
+                         : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time)
+                                                       : by_recurrence(stiffness, decay, time);
   r.c = r.s_rate + 2.0 * decay * r.s;
   r.c_rate = -stiffness * r.s;
   return r;

@@ -23,7 +23,7 @@ struct PairBlocks {
 };
 
 /// Coordinates in which small motion falls into uncoupled pairs: (q, v) = T u, u̇ = B u (dynamics/README.md,
-/// eq. 42).
+/// eq. 52).
 struct VibrationBasis {
   Eigen::MatrixXd T, inverse;  ///< 2f×2f
   PairBlocks blocks;

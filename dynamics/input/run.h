@@ -29,7 +29,7 @@ struct InitialMotion {
 };
 
 struct IntegratorSettings {
-  Integrator::Method method = Integrator::Method::kAdams;
+  std::optional<Integrator::Method> method;  ///< none: default_method()
   double relative_tolerance = 1e-6;
   std::optional<double> largest_step;  ///< > 0 [s]
 };
