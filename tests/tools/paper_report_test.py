@@ -167,6 +167,14 @@ class Report(unittest.TestCase):
             run_all(self.programs, [bad], self.folder, report=lambda _: None)
         self.assertIn("modes.chassis=3", make_command(self.programs, bad, self.folder))
 
+    def test_a_file_left_by_an_earlier_work_is_no_run_of_this_one(self):
+        numbers = Numbers(self.folder, made=["bump_rigid", "bump_7modes"])
+        self.assertEqual(
+            [numbers.has(name) for name in ("bump_rigid", "bump_4modes", "bump_7modes")], [True, False, False]
+        )
+        with self.assertRaisesRegex(ResultsError, "bump_4modes.h5: error: this run was not made"):
+            numbers.run("bump_4modes")
+
     def test_a_missing_run_is_named(self):
         with self.assertRaisesRegex(ResultsError, "bump_7modes.h5: error: no such file"):
             self.numbers.run("bump_7modes")

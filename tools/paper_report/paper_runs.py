@@ -3,7 +3,6 @@
 Every run is one of the two run files under dynamics/models/truck with `--set`; nothing else is changed.
 """
 
-import json
 import os
 import statistics
 import subprocess
@@ -231,15 +230,6 @@ def measure_costs(programs, folder, repeats=REPEATS, report=print):
         for run in runs:
             times[run.name].append(measure_processor_time(make_command(programs, run, folder)))
     return {name: statistics.median(values) for name, values in times.items()}
-
-
-def write_costs(path, costs):
-    path.write_text(json.dumps(costs, indent=1) + "\n", encoding="utf-8")
-
-
-def read_costs(path):
-    """What write_costs() wrote; None if there is no such file."""
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
 
 def print_progress(text):
