@@ -19,6 +19,7 @@ from paper_report.paper_runs import (
     PaperRun,
     Programs,
     build_superelements,
+    call,
     list_convergence_runs,
     list_finer_runs,
     list_main_runs,
@@ -160,6 +161,17 @@ class Report(unittest.TestCase):
         self.assertAlmostEqual(stations[1, 0], -3.034, places=9)
         expected = -load * overhang**2 * (1.0 / 2.0 - 1.0 / 12.0)
         self.assertAlmostEqual(moments[0, 1] / expected, 1.0, delta=2e-3)
+
+    def test_moments_are_not_taken_from_another_superelement_than_the_runs(self):
+        # Of the same nodes and points, but stiffer.
+        text = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
+        (self.folder / "stiffer.toml").write_text(text.replace("1.9e-4", "3.8e-4"), encoding="utf-8")
+        (self.folder / "other").mkdir()
+        call([self.programs.reduce, "build", self.folder / "stiffer.toml", "--output-dir", self.folder / "other"])
+        rigid = self.numbers.run("bump_rigid").results
+        for path in (*(self.folder / "other").glob("*.h5"), self.folder / "long_arm.h5"):
+            with self.assertRaisesRegex(ResultsError, f"{path}: error: is not the superelement that 'chassis' had"):
+                calc_rigid_moments(rigid, "chassis", read_superelement(path))
 
     def test_a_run_that_fails_says_so(self):
         bad = PaperRun("bad", "bump.toml", ("modes.chassis=3",))

@@ -219,6 +219,7 @@ def make_ride_column(results, superelements, count):
         ] = f"{contact.dynamic_rms / contact.static:.2f}"
         column[f"{axle} tyres: greatest load over static"] = f"{contact.greatest / contact.static:.1f}"
         column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
+        column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
         moments = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
         bending = find_largest_moment(results, *moments, window)
