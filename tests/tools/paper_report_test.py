@@ -15,6 +15,7 @@ from paper_report.claims import list_claims
 from paper_report.markdown import NUMBER, find_differences, format_markdown, parse_markdown, read_part
 from paper_report.paper_runs import (
     MODE_COUNTS,
+    SPEEDS,
     TRUCK,
     PaperRun,
     Programs,
@@ -24,6 +25,7 @@ from paper_report.paper_runs import (
     list_finer_runs,
     list_main_runs,
     list_sensitivity_runs,
+    list_speed_runs,
     list_tyre_runs,
     make_command,
     run_all,
@@ -40,6 +42,7 @@ RELATIVE = 0.01
 RELATIVE_EVALUATIONS = 0.10
 COUNTS_RUN_AGAIN = (0, 2, 4, 6)
 OTHER_TERRAIN = "road_1_seed2"
+OTHER_SPEED = "speed8.5"
 TIMED = ("cost",)
 EVALUATIONS = ("evaluations", "effort")
 
@@ -61,6 +64,7 @@ class Report(unittest.TestCase):
         build_superelements(cls.programs, cls.folder)
         write_roads(cls.folder)
         others = [run for run in list_sensitivity_runs(cls.folder) if OTHER_TERRAIN in run.name]
+        others += [run for run in list_speed_runs() if OTHER_SPEED in run.name]
         at_rest = PaperRun("at_rest_36modes", "bump.toml", ("modes.chassis=36", "duration=0.01"))
         runs = [
             *list_main_runs(),
@@ -117,7 +121,17 @@ class Report(unittest.TestCase):
             rows = parse_markdown(read_part(self.text, name))[1]
             self.assertEqual([row[0] for row in rows], [str(count) for count in MODE_COUNTS])
         self.assertEqual(len(parse_markdown(read_part(self.text, "sensitivity"))[1]), 9)
+        self.assertEqual(
+            [row[0] for row in parse_markdown(read_part(self.text, "speed"))[1]], [f"{v:g} m/s" for v in SPEEDS]
+        )
         self.assertEqual(len(parse_markdown(read_part(self.text, "cost"))[1]), 6)
+
+    def test_runs_at_other_speeds_are_judged_over_the_same_metres(self):
+        run = self.numbers.run(f"terrain_rigid_{OTHER_SPEED}")
+        way = run.series("points/front_axle.origin/position.x")
+        start = self.numbers.run("terrain_rigid").series("points/front_axle.origin/position.x")
+        # From sample to sample 8.5 mm; without a horizontal force the speed changes by some per mille.
+        np.testing.assert_allclose((way[0], way[-1]), (start[0], start[-1]), atol=0.1)
 
     def test_every_picture_of_the_report_is_there(self):
         pictures = [

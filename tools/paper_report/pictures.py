@@ -7,8 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from paper_report.run_numbers import FRONT_END, MIDDLE, CENTRE
-from paper_report.tables import chassis_frequencies
+from paper_report.run_numbers import CENTRE, FRONT_END, MIDDLE, chassis_frequencies
 from results_file import read_numbers
 from run_caption import make_caption, read_run_file
 from spectra import calc_amplitude_spectrum, calc_power_spectrum

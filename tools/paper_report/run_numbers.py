@@ -110,6 +110,13 @@ class RunNumbers:
         )
 
 
+def chassis_frequencies(run, most):
+    """The assembled truck's frequencies that its rigid model does not have: above 2.5 Hz, not the axles' hop at 11.4 to
+    11.6 Hz."""
+    found = [value for value in run.frequencies if value > 2.5 and not 11.4 < value < 11.6]
+    return found[:most]
+
+
 class Numbers:
     """The numbers of all runs in a folder, opened when they are asked for.
 
