@@ -126,6 +126,25 @@ class Report(unittest.TestCase):
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "cost"))[1]), 6)
 
+    def test_the_tables_agree_on_the_runs_that_are_too_long_to_be_made_again(self):
+        def column(name, heading):
+            headings, rows = parse_markdown(read_part(self.text, name))
+            return {row[0]: float(row[headings.index(heading)].partition(",")[0]) for row in rows}
+
+        convergence, model = {}, "36 modes"
+        for heading in ("bump: highest middle mm", "terrain: r.m.s. middle m/s²", "r.m.s. seat m/s²"):
+            convergence[heading] = column("convergence", heading)["36"]
+        for road, name, heading in (("bump", "bump peaks", "r.m.s. m/s²"), ("terrain", "terrain bands", "all")):
+            ride = column("ride", f"{road}, {model}")
+            for place in ("middle", "centre of mass", "seat"):
+                self.assertEqual(column(name, heading)[f"{place}, {model}"], ride[f"{place}: r.m.s. m/s²"])
+        self.assertEqual(
+            column("bump peaks", "highest mm")[f"middle, {model}"], convergence["bump: highest middle mm"]
+        )
+        for place, heading in (("middle", "terrain: r.m.s. middle m/s²"), ("seat", "r.m.s. seat m/s²")):
+            shown = column("ride", f"terrain, {model}")[f"{place}: r.m.s. m/s²"]
+            self.assertAlmostEqual(shown, convergence[heading], delta=0.0051)
+
     def test_runs_at_other_speeds_are_judged_over_the_same_metres(self):
         run = self.numbers.run(f"terrain_rigid_{OTHER_SPEED}")
         way = run.series("points/front_axle.origin/position.x")
