@@ -99,7 +99,9 @@ def collect_loads(results, vehicle, body):
     for motion in vehicle.get("motions", ()):
         driven = joints.get(motion.get("joint"), {"a": motion.get("point", ""), "b": ""})
         if acts_on_body(driven["a"], driven["b"]):
-            raise ResultsError(f"{results.path}: error: motion '{motion['name']}' drives '{body}', not known here")
+            raise ResultsError(
+                f"{results.path}: error: motion '{motion['name']}' drives '{body}', not known here"
+            )
     for joint in joints.values():
         if not acts_on_body(joint["a"], joint["b"]):
             continue
@@ -135,7 +137,8 @@ def collect_loads(results, vehicle, body):
 
 def calc_rigid_moments(results, body, superelement):
     """Bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
-    layout of /recovery: both ends of each element. ResultsError if the superelement is another than the run's."""
+    layout of /recovery: both ends of each element. ResultsError if the superelement is another than the run's.
+    """
     check_same(results, body, superelement)
     vehicle = read_vehicle_file(results)
     position, _ = read_numbers(results.file, f"bodies/{body}/position")

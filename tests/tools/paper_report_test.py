@@ -122,7 +122,8 @@ class Report(unittest.TestCase):
             self.assertEqual([row[0] for row in rows], [str(count) for count in MODE_COUNTS])
         self.assertEqual(len(parse_markdown(read_part(self.text, "sensitivity"))[1]), 9)
         self.assertEqual(
-            [row[0] for row in parse_markdown(read_part(self.text, "speed"))[1]], [f"{v:g} m/s" for v in SPEEDS]
+            [row[0] for row in parse_markdown(read_part(self.text, "speed"))[1]],
+            [f"{v:g} m/s" for v in SPEEDS],
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "cost"))[1]), 6)
 
@@ -134,7 +135,10 @@ class Report(unittest.TestCase):
         convergence, model = {}, "36 modes"
         for heading in ("bump: highest middle mm", "terrain: r.m.s. middle m/s²", "r.m.s. seat m/s²"):
             convergence[heading] = column("convergence", heading)["36"]
-        for road, name, heading in (("bump", "bump peaks", "r.m.s. m/s²"), ("terrain", "terrain bands", "all")):
+        for road, name, heading in (
+            ("bump", "bump peaks", "r.m.s. m/s²"),
+            ("terrain", "terrain bands", "all"),
+        ):
             ride = column("ride", f"{road}, {model}")
             for place in ("middle", "centre of mass", "seat"):
                 self.assertEqual(column(name, heading)[f"{place}, {model}"], ride[f"{place}: r.m.s. m/s²"])
@@ -200,10 +204,20 @@ class Report(unittest.TestCase):
         text = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
         (self.folder / "stiffer.toml").write_text(text.replace("1.9e-4", "3.8e-4"), encoding="utf-8")
         (self.folder / "other").mkdir()
-        call([self.programs.reduce, "build", self.folder / "stiffer.toml", "--output-dir", self.folder / "other"])
+        call(
+            [
+                self.programs.reduce,
+                "build",
+                self.folder / "stiffer.toml",
+                "--output-dir",
+                self.folder / "other",
+            ]
+        )
         rigid = self.numbers.run("bump_rigid").results
         for path in (*(self.folder / "other").glob("*.h5"), self.folder / "long_arm.h5"):
-            with self.assertRaisesRegex(ResultsError, f"{path}: error: is not the superelement that 'chassis' had"):
+            with self.assertRaisesRegex(
+                ResultsError, f"{path}: error: is not the superelement that 'chassis' had"
+            ):
                 calc_rigid_moments(rigid, "chassis", read_superelement(path))
 
     def test_a_run_that_fails_says_so(self):
