@@ -22,10 +22,8 @@ REFERENCE_WAVENUMBER = 0.1  # 1/m, ISO 8608
 ISO_CLASSES = "ABCDEFGH"
 ISO_BAND = (0.011, 2.83)  # 1/m, the range that ISO 8608 reports spectra in
 DECIMALS = 9  # of heights in a file: a nanometre
-LEAST_HEIGHT, GREATEST_HEIGHT = (
-    1e-6,
-    1e6,
-)  # m, of a profile's highest point; a micrometre has three digits in a file
+LEAST_HEIGHT = 1e-6  # m, of a profile's highest point: three digits in a file
+GREATEST_HEIGHT = 1e6  # m
 MOST_POINTS = 10_000_000  # of a profile; a road table of 200 MB
 WHOLE = 1e-9  # a wavenumber this near a whole number of waves in the length counts as that number
 
