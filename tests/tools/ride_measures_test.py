@@ -128,6 +128,15 @@ class Tool(ToolTestCase):
         self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
         self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
 
+    def test_no_share_of_travel_is_told_where_the_vehicle_stands_on_its_stop(self):
+        write_ride_results(
+            self.folder / "a.h5", overrides=("vehicle.forces.suspension.compression_stop.deflection=0.05",)
+        )
+        rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
+        self.assertEqual(
+            [row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]]
+        )
+
     def test_points_and_the_span_can_be_chosen(self):
         write_ride_results(self.folder / "a.h5", with_moments=False)
         process = self.run_tool("ride", "a.h5", "--points", "body.center_of_mass", "--from", "0", "--to", "4")
