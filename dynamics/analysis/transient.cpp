@@ -136,7 +136,11 @@ class TransientRun {
     ++statistics_.output_evaluations;
     if (!options_.on_output) return;
     options_.on_output({.time = time,
-                        .equations = ode_.equations(),
+                        .terms = ode_.equations().terms(),
+                        .q = ode_.equations().q(),
+                        .v = ode_.equations().v(),
+                        .v_dot = ode_.equations().v_dot(),
+                        .multipliers = ode_.equations().multipliers(),
                         .branches = ode_.branches(),
                         .energy = {calc_energy(ode_.equations().terms(), ode_.branches()), ode_.dissipated(y_),
                                    ode_.input(y_)}});
