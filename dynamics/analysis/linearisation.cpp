@@ -1,17 +1,11 @@
 #include "dynamics/analysis/linearisation.h"
 
-#include <fmt/format.h>
-
+#include "dynamics/analysis/state_derivatives.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
-
-// Steps of the differences, of each coordinate's natural size. The error of the extrapolated difference is of the
-// order of step⁴, its rounding of 1e-16/step.
-constexpr double kPositionStep = 1e-4;
-constexpr double kVelocityStep = 1e-3;  // natural sizes per second
 
 std::vector<int> branches_at(const PartitionedEquations& equations) {
   std::vector<int> branches(static_cast<std::size_t>(equations.terms().model().num_branches));
@@ -38,7 +32,6 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time, 
 }
 
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q) {
-  const Model& model = equations.terms().model();
   equations.choose_partition_at(time, q);
   LinearisedSystem system;
   system.partition = equations.partition();
@@ -53,39 +46,12 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   system.directions = equations.calc_directions();
   system.mass = equations.calc_reduced_mass(system.directions);
 
-  // Damping: at fixed positions, the reduced force against the independents' velocities.
-  system.damping.resize(f, f);
-  const auto force_at_velocity = [&](Eigen::Index k, double value) {
-    Eigen::VectorXd v = Eigen::VectorXd::Zero(f);
-    v[k] = value;
-    equations.update_velocities({v.data(), static_cast<std::size_t>(f)});
-    equations.update_accelerations(branches_at(equations));
-    return equations.calc_reduced_force(system.directions);
-  };
-  for (Eigen::Index k = 0; k < f; ++k) {
-    const double step =
-        kVelocityStep * model.coordinate_scale(system.partition.independent[static_cast<std::size_t>(k)]);
-    system.damping.col(k) = -(force_at_velocity(k, step) - force_at_velocity(k, -step)) / (2.0 * step);
-  }
-
-  system.stiffness.resize(f, f);
-  const auto force_at_position = [&](Eigen::Index k, double shift) {
-    Eigen::VectorXd moved = q_i;
-    moved[k] += shift;
-    Eigen::VectorXd force = calc_static_force(equations, time, moved);
-    if (force.size() != f) {
-      throw support::NumericalError(fmt::format(
-          "linearise: the constraints cannot be satisfied at a distance of {} along {}", shift,
-          model.coordinate_name(system.partition.independent[static_cast<std::size_t>(k)])));
-    }
-    return force;
-  };
-  for (Eigen::Index k = 0; k < f; ++k) {
-    const double h = kPositionStep * model.coordinate_scale(system.partition.independent[static_cast<std::size_t>(k)]);
-    const Eigen::VectorXd wide = (force_at_position(k, 2.0 * h) - force_at_position(k, -2.0 * h)) / (4.0 * h);
-    const Eigen::VectorXd narrow = (force_at_position(k, h) - force_at_position(k, -h)) / (2.0 * h);
-    system.stiffness.col(k) = -(4.0 * narrow - wide) / 3.0;
-  }
+  // At fixed positions the directions are the same; of moved ones they are their own.
+  system.damping = -differentiate_by_velocity(
+      equations, [&](const PartitionedEquations& at, auto) { return at.calc_reduced_force(system.directions); });
+  system.stiffness = -differentiate_by_position(equations, time, q_i, [](const PartitionedEquations& at, auto) {
+    return at.calc_reduced_force(at.calc_directions());
+  });
   calc_static_force(equations, time, q_i);
   return system;
 }
