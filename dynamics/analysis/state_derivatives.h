@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/analysis/steady_motion.h"
 #include "dynamics/system/partitioned_equations.h"
 
 namespace sprung::dynamics {
@@ -18,15 +19,17 @@ using StateFunction =
 /// differences extrapolated to fourth order, branches chosen at each point, so that a kink counts with the
 /// mean of its slopes. The equations are left at the last point compared.
 /// @param q_independent  f, that the constraints can be satisfied around
+/// @param motion  rest is that of what it carries along
 /// @return p×f
 /// @throws support::NumericalError where they cannot
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
-                                          const Eigen::VectorXd& q_independent,
-                                          const StateFunction& function);
+                                          const Eigen::VectorXd& q_independent, const StateFunction& function,
+                                          const SteadyMotion& motion = {});
 
 /// Likewise with respect to the independent velocities, about rest at the positions evaluated last.
 /// @return p×f
-Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function);
+Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
+                                          const SteadyMotion& motion = {});
 
 /// A force element that goes over to another of its formulas within the differences above.
 struct Kink {

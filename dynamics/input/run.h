@@ -39,7 +39,7 @@ struct IntegratorSettings {
 struct Run {
   enum class Start {
     kEquilibrium,  ///< static balance, prescribed motion standing still
-    kSteady,       ///< balance of the bodies' modes while prescribed motion goes on at its rate
+    kSteady,       ///< balance of what prescribed motion carries along at its rate
     kAsGiven,
   };
 
