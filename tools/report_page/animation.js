@@ -2,7 +2,9 @@
 // The vehicle on its road, drawn on a canvas from the runs' frames.
 
 const ROOM = 1.55;  // width of the view in vehicle lengths, on a wide screen
+const THUMB = 8;    // half the width of the scrubber's handle, px
 const COILS = 5;    // of a spring
+const COIL = 0.008, BLOCK = 0.02;  // half a coil's width, half the side of a body that is a point: of the vehicle's size
 
 /** A run's numbers unpacked for drawing. */
 function prepareRun(run, index) {
@@ -55,9 +57,16 @@ function heightOfRoad(road, x) {
   return road.h[low] + (x - road.x[low]) / (road.x[high] - road.x[low]) * (road.h[high] - road.h[low]);
 }
 
-/** Where the view is and how large: world metres → pixels. */
+/** Where the view is and how large: world metres → pixels. A mechanism is seen whole from one place, a vehicle followed. */
 function makeView(prepared, at, width, height) {
   const [x0, y0, x1, y1] = prepared.vehicle.box;
+  if (!prepared.vehicle.wheels.length) {
+    const scale = 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6));
+    return {
+      scale, width, height, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
+      X: (wx) => 0.5 * width + scale * (wx - 0.5 * (x0 + x1)), Y: (wy) => 0.5 * height - scale * (wy - 0.5 * (y0 + y1)),
+    };
+  }
   const length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
   const scale = Math.min(width / ((width < 560 ? 1.15 : ROOM) * length), height / (2.1 * tall));
   const [bx, , ] = prepared.places[prepared.vehicle.main].map((column) => between(column, at));
@@ -133,8 +142,8 @@ function drawWheel(context, view, wheel, centre, colour, contact, share, alpha) 
   }
 }
 
-function drawSpring(context, view, [ax, ay], [bx, by]) {
-  const length = Math.hypot(bx - ax, by - ay) || 1, across = 0.06;
+function drawSpring(context, view, [ax, ay], [bx, by], size) {
+  const length = Math.hypot(bx - ax, by - ay) || 1, across = Math.min(COIL * size, 0.15 * length);
   const nx = -(by - ay) / length * across, ny = (bx - ax) / length * across;
   context.beginPath();
   context.moveTo(view.X(ax), view.Y(ay));
@@ -146,13 +155,26 @@ function drawSpring(context, view, [ax, ay], [bx, by]) {
   context.stroke();
 }
 
+function drawLine(context, view, [ax, ay], [bx, by]) {
+  context.beginPath();
+  context.moveTo(view.X(ax), view.Y(ay));
+  context.lineTo(view.X(bx), view.Y(by));
+  context.stroke();
+}
+
+/** A body all of whose points are one. */
+function drawBlock(context, view, [x, y], half, colour) {
+  context.fillStyle = colour;
+  context.fillRect(view.X(x - half), view.Y(y + half), 2 * half * view.scale, 2 * half * view.scale);
+}
+
 /** One vehicle. Returns what its tyres do, for the text below. */
 function drawVehicle(context, view, prepared, time, magnification, alpha) {
   const at = frameAt(prepared, time), colour = colourOf(prepared.index), vehicle = prepared.vehicle;
   const nodes = Object.fromEntries(vehicle.bodies.map((body) => [body.name, nodesOf(prepared, body, at, magnification)]));
   const end = ([name, place]) => (name === null ? place : nodes[name][place]);
   context.lineCap = context.lineJoin = "round";
-  const told = [];
+  const told = [], [x0, y0, x1, y1] = vehicle.box, size = Math.max(x1 - x0, y1 - y0);
   for (const wheel of vehicle.wheels) {
     const tyre = prepared.tyres[wheel.name];
     const contact = tyre.contact[Math.round(at)] > 0.5, force = between(tyre.force, at);
@@ -162,19 +184,18 @@ function drawVehicle(context, view, prepared, time, magnification, alpha) {
   context.globalAlpha = alpha;
   context.strokeStyle = colour;
   context.lineWidth = 1.5;
-  for (const link of vehicle.links) if (link.kind !== "joint") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]));
+  for (const link of vehicle.links) if (link.kind === "spring") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]), size);
   for (const body of vehicle.bodies) {
+    if (!body.lines.length) drawBlock(context, view, nodes[body.name][0], BLOCK * size, colour);
     body.lines.forEach(([a, b], number) => {
       const hanging = body.elements && number >= body.elements;
       context.lineWidth = hanging ? 2 : body.elements ? 6 : 4;
-      context.beginPath();
-      context.moveTo(view.X(nodes[body.name][a][0]), view.Y(nodes[body.name][a][1]));
-      context.lineTo(view.X(nodes[body.name][b][0]), view.Y(nodes[body.name][b][1]));
-      context.stroke();
+      drawLine(context, view, nodes[body.name][a], nodes[body.name][b]);
     });
   }
   context.fillStyle = style("--card");
   context.lineWidth = 1.5;
+  for (const link of vehicle.links) if (link.kind === "rod") drawLine(context, view, end(link.ends[0]), end(link.ends[1]));
   for (const link of vehicle.links) {
     if (link.kind !== "joint") continue;
     const [x, y] = end(link.ends[0]);
@@ -202,8 +223,10 @@ function drawScene() {
   const main = player.runs[player.main];
   const view = makeView(main, frameAt(main, clock.time), width, height);
   player.view = view;
-  drawRoad(context, view, main.road);
-  drawDistances(context, view, main.road);
+  if (main.vehicle.wheels.length) {
+    drawRoad(context, view, main.road);
+    drawDistances(context, view, main.road);
+  }
   if (player.other >= 0) drawVehicle(context, view, player.runs[player.other], clock.time, player.magnification, 0.6);
   const told = drawVehicle(context, view, main, clock.time, player.magnification, 1);
   byId("state").textContent = told.join(" · ");
@@ -219,17 +242,20 @@ function drawContacts() {
   const canvas = byId("contact-strip"), main = player.runs[player.main], names = Object.keys(main.tyres);
   canvas.hidden = names.length === 0;
   if (canvas.hidden) return;
-  const {context, width} = prepareCanvas(canvas, 15 * names.length + 2);
-  const left = Math.min(110, width / 4), at = (time) => left + (width - left - 2) * (time - clock.first) / (clock.last - clock.first);
+  const {context} = prepareCanvas(canvas, 15 * names.length + 2);
+  // Below the scrubber's track, which its thumb's middle runs along.
+  const edge = canvas.getBoundingClientRect().left, track = byId("scrubber").getBoundingClientRect();
+  const left = track.left - edge + THUMB, right = track.right - edge - THUMB;
+  const at = (time) => left + (right - left) * (time - clock.first) / (clock.last - clock.first);
   const toTime = (k) => main.frames.first + (main.frames.last - main.frames.first) * k / (main.frames.count - 1);
   context.font = "11px system-ui, sans-serif";
   context.textBaseline = "middle";
   names.forEach((name, row) => {
     const y = 15 * row + 8, contact = main.tyres[name].contact;
     context.fillStyle = style("--soft");
-    context.fillText(name, 2, y, left - 8);
+    context.fillText(name, 0, y, left - 8);
     context.fillStyle = style("--grid");
-    context.fillRect(left, y - 1, width - left - 2, 2);
+    context.fillRect(left, y - 1, right - left, 2);
     context.fillStyle = style("--bad");
     for (let k = 0; k < contact.length; ++k) {
       if (contact[k] > 0.5) continue;
@@ -265,7 +291,7 @@ function makePlayer() {
   const options = data.runs.map((run, index) => ({value: String(index), label: run.label}));
   fillSelect(byId("main-run"), options);
   fillSelect(byId("other-run"), [{value: "-1", label: "no other run"}, ...options]);
-  // The most flexible run in front, the first behind it: what bending changes is what one wants to see.
+  // The second run in front of the first: what differs from the first is what one wants to see.
   player.main = data.runs.length > 1 ? 1 : 0;
   player.other = data.runs.length > 1 ? 0 : -1;
   byId("main-run").value = String(player.main);

@@ -2,10 +2,12 @@
 // Diagrams over time with a common zoom, spectra with the vehicle's frequencies, modal amplitudes. Drawn by dygraphs.
 
 const NUM_HISTORIES = 4;
+const SPECTRUM_DEPTH = 1e-7;  // of the peak: what lies lower is not drawn
 const linked = [];  // diagrams over time: {graph, cursor}
 const charts = [];  // functions that draw everything anew, for another colour scheme
 let zoomed = null;  // [from, to] s, null for the whole run
 let following = false;
+let spectrum = null;  // the diagram of the spectra
 
 /** Histories [{t, v}] of unequal times → rows [time, value or null, …] for dygraphs. */
 function mergeRows(series, factors) {
@@ -80,8 +82,8 @@ function drawLinked(chart, rows, labels, colours, unit, name) {
     ...commonOptions(chart.legend), labels: ["time", ...labels], colors: colours, ylabel: unit, xlabel: "time, s",
     dateWindow: zoomed, includeZero: false,
     axes: {
-      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: (value) => format(value, 3)},
-      y: {axisLabelWidth: 54, axisLabelFormatter: (value) => format(value, 3), valueFormatter: (value) => format(value)},
+      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: formatTick},
+      y: {axisLabelWidth: 54, axisLabelFormatter: formatTick, valueFormatter: (value) => format(value)},
     },
     drawCallback: (graph, isFirst) => { if (!isFirst) follow(graph); placeCursor(chart); },
     clickCallback: (event, time) => clock.set(time),
@@ -176,6 +178,27 @@ function makeHistories() {
   });
 }
 
+/** Where a frequency is on the logarithmic axis of the spectra, px from the left of the diagram. */
+function placeFrequency(graph, frequency) {
+  const {x, w} = graph.getArea();
+  const [from, to] = graph.xAxisRange();
+  return x + w * Math.log(frequency / from) / Math.log(to / from);
+}
+
+/** Marks of a logarithmic axis: powers of ten times these digits. */
+function markDecades(digits, print) {
+  return (from, to) => {
+    const marks = [];
+    for (let power = Math.floor(Math.log10(from)); 10 ** power <= to; ++power) {
+      for (const digit of digits) {
+        const v = digit * Number(`1e${power}`);
+        if (v >= from && v <= to) marks.push({v, label: print(v)});
+      }
+    }
+    return marks;
+  };
+}
+
 /** Dashed lines at the vehicle's frequencies, named where there is room. */
 function markFrequencies(context, area, graph) {
   context.save();
@@ -188,7 +211,7 @@ function markFrequencies(context, area, graph) {
     context.setLineDash([4, 3]);
     for (const {f} of run.frequencies) {
       if (f < from || f > to) continue;
-      const x = graph.toDomXCoord(f);
+      const x = placeFrequency(graph, f);
       context.globalAlpha = 0.55;
       context.beginPath();
       context.moveTo(x, area.y + 13 * data.runs.length);
@@ -222,14 +245,16 @@ function makeSpectra() {
       labels.push(run.label);
       colours.push(colourOf(index));
     });
+    const peak = Math.max(...series.map((one) => one.v.reduce((a, b) => Math.max(a, b), 0)));
     if (chart.graph) chart.graph.destroy();
     chart.plot.setAttribute("aria-label", `Spectrum of the vertical acceleration of ${select.value}, ${labels.join(" and ")}`);
-    chart.graph = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
+    chart.graph = spectrum = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
       ...commonOptions(chart.legend), labels: ["frequency", ...labels], colors: colours, xlabel: "frequency, Hz",
       ylabel: "(m/s²)²/Hz", underlayCallback: markFrequencies,
       axes: {
-        x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, axisLabelFormatter: (value) => format(value, 2)},
-        y: {logscale: true, axisLabelWidth: 54, axisLabelFormatter: (value) => powerOfTen(value), valueFormatter: (value) => format(value)},
+        x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, ticker: markDecades([1, 2, 5], formatTick)},
+        y: {logscale: true, axisLabelWidth: 54, ticker: markDecades([1], powerOfTen), valueFormatter: (value) => format(value),
+          valueRange: [SPECTRUM_DEPTH * peak, 30 * peak]},  // above the peak: room for the frequencies' names
       },
     });
   };
@@ -238,10 +263,9 @@ function makeSpectra() {
   draw();
 }
 
-/** 0.01 → "10⁻²"; other values with two digits. */
+/** 0.01 → "10⁻²". */
 function powerOfTen(value) {
   const exponent = Math.log10(value);
-  if (Math.abs(exponent - Math.round(exponent)) > 1e-6) return "";
   return `10${String(Math.round(exponent)).replace(/[-\d]/g, (sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)])}`;
 }
 
