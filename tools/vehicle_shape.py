@@ -205,8 +205,8 @@ def read_links(results, bodies):
 def find_point(reference, bodies, ground):
     """`body.point` → (body, node); on the ground (None, (x, y)); None if there is no such point."""
     body_name, _, point = reference.partition(".")
-    if body_name == "ground" and point in ground:
-        return None, tuple(map(float, ground[point]))
+    if body_name == "ground" and (point in ground or point == "origin"):
+        return None, tuple(map(float, ground.get(point, (0.0, 0.0))))
     for body in bodies:
         if body.name == body_name and point in body.points:
             return body.name, body.points[point]

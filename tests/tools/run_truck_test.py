@@ -64,7 +64,7 @@ class RunTruck(ToolTestCase):
             check=False,
         )
 
-    def test_it_reduces_runs_the_bump_three_times_and_leaves_tables_and_pictures(self):
+    def test_it_reduces_runs_the_bump_three_times_and_leaves_tables_pictures_and_a_page(self):
         process = self.run_truck("--output-dir", "my results")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         out = self.root / "elsewhere/my results"
@@ -83,6 +83,12 @@ class RunTruck(ToolTestCase):
         for name in ("bump_displacement.png", "bump_acceleration.png", "bump_front_end.png"):
             self.assertGreater((out / name).stat().st_size, 10000)
             self.assertIn(str(out / name), process.stdout)
+        page = (out / "report.html").read_text(encoding="utf-8")
+        for label in ("rigid", "2 modes", "4 modes"):
+            self.assertIn(f'"label":"{label}"', page)
+        self.assertIn("residual of the modes", page)  # the superelements' checks
+        last = process.stdout.strip().splitlines()[-1]
+        self.assertEqual(last, f"Open it in a browser: {(out / 'report.html').as_uri()}")
         rows = [line.split() for line in process.stdout.splitlines()]
         self.assertIn(["chassis", "1", "6.11200", "6.11", "+0.00200", "+0.0327", "yes"], rows)
         self.assertIn(["2", "88.93040", "88.92", "+0.01040", "+0.0117", "NO"], rows)

@@ -4,7 +4,7 @@
 const ROOM = 1.55;  // width of the view in vehicle lengths, on a wide screen
 const THUMB = 8;    // half the width of the scrubber's handle, px
 const COILS = 5;    // of a spring
-const COIL = 0.008, BLOCK = 0.02;  // half a coil's width, half the side of a body that is a point: of the vehicle's size
+const COIL = 0.02, BLOCK = 0.02;  // of the vehicle's size: half a coil's width at most, half the side of a body that is a point
 
 /** A run's numbers unpacked for drawing. */
 function prepareRun(run, index) {
@@ -111,11 +111,12 @@ function drawDistances(context, view, road) {
   context.textAlign = "center";
   for (let k = Math.ceil(from / step); k * step <= to; ++k) {
     const x = view.X((k * step + road.origin) / road.direction);
+    if (x < 20 || x > view.width - 20) continue;
     context.beginPath();
     context.moveTo(x, view.height - 20);
     context.lineTo(x, view.height - 15);
     context.stroke();
-    context.fillText(`${format(k * step, 3)} m`, x, view.height - 4);
+    context.fillText(`${formatTick(k * step)} m`, x, view.height - 4);
   }
 }
 
@@ -143,7 +144,7 @@ function drawWheel(context, view, wheel, centre, colour, contact, share, alpha) 
 }
 
 function drawSpring(context, view, [ax, ay], [bx, by], size) {
-  const length = Math.hypot(bx - ax, by - ay) || 1, across = Math.min(COIL * size, 0.15 * length);
+  const length = Math.hypot(bx - ax, by - ay) || 1, across = Math.min(COIL * size, 0.12 * length);
   const nx = -(by - ay) / length * across, ny = (bx - ax) / length * across;
   context.beginPath();
   context.moveTo(view.X(ax), view.Y(ay));

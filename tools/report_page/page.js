@@ -44,6 +44,8 @@ window.addEventListener("resize", () => {
   });
 });
 
+const findBody = (name) => player.runs[player.main].vehicle.bodies.find((one) => one.name === name);
+
 /** For tests: where the shown run's main body is at the clock's time, and what went wrong. */
 window.sprungReport = {
   errors,
@@ -53,9 +55,10 @@ window.sprungReport = {
     const [x, y, angle] = main.places[main.vehicle.main].map((column) => between(column, at));
     return {x, y, angle};
   },
-  tip: (body, node) => {
+  node: (body, point) => findBody(body).points[point],
+  place: (body, node, magnification) => {
     const main = player.runs[player.main];
-    return nodesOf(main, main.vehicle.bodies.find((one) => one.name === body), frameAt(main, clock.time), player.magnification)[node];
+    return nodesOf(main, findBody(body), frameAt(main, clock.time), magnification)[node];
   },
 };
 document.documentElement.dataset.ready = "true";

@@ -57,7 +57,7 @@ def pack_vehicle(results, bodies, wheels):
     return {
         "bodies": [
             {"name": body.name, "places": body.places.tolist(), "lines": body.lines.tolist(),
-             "shapes": np.round(body.shapes, 9).tolist(), "elements": body.num_elements}
+             "shapes": np.round(body.shapes, 9).tolist(), "elements": body.num_elements, "points": body.points}
             for body in bodies
         ],
         "wheels": [wheel._asdict() for wheel in wheels],
