@@ -109,7 +109,9 @@ class Browser:
         page.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
         page.resize(width, height, touch)
         page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        page.call("Page.navigate", url=Path(path).resolve().as_uri())
+        answer = page.call("Page.navigate", url=Path(path).resolve().as_uri())
+        if "errorText" in answer:
+            raise RuntimeError(f"{path}: {answer['errorText']}")
         self.wait_for("Page.loadEventFired", page.session)
         page.settle()
         return page

@@ -74,6 +74,7 @@ class ExportCsv(ToolTestCase):
             ("no samples from 2 to 1 s", "run.h5", "a.csv", y, "--from", "2"),
             ("none.h5: error: no such file", "none.h5", "a.csv", y),
             ("none/a.csv: error: cannot write the table", "run.h5", "none/a.csv", y),
+            ("run.h5: error: is one of the input files", "run.h5", "run.h5", y),
             ("folder.csv: error: cannot write the table", "run.h5", "folder.csv", y),
         ):
             with self.subTest(fragment):

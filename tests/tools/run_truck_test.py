@@ -95,6 +95,13 @@ class RunTruck(ToolTestCase):
         for label, peak in (("rigid", "0.05"), ("2 modes", "0.1"), ("4 modes", "0.15")):
             self.assertRegex(process.stdout, rf"(?m)\b{label} +-{peak} .* {peak} .* m$")
 
+    def test_the_example_of_its_help_runs(self):
+        words = self.run_truck("--help").stdout.splitlines()[-1].split()
+        self.assertEqual(words[:2], ["tools/run-truck", "--output-dir"])
+        process = self.run_truck(words[1], str(self.folder / "given"))
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertTrue((self.folder / "given/report.html").exists())
+
     def test_it_can_be_run_again_and_writes_into_the_build_folder_unless_told_otherwise(self):
         for _ in range(2):
             self.assertEqual(self.run_truck().returncode, 0)

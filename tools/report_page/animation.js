@@ -11,7 +11,7 @@ function prepareRun(run, index) {
   const unpackAll = (columns) => columns.map(decode);
   const map = (object, convert) => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, convert(value)]));
   const frames = run.frames;
-  const tyres = map(frames.tyres, (one) => ({contact: decode(one.contact), force: decode(one.force)}));
+  const tyres = map(frames.tyres, (one) => ({contact: decode(one.contact), force: decode(one.force), off: decode(one.off)}));
   const largest = Math.max(1, ...Object.values(tyres).map((one) => one.force.reduce((a, b) => Math.max(a, b), 0)));
   return {
     index, run, frames, vehicle: run.vehicle, tyres, largest, places: map(frames.places, unpackAll),
@@ -248,22 +248,16 @@ function drawContacts() {
   const edge = canvas.getBoundingClientRect().left, track = byId("scrubber").getBoundingClientRect();
   const left = track.left - edge + THUMB, right = track.right - edge - THUMB;
   const at = (time) => left + (right - left) * (time - clock.first) / (clock.last - clock.first);
-  const toTime = (k) => main.frames.first + (main.frames.last - main.frames.first) * k / (main.frames.count - 1);
   context.font = "11px system-ui, sans-serif";
   context.textBaseline = "middle";
   names.forEach((name, row) => {
-    const y = 15 * row + 8, contact = main.tyres[name].contact;
+    const y = 15 * row + 8, off = main.tyres[name].off;
     context.fillStyle = style("--soft");
     context.fillText(name, 0, y, left - 8);
     context.fillStyle = style("--grid");
     context.fillRect(left, y - 1, right - left, 2);
     context.fillStyle = style("--bad");
-    for (let k = 0; k < contact.length; ++k) {
-      if (contact[k] > 0.5) continue;
-      const begin = k;
-      while (k + 1 < contact.length && contact[k + 1] < 0.5) ++k;
-      context.fillRect(at(toTime(begin)), y - 4, Math.max(1.5, at(toTime(k)) - at(toTime(begin))), 8);
-    }
+    for (let k = 0; k + 1 < off.length; k += 2) context.fillRect(at(off[k]), y - 4, Math.max(1.5, at(off[k + 1]) - at(off[k])), 8);
   });
   context.fillStyle = style("--accent");
   context.fillRect(at(clock.time) - 1, 0, 2, 15 * names.length + 2);

@@ -29,11 +29,18 @@ def pack_frames(results, bodies, wheels):
     nearest = np.clip(np.searchsorted(results.time, time), 0, results.time.size - 1)
     for wheel in wheels:
         contact, force = (results.series(f"forces/{wheel.name}/{what}")[0] for what in ("contact", "force"))
-        tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force)}
+        spans = find_spans(contact < 0.5, results.time)
+        tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans)}
     return {
         "first": float(time[0]), "last": float(time[-1]), "count": count, "places": places,
         "amplitudes": amplitudes, "tyres": tyres,
     }  # fmt: skip
+
+
+def find_spans(holds, time):
+    """When something holds [n]: [from, to, from, to, …], each from its first sample to the sample after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+    return time[np.minimum(edges, time.size - 1)]
 
 
 def pack_vehicle(results, bodies, wheels):
