@@ -149,14 +149,20 @@ class Page:
         )
 
     def picture(self, keep=None, selector=None):
-        """The whole page, or one element of it, as [rows×columns×3] from 0 to 1; also kept as a PNG file if asked."""
+        """The whole page, or one element of it, as [rows×columns×3] from 0 to 1; also kept as a PNG file if asked.
+
+        An element must fit in the window: a picture of more than the window resizes it, whereupon pages draw anew.
+        """
         if selector is None:
             size = self.call("Page.getLayoutMetrics")["cssContentSize"]
             box = (0, 0, size["width"], size["height"])
         else:
+            self.evaluate(f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})")
+            self.settle()
             box = self.box(selector)
         clip = dict(zip(("x", "y", "width", "height"), box)) | {"scale": 1}
-        data = base64.b64decode(self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=True)["data"])
+        answer = self.call("Page.captureScreenshot", clip=clip, captureBeyondViewport=selector is None)
+        data = base64.b64decode(answer["data"])
         if keep is not None:
             Path(keep).write_bytes(data)
         return matplotlib.image.imread(io.BytesIO(data))[:, :, :3]

@@ -123,6 +123,7 @@ class ReportPage(unittest.TestCase):
             with self.subTest(time=time):
                 self.set_time(page, time)
                 sample = round(1e3 * time)
+                self.assertEqual(page.evaluate("document.getElementById('clock').textContent"), f"{time:.3f} s")
                 found = page.evaluate("sprungReport.mainBody()")
                 for name, expected in (("x", x), ("y", y), ("angle", angle)):
                     self.assertAlmostEqual(found[name], expected[sample], delta=1e-6 * max(1.0, abs(expected[sample])))
