@@ -250,6 +250,6 @@ function makeCharts() {
   setZoom(null);
   const samples = [...new Set(data.runs.map((run) => run.samples))].join(", ");
   byId("history-note").textContent = `Drag in a diagram to zoom all of them, shift-drag to move, double click for the whole run, click to set ` +
-    `the animation's time. Histories of ${samples} samples are drawn by at most ${data.most}, with the least and greatest of each ` +
+    `the animation's time; on a touch screen two fingers move and stretch. Histories of ${samples} samples are drawn by at most ${data.most}, with the least and greatest of each ` +
     `span of time; all numbers on this page are of all samples.`;
 }

@@ -21,7 +21,7 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 
 /** A unit as it is printed, and what a number is multiplied by, so that its size is readable. */
 function readable(unit, peak) {
-  if (unit === "m" && peak < 0.5) return {unit: "mm", factor: 1e3};
+  if (unit === "m" && peak < 1) return {unit: "mm", factor: 1e3};
   if (["N", "N m", "J"].includes(unit) && peak >= 1e3) return {unit: `k${unit}`, factor: 1e-3};
   if (unit === "rad") return {unit: "°", factor: 180 / Math.PI};
   return {unit: unit.replace("^2", "²").replace("^3", "³"), factor: 1};

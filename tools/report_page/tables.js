@@ -28,7 +28,7 @@ function difference(value, first) {
 }
 
 function fillStatistics(table, rows) {
-  const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), ...runHeadings(), element("th", {scope: "col"}, "unit"));
+  const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), element("th", {scope: "col"}, "unit"), ...runHeadings());
   table.replaceChildren(element("thead", {}, head));
   let body = null, of = null;
   for (const row of rows) {
@@ -45,7 +45,7 @@ function fillStatistics(table, rows) {
       if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" ? difference(value, row.values[0]) : ""));
       return cell;
     });
-    body.append(element("tr", {}, element("th", {scope: "row"}, row.name), ...cells, element("td", {}, unit)));
+    body.append(element("tr", {}, element("th", {scope: "row"}, row.name), element("td", {class: "unit"}, unit), ...cells));
   }
 }
 
