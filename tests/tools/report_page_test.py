@@ -4,11 +4,13 @@ SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import itertools
 import os
+import shutil
 import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 from browser import Browser
 from tool_test_case import ROOT, TOOLS
@@ -24,8 +26,8 @@ BUMP_TIMES = (0.0, 0.45, 0.75, 1.2, 2.2, 4.0)  # s: before the bump, wheels in t
 
 
 def is_colour(picture, colour, tolerance=0.02):
-    """Which pixels [rows×columns] have a colour (0 to 255)."""
-    return np.all(np.abs(picture - np.array(colour) / 255.0) < tolerance, axis=2)
+    """Which pixels of a picture […×3] have a colour (0 to 255)."""
+    return np.all(np.abs(picture - np.array(colour) / 255.0) < tolerance, axis=-1)
 
 
 class ReportPage(unittest.TestCase):
@@ -218,6 +220,43 @@ class ReportPage(unittest.TestCase):
                     self.assertTrue(0 < drawn[0] and drawn[-1] < len(pictures[-1]) - 1, "cut off by the picture's edge")
                 moved = np.any(np.abs(pictures[0] - pictures[1]) > 0.2, axis=2)
                 self.assertGreater(np.count_nonzero(moved), 100)
+
+    def test_modes_that_pause_are_shown_to_pause(self):
+        shutil.copy(self.folder / "2 modes.h5", self.folder / "pausing.h5")
+        with h5py.File(self.folder / "pausing.h5", "a") as file:
+            active = file["bodies/chassis/modal/active"]
+            values = active[:]
+            values[1000:2000, 1] = 0.0  # from 1 to 2 s of 5 s
+            active[:] = values
+        self.report("pausing.html", "pausing.h5")
+        page = self.open("pausing.html")
+        strip = page.picture(PICTURES / "pausing.png", "#active-strip")
+        rows = {name: np.flatnonzero(is_colour(strip[row], colour)) for name, row, colour in (("first", 8, BLACK), ("second", 22, BLUE))}
+        left, right = rows["first"][[0, -1]]
+        self.assertEqual(rows["first"].size, right - left + 1)  # without a gap
+        gap = np.flatnonzero(np.diff(rows["second"]) > 1)
+        self.assertEqual(gap.size, 1)
+        edges = (rows["second"][gap[0]], rows["second"][gap[0] + 1])
+        np.testing.assert_allclose((np.array(edges) - left) / (right - left), (0.2, 0.4), atol=0.004)
+        self.assertIn("when each mode takes part", page.evaluate("document.getElementById('mode-note').textContent"))
+
+    def test_a_vehicle_thrown_high_stays_in_view(self):
+        self.drive("truck/bump.toml", "high", "--set", "road.height=0.9", "--set", "duration=3", "--set", "modes.chassis=0")
+        self.report("high.html", "high.h5")
+        page = self.open("high.html")
+        self.set_time(page, 1.5)
+        self.assertGreater(page.evaluate("sprungReport.mainBody().y"), 8.0)  # m, where the window shows about 5
+        picture = page.picture(PICTURES / "high.png", "#scene")
+        drawn = np.flatnonzero(np.any(is_colour(picture, BLACK, 0.1), axis=1))
+        self.assertGreater(drawn.size, 30)
+        self.assertGreater(drawn[0], 5)
+
+    def test_a_run_of_two_samples_is_shown(self):
+        self.drive("truck/bump.toml", "short", "--set", "duration=0.001", "--set", "modes.chassis=2")
+        self.report("short.html", "short.h5")
+        page = self.open("short.html")
+        self.set_time(page, 0.001)
+        self.assertGreater(np.count_nonzero(is_colour(page.picture(selector="#scene"), BLACK)), 1000)
 
     def test_two_vehicles_and_hostile_names_on_one_page(self):
         label = "</script><b onclick>\"'&Ü"

@@ -3,6 +3,7 @@
 
 const ROOM = 1.55;  // width of the view in vehicle lengths, on a wide screen
 const THUMB = 8;    // half the width of the scrubber's handle, px
+const EDGE = 12;    // between the view's edge and the vehicle, px
 const COILS = 5;    // of a spring
 const COIL = 0.02, BLOCK = 0.02;  // of the vehicle's size: half a coil's width at most, half the side of a body that is a point
 
@@ -57,6 +58,17 @@ function heightOfRoad(road, x) {
   return road.h[low] + (x - road.x[low]) / (road.x[high] - road.x[low]) * (road.h[high] - road.h[low]);
 }
 
+/** The height of a vehicle's highest point, m. */
+function findTop(prepared, at) {
+  let top = -Infinity;
+  for (const body of prepared.vehicle.bodies) {
+    const nodes = nodesOf(prepared, body, at, 1);
+    for (const [, y] of nodes) top = Math.max(top, y);
+    for (const wheel of prepared.vehicle.wheels) if (wheel.body === body.name) top = Math.max(top, nodes[wheel.node][1] + wheel.radius);
+  }
+  return top;
+}
+
 /** Where the view is and how large: world metres → pixels. A mechanism is seen whole from one place, a vehicle followed. */
 function makeView(prepared, at, width, height) {
   const [x0, y0, x1, y1] = prepared.vehicle.box;
@@ -69,12 +81,12 @@ function makeView(prepared, at, width, height) {
   }
   const length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
   const scale = Math.min(width / ((width < 560 ? 1.15 : ROOM) * length), height / (2.1 * tall));
-  const [bx, , ] = prepared.places[prepared.vehicle.main].map((column) => between(column, at));
-  const [startX] = prepared.places[prepared.vehicle.main].map((column) => column[0]);
+  const bx = between(prepared.places[prepared.vehicle.main][0], at), startX = prepared.places[prepared.vehicle.main][0][0];
   const x = bx + 0.5 * (x0 + x1) - startX;
   let ground = 0;
   for (let k = -4; k <= 4; ++k) ground += heightOfRoad(prepared.road, x + k * length / 4) / 9;
-  const base = height * 0.8;
+  const top = 0.8 * height - scale * (findTop(prepared, at) - ground);  // of the vehicle, px
+  const base = 0.8 * height + Math.max(0, EDGE - top);  // a vehicle that flies high takes the view along
   return {
     scale, width, height, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
     X: (wx) => 0.5 * width + scale * (wx - x), Y: (wy) => base - scale * (wy - ground),
