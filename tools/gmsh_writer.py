@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from whole_file import whole_file
+from whole_file import write_whole
 
 LINE, POINT = 1, 15  # gmsh's numbers of the two-node line and the point
 
@@ -80,5 +80,4 @@ def format_elements(frame, ends):
 
 def write_msh(frame, path):
     """Writes the mesh whole or not at all. ResultsError if it cannot be written."""
-    with whole_file(path, "mesh") as unfinished, open(unfinished, "w", encoding="utf-8") as file:
-        file.write(format_msh(frame))
+    write_whole(path, format_msh(frame))

@@ -21,7 +21,7 @@ from road_profile import (
 )
 from runs import make_parser
 from text_table import format_table
-from whole_file import whole_file
+from whole_file import write_whole
 
 FINE = (
     5.0  # points on the shortest wave, below which a spline through them misses its height by more than 3 %
@@ -84,19 +84,13 @@ def describe_command(arguments):
     words = ["tools/make_road.py"]
     skip = False
     for word in arguments:
-        if skip or word.startswith("--output="):
+        if skip or word.startswith("--output=") or (word.startswith("-o") and word != "-o"):
             skip = False
         elif word in ("-o", "--output"):
             skip = True
         else:
             words.append(word)
     return shlex.join(words)
-
-
-def write_road(path, text):
-    """Writes a road whole or not at all. ResultsError if it cannot be written."""
-    with whole_file(path, "road") as unfinished, open(unfinished, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 def format_report(path, recipe, density):
@@ -134,7 +128,7 @@ def main():
     arguments = parse_arguments()
     recipe = make_recipe(arguments)
     profile = make_profile(recipe)
-    write_road(arguments.output, format_profile(recipe, profile, describe_command(sys.argv[1:])))
+    write_whole(arguments.output, format_profile(recipe, profile, describe_command(sys.argv[1:])))
     print(format_report(arguments.output, recipe, profile.density))
     return 0
 

@@ -1,25 +1,26 @@
-"""Writing a file whole or not at all: to another name beside it, which becomes its own when all is written."""
+"""Writing a file whole or not at all: under another name beside its place, then renamed."""
 
-import contextlib
 import os
+from pathlib import Path
 
 from results_file import ResultsError
 
 
-@contextlib.contextmanager
-def whole_file(path, what):
-    """with whole_file("a.csv", "table") as unfinished: … write to the path `unfinished` …
+def write_whole(path, content):
+    """Writes text (as UTF-8) or bytes. An interrupted or failed write leaves an earlier file as it was.
 
-    ResultsError, naming `what`, if it cannot be written (OSError, or ValueError of whoever writes). Whatever stops the
-    writing, interruption as well, an earlier file stays as it was and nothing half-written is left.
+    ResultsError if the file cannot be written.
     """
-    folder, name = os.path.split(path)
-    unfinished = os.path.join(folder, f".unfinished-{os.getpid()}-{name}")
+    path = Path(path)
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    unfinished = path.with_name(f".unfinished-{os.getpid()}-{path.name}") if path.name else path
     try:
-        yield unfinished
-        os.replace(unfinished, path)
-    except (OSError, ValueError) as error:
-        raise ResultsError(f"{path}: error: cannot write the {what} ({error})") from error
-    finally:
-        with contextlib.suppress(OSError):
-            os.remove(unfinished)
+        try:
+            unfinished.write_bytes(data)
+            os.replace(unfinished, path)
+        except BaseException:
+            if unfinished.is_file():
+                unfinished.unlink()
+            raise
+    except OSError as error:
+        raise ResultsError(f"{path}: error: cannot write the file ({error.strerror})") from error

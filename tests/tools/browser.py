@@ -108,7 +108,10 @@ class Browser:
             page.call(f"{domain}.enable")
         page.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
         page.resize(width, height, touch)
-        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        page.call(
+            "Emulation.setEmulatedMedia",
+            features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}],
+        )
         answer = page.call("Page.navigate", url=Path(path).resolve().as_uri())
         if "errorText" in answer:
             raise RuntimeError(f"{path}: {answer['errorText']}")
@@ -157,7 +160,9 @@ class Page:
             size = self.call("Page.getLayoutMetrics")["cssContentSize"]
             box = (0, 0, size["width"], size["height"])
         else:
-            self.evaluate(f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})")
+            self.evaluate(
+                f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})"
+            )
             self.settle()
             box = self.box(selector)
         clip = dict(zip(("x", "y", "width", "height"), box)) | {"scale": 1}
@@ -170,13 +175,22 @@ class Page:
     def press(self, key, code):
         """A key, down and up, for the element that has the focus."""
         text = {"text": key} if len(key) == 1 else {}
-        names = {"key": key, "code": code, "windowsVirtualKeyCode": {"ArrowRight": 39, "ArrowLeft": 37, " ": 32}.get(key, 0)}
+        names = {
+            "key": key,
+            "code": code,
+            "windowsVirtualKeyCode": {"ArrowRight": 39, "ArrowLeft": 37, " ": 32}.get(key, 0),
+        }
         self.call("Input.dispatchKeyEvent", type="keyDown", **names, **text)
         self.call("Input.dispatchKeyEvent", type="keyUp", **names)
 
     def drag(self, start, end):
         """The left mouse button from one place in the window to another."""
-        for kind, (x, y) in (("mouseMoved", start), ("mousePressed", start), ("mouseMoved", end), ("mouseReleased", end)):
+        for kind, (x, y) in (
+            ("mouseMoved", start),
+            ("mousePressed", start),
+            ("mouseMoved", end),
+            ("mouseReleased", end),
+        ):
             held = {} if kind == "mouseMoved" and (x, y) == start else {"button": "left", "buttons": 1, "clickCount": 1}
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **held)
 

@@ -324,7 +324,7 @@ class Refusing(ToolTestCase):
         self.assert_refuses(missing, "none.inp: error: no such file")
         (self.folder / "a.inp").write_text(ABAQUS, encoding="utf-8")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.vtk"), "must end in .msh")
-        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the mesh")
+        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the file")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.msh", "--scale", "0"), "expected a length > 0")
         self.assertEqual(os.listdir(self.folder), ["a.inp"])
 

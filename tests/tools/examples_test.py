@@ -13,7 +13,12 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase
 
 TRUCK = ROOT / "dynamics/models/truck"
 # What the examples read, and what each leaves behind.
-RUNS = {"bump_rigid": ("bump", 0), "bump_2modes": ("bump", 2), "terrain_rigid": ("terrain", 0), "terrain_2modes": ("terrain", 2)}
+RUNS = {
+    "bump_rigid": ("bump", 0),
+    "bump_2modes": ("bump", 2),
+    "terrain_rigid": ("terrain", 0),
+    "terrain_2modes": ("terrain", 2),
+}
 WRITTEN = {
     "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
     "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
@@ -45,7 +50,13 @@ class PythonTools(Examples):
         cls.addClassCleanup(temporary.cleanup)
         cls.made = Path(temporary.name)
         superelements = cls.made / "build/truck"
-        reduce = [os.environ["SPRUNG_REDUCE"], "build", *sorted((ROOT / "meshes/truck").glob("*.toml")), "--output-dir", superelements]
+        reduce = [
+            os.environ["SPRUNG_REDUCE"],
+            "build",
+            *sorted((ROOT / "meshes/truck").glob("*.toml")),
+            "--output-dir",
+            superelements,
+        ]
         subprocess.run([*map(str, reduce)], check=True, stdout=subprocess.PIPE)
         for name, (run, modes) in RUNS.items():
             command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / f"{run}.toml", "--superelements", superelements, "--quiet",
@@ -63,7 +74,9 @@ class PythonTools(Examples):
                 for path in self.made.iterdir():
                     (folder / path.name).symlink_to(path)
                 for words in self.examples_of(tool):
-                    process = subprocess.run([TOOLS / tool, *words[1:]], cwd=folder, capture_output=True, text=True, check=False)
+                    process = subprocess.run(
+                        [TOOLS / tool, *words[1:]], cwd=folder, capture_output=True, text=True, check=False
+                    )
                     self.assertEqual((process.returncode, process.stderr), (0, ""), words)
                 for name in files:
                     self.assertGreater((folder / name).stat().st_size, 100)
@@ -89,7 +102,13 @@ class BashTools(Examples):
         shutil.copytree(TOOLS, self.folder / "tools", ignore=shutil.ignore_patterns("__pycache__", "support"))
         programs, log = self.folder / "bin", self.folder / "log"
         programs.mkdir()
-        answers = {"dpkg-query": "echo -n installed", "apt-get": "exit 1", "chromium": "true", "cmake": "true", "ctest": "true"}
+        answers = {
+            "dpkg-query": "echo -n installed",
+            "apt-get": "exit 1",
+            "chromium": "true",
+            "cmake": "true",
+            "ctest": "true",
+        }
         for name, answer in answers.items():
             call = "" if name == "dpkg-query" else f'echo "{name} $*" >>"{log}"\n'
             (programs / name).write_text(f"#!/bin/bash\n{call}{answer}\n", encoding="utf-8")
@@ -99,7 +118,9 @@ class BashTools(Examples):
             for words in self.examples_of(tool):
                 with self.subTest(" ".join(words)):
                     log.write_text("", encoding="utf-8")
-                    process = subprocess.run(words, cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
+                    process = subprocess.run(
+                        words, cwd=self.folder, env=environment, capture_output=True, text=True, check=False
+                    )
                     self.assertEqual((process.returncode, process.stderr), (0, ""))
                     calls = log.read_text(encoding="utf-8").splitlines()
                     self.assertEqual([call.split()[0] for call in calls], CALLED[tool])

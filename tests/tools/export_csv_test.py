@@ -66,16 +66,21 @@ class ExportCsv(ToolTestCase):
         before = sorted(os.listdir(self.folder))
         y = "bodies/chassis/position.y"
         for fragment, file, output, *rest in (
-            ("run.h5: error: no quantity 'bodies/cab/position.y': '/bodies' holds chassis", "run.h5", "a.csv", "bodies/cab/position.y"),
+            (
+                "run.h5: error: no quantity 'bodies/cab/position.y': '/bodies' holds chassis",
+                "run.h5",
+                "a.csv",
+                "bodies/cab/position.y",
+            ),
             ("no quantity 'forces/front_tyre/torque'", "run.h5", "a.csv", "forces/front_tyre/torque"),
             ("has component 'z', expected x, y, angle", "run.h5", "a.csv", "bodies/chassis/position.z"),
             ("has component '', expected x, y, angle", "run.h5", "a.csv", "bodies/chassis/position"),
             ("has component '3', expected 1 to 2", "run.h5", "a.csv", "bodies/chassis/modal/amplitude.3"),
             ("no samples from 2 to 1 s", "run.h5", "a.csv", y, "--from", "2"),
             ("none.h5: error: no such file", "none.h5", "a.csv", y),
-            ("none/a.csv: error: cannot write the table", "run.h5", "none/a.csv", y),
+            ("none/a.csv: error: cannot write the file", "run.h5", "none/a.csv", y),
             ("run.h5: error: is one of the input files", "run.h5", "run.h5", y),
-            ("folder.csv: error: cannot write the table", "run.h5", "folder.csv", y),
+            ("folder.csv: error: cannot write the file", "run.h5", "folder.csv", y),
         ):
             with self.subTest(fragment):
                 process = self.run_tool("export_csv", file, "-o", output, "--show", *rest)
@@ -90,7 +95,12 @@ class ExportCsv(ToolTestCase):
 
     def test_a_whole_run_falls_under_gravity(self):
         command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/pendulum_run.toml"]
-        subprocess.run([*command, "-o", "p.h5", "--set", "duration=1", "--quiet"], cwd=self.folder, check=True, stdout=subprocess.PIPE)
+        subprocess.run(
+            [*command, "-o", "p.h5", "--set", "duration=1", "--quiet"],
+            cwd=self.folder,
+            check=True,
+            stdout=subprocess.PIPE,
+        )
         self.export("p.h5", "-o", "a.csv", *(part for one in "xy" for part in ("--show", f"bodies/bob/position.{one}")))
         headings, values = read_table(self.folder / "a.csv")
         self.assertEqual(headings[1:], ["bodies/bob/position.x [m]", "bodies/bob/position.y [m]"])

@@ -78,7 +78,9 @@ class OfTheTruck(ToolTestCase):
         self.export("chassis.h5", "-o", "modes.pvd")
         with h5py.File(self.folder / "chassis.h5") as file:
             count = file["modes/frequency"].size
-        self.assertEqual([number for number, _ in read_collection(self.folder / "modes.pvd")], list(range(1, count + 1)))
+        self.assertEqual(
+            [number for number, _ in read_collection(self.folder / "modes.pvd")], list(range(1, count + 1))
+        )
 
     def test_a_run_has_every_named_point_where_the_results_have_it_moving_as_they_say(self):
         self.export("run.h5", "-o", "run.pvd", "--every", "0.05", "--from", "0.1")
@@ -91,7 +93,8 @@ class OfTheTruck(ToolTestCase):
             for name in points:
                 for sample, (_, mesh) in zip(samples, entries):
                     place, speed, change = (
-                        results.file[f"points/{name}/{what}"][sample] for what in ("position", "velocity", "acceleration")
+                        results.file[f"points/{name}/{what}"][sample]
+                        for what in ("position", "velocity", "acceleration")
                     )
                     # Several bodies may have a node there, in a joint; of these the point's own is one.
                     away = np.linalg.norm(mesh.points[:, :2] - place, axis=1)
@@ -147,7 +150,15 @@ class OfTheTruck(ToolTestCase):
     def test_what_cannot_be_done_is_refused_and_leaves_nothing(self):
         before = sorted(os.listdir(self.folder))
         for fragment, *arguments in (
-            ("chassis.h5: error: no mode 99; the file has modes 1 to 36", "chassis.h5", "-o", "a.pvd", "--modes", "1", "99"),
+            (
+                "chassis.h5: error: no mode 99; the file has modes 1 to 36",
+                "chassis.h5",
+                "-o",
+                "a.pvd",
+                "--modes",
+                "1",
+                "99",
+            ),
             ("no mode 0", "chassis.h5", "-o", "a.pvd", "--modes", "0"),
             ("must end in .pvd", "chassis.h5", "-o", "a.vtu"),
             ("must end in .pvd", "chassis.h5", "-o", ".pvd"),
@@ -183,7 +194,9 @@ class OfIncompleteFiles(ToolTestCase):
                 write_results(self.folder / "run.h5")
                 with h5py.File(self.folder / "run.h5", "a") as file:
                     del file[lacking]
-                self.assert_refuses(self.run_tool("export_paraview", "run.h5", "-o", "a.pvd"), "run.h5: error: ", lacking)
+                self.assert_refuses(
+                    self.run_tool("export_paraview", "run.h5", "-o", "a.pvd"), "run.h5: error: ", lacking
+                )
                 self.assertEqual(os.listdir(self.folder), ["run.h5"])
 
 

@@ -48,7 +48,13 @@ class ProgressOfWork(unittest.TestCase):
         stream = io.StringIO()
         self.work(stream, 6.0)
         lines = stream.getvalue().splitlines()
-        self.assertEqual(lines, [f"writing: {share} %, {left} s left" for share, left in ((20, 48), (40, 36), (60, 24), (80, 12), (100, 0))])
+        self.assertEqual(
+            lines,
+            [
+                f"writing: {share} %, {left} s left"
+                for share, left in ((20, 48), (40, 36), (60, 24), (80, 12), (100, 0))
+            ],
+        )
 
     def test_short_work_is_silent_in_a_file(self):
         stream = io.StringIO()

@@ -37,7 +37,9 @@ class ReportPage(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name)
         PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.call(os.environ["SPRUNG_REDUCE"], "build", *sorted((ROOT / "meshes/truck").glob("*.toml")), "--output-dir", ".")
+        cls.call(
+            os.environ["SPRUNG_REDUCE"], "build", *sorted((ROOT / "meshes/truck").glob("*.toml")), "--output-dir", "."
+        )
         for name, modes in (("rigid", 0), ("2 modes", 2)):
             cls.drive("truck/bump.toml", name, "--set", f"modes.chassis={modes}")
         cls.report("truck.html", "rigid.h5", "2 modes=2 modes.h5", "--superelements", ".")
@@ -90,7 +92,9 @@ class ReportPage(unittest.TestCase):
 
     def test_every_diagram_shows_both_runs(self):
         page = self.open()
-        places = page.evaluate("[...document.querySelectorAll('.plot')].map((one, k) => { one.id = `plot${k}`; return one.id; })")
+        places = page.evaluate(
+            "[...document.querySelectorAll('.plot')].map((one, k) => { one.id = `plot${k}`; return one.id; })"
+        )
         self.assertEqual(len(places), 6)  # four histories, the spectra, the modes
         for place in places:
             picture = page.picture(PICTURES / f"{place}.png", f"#{place}")
@@ -150,8 +154,12 @@ class ReportPage(unittest.TestCase):
         page = self.open()
         self.set_time(page, 1e-3 * sample)
         front = page.evaluate("sprungReport.node('chassis', 'front_end')")
-        np.testing.assert_allclose(page.evaluate(f"sprungReport.place('chassis', {front}, 1)"), [one[sample] for one in place], rtol=1e-6)
-        rest, large = (np.array(page.evaluate(f"sprungReport.place('chassis', {front}, {factor})")) for factor in (0, 20))
+        np.testing.assert_allclose(
+            page.evaluate(f"sprungReport.place('chassis', {front}, 1)"), [one[sample] for one in place], rtol=1e-6
+        )
+        rest, large = (
+            np.array(page.evaluate(f"sprungReport.place('chassis', {front}, {factor})")) for factor in (0, 20)
+        )
         self.assertAlmostEqual(np.hypot(*(large - rest)) / 20.0, abs(deflection[sample]), delta=1e-6)
         self.choose(page, "magnification", 20)
         both = page.picture(PICTURES / "magnified.png", "#scene")
@@ -186,7 +194,9 @@ class ReportPage(unittest.TestCase):
         page.press("ArrowRight", "ArrowRight")
         self.assertAlmostEqual(page.evaluate("sprungReport.clock.time"), 1e-3)
         page.press(" ", "Space")
-        page.evaluate("new Promise((done) => { const look = () => (clock.time > 0.01 ? done() : requestAnimationFrame(look)); look(); })")
+        page.evaluate(
+            "new Promise((done) => { const look = () => (clock.time > 0.01 ? done() : requestAnimationFrame(look)); look(); })"
+        )
         self.assertEqual(page.evaluate("document.getElementById('play').textContent"), "Pause")
         page.press(" ", "Space")
         stopped = page.evaluate("clock.time")
@@ -231,7 +241,10 @@ class ReportPage(unittest.TestCase):
         self.report("pausing.html", "pausing.h5")
         page = self.open("pausing.html")
         strip = page.picture(PICTURES / "pausing.png", "#active-strip")
-        rows = {name: np.flatnonzero(is_colour(strip[row], colour)) for name, row, colour in (("first", 8, BLACK), ("second", 22, BLUE))}
+        rows = {
+            name: np.flatnonzero(is_colour(strip[row], colour))
+            for name, row, colour in (("first", 8, BLACK), ("second", 22, BLUE))
+        }
         left, right = rows["first"][[0, -1]]
         self.assertEqual(rows["first"].size, right - left + 1)  # without a gap
         gap = np.flatnonzero(np.diff(rows["second"]) > 1)
@@ -241,7 +254,9 @@ class ReportPage(unittest.TestCase):
         self.assertIn("when each mode takes part", page.evaluate("document.getElementById('mode-note').textContent"))
 
     def test_a_vehicle_thrown_high_stays_in_view(self):
-        self.drive("truck/bump.toml", "high", "--set", "road.height=0.9", "--set", "duration=3", "--set", "modes.chassis=0")
+        self.drive(
+            "truck/bump.toml", "high", "--set", "road.height=0.9", "--set", "duration=3", "--set", "modes.chassis=0"
+        )
         self.report("high.html", "high.h5")
         page = self.open("high.html")
         self.set_time(page, 1.5)

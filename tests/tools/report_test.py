@@ -74,7 +74,9 @@ class Report(ToolTestCase):
         self.assertEqual(facts["road"], "half-sine, height 0.2 m, length 0.4 m")
         self.assertEqual((facts["initial speed"], facts["changed by --set"]), ("3 m/s", "modes.chassis=2"))
         self.assertEqual(facts["flexible bodies"], "chassis: modes 1–2")
-        self.assertEqual((facts["sprung-dynamics"], facts["superelement chassis"]), ("7.8.9", "sprung-reduce 1.2, content 0123"))
+        self.assertEqual(
+            (facts["sprung-dynamics"], facts["superelement chassis"]), ("7.8.9", "sprung-reduce 1.2, content 0123")
+        )
         self.assertRegex(facts["results file, SHA-256"], r"^[0-9a-f]{64}$")
 
     def test_checks_are_shown_of_the_superelement_that_was_run_and_of_no_other(self):
@@ -86,7 +88,9 @@ class Report(ToolTestCase):
         (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]
         self.assertIn("is another superelement than the one that was run", found["problem"])
         self.assertEqual(found["checks"], [])
-        self.assertIn("there is no", self.report("soft.h5", "--superelements", "none")[1]["superelements"][0]["problem"])
+        self.assertIn(
+            "there is no", self.report("soft.h5", "--superelements", "none")[1]["superelements"][0]["problem"]
+        )
 
     def test_names_cannot_break_out_of_the_page(self):
         label = "</script><script>alert(1)</script> <!-- \"'&Ü @DATA@"
@@ -164,11 +168,13 @@ class Refusing(ToolTestCase):
 
     def test_places_that_cannot_be_written_and_quantities_that_are_not_there(self):
         (self.folder / "folder").mkdir()
-        self.refuse("run.h5", "-o", "folder", fragment="folder: error: cannot write the page")
-        self.refuse("run.h5", "-o", "none/a.html", fragment="none/a.html: error: cannot write the page")
-        self.refuse("run.h5", "-o", "", fragment="cannot write the page")
+        self.refuse("run.h5", "-o", "folder", fragment="folder: error: cannot write the file")
+        self.refuse("run.h5", "-o", "none/a.html", fragment="none/a.html: error: cannot write the file")
+        self.refuse("run.h5", "-o", "", fragment="cannot write the file")
         self.refuse("run.h5", "-o", "run.h5", fragment="run.h5: error: is one of the input files")
-        self.refuse("run.h5", "-o", "a.html", "--show", "bodies/cab/position.x", fragment="no quantity 'bodies/cab/position.x'")
+        self.refuse(
+            "run.h5", "-o", "a.html", "--show", "bodies/cab/position.x", fragment="no quantity 'bodies/cab/position.x'"
+        )
 
 
 if __name__ == "__main__":

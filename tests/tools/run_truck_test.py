@@ -28,9 +28,7 @@ class RunTruck(ToolTestCase):
     def setUp(self):
         super().setUp()
         self.root = self.folder / "a project"  # a blank, as in many a home folder
-        shutil.copytree(
-            TOOLS, self.root / "tools", ignore=shutil.ignore_patterns("support", "cmake", "__pycache__")
-        )
+        shutil.copytree(TOOLS, self.root / "tools", ignore=shutil.ignore_patterns("support", "cmake", "__pycache__"))
         for folder in ("meshes/truck", "dynamics/models/truck", "elsewhere"):
             (self.root / folder).mkdir(parents=True)
         for name in (
@@ -108,9 +106,7 @@ class RunTruck(ToolTestCase):
         self.assertTrue((self.root / "build/truck/bump_displacement.png").exists())
 
     def test_it_stops_at_the_first_failure_and_names_the_step(self):
-        self.program(
-            "build/release/dynamics/sprung-dynamics", "sys.exit(3 if sys.argv[-1].endswith('=2') else 0)"
-        )
+        self.program("build/release/dynamics/sprung-dynamics", "sys.exit(3 if sys.argv[-1].endswith('=2') else 0)")
         process = self.run_truck()
         self.assertEqual(process.returncode, 3)
         self.assertIn("tools/run-truck: stopped (exit 3): bump, chassis with 2 modes failed", process.stderr)

@@ -32,9 +32,7 @@ wheel = "chassis.front_end"
 
 def write_series(file, name, columns, unit):
     """A dataset [n] or [n×k] with its unit."""
-    dataset = file.create_dataset(
-        name, data=np.stack(columns, axis=-1) if isinstance(columns, tuple) else columns
-    )
+    dataset = file.create_dataset(name, data=np.stack(columns, axis=-1) if isinstance(columns, tuple) else columns)
     dataset.attrs["unit"] = unit
 
 
@@ -51,9 +49,7 @@ def write_results(path, num_modes=2, scale=1.0, start_offset=0.0, overrides=()):
     time = np.linspace(0.0, 1.0, NUM_SAMPLES)
     heave = scale * HEAVE * np.sin(CIRCULAR * time)
     with h5py.File(path, "w") as file:
-        file.attrs.update(
-            {"format": np.bytes_("sprung-results"), "version": 1, "complete": 1, "title": "synthetic"}
-        )
+        file.attrs.update({"format": np.bytes_("sprung-results"), "version": 1, "complete": 1, "title": "synthetic"})
         write_series(file, "time", time, "s")
         write_motion(file, time, heave, start_offset)
         write_tyre(file, time, heave)

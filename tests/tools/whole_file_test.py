@@ -1,46 +1,37 @@
-"""tools/whole_file.py: whatever stops the writing, the earlier file stays and nothing half-written is left."""
+"""tools/whole_file.py: a file is written whole or stays as it was."""
 
 import os
 import unittest
-from pathlib import Path
+from unittest import mock
 
 from tool_test_case import ToolTestCase
 
 from results_file import ResultsError
-from whole_file import whole_file
+from whole_file import write_whole
 
 
 class WholeFile(ToolTestCase):
-    def setUp(self):
-        super().setUp()
-        self.path = self.folder / "a.txt"
-        self.path.write_text("earlier", encoding="utf-8")
-
-    def write(self, text, error=None):
-        with whole_file(str(self.path), "table") as unfinished:
-            Path(unfinished).write_text(text, encoding="utf-8")
-            if error is not None:
-                raise error
-
-    def assert_left(self, text):
+    def test_text_and_bytes_take_the_place_of_what_was_there(self):
+        path = self.folder / "a.txt"
+        for content, expected in (("ε\n", "ε\n".encode()), (b"\x00\xff", b"\x00\xff")):
+            write_whole(path, content)
+            self.assertEqual(path.read_bytes(), expected)
         self.assertEqual(os.listdir(self.folder), ["a.txt"])
-        self.assertEqual(self.path.read_text(encoding="utf-8"), text)
 
-    def test_a_file_is_replaced_when_all_is_written(self):
-        self.write("new")
-        self.assert_left("new")
+    def test_an_interruption_leaves_the_earlier_file_and_nothing_else(self):
+        path = self.folder / "a.txt"
+        path.write_text("earlier", encoding="utf-8")
+        with mock.patch("os.replace", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            write_whole(path, "later")
+        self.assertEqual(path.read_text(encoding="utf-8"), "earlier")
+        self.assertEqual(os.listdir(self.folder), ["a.txt"])
 
-    def test_faults_of_writing_name_file_and_kind(self):
-        for error in (OSError(28, "No space left on device"), ValueError("format unknown")):
-            with self.assertRaisesRegex(ResultsError, r"a\.txt: error: cannot write the table \(.*(space|unknown)"):
-                self.write("half", error)
-            self.assert_left("earlier")
-
-    def test_interruption_and_other_errors_pass_through(self):
-        for error in (KeyboardInterrupt(), ResultsError("b.h5: error: no such file")):
-            with self.assertRaises(type(error)):
-                self.write("half", error)
-            self.assert_left("earlier")
+    def test_a_place_that_cannot_be_written_is_named(self):
+        (self.folder / "taken").mkdir()
+        for place in ("none/a.txt", "taken", "."):
+            with self.assertRaisesRegex(ResultsError, f"{place}: error: cannot write the file"):
+                write_whole(self.folder / place if place != "." else place, "text")
+        self.assertEqual(os.listdir(self.folder), ["taken"])
 
 
 if __name__ == "__main__":

@@ -43,10 +43,13 @@ def calc_statistics(results, channels):
             largest = what if what.startswith("largest") else "deflection, largest"
             rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values)))))
     attributes = results.file["summary"].attrs if "summary" in results.file else {}
-    rows += [("computation", name, "", float(attributes[key])) for key, name in COMPUTATION.items() if key in attributes]
+    rows += [
+        ("computation", name, "", float(attributes[key])) for key, name in COMPUTATION.items() if key in attributes
+    ]
     hidden = {"computation", *many}
     return [
-        {"of": of, "name": name, "unit": unit, "value": value, "brief": of not in hidden} for of, name, unit, value in rows
+        {"of": of, "name": name, "unit": unit, "value": value, "brief": of not in hidden}
+        for of, name, unit, value in rows
     ]
 
 
@@ -146,7 +149,9 @@ def list_frequencies(results):
     damping, _ = read_numbers(results.file, "model/modes/damping_ratio")
     taking_part = read_texts(results.file, "model/modes/participants")
     return [
-        {"f": float(f), "damping": float(d), "who": who} for f, d, who in zip(frequency, damping, taking_part) if f > 0.0
+        {"f": float(f), "damping": float(d), "who": who}
+        for f, d, who in zip(frequency, damping, taking_part)
+        if f > 0.0
     ]
 
 
