@@ -44,6 +44,7 @@ class Browser:
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.sending = os.pipe()
         self.receiving, from_browser = os.pipe()
+        self.log = open(Path(self.profile.name) / "log", "w+", encoding="utf-8", errors="replace")
         command = [find_browser(), *FLAGS, f"--user-data-dir={self.profile.name}"]
         if os.geteuid() == 0:
             command.append("--no-sandbox")  # which root cannot have
@@ -54,7 +55,7 @@ class Browser:
             os.dup2(writing, 4)
 
         self.process = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.log,
             preexec_fn=give_pipes, pass_fds=(3, 4), env={**os.environ, "HOME": self.profile.name},
         )  # fmt: skip
         os.close(to_browser)
@@ -62,6 +63,7 @@ class Browser:
         self.received = b""
         self.count = 0
         self.events = []
+        self.call("Browser.getVersion")  # that it runs at all
         return self
 
     def __exit__(self, *_):
@@ -69,6 +71,7 @@ class Browser:
         self.process.wait()
         os.close(self.sending)
         os.close(self.receiving)
+        self.log.close()
         self.profile.cleanup()
 
     def call(self, method, session=None, **parameters):
@@ -76,8 +79,11 @@ class Browser:
         self.count += 1
         message = {"id": self.count, "method": method, "params": parameters}
         text = json.dumps(message | ({"sessionId": session} if session else {})).encode() + b"\0"
-        while text:
-            text = text[os.write(self.sending, text) :]
+        try:
+            while text:
+                text = text[os.write(self.sending, text) :]
+        except BrokenPipeError as error:
+            raise self._ended() from error
         while True:
             answer = self._receive()
             if answer.get("id") == self.count:
@@ -95,10 +101,16 @@ class Browser:
         while b"\0" not in self.received:
             part = os.read(self.receiving, 1 << 20)
             if not part:
-                raise RuntimeError(f"{find_browser()} has ended (exit code {self.process.wait()})")
+                raise self._ended()
             self.received += part
         text, _, self.received = self.received.partition(b"\0")
         return json.loads(text)
+
+    def _ended(self):
+        code = self.process.wait()
+        self.log.seek(0)
+        said = "".join(self.log.readlines()[-5:])
+        return RuntimeError(f"{find_browser()} has ended (exit code {code}):\n{said}")
 
     def open(self, path, width=1280, height=900, dark=False, touch=False):
         """Opens a file of this computer with no network, in a window of this size. Returns the Page when it is loaded."""
@@ -125,6 +137,9 @@ class Page:
 
     def __init__(self, browser, session):
         self.browser, self.session = browser, session
+
+    def close(self):
+        self.call("Page.close")
 
     def call(self, method, **parameters):
         return self.browser.call(method, self.session, **parameters)

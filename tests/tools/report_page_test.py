@@ -60,6 +60,7 @@ class ReportPage(unittest.TestCase):
 
     def open(self, name="truck.html", size="desktop", dark=False):
         page = self.browser.open(self.folder / name, *SIZES[size], dark=dark, touch=size == "phone")
+        self.addCleanup(page.close)
         self.assertEqual(page.problems(), [])
         self.addCleanup(lambda: self.assertEqual(page.problems(), []))
         return page
