@@ -1,30 +1,38 @@
 """tools/report without a browser: what stands on the page against the results, and what is refused. What the page draws
-is looked at in report_page_test.py."""
+is looked at in report_page_test.py. One case is of a whole run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
 
 import base64
 import json
 import os
 import re
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
 from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement, write_texts
-from tool_test_case import ToolTestCase
+from tool_test_case import ROOT, ToolTestCase
 
 from report_page.packing import find_kept
+from report_page.page import make_small_page
 from report_page.scene import find_spans
 from report_page.summary import shorten_numbers
+from runs import open_runs
 
 
 def decode(text):
     return np.frombuffer(base64.b64decode(text), dtype="<f4")
 
 
+def find_data(text):
+    """The data in a page's text."""
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+
+
 def read_page(path):
     """The page's text and its data."""
     text = path.read_text(encoding="utf-8")
-    return text, json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+    return text, find_data(text)
 
 
 class Report(ToolTestCase):
@@ -110,6 +118,20 @@ class Report(ToolTestCase):
         self.assertEqual(len({run["label"] for run in data["runs"]}), 2)
 
     def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/quarter_car_run.toml"]
+        settings = ("--set", "duration=8", "-o", "car.h5", "--quiet")
+        subprocess.run([*map(str, command), *settings], cwd=self.folder, check=True, stdout=subprocess.PIPE)
+        runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples
+        self.addCleanup(runs[0].results.file.close)
+        pages = [make_small_page("", runs, [], [], largest) for largest in (15e6, 700e3, 1.0)]
+        self.assertLess(len(pages[1]), 700e3)
+        runs = [find_data(page)["runs"][0] for page in pages]
+        self.assertEqual([run["frames"]["count"] for run in runs], [6000, 1500, 750])
+        self.assertEqual([run["statistics"] for run in runs[1:]], [runs[0]["statistics"]] * 2)
+        peaks = [decode(run["channels"][1]["v"]).max() for run in runs]
+        self.assertEqual(peaks, [peaks[0]] * 3)
+
+    def test_thinning_keeps_ends_and_peaks(self):
         values = np.sin(np.arange(60001) * 0.37)
         values[12345] = 7.0
         for most in (4000, 500):

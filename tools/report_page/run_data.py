@@ -6,8 +6,9 @@ from report_page.summary import calc_hash, calc_statistics, list_facts, list_fre
 from vehicle_shape import read_bodies, read_wheels
 
 
-def pack_run(run, extra, most):
-    """Everything of one run. run: runs.Run; extra: quantities asked for; most: samples to draw a history by."""
+def pack_run(run, extra, most, frames):
+    """Everything of one run. run: runs.Run; extra: quantities asked for; most: samples to draw a history by; frames:
+    instants to draw the animation by, at most."""
     results = run.results
     bodies = read_bodies(results)
     wheels = read_wheels(results, bodies)
@@ -22,7 +23,7 @@ def pack_run(run, extra, most):
         "channels": [pack_channel(channel, results.time, most) for channel in channels],
         "spectra": calc_spectra(results),
         "modes": pack_modes(results, bodies, most),
-        "frames": pack_frames(results, bodies, wheels),
+        "frames": pack_frames(results, bodies, wheels, frames),
         "vehicle": pack_vehicle(results, bodies, wheels),
         "road": pack_road(results),
     }

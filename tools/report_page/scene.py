@@ -8,12 +8,11 @@ from results_file import read_attribute, read_numbers
 from vehicle_shape import calc_motion, read_links, read_road, read_vehicle
 
 MOST_SEEN = 400  # samples that the view of a mechanism is chosen by
-MOST_FRAMES = 6000  # it goes straight from one to the next
 
 
-def pack_frames(results, bodies, wheels):
+def pack_frames(results, bodies, wheels, most):
     """What the animation is drawn from: each body's place and amplitudes, and each tyre's contact, at even times."""
-    count = min(results.time.size, MOST_FRAMES)
+    count = min(results.time.size, most)
     time = np.linspace(results.time[0], results.time[-1], count)
 
     def at(values):
