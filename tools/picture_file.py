@@ -1,8 +1,10 @@
 """How pictures of curves look, and how they come to the disk."""
 
+import io
 import os
 
 from results_file import ResultsError
+from whole_file import write_whole
 
 # Okabe and Ito's colours, which stay apart for colour-blind readers. The first curve lies on top as the thinnest line, so
 # that curves that coincide are all seen.
@@ -29,12 +31,9 @@ def label_unit(unit):
 
 def write_picture(figure, path):
     """Writes a picture whole or not at all. ResultsError if it cannot be written."""
-    folder, name = os.path.split(path)
-    unfinished = os.path.join(folder, f".unfinished-{os.getpid()}-{name}")
+    drawn = io.BytesIO()
     try:
-        figure.savefig(unfinished, dpi=DOTS_PER_INCH)
-        os.replace(unfinished, path)
-    except (OSError, ValueError) as error:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
+        figure.savefig(drawn, format=os.path.splitext(path)[1].lstrip(".") or None, dpi=DOTS_PER_INCH)
+    except ValueError as error:
         raise ResultsError(f"{path}: error: cannot write the picture ({error})") from error
+    write_whole(path, drawn.getvalue())

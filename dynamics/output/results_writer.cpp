@@ -28,6 +28,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   file_.attribute("/", "version", kResultsVersion);
   file_.attribute("/", "title", header.vehicle.name);
   file_.attribute("/", "units", "SI");
+  file_.attribute("/", "program_version", SPRUNG_VERSION);
   file_.attribute("/", "complete", std::int64_t{0});
   write_results_model(file_, header);
 
