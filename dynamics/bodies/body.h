@@ -8,6 +8,16 @@
 
 namespace sprung::dynamics {
 
+/// A force on a mode that is let go smoothly: F (1 + cos πs)/2, s = (t − start)/duration from 0 to 1, nothing behind.
+struct FadingForce {
+  int mode = 0;            ///< 0-based among the active ones
+  double force = 0.0;      ///< F, what it is at the start
+  double start = 0.0;      ///< [s]
+  double duration = 0.0;   ///< > 0 [s]
+
+  double value(double time) const;
+};
+
 /// A planar floating-frame body with the modes that are active: r = R + A(θ)(u₀ + Φη), coordinates (R, θ, η).
 /// A rigid body has no modes. All in the body frame; n active modes.
 struct Body {
@@ -26,6 +36,7 @@ struct Body {
   Eigen::MatrixXd B;                                       ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
   Eigen::MatrixXd stiffness;                               ///< n×n
   Eigen::MatrixXd damping;                                 ///< n×n
+  std::vector<FadingForce> fading;                         ///< of modes that have just joined
   Eigen::VectorXd mode_scale;  ///< n, largest displacement of any node per unit modal coordinate [m]
 
   int num_modes() const { return static_cast<int>(mode_numbers.size()); }

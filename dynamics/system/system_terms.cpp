@@ -196,6 +196,11 @@ void SystemTerms::update_forces(std::span<const int> branches) {
       Q[3 + i] -= damping_force;
       power_.dissipated += damping_force * eta_dot[i];
     }
+    for (const FadingForce& fading : body.fading) {
+      const double value = fading.value(time_);
+      Q[3 + fading.mode] += value;
+      power_.input += value * eta_dot[fading.mode];
+    }
   }
 }
 
