@@ -12,7 +12,7 @@ import numpy as np
 from tool_test_case import ROOT, ToolTestCase
 
 from abaqus_deck import read_abaqus
-from line_mesh import make_plane_frame
+from line_mesh import make_plane_frame, rename_for_gmsh
 from meshio_source import read_with_meshio
 from nastran_deck import read_nastran
 
@@ -210,6 +210,44 @@ class Reading(ToolTestCase):
         self.assertEqual({name: list(lines) for name, lines in mesh.element_sets.items()}, {"A": [1]})
         self.assertEqual(list(make_plane_frame(mesh).curves), ["A", "lines"])
 
+    def test_an_assembly_s_sets_are_its_own_and_name_nodes_by_the_instance(self):
+        path = self.write("a.inp", "*PART, NAME=P\n" + ABAQUS + "*NSET, NSET=Tip\n1\n*NSET, NSET=Ends, ELSET=a\n*END PART\n"
+                          "*ASSEMBLY, NAME=Q\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n*NSET, NSET=tip, INSTANCE=P-1\n3\n"
+                          "*NSET, NSET=middle\nP-1.2\n*NSET, NSET=same\nTIP\n*NSET, NSET=part\np-1.tip\n*END ASSEMBLY\n")  # fmt: skip
+        mesh = read_abaqus(path)
+        found = {name: mesh.node_ids[nodes].tolist() for name, nodes in mesh.node_sets.items()}
+        expected = {"Tip": [1], "Ends": [1, 2, 3], "Assembly.tip": [3], "middle": [2], "same": [3], "part": [1]}
+        self.assertEqual(found, expected)
+
+    def test_numbers_may_have_fortran_s_exponent(self):
+        mesh = read_abaqus(self.write("a.inp", ABAQUS.replace("2, 1., 0.", "2, 1.25d0, 0.")))
+        self.assertEqual(mesh.positions[1, 0], 1.25)
+
+    def test_nastran_sets_may_be_in_small_letters_and_a_deck_may_end_in_dat(self):
+        self.write("a.dat", NASTRAN.replace("ENDDATA", "SET1,4,1,thru,2\nENDDATA"))
+        self.assertEqual(self.run_tool("convert_mesh", "a.dat", "a.msh").returncode, 0)
+        self.assertEqual(sorted(meshio.read(self.folder / "a.msh").field_data), ["property_1", "set_4_1", "set_4_2"])
+
+    def test_names_that_gmsh_cannot_hold_are_changed_and_said(self):
+        long = "n" * 200
+        names = {'a "b"': 0, "a 'b'": 1, " ": 2, "": 3, f"{long}1": 4, f"{long}2": 5, "as it was": 6}
+        remarks = []
+        renamed = rename_for_gmsh(names, "element set", remarks)
+        cut = "n" * 120
+        expected = {"a 'b'_2": 0, "a 'b'": 1, "unnamed": 2, "unnamed_2": 3, cut: 4, f"{cut}_2": 5, "as it was": 6}
+        self.assertEqual(renamed, expected)
+        self.assertEqual(len(remarks), 5)
+        self.assertIn("""element set 'a "b"': now 'a 'b'_2'""", remarks[0])
+
+    def test_a_set_of_many_nodes_is_told_in_few_lines(self):
+        nodes = "".join(f"{n}, 0., {n}.\n" for n in range(1, 101))
+        lines = "".join(f"{n}, {n}, {n + 1}\n" for n in range(1, 100))
+        self.write("a.inp", f"*NODE, NSET=ALL\n{nodes}*ELEMENT, TYPE=B23, ELSET=A\n{lines}")
+        told = self.run_tool("convert_mesh", "a.inp", "a.msh").stdout
+        self.assertIn("76 more", told)
+        self.assertNotIn("ALL_25 ", told)
+        self.assertEqual(len(meshio.read(self.folder / "a.msh").field_data), 101)
+
     def test_the_vtk_of_gmsh_keeps_its_entities_as_groups_and_its_lines_directions(self):
         frame = make_plane_frame(read_with_meshio(str(DATA / "gmsh_portal.vtk")))
         sizes = {name: len(lines) for name, lines in frame.curves.items()}
@@ -319,6 +357,11 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.inp", "", "not an Abaqus deck, or truncated")
         self.assert_refused("a.xyz", "1 2 3\n", "meshio", "Could not deduce file format")
         self.assert_refused("a.msh", "", "the file is empty")
+        self.assert_refused("a.inp", "*INCLUDE, INPUT=a.inp\n", "a.inp:1: ", "'a.inp' includes itself")
+        self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, INPUT=b.txt\n", "a.inp:8: ", "in another file (INPUT=…)")
+        self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, ELSET=C\n", "a.inp:8: ", "the set 'C', which is not there")
+        twice = NASTRAN.replace("ENDDATA", "SET1,4,1\nSET1,4,2\nENDDATA")
+        self.assert_refused("a.bdf", twice, "a.bdf:6: ", "set 4 is defined twice")
         self.assert_refused("a.inp", ABAQUS, "no element set 'B' of lines; the file has A", arguments=("--sections", "B"))
         missing = self.run_tool("convert_mesh", "none.inp", "out.msh")
         self.assert_refuses(missing, "none.inp: error: no such file")
