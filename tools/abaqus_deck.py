@@ -2,7 +2,7 @@
 
 meshio's own reader is not used for it: in version 5.0 it keeps the last *NODE block alone, gives an element set to the
 wrong block when an earlier *ELEMENT has no ELSET, leaves node sets of set names empty, and does not tell what else the
-deck holds. tests/tools/convert_mesh_test.py compares the two where meshio's is right.
+deck holds. tests/tools/mesh_reading_test.py compares the two where meshio's is right.
 """
 
 import os

@@ -2,7 +2,7 @@
 
 meshio's own reader is not used for it: in version 5.0 it passes over CBAR* cards and cards in small letters, reads
 nodes of other coordinate systems as if they were in the basic one, and does not tell what else the deck holds.
-tests/tools/convert_mesh_test.py compares the two where meshio's is right.
+tests/tools/mesh_reading_test.py compares the two where meshio's is right.
 """
 
 import re
@@ -137,6 +137,8 @@ class Deck:
             card.fail("is not followed; write one deck without it")
         elif card.name == "GRDSET" and card.integer(1, "coordinate system", 0) != 0:
             card.fail("gives a coordinate system to nodes; write them in the basic one")
+        elif card.name in ("BAROR", "BEAMOR") and card.field(1):
+            card.fail("gives a property to bars that name none; write it on each")
         elif card.name == "SET1":
             name = f"set_{card.integer(0, 'set number')}"
             if name in self.node_sets:
