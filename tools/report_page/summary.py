@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from results_file import open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from results_file import ResultsError, open_hdf5, read_attribute, read_numbers, read_texts, text_of
 from run_caption import describe_road, read_run_file
 
 # Of forces of every kind, by the results file's names: what their greatest values are called, and their unit.
@@ -158,8 +158,11 @@ def list_frequencies(results):
 def read_checks(folder, runs):
     """The checks that stage one made of each superelement that the runs used, from the files in a folder, if given.
 
-    A file is used only where its content hash is the one that the run names. Returns a list of dicts.
+    A file is used only where its content hash is the one that the run names. Returns a list of dicts. ResultsError if
+    the folder is not there.
     """
+    if folder and not os.path.isdir(folder):
+        raise ResultsError(f"{folder}: error: no such folder")
     users = {}
     for run in runs:
         for name in run.results.names("model/superelements"):
