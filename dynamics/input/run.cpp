@@ -142,6 +142,7 @@ Run read_run(const support::TomlDocument& document) {
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
+  if (const auto table = root.find_table("stiffening")) run.stiffening = read_stiffening(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
@@ -160,6 +161,10 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
 
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
   return resolve_modal_damping(run.modal_damping, selection, vehicle);
+}
+
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
+  return resolve_stiffening(run.stiffening, selection, vehicle);
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {

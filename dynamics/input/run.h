@@ -11,6 +11,7 @@
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/road_input.h"
+#include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/system/model.h"
 #include "tools/support/toml.h"
@@ -54,6 +55,7 @@ struct Run {
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;
   DampingRequests modal_damping;
+  StiffeningRequests stiffening;
   RoadDescription road;
   IntegratorSettings integrator;
   std::map<std::string, InitialMotion> initial;  ///< by body
@@ -68,6 +70,7 @@ Run read_run(const support::TomlDocument& document);
 std::unique_ptr<Road> make_road(const Run& run);
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at the run's reference to a point that the vehicle lacks

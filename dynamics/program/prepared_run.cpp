@@ -60,11 +60,12 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.selection = resolve_modes(run, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
   const ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
+  const StiffenedBodies stiffened = resolve_stiffening(run, prepared.selection, vehicle);
 
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.balance_model =
       make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
-                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
+                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
@@ -78,7 +79,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.road = make_road(run);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping);
+  prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping,
+                              MotionUse::kMoving, stiffened);
   if (preparation == Preparation::kBalance) {
     prepared.start = make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates));
     return prepared;

@@ -36,10 +36,10 @@ struct Case {
   }
   const dynamics::Marker& marker() const { return model.markers[0]; }
   MarkerState state(const VectorXd& at, const VectorXd& rate) const {
-    MarkerState result;
-    result.r_eta.resize(2, 3);
-    dynamics::calc_marker_position(marker(), FrameRotation::from_angle(at[2]), at, result);
-    dynamics::calc_marker_velocity(marker(), rate, result);
+    MarkerState result = dynamics::make_marker_state(marker());
+    const FrameRotation rotation = FrameRotation::from_angle(at[2]);
+    dynamics::calc_marker_position(marker(), rotation, at, result);
+    dynamics::calc_marker_velocity(marker(), rotation, rate, result);
     return result;
   }
   // Along q(t) = q + v t + ½ a t².
