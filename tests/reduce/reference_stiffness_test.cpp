@@ -134,9 +134,9 @@ TEST_CASE("reference stiffness does not depend on the number or direction of a s
     model.mesh.named_nodes = {{.name = "tip", .node = num_elements}};
     return model;
   };
-  // ∫w'² ds of F (3Ls² − s³)/6EI: F²L⁵/15(EI)².
+  // ∫w'² ds of w = F (3Ls² − s³)/6EI: 2F²L⁵/15(EI)².
   const double EI = testing::make_section().bending_rigidity;
-  const double expected = std::pow(1.2, 5) / (15.0 * EI * EI);
+  const double expected = 2.0 * std::pow(1.2, 5) / (15.0 * EI * EI);
   CHECK(shorten(make_arm(1)) == Approx(expected).epsilon(1e-6));
   CHECK(shorten(make_arm(6)) == Approx(expected).epsilon(1e-6));
   CHECK(shorten(testing::renumber(make_arm(6), 5)) == Approx(expected).epsilon(1e-6));
