@@ -30,7 +30,7 @@ struct InertiaInvariants {
 };
 
 /// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
-/// held at its reference node, has under each (reduce/README.md, eqs. 20–22). Each m×m, symmetric. Times minus
+/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times minus
 /// one half it is, in the load's direction, the displacement of second order in the modal coordinates that
 /// beams which bend without stretching make (eq. 23).
 struct GeometricStiffness {
