@@ -2,13 +2,12 @@
 """Makes a random road profile from a band of wavenumbers, an exponent and an r.m.s. or an ISO 8608 class, writes it as
 a road table, and prints the spectrum and the r.m.s. found in the file it wrote."""
 
-import os
 import shlex
 import sys
 
 import numpy as np
 
-from results_file import ResultsError, run_tool
+from results_file import run_tool
 from road_profile import (
     ISO_BAND,
     ISO_CLASSES,
@@ -22,6 +21,7 @@ from road_profile import (
 )
 from runs import make_parser
 from text_table import format_table
+from whole_file import write_whole
 
 FINE = (
     5.0  # points on the shortest wave, below which a spline through them misses its height by more than 3 %
@@ -84,27 +84,13 @@ def describe_command(arguments):
     words = ["tools/make_road.py"]
     skip = False
     for word in arguments:
-        if skip or word.startswith("--output="):
+        if skip or word.startswith("--output=") or (word.startswith("-o") and word != "-o"):
             skip = False
         elif word in ("-o", "--output"):
             skip = True
         else:
             words.append(word)
     return shlex.join(words)
-
-
-def write_road(path, text):
-    """Writes a road whole or not at all. ResultsError if it cannot be written."""
-    folder, name = os.path.split(path)
-    unfinished = os.path.join(folder, f".unfinished-{os.getpid()}-{name}")
-    try:
-        with open(unfinished, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(unfinished, path)
-    except OSError as error:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
-        raise ResultsError(f"{path}: error: cannot write the road ({error})") from error
 
 
 def format_report(path, recipe, density):
@@ -142,7 +128,7 @@ def main():
     arguments = parse_arguments()
     recipe = make_recipe(arguments)
     profile = make_profile(recipe)
-    write_road(arguments.output, format_profile(recipe, profile, describe_command(sys.argv[1:])))
+    write_whole(arguments.output, format_profile(recipe, profile, describe_command(sys.argv[1:])))
     print(format_report(arguments.output, recipe, profile.density))
     return 0
 

@@ -45,7 +45,8 @@ def parse_quantity(text):
 
 
 def run_tool(main):
-    """Runs a tool's main() -> exit code, and exits; a ResultsError becomes a line on stderr and code 2."""
+    """Runs a tool's main() -> exit code, and exits; a ResultsError, or a file or folder that the system refuses, becomes
+    a line on stderr and code 2, an interruption code 130."""
     try:
         code = main()
         sys.stdout.flush()
@@ -55,6 +56,14 @@ def run_tool(main):
     except BrokenPipeError:  # whoever read our output (head, less) has left
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 0
+    except OSError as error:
+        if error.filename is None:
+            raise
+        print(f"{error.filename}: error: {error.strerror}", file=sys.stderr)
+        code = 2
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        code = 130
     sys.exit(code)
 
 

@@ -36,12 +36,14 @@ class Travel(NamedTuple):
 
 class Contact(NamedTuple):
     """Of a tyre: static and greatest load [N], r.m.s. of the load's departure from the static one [N], time off the
-    ground [s]."""
+    ground [s], time without load [s]: also where the tyre still reaches the road, but rises faster than it springs back.
+    """
 
     static: float
     greatest: float
     dynamic_rms: float
     off_ground: float
+    unloaded: float
 
 
 class Bending(NamedTuple):
@@ -158,13 +160,16 @@ def calc_static(results, values, inside):
 
 
 def calc_contact(results, name, window):
-    """A tyre's loads, all its wheels together, and its time off the ground."""
+    """A tyre's loads, all its wheels together, its time off the ground and without load."""
     inside = samples_between(results, *window)
     force, _ = results.series(f"forces/{name}/force")
     contact, _ = results.series(f"forces/{name}/contact")
     static = calc_static(results, force, inside)
-    off_ground = np.count_nonzero(contact[inside] == 0) * sampling_step(results)
-    return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), float(off_ground))
+    off_ground, unloaded = (
+        float(np.count_nonzero(bare) * sampling_step(results))
+        for bare in (contact[inside] == 0, force[inside] <= 0.0)
+    )
+    return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
 
 
 def calc_bending(results, body, window):

@@ -21,6 +21,8 @@ MOMENTS = (2, 5)  # of the resultants N, Q, M at both ends of an element
 class Superelement(NamedTuple):
     """What (1) needs of a file (reduce/superelement.md): n modes, N nodes, E elements."""
 
+    path: str
+    content_hash: str
     stiffness: np.ndarray  # n×n, 1/s²
     resultants: np.ndarray  # E×6×n
     shape: np.ndarray  # N×3×n
@@ -37,6 +39,8 @@ def read_superelement(path):
     with open_hdf5(str(path), "sprung-superelement", 2) as file:
         names = [text_of(name) for name in file["points/name"]]
         return Superelement(
+            path=str(path),
+            content_hash=text_of(file.attrs.get("content_hash", "")),
             stiffness=read_numbers(file, "matrices/stiffness")[0],
             resultants=read_numbers(file, "resultants")[0],
             shape=read_numbers(file, "modes/shape")[0],
@@ -46,6 +50,16 @@ def read_superelement(path):
             P=read_numbers(file, "inertia/P")[0],
             c=read_numbers(file, "inertia/c")[0],
             d=read_numbers(file, "inertia/d")[0],
+        )
+
+
+def check_same(results, body, superelement):
+    """ResultsError if a superelement is not the one that a body had in its run."""
+    name = text_of(results.file[f"model/bodies/{body}"].attrs.get("superelement", ""))
+    kept = results.file.get(f"model/superelements/{name}") if name else None
+    if kept is None or text_of(kept.attrs.get("content_hash", "")) != superelement.content_hash:
+        raise ResultsError(
+            f"{superelement.path}: error: is not the superelement that '{body}' had in {results.path} (another content hash)"
         )
 
 
@@ -69,7 +83,8 @@ def turn_into_body(vectors, angle):
 
 
 def collect_loads(results, vehicle, body):
-    """The forces on a body's points: a list of (point, world force [m×2]). ResultsError for a kind not known here."""
+    """The forces on a body's points: a list of (point, world force [m×2]). ResultsError if a kind not known here, or a
+    torque, acts on the body; what acts on others does not matter."""
     loads = []
 
     def add(reference, force):
@@ -77,7 +92,19 @@ def collect_loads(results, vehicle, body):
         if owner == body:
             loads.append((point, force))
 
-    for joint in vehicle.get("joints", ()):
+    def acts_on_body(*references):
+        return any(reference.partition(".")[0] == body for reference in references)
+
+    joints = {joint["name"]: joint for joint in vehicle.get("joints", ())}
+    for motion in vehicle.get("motions", ()):
+        driven = joints.get(motion.get("joint"), {"a": motion.get("point", ""), "b": ""})
+        if acts_on_body(driven["a"], driven["b"]):
+            raise ResultsError(
+                f"{results.path}: error: motion '{motion['name']}' drives '{body}', not known here"
+            )
+    for joint in joints.values():
+        if not acts_on_body(joint["a"], joint["b"]):
+            continue
         reaction, _ = read_numbers(results.file, f"joints/{joint['name']}/reaction")
         if np.any(np.abs(reaction[:, 2]) > 1e-9 * max(1.0, np.max(np.abs(reaction)))):
             raise ResultsError(
@@ -86,9 +113,16 @@ def collect_loads(results, vehicle, body):
         add(joint["a"], reaction[:, :2])
         add(joint["b"], -reaction[:, :2])
     for force in vehicle.get("forces", ()):
-        values, _ = read_numbers(results.file, f"forces/{force['name']}/force")
+        if not acts_on_body(*(force.get(end, "") for end in ("a", "b", "wheel", "point"))):
+            continue
+        group = f"forces/{force['name']}"
+        if force["type"] in ("tyre", "spring-damper"):
+            values, _ = read_numbers(results.file, f"{group}/force")
         if force["type"] == "tyre":
-            add(force["wheel"], np.stack([np.zeros_like(values), values], axis=1))
+            longitudinal = np.zeros_like(values)
+            if f"{group}/longitudinal_force" in results.file:
+                longitudinal, _ = read_numbers(results.file, f"{group}/longitudinal_force")
+            add(force["wheel"], np.stack([longitudinal, values], axis=1))
         elif force["type"] == "spring-damper":
             a, b = (read_numbers(results.file, f"points/{force[end]}/position")[0] for end in "ab")
             along = (b - a) / np.linalg.norm(b - a, axis=1, keepdims=True)
@@ -103,7 +137,9 @@ def collect_loads(results, vehicle, body):
 
 def calc_rigid_moments(results, body, superelement):
     """Bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
-    layout of /recovery: both ends of each element."""
+    layout of /recovery: both ends of each element. ResultsError if the superelement is another than the run's.
+    """
+    check_same(results, body, superelement)
     vehicle = read_vehicle_file(results)
     position, _ = read_numbers(results.file, f"bodies/{body}/position")
     velocity, _ = read_numbers(results.file, f"bodies/{body}/velocity")

@@ -22,6 +22,9 @@ REFERENCE_WAVENUMBER = 0.1  # 1/m, ISO 8608
 ISO_CLASSES = "ABCDEFGH"
 ISO_BAND = (0.011, 2.83)  # 1/m, the range that ISO 8608 reports spectra in
 DECIMALS = 9  # of heights in a file: a nanometre
+LEAST_HEIGHT = 1e-6  # m, of a profile's highest point: three digits in a file
+GREATEST_HEIGHT = 1e6  # m
+MOST_POINTS = 10_000_000  # of a profile; a road table of 200 MB
 WHOLE = 1e-9  # a wavenumber this near a whole number of waves in the length counts as that number
 
 
@@ -65,9 +68,16 @@ def check_recipe(recipe):
     """ResultsError for a recipe that makes no profile, naming the value and what is expected."""
     low, high = recipe.band
     for name in ("length", "spacing"):
-        if not getattr(recipe, name) > 0.0:
-            raise ResultsError(f"error: --{name} must be positive (m), got {getattr(recipe, name):g}")
+        if not 0.0 < getattr(recipe, name) < np.inf:
+            raise ResultsError(
+                f"error: --{name} must be positive and finite (m), got {getattr(recipe, name):g}"
+            )
     points = recipe.length / recipe.spacing
+    if not points < MOST_POINTS:
+        raise ResultsError(
+            f"error: --length {recipe.length:g} m with --spacing {recipe.spacing:g} m makes {points:.3g} points, "
+            f"more than {MOST_POINTS:g}"
+        )
     if abs(points - round(points)) > 1e-6 or round(points) < 2:
         raise ResultsError(
             f"error: --spacing {recipe.spacing:g} m must divide --length {recipe.length:g} m into 2 parts or more"
@@ -87,14 +97,14 @@ def check_recipe(recipe):
         )
     if not np.isfinite(recipe.exponent):
         raise ResultsError(f"error: --exponent must be a finite number, got {recipe.exponent:g}")
-    if not max(recipe.rms, recipe.density) > 0.0:
-        raise ResultsError(f"error: --rms must be positive (m), got {recipe.rms:g}")
+    if not 0.0 < max(recipe.rms, recipe.density) < np.inf:
+        raise ResultsError(f"error: --rms must be positive and finite (m), got {recipe.rms:g}")
 
 
 def calc_waves(recipe):
     """The numbers k of waves in the length whose wavenumber k/L lies in the band. ResultsError if there are none."""
     low, high = (limit * recipe.length for limit in recipe.band)
-    waves = np.arange(int(np.ceil(low - WHOLE)), int(np.floor(high + WHOLE)) + 1)
+    waves = np.arange(max(1, int(np.ceil(low - WHOLE))), int(np.floor(high + WHOLE)) + 1)
     if waves.size == 0:
         raise ResultsError(
             f"error: --band {recipe.band[0]:g} {recipe.band[1]:g} 1/m holds no multiple of 1/{recipe.length:g} m"
@@ -111,7 +121,8 @@ def calc_easing(distance, ease):
 
 
 def make_profile(recipe):
-    """The profile of a recipe; equal recipes give equal profiles. ResultsError for a recipe that makes none.
+    """The profile of a recipe; equal recipes give equal profiles. ResultsError for a recipe that makes none, also where
+    its heights vanish in the file's decimals or its spectrum leaves the range of numbers.
 
     The phases come from Python's `random.Random(seed).random()`, whose sequence Python guarantees to keep.
     """
@@ -122,7 +133,12 @@ def make_profile(recipe):
     phases = np.array([2.0 * np.pi * generator.random() for _ in waves])
     wavenumbers = waves / recipe.length
     density = recipe.density or 1.0
-    spectrum = density * (wavenumbers / REFERENCE_WAVENUMBER) ** -recipe.exponent
+    with np.errstate(over="ignore", under="ignore"):
+        spectrum = density * (wavenumbers / REFERENCE_WAVENUMBER) ** -recipe.exponent
+    if not (np.all(np.isfinite(spectrum)) and np.all(spectrum > 0.0)):
+        raise ResultsError(
+            f"error: --exponent {recipe.exponent:g} makes a spectrum beyond the range of numbers in this band"
+        )
     amplitudes = np.sqrt(2.0 * spectrum / recipe.length)
     height = np.zeros_like(distance)
     for amplitude, wavenumber, phase in zip(amplitudes, wavenumbers, phases):
@@ -131,8 +147,19 @@ def make_profile(recipe):
     height -= height[0]  # a road table begins at height 0; nothing changes where the ends are eased
     if recipe.rms > 0.0:
         factor = recipe.rms / np.sqrt(np.mean(height**2))
-        height, density = factor * height, factor**2 * density
+        height = factor * height
+        check_heights(height)
+        density *= factor**2
     return Profile(distance, height, density, waves)
+
+
+def check_heights(height):
+    """ResultsError if a file's decimals cannot hold heights [n], or if they are not heights of a road."""
+    highest = np.max(np.abs(height))
+    if not LEAST_HEIGHT <= highest <= GREATEST_HEIGHT:
+        raise ResultsError(
+            f"error: the heights reach {highest:.3g} m, expected {LEAST_HEIGHT:g} to {GREATEST_HEIGHT:g} m; change --rms"
+        )
 
 
 def describe_recipe(recipe, profile, command):

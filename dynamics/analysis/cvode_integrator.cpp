@@ -67,7 +67,7 @@ struct CvodeIntegrator::Memory {
   SUNNonlinearSolver nonlinear_solver = nullptr;
   Callback callback;
   bool started = false;
-  CvodeIntegrator::Statistics before;  // of the runs before the last restart
+  Integrator::Statistics before;  // of the runs before the last restart
 
   void check(int code, const char* what) const {
     if (code >= 0) return;
@@ -129,13 +129,12 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
   std::copy(y.begin(), y.end(), values(memory.y).begin());
   memory.check(CVodeReInit(memory.cvode, time, memory.y), "CVodeReInit");
   memory.check(CVodeSetStopTime(memory.cvode, end_time), "CVodeSetStopTime");
-  time_ = step_start_ = time;
+  time_ = time;
   end_time_ = end_time;
 }
 
-CvodeIntegrator::StepResult CvodeIntegrator::step(double longest_step) {
+Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   Memory& memory = *memory_;
-  step_start_ = time_;
   if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;  // started anew by a switch at the very end
   memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0), "CVodeSetMaxStep");
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
@@ -160,18 +159,7 @@ void CvodeIntegrator::interpolate(double time, std::span<double> y) const {
   memory.check(code, "CVodeGetDky");
 }
 
-std::vector<int> CvodeIntegrator::switched() const {
-  const Memory& memory = *memory_;
-  std::vector<int> flags(static_cast<std::size_t>(memory.callback.system->num_switches()));
-  memory.check(CVodeGetRootInfo(memory.cvode, flags.data()), "CVodeGetRootInfo");
-  std::vector<int> found;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] != 0) found.push_back(static_cast<int>(i));
-  }
-  return found;
-}
-
-CvodeIntegrator::Statistics CvodeIntegrator::statistics() const {
+Integrator::Statistics CvodeIntegrator::statistics() const {
   Statistics total = memory_->before;
   long steps = 0, error_failures = 0, iteration_failures = 0;
   CVodeGetNumSteps(memory_->cvode, &steps);

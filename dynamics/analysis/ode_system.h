@@ -1,20 +1,36 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 
 namespace sprung::dynamics {
 
-/// ẏ = f(t, y) with switch functions, as an integrator sees it.
+/// M δq̈ + C δq̇ + K δq = 0: small motion about a state, all f×f.
+struct SmallMotion {
+  Eigen::MatrixXd mass;  ///< symmetric positive definite
+  Eigen::MatrixXd damping, stiffness;
+};
+
+/// ẏ = f(t, y) with switch functions, as an integrator sees it. y = (q, v, w): f positions with q̇ = v, f velocities,
+/// and quadratures w, on which nothing else depends.
 class OdeSystem {
  public:
   virtual ~OdeSystem() = default;
   virtual int size() const = 0;
+  /// f, at most size()/2; 0 for equations of first order.
+  virtual int num_freedoms() const = 0;
   /// @return false where f cannot be evaluated; the integrator then tries a shorter step
   virtual bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) = 0;
   virtual int num_switches() const = 0;
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;
+
+  /// Small motion about (time, y), for integrators that treat it apart. It need not be exact.
+  /// @return false where it cannot be found
+  virtual bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) = 0;
+  /// Changes whenever the coordinates in y come to mean something else.
+  virtual int coordinate_version() const { return 0; }
 };
 
 }  // namespace sprung::dynamics

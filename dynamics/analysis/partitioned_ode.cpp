@@ -11,8 +11,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-// The tolerance is meant for a whole run, of which errors of the steps add up; this share of it is allowed in a step.
-// With it the energy book closes to the tolerance.
+// The tolerance is meant for a whole run, of which errors of the steps add up; this share of it is allowed in
+// a step. With it the energy book closes to the tolerance.
 constexpr double kStepShare = 1.0 / 300.0;
 
 }  // namespace
@@ -21,8 +21,9 @@ PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), branches_(static_cast<std::size_t>(model.num_branches)) {
   for (const auto& force : model.forces) num_switches_ += force->num_switches();
   y_.resize(static_cast<std::size_t>(size()));
-  // A natural velocity: what gravity gives over a length scale, at least one natural size per second. Neither depends
-  // on where the origin is.
+  evaluated_y_.resize(2 * static_cast<std::size_t>(num_freedoms()));
+  // A natural velocity: what gravity gives over a length scale, at least one natural size per second. Neither
+  // depends on where the origin is.
   velocity_scale_ = std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale));
   double mass = 0.0;
   for (const Body& body : model.bodies) mass += body.mass;
@@ -31,6 +32,8 @@ PartitionedOde::PartitionedOde(const Model& model)
 
 void PartitionedOde::set_state(const State& state, double dissipated, double input) {
   equations_.choose_partition_at(state.time, state.q);
+  ++coordinate_version_;
+  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   branches_ = state.branches;
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
@@ -44,16 +47,22 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
 
 bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const auto f = static_cast<std::size_t>(equations_.num_freedoms());
-  if (equations_.update_positions(std::min(time, latest_time_), y.first(f)) != PartitionedEquations::Outcome::kGood) return false;
+  if (time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin())) return true;
+  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  if (equations_.update_positions(std::min(time, latest_time_), y.first(f)) !=
+      PartitionedEquations::Outcome::kGood)
+    return false;
   equations_.update_velocities(y.subspan(f, f));
+  evaluated_time_ = time;
+  std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(2 * f), evaluated_y_.begin());
   return true;
 }
 
 State PartitionedOde::make_state(double time, std::span<const double> y) {
   if (!evaluate_motion(time, y) ||
       equations_.update_accelerations(branches_) != PartitionedEquations::Outcome::kGood) {
-    throw support::NumericalError(
-        fmt::format("the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+    throw support::NumericalError(fmt::format(
+        "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
   return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = branches_};
 }
@@ -67,10 +76,34 @@ std::vector<BranchChange> PartitionedOde::update_branches() {
     const auto first = static_cast<std::size_t>(model_->force_branches[i]);
     const auto count = static_cast<std::size_t>(force.num_branches());
     const std::string text = force.describe_change(std::span(old_branches).subspan(first, count),
-                                                     std::span(branches_).subspan(first, count));
+                                                   std::span(branches_).subspan(first, count));
     if (!text.empty()) changes.push_back({force.name, text});
   }
   return changes;
+}
+
+// Differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
+bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
+  constexpr double kShift = 1e-6;  // of the natural size
+  const Eigen::Index f = num_freedoms();
+  std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
+  if (!calc_derivative(time, moved, y_dot)) return false;
+  motion.mass = equations_.calc_reduced_mass(equations_.calc_directions());
+  const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f);
+  Eigen::MatrixXd gradient(f, 2 * f);
+  for (Eigen::Index k = 0; k < 2 * f; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double shift = kShift * model_->coordinate_scale(
+                                      equations_.partition().independent[static_cast<std::size_t>(k % f)]);
+    moved[i] = y[i] + shift;
+    const bool good = calc_derivative(time, moved, y_dot);
+    moved[i] = y[i];
+    if (!good) return false;
+    gradient.col(k) = (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base) / shift;
+  }
+  motion.stiffness = -motion.mass * gradient.leftCols(f);
+  motion.damping = -motion.mass * gradient.rightCols(f);
+  return true;
 }
 
 double PartitionedOde::calc_longest_step() const {
@@ -80,7 +113,8 @@ double PartitionedOde::calc_longest_step() const {
   }
   if (model_->has_motions) {
     for (const auto& joint : model_->joints) {
-      longest = std::min(longest, joint->calc_longest_step(equations_.terms().instant().time, model_->length_scale));
+      longest = std::min(longest,
+                         joint->calc_longest_step(equations_.terms().instant().time, model_->length_scale));
     }
   }
   return std::min(longest, model_->time_resolution);

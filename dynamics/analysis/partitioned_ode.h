@@ -32,22 +32,28 @@ class PartitionedOde final : public OdeSystem {
   /// The state that y stands for; all terms of `equations()` are evaluated there.
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
-  /// Chooses the branches of the force elements at the state evaluated last. @return the changes worth telling
+  /// Chooses the branches of the force elements at the state evaluated last. @return the changes worth
+  /// telling
   std::vector<BranchChange> update_branches();
 
   PartitionedEquations& equations() { return equations_; }
   const std::vector<int>& branches() const { return branches_; }
   double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
   double input(std::span<const double> y) const { return y[y.size() - 1]; }
-  /// Longest step that no force element and no prescribed motion would regret, at the state evaluated last [s].
+  /// Longest step that no force element and no prescribed motion would regret, at the state evaluated last
+  /// [s].
   double calc_longest_step() const;
-  /// The next break in time of a function of time after `time`, infinite where there is none. From now on evaluations
-  /// at the break itself are made a hair before it: the formula that ends there is used up to its end.
+  /// The next break in time of a function of time after `time`, infinite where there is none. From now on
+  /// evaluations at the break itself are made a hair before it: the formula that ends there is used up to its
+  /// end.
   double update_next_break(double time);
 
   long num_derivatives() const { return num_derivatives_; }
 
   int size() const override { return 2 * equations_.num_freedoms() + 2; }
+  int num_freedoms() const override { return equations_.num_freedoms(); }
+  bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) override;
+  int coordinate_version() const override { return coordinate_version_; }
   bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
   int num_switches() const override { return num_switches_; }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
@@ -61,8 +67,13 @@ class PartitionedOde final : public OdeSystem {
   std::vector<int> branches_;
   int num_switches_ = 0;
   long num_derivatives_ = 0;
-  double latest_time_ = std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
+  double latest_time_ =
+      std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
   std::vector<double> y_;
+  int coordinate_version_ = 0;
+  // The arguments at which the motion of the equations was evaluated last.
+  double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> evaluated_y_;
   double velocity_scale_ = 0.0;  // [natural sizes/s]
   double energy_scale_ = 0.0;    // [J]
 };

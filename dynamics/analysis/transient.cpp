@@ -18,7 +18,7 @@ constexpr double kSamePlace = 1e-9;        // s
 class TransientRun {
  public:
   TransientRun(const Model& model, const TransientOptions& options)
-      : options_(options), ode_(model), integrator_(ode_, options.integrator) {}
+      : options_(options), ode_(model), integrator_(make_integrator(ode_, options.integrator)) {}
 
   TransientStatistics run(const State& start) {
     find_end_of_smoothness(start.time);
@@ -29,10 +29,10 @@ class TransientRun {
     start_time_ = start.time;
     write_outputs(start.time, ode_.y());
     if (start.time < options_.end_time) {
-      integrator_.start(start.time, ode_.y(), smooth_end_);
+      integrator_->start(start.time, ode_.y(), smooth_end_);
       integrate();
     }
-    statistics_.integrator = integrator_.statistics();
+    statistics_.integrator = integrator_->statistics();
     statistics_.evaluations = ode_.num_derivatives();
     return statistics_;
   }
@@ -41,13 +41,13 @@ class TransientRun {
   void integrate() {
     while (true) {
       const double longest = std::min(options_.largest_step, ode_.calc_longest_step());
-      const CvodeIntegrator::StepResult result = take_step(longest);
-      write_outputs(integrator_.time(), {});
-      if (options_.on_step && !options_.on_step(integrator_.time())) return;
-      if (result == CvodeIntegrator::StepResult::kEnded) {
+      const Integrator::StepResult result = take_step(longest);
+      write_outputs(integrator_->time(), {});
+      if (options_.on_step && !options_.on_step(integrator_->time())) return;
+      if (result == Integrator::StepResult::kEnded) {
         if (smooth_end_ >= options_.end_time) break;
         take_break();
-      } else if (result == CvodeIntegrator::StepResult::kSwitched) {
+      } else if (result == Integrator::StepResult::kSwitched) {
         take_switch();
       } else if (ode_.equations().partition_decay() > kPartitionDecay) {
         choose_partition();
@@ -58,14 +58,14 @@ class TransientRun {
 
   // A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is seen to
   // grow bad: beyond it no position can be found. Another partition goes on from there.
-  CvodeIntegrator::StepResult take_step(double longest) {
+  Integrator::StepResult take_step(double longest) {
     try {
-      return integrator_.step(longest);
+      return integrator_->step(longest);
     } catch (const support::NumericalError&) {
-      if (integrator_.time() - last_rescue_ < kSamePlace) throw;
-      last_rescue_ = integrator_.time();
+      if (integrator_->time() - last_rescue_ < kSamePlace) throw;
+      last_rescue_ = integrator_->time();
       choose_partition();
-      return CvodeIntegrator::StepResult::kStepped;
+      return Integrator::StepResult::kStepped;
     }
   }
 
@@ -78,7 +78,7 @@ class TransientRun {
 
   void take_break() {
     const double time = smooth_end_;
-    y_.assign(integrator_.y().begin(), integrator_.y().end());
+    y_.assign(integrator_->y().begin(), integrator_->y().end());
     start_anew(time);
   }
 
@@ -89,11 +89,11 @@ class TransientRun {
     for (const BranchChange& change : ode_.update_branches()) {
       if (options_.on_event) options_.on_event({time, "switch", change.element, change.text});
     }
-    integrator_.start(time, y_, smooth_end_);
+    integrator_->start(time, y_, smooth_end_);
   }
 
   void take_switch() {
-    const double time = integrator_.time();
+    const double time = integrator_->time();
     num_in_place_ = time - last_switch_ > kSamePlace ? 0 : num_in_place_ + 1;
     if (num_in_place_ > kMaxSwitchesInPlace) {
       throw support::NumericalError(
@@ -101,18 +101,18 @@ class TransientRun {
     }
     last_switch_ = time;
     ++statistics_.switches;
-    y_.assign(integrator_.y().begin(), integrator_.y().end());
+    y_.assign(integrator_->y().begin(), integrator_->y().end());
     start_anew(time);
   }
 
   void choose_partition() {
-    const double time = integrator_.time();
-    y_.assign(integrator_.y().begin(), integrator_.y().end());
+    const double time = integrator_->time();
+    y_.assign(integrator_->y().begin(), integrator_->y().end());
     const State state = ode_.make_state(time, y_);
     ode_.set_state(state, ode_.dissipated(y_), ode_.input(y_));
     ++statistics_.repartitions;
     if (options_.on_event) options_.on_event({time, "partition", "", "independent coordinates chosen anew"});
-    integrator_.start(time, ode_.y(), smooth_end_);
+    integrator_->start(time, ode_.y(), smooth_end_);
   }
 
   // Writes every output time up to `time`; the last one exactly at the end.
@@ -123,7 +123,7 @@ class TransientRun {
       double next = start_time_ + static_cast<double>(next_output_) * options_.output_step;
       if (next > options_.end_time + tolerance || next > time + tolerance) return;
       next = std::min(next, time);
-      if (y.empty()) integrator_.interpolate(next, y_);
+      if (y.empty()) integrator_->interpolate(next, y_);
       else y_.assign(y.begin(), y.end());
       write_output(next);
       ++next_output_;
@@ -144,7 +144,7 @@ class TransientRun {
 
   const TransientOptions& options_;
   PartitionedOde ode_;
-  CvodeIntegrator integrator_;
+  std::unique_ptr<Integrator> integrator_;
   TransientStatistics statistics_;
   std::vector<double> y_;
   double start_time_ = 0.0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/cvode_integrator.h"
+#include "dynamics/analysis/integrator.h"
 #include "dynamics/analysis/partitioned_ode.h"
 #include "dynamics/system/model.h"
 
@@ -38,14 +38,14 @@ struct TransientOptions {
   double end_time = 0.0;       ///< [s]
   double output_step = 1e-3;   ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
-  CvodeIntegrator::Options integrator;
+  Integrator::Options integrator;
   std::function<void(const Snapshot&)> on_output;   ///< at 0, output_step, … to the end
   std::function<void(const Event&)> on_event;       ///< may be empty
   std::function<bool(double time)> on_step;         ///< after every step; false stops the run; may be empty
 };
 
 struct TransientStatistics {
-  CvodeIntegrator::Statistics integrator;
+  Integrator::Statistics integrator;
   long evaluations = 0;         ///< of the equations, by the integrator
   long output_evaluations = 0;  ///< for the outputs
   long repartitions = 0;

@@ -50,11 +50,12 @@ void read_statistics(const support::TomlTable& root, Run& run) {
 }
 
 IntegratorSettings read_integrator(const support::TomlTable& table) {
-  static const std::array<std::string, 2> kMethods{"adams", "bdf"};
+  using Method = Integrator::Method;
+  static const std::array<std::string, 3> kMethods{"exponential", "adams", "bdf"};
   IntegratorSettings settings;
   if (const std::optional<support::TomlValue> method = table.find("method")) {
-    settings.method = method->one_of(kMethods) == "adams" ? IntegratorSettings::Method::kAdams
-                                                          : IntegratorSettings::Method::kBdf;
+    const std::string name = method->one_of(kMethods);
+    settings.method = name == "adams" ? Method::kAdams : name == "bdf" ? Method::kBdf : Method::kExponential;
   }
   // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
   settings.relative_tolerance = table.number_or("relative_tolerance", settings.relative_tolerance,

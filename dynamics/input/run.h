@@ -13,6 +13,7 @@
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/analysis/integrator.h"
 #include "dynamics/system/model.h"
 #include "tools/support/toml.h"
 
@@ -29,8 +30,7 @@ struct InitialMotion {
 };
 
 struct IntegratorSettings {
-  enum class Method { kAdams, kBdf };
-  Method method = Method::kAdams;
+  std::optional<Integrator::Method> method;  ///< none: default_method()
   double relative_tolerance = 1e-6;
   std::optional<double> largest_step;  ///< > 0 [s]
 };

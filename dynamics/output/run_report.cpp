@@ -14,7 +14,8 @@ std::string describe_modes(const Model& model) {
   std::vector<std::string> flexible;
   for (const Body& body : model.bodies) {
     if (body.num_modes() > 0) {
-      flexible.push_back(fmt::format("{} with {} {}", body.name, body.num_modes(), body.num_modes() == 1 ? "mode" : "modes"));
+      flexible.push_back(fmt::format("{} with {} {}", body.name, body.num_modes(),
+                                     body.num_modes() == 1 ? "mode" : "modes"));
     }
   }
   return flexible.empty() ? "all bodies rigid" : fmt::format("{}", fmt::join(flexible, ", "));
@@ -22,11 +23,13 @@ std::string describe_modes(const Model& model) {
 
 }  // namespace
 
-std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& run, const AssemblyReport& assembly,
-                         const VelocityReport& velocities, const Equilibrium* equilibrium) {
-  std::string text = fmt::format("{}: {} bodies ({}), {} joints, {} coordinates, {} constraints, {} freedoms\n",
-                                 vehicle.name, model.bodies.size(), describe_modes(model), model.joints.size(),
-                                 model.num_coordinates, model.num_constraints, model.num_freedoms());
+std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& run,
+                         const AssemblyReport& assembly, const VelocityReport& velocities,
+                         const Equilibrium* equilibrium) {
+  std::string text =
+      fmt::format("{}: {} bodies ({}), {} joints, {} coordinates, {} constraints, {} freedoms\n",
+                  vehicle.name, model.bodies.size(), describe_modes(model), model.joints.size(),
+                  model.num_coordinates, model.num_constraints, model.num_freedoms());
   if (assembly.largest_movement > 1e-9) {
     text += fmt::format("Assembled: {} moved {:.3g} m to close the joints\n", assembly.moved_marker,
                         assembly.largest_movement);
@@ -34,37 +37,42 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
   if (equilibrium) {
     std::vector<std::string> neutral;
     for (const NeutralDirection& direction : equilibrium->neutral) neutral.push_back(direction.description);
-    text += fmt::format("Static equilibrium{} after {} iterations{}\n", equilibrium->stable ? "" : " (unstable)",
-                        equilibrium->iterations,
-                        neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
+    text += fmt::format(
+        "Static equilibrium{} after {} iterations{}\n", equilibrium->stable ? "" : " (unstable)",
+        equilibrium->iterations,
+        neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
   } else {
     text += "Start: positions as given\n";
   }
   if (velocities.largest_change > 1e-9) {
-    text += fmt::format("Initial velocities changed to those that the joints allow: {} by {:.3g} of its natural size per s\n",
-                        velocities.coordinate, velocities.largest_change);
+    text += fmt::format(
+        "Initial velocities changed to those that the joints allow: {} by {:.3g} of its natural size per s\n",
+        velocities.coordinate, velocities.largest_change);
   }
-  text += fmt::format("Road: {}; speed {} m/s; {} s, output every {} s, relative tolerance {}\n", run.road.shape, run.speed,
-                      run.duration, run.output_step, run.integrator.relative_tolerance);
+  text += fmt::format("Road: {}; speed {} m/s; {} s, output every {} s; {}, relative tolerance {}\n",
+                      run.road.shape, run.speed, run.duration, run.output_step,
+                      method_name(run.integrator.method.value()), run.integrator.relative_tolerance);
   return text;
 }
 
 std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
-  support::TextTable points({"point", "displacement min m", "max m", "r.m.s. m", "acceleration min m/s²", "max m/s²",
-                             "r.m.s. m/s²"});
+  support::TextTable points({"point", "displacement min m", "max m", "r.m.s. m", "acceleration min m/s²",
+                             "max m/s²", "r.m.s. m/s²"});
   for (const PointStatistics& point : summary.statistics.point_statistics()) {
     const SampleStatistics& d = point.displacement;
     const SampleStatistics& a = point.acceleration;
     points.add_row({point.point, fmt::format("{:.4f}", d.minimum), fmt::format("{:.4f}", d.maximum),
-                    fmt::format("{:.4f}", d.rms), fmt::format("{:.2f}", a.minimum), fmt::format("{:.2f}", a.maximum),
-                    fmt::format("{:.2f}", a.rms)});
+                    fmt::format("{:.4f}", d.rms), fmt::format("{:.2f}", a.minimum),
+                    fmt::format("{:.2f}", a.maximum), fmt::format("{:.2f}", a.rms)});
   }
   const TransientStatistics& transient = summary.transient;
   support::TextTable run({"quantity", "value"});
-  run.add_row({"largest constraint violation", fmt::format("{:.1e}", summary.statistics.constraint_violation())});
+  run.add_row(
+      {"largest constraint violation", fmt::format("{:.1e}", summary.statistics.constraint_violation())});
   run.add_row({"energy balance, relative", fmt::format("{:.1e}", summary.statistics.energy_closure())});
   run.add_row({"steps", fmt::format("{}", transient.integrator.steps)});
-  run.add_row({"evaluations (and for output)", fmt::format("{} ({})", transient.evaluations, transient.output_evaluations)});
+  run.add_row({"evaluations (and for output)",
+               fmt::format("{} ({})", transient.evaluations, transient.output_evaluations)});
   run.add_row({"switches located", fmt::format("{}", transient.switches)});
   run.add_row({"time", fmt::format("{:.3f} s", summary.elapsed)});
   run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / summary.elapsed)});

@@ -11,32 +11,37 @@ namespace {
 constexpr std::string_view kVehiclePrefix = "vehicle.";
 
 // The overrides of one of the two files, each with its place on the command line.
-void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides, bool of_vehicle) {
+void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides,
+                     bool of_vehicle) {
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     const bool is_of_vehicle = overrides[i].starts_with(kVehiclePrefix);
     if (is_of_vehicle != of_vehicle) continue;
     const std::string_view assignment = overrides[i];
-    document.set(of_vehicle ? assignment.substr(kVehiclePrefix.size()) : assignment, fmt::format("--set {}", i + 1));
+    document.set(of_vehicle ? assignment.substr(kVehiclePrefix.size()) : assignment,
+                 fmt::format("--set {}", i + 1));
   }
 }
 
 State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  return {.time = 0.0, .q = q, .v = v, .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
+  return {.time = 0.0,
+          .q = q,
+          .v = v,
+          .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
-// Steady motion is a balance in coordinates that stand still in it: modes do, places and angles of bodies that are
-// carried round do not.
+// Steady motion is a balance in coordinates that stand still in it: modes do, places and angles of bodies
+// that are carried round do not.
 void check_steady(const PreparedRun& prepared) {
   const Model& model = prepared.balance_model;
   if (!model.has_motions) return;
   for (const int i : prepared.equilibrium->linearised.partition.independent) {
     const std::string name = model.coordinate_name(i);
     if (name.find(".mode ") != std::string::npos) continue;
-    throw support::InputError(
-        prepared.run.start_location,
-        fmt::format("'start' can be \"steady\" only where prescribed motion leaves nothing free but modes of flexible "
-                    "bodies, clamped where they are held; '{}' is free",
-                    name));
+    throw support::InputError(prepared.run.start_location,
+                              fmt::format("'start' can be \"steady\" only where prescribed motion leaves "
+                                          "nothing free but modes of flexible "
+                                          "bodies, clamped where they are held; '{}' is free",
+                                          name));
   }
 }
 
@@ -81,6 +86,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
   prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping,
                               MotionUse::kMoving, stiffened);
+  std::optional<Integrator::Method>& method = prepared.run.integrator.method;
+  if (!method) method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {
     prepared.start = make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates));
     return prepared;

@@ -25,9 +25,7 @@ TransientOptions make_options(const Run& run) {
   options.output_step = run.output_step;
   options.largest_step = run.integrator.largest_step.value_or(std::numeric_limits<double>::infinity());
   options.integrator.relative_tolerance = run.integrator.relative_tolerance;
-  options.integrator.method = run.integrator.method == IntegratorSettings::Method::kBdf
-                                  ? CvodeIntegrator::Method::kBdf
-                                  : CvodeIntegrator::Method::kAdams;
+  options.integrator.method = run.integrator.method.value();
   return options;
 }
 

@@ -150,7 +150,7 @@ BumpResult drive_over_bump(const BumpRun& run) {
   std::vector<Eigen::Vector3d> rows;
   TransientOptions options;
   options.end_time = run.duration;
-  options.integrator.relative_tolerance = run.relative_tolerance;
+  options.integrator = {.method = run.method, .relative_tolerance = run.relative_tolerance};
   options.on_event = [&](const Event& event) { result.events.push_back(event); };
   options.on_output = [&](const Snapshot& snapshot) {
     const VectorXd& q = snapshot.equations.q();

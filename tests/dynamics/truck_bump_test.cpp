@@ -59,6 +59,30 @@ TEST_CASE("The truck with 4 chassis modes over the bump", "[truck]") {
   CHECK((fine.chassis - run.chassis).cwiseAbs().maxCoeff() < 1e-4);
 }
 
+TEST_CASE("Three integrators take the truck over the bump alike", "[truck]") {
+  for (const int num_modes : {0, 4}) {
+    const test::BumpResult exponential = test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
+    for (const auto method : {dynamics::Integrator::Method::kAdams, dynamics::Integrator::Method::kBdf}) {
+      const test::BumpResult other =
+          test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0, .method = method});
+      INFO(num_modes << " chassis modes");
+      CHECK((other.chassis - exponential.chassis).cwiseAbs().maxCoeff() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("Stiff modes cost few evaluations more: steps follow what excites them", "[truck]") {
+  const auto evaluations = [](int num_modes) {
+    const test::BumpResult run = test::drive_over_bump({.num_chassis_modes = num_modes, .relative_tolerance = 1e-3});
+    return static_cast<double>(run.statistics.evaluations);
+  };
+  const double rigid = evaluations(0);
+  CHECK(rigid < 4000);
+  CHECK(evaluations(2) < 1.5 * rigid);
+  CHECK(evaluations(4) < 2.2 * rigid);
+  CHECK(evaluations(36) < 4.0 * rigid);  // up to 4250 Hz; by Adams 80 times
+}
+
 TEST_CASE("The mirrored truck driving the other way gives the mirrored result", "[truck]") {
   for (const int num_modes : {0, 2}) {
     const test::BumpResult run = test::drive_over_bump({.num_chassis_modes = num_modes});

@@ -92,6 +92,11 @@ class Profiles(unittest.TestCase):
         self.assertEqual(list(calc_waves(RECIPE._replace(band=(2 / 91.44, 4 / 91.44)))), [2, 3, 4])
         self.assertEqual(list(calc_waves(RECIPE._replace(band=(2.1 / 91.44, 3.9 / 91.44)))), [3])
 
+    def test_a_band_from_nearly_0_begins_with_one_wave_in_the_length(self):
+        recipe = RECIPE._replace(band=(1e-13, 4 / 91.44))
+        self.assertEqual(list(calc_waves(recipe)), [1, 2, 3, 4])
+        self.assertTrue(np.all(np.isfinite(make_profile(recipe).height)))
+
 
 class TruckTerrain(ToolTestCase):
     def test_the_terrain_is_made_again_byte_for_byte_by_the_command_in_its_header(self):
@@ -147,6 +152,15 @@ class Tool(ToolTestCase):
         self.assertIn("not scaled", header[1])
         self.assertIn("0.004096 m^3", header[3])
 
+    def test_the_header_does_not_hold_the_files_name_however_it_was_given(self):
+        headers = []
+        for name in (("-o", "road.txt"), ("-oroad.txt",), ("--output", "road.txt"), ("--output=road.txt",)):
+            self.run_tool("make_road.py", *self.arguments[:-2], "--rms", "0.01", *name)
+            headers.append((self.folder / "road.txt").read_text(encoding="utf-8").splitlines()[0])
+            (self.folder / "road.txt").unlink()
+        self.assertNotIn("road.txt", headers[0].partition("make_road.py")[2])
+        self.assertEqual(len(set(headers)), 1)
+
     def test_too_coarse_points_are_told(self):
         process = self.run_tool("make_road.py", *self.arguments, "--band", "0.05", "9", "--rms", "0.01")
         self.assertIn("note: only 2.22 points on the shortest wave", process.stdout)
@@ -155,13 +169,20 @@ class Tool(ToolTestCase):
         for changed, complaint in (
             (("--spacing", "0.07"), "--spacing 0.07 m must divide --length 40 m"),
             (("--length", "-1"), "--length must be positive"),
+            (("--length", "inf"), "--length must be positive and finite"),
+            (("--spacing", "1e-9"), "makes 4e+10 points, more than 1e+07"),
             (("--band", "2", "1"), "two ascending positive wavenumbers"),
             (("--band", "0.5", "11"), "points every 0.05 m cannot show"),
             (("--band", "0.051", "0.052"), "holds no multiple of 1/40 m"),
             (("--ease", "20"), "--ease must be at least 0 and below half of the length"),
             (("--rms", "0"), "--rms must be positive"),
+            (("--rms", "inf"), "--rms must be positive and finite"),
+            (("--rms", "1e-12"), "m, expected 1e-06 to 1e+06 m; change --rms"),
+            (("--rms", "1e200"), "the heights reach "),
+            (("--exponent", "400"), "--exponent 400 makes a spectrum beyond the range of numbers"),
+            (("--exponent", "-4000"), "--exponent -4000 makes a spectrum beyond the range of numbers"),
             (("--exponent", "nan"), "--exponent must be a finite number"),
-            (("-o", "none/road.txt"), "none/road.txt: error: cannot write the road"),
+            (("-o", "none/road.txt"), "none/road.txt: error: cannot write the file"),
         ):
             with self.subTest(changed):
                 arguments = (*self.arguments, "--rms", "0.01", *changed)

@@ -15,14 +15,18 @@ from paper_report.claims import list_claims
 from paper_report.markdown import NUMBER, find_differences, format_markdown, parse_markdown, read_part
 from paper_report.paper_runs import (
     MODE_COUNTS,
+    SPEEDS,
     TRUCK,
     PaperRun,
     Programs,
     build_superelements,
+    call,
     list_convergence_runs,
+    list_adams_runs,
     list_finer_runs,
     list_main_runs,
     list_sensitivity_runs,
+    list_speed_runs,
     list_tyre_runs,
     make_command,
     run_all,
@@ -39,8 +43,9 @@ RELATIVE = 0.01
 RELATIVE_EVALUATIONS = 0.10
 COUNTS_RUN_AGAIN = (0, 2, 4, 6)
 OTHER_TERRAIN = "road_1_seed2"
+OTHER_SPEED = "speed8.5"
 TIMED = ("cost",)
-EVALUATIONS = ("evaluations", "effort")
+EVALUATIONS = ("evaluations", "effort", "effort of Adams")
 
 
 def rows_of_evaluations(name, row):
@@ -60,10 +65,12 @@ class Report(unittest.TestCase):
         build_superelements(cls.programs, cls.folder)
         write_roads(cls.folder)
         others = [run for run in list_sensitivity_runs(cls.folder) if OTHER_TERRAIN in run.name]
+        others += [run for run in list_speed_runs() if OTHER_SPEED in run.name]
         at_rest = PaperRun("at_rest_36modes", "bump.toml", ("modes.chassis=36", "duration=0.01"))
         runs = [
             *list_main_runs(),
             *list_convergence_runs(COUNTS_RUN_AGAIN),
+            *list_adams_runs(),
             *list_finer_runs(),
             *others,
             *list_tyre_runs(),
@@ -116,7 +123,40 @@ class Report(unittest.TestCase):
             rows = parse_markdown(read_part(self.text, name))[1]
             self.assertEqual([row[0] for row in rows], [str(count) for count in MODE_COUNTS])
         self.assertEqual(len(parse_markdown(read_part(self.text, "sensitivity"))[1]), 9)
+        self.assertEqual(
+            [row[0] for row in parse_markdown(read_part(self.text, "speed"))[1]],
+            [f"{v:g} m/s" for v in SPEEDS],
+        )
         self.assertEqual(len(parse_markdown(read_part(self.text, "cost"))[1]), 6)
+
+    def test_the_tables_agree_on_the_runs_that_are_too_long_to_be_made_again(self):
+        def column(name, heading):
+            headings, rows = parse_markdown(read_part(self.text, name))
+            return {row[0]: float(row[headings.index(heading)].partition(",")[0]) for row in rows}
+
+        convergence, model = {}, "36 modes"
+        for heading in ("bump: highest middle mm", "terrain: r.m.s. middle m/s²", "r.m.s. seat m/s²"):
+            convergence[heading] = column("convergence", heading)["36"]
+        for road, name, heading in (
+            ("bump", "bump peaks", "r.m.s. m/s²"),
+            ("terrain", "terrain bands", "all"),
+        ):
+            ride = column("ride", f"{road}, {model}")
+            for place in ("middle", "centre of mass", "seat"):
+                self.assertEqual(column(name, heading)[f"{place}, {model}"], ride[f"{place}: r.m.s. m/s²"])
+        self.assertEqual(
+            column("bump peaks", "highest mm")[f"middle, {model}"], convergence["bump: highest middle mm"]
+        )
+        for place, heading in (("middle", "terrain: r.m.s. middle m/s²"), ("seat", "r.m.s. seat m/s²")):
+            shown = column("ride", f"terrain, {model}")[f"{place}: r.m.s. m/s²"]
+            self.assertAlmostEqual(shown, convergence[heading], delta=0.0051)
+
+    def test_runs_at_other_speeds_are_judged_over_the_same_metres(self):
+        run = self.numbers.run(f"terrain_rigid_{OTHER_SPEED}")
+        way = run.series("points/front_axle.origin/position.x")
+        start = self.numbers.run("terrain_rigid").series("points/front_axle.origin/position.x")
+        # From sample to sample 8.5 mm; without a horizontal force the speed changes by some per mille.
+        np.testing.assert_allclose((way[0], way[-1]), (start[0], start[-1]), atol=0.1)
 
     def test_every_picture_of_the_report_is_there(self):
         pictures = [
@@ -161,11 +201,40 @@ class Report(unittest.TestCase):
         expected = -load * overhang**2 * (1.0 / 2.0 - 1.0 / 12.0)
         self.assertAlmostEqual(moments[0, 1] / expected, 1.0, delta=2e-3)
 
+    def test_moments_are_not_taken_from_another_superelement_than_the_runs(self):
+        # Of the same nodes and points, but stiffer.
+        text = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
+        (self.folder / "stiffer.toml").write_text(text.replace("1.9e-4", "3.8e-4"), encoding="utf-8")
+        (self.folder / "other").mkdir()
+        call(
+            [
+                self.programs.reduce,
+                "build",
+                self.folder / "stiffer.toml",
+                "--output-dir",
+                self.folder / "other",
+            ]
+        )
+        rigid = self.numbers.run("bump_rigid").results
+        for path in (*(self.folder / "other").glob("*.h5"), self.folder / "long_arm.h5"):
+            with self.assertRaisesRegex(
+                ResultsError, f"{path}: error: is not the superelement that 'chassis' had"
+            ):
+                calc_rigid_moments(rigid, "chassis", read_superelement(path))
+
     def test_a_run_that_fails_says_so(self):
         bad = PaperRun("bad", "bump.toml", ("modes.chassis=3",))
         with self.assertRaisesRegex(ResultsError, "(?s)modes.chassis=3.*exit code 2"):
             run_all(self.programs, [bad], self.folder, report=lambda _: None)
         self.assertIn("modes.chassis=3", make_command(self.programs, bad, self.folder))
+
+    def test_a_file_left_by_an_earlier_work_is_no_run_of_this_one(self):
+        numbers = Numbers(self.folder, made=["bump_rigid", "bump_7modes"])
+        self.assertEqual(
+            [numbers.has(name) for name in ("bump_rigid", "bump_4modes", "bump_7modes")], [True, False, False]
+        )
+        with self.assertRaisesRegex(ResultsError, "bump_4modes.h5: error: this run was not made"):
+            numbers.run("bump_4modes")
 
     def test_a_missing_run_is_named(self):
         with self.assertRaisesRegex(ResultsError, "bump_7modes.h5: error: no such file"):

@@ -81,8 +81,9 @@ class RideMeasures(ToolTestCase):
         contact = calc_contact(self.open(), "tyre", WINDOW)
         self.assertAlmostEqual(contact.static, STATIC_LOAD, places=6)
         self.assertAlmostEqual(contact.greatest, 2.5 * STATIC_LOAD, delta=1.0)
-        # In the air where sin < -2/3
-        self.assertAlmostEqual(contact.off_ground, 2.0 * (0.5 - np.arcsin(2.0 / 3.0) / np.pi), delta=4 * STEP)
+        # In the air where sin < -0.8, without load where sin < -2/3
+        self.assertAlmostEqual(contact.off_ground, 2.0 * (0.5 - np.arcsin(0.8) / np.pi), delta=4 * STEP)
+        self.assertAlmostEqual(contact.unloaded, 2.0 * (0.5 - np.arcsin(2.0 / 3.0) / np.pi), delta=4 * STEP)
         self.assertAlmostEqual(contact.dynamic_rms / calc_dynamic_load(), 1.0, delta=1e-3)
 
     def test_the_largest_moment_keeps_its_sign_its_place_and_its_time(self):
@@ -121,11 +122,20 @@ class Tool(ToolTestCase):
         self.assertEqual(rows["body.center_of_mass"][2:4], ["0.7069", "1"])
         self.assertEqual(rows["suspension"][2:], ["100.0", "111", "%", "-100.0", "2", "0.286"])
         self.assertEqual(rows["link"][2:], ["100.0", "–", "-100.0", "–", "–"])
-        static, dynamic, share, greatest, off_ground = map(float, rows["tyre"][2:])
-        self.assertEqual((static, greatest, off_ground), (50.0, 125.0, 0.534))
+        static, dynamic, share, greatest, off_ground, unloaded = map(float, rows["tyre"][2:])
+        self.assertEqual((static, greatest, off_ground, unloaded), (50.0, 125.0, 0.41, 0.534))
         self.assertAlmostEqual(1e3 * dynamic / calc_dynamic_load(), 1.0, delta=1e-3)
         self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
         self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
+
+    def test_no_share_of_travel_is_told_where_the_vehicle_stands_on_its_stop(self):
+        write_ride_results(
+            self.folder / "a.h5", overrides=("vehicle.forces.suspension.compression_stop.deflection=0.05",)
+        )
+        rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
+        self.assertEqual(
+            [row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]]
+        )
 
     def test_points_and_the_span_can_be_chosen(self):
         write_ride_results(self.folder / "a.h5", with_moments=False)

@@ -10,6 +10,7 @@ SEAT_AMPLITUDE, SEAT_FREQUENCY = 2.0, 5.0  # m/s², Hz
 STATIC_DEFLECTION, STOP = 0.06, 0.15  # m
 STATIC_LOAD = 5e4  # N
 BEAT = 1.0  # Hz, of suspension and tyre
+AIRBORNE = -0.8  # of the sine, below which the tyre is off the ground; its load has gone below -2/3
 VEHICLE_TEXT = """name = "synthetic"
 [[forces]]
 name = "suspension"
@@ -45,7 +46,7 @@ def write_ride_results(path, with_moments=True, overrides=()):
             write_series(file, f"forces/{name}/deflection", STATIC_DEFLECTION + 0.1 * beat, "m")
             file[f"forces/{name}"].attrs["kind"] = np.bytes_("spring-damper")
         write_series(file, "forces/tyre/force", load, "N")
-        write_series(file, "forces/tyre/contact", (load > 0.0).astype(float), "1")
+        write_series(file, "forces/tyre/contact", (beat > AIRBORNE).astype(float), "1")
         file["forces/tyre"].attrs["kind"] = np.bytes_("tyre")
         if with_moments:
             moment = 3e3 * np.cos(0.5 * np.pi * (time - 2.0))

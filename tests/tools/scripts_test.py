@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 import unittest
 
 from tool_test_case import ROOT, TOOLS, ToolTestCase
@@ -40,6 +41,24 @@ class Scripts(ToolTestCase):
                 self.assertEqual(process.returncode, 2)
                 self.assertIn("error: ", process.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_folder_that_cannot_be_made_is_named(self):
+        (self.folder / "programs").mkdir()
+        for program in ("reduce/sprung-reduce", "dynamics/sprung-dynamics"):
+            path = self.folder / "programs" / program
+            path.parent.mkdir()
+            path.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
+            path.chmod(0o755)
+        (self.folder / "taken").write_text("a file", encoding="utf-8")
+        process = self.run_tool("paper_figures", "--programs", "programs", "--output-dir", "taken")
+        self.assert_refuses(process, "taken: error: File exists")
+
+    def test_an_interrupted_tool_says_so_in_a_line(self):
+        code = "import results_file\ndef main():\n    raise KeyboardInterrupt\nresults_file.run_tool(main)"
+        process = subprocess.run(
+            [sys.executable, "-c", code], cwd=TOOLS, capture_output=True, text=True, check=False
+        )
+        self.assertEqual((process.returncode, process.stdout, process.stderr), (130, "", "interrupted\n"))
 
 
 if __name__ == "__main__":

@@ -3,12 +3,12 @@
 Every run is one of the two run files under dynamics/models/truck with `--set`; nothing else is changed.
 """
 
-import json
 import os
 import statistics
 import subprocess
 import sys
 import time
+import tomllib
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import NamedTuple
@@ -24,8 +24,10 @@ EXPENSIVE_MODES = 24  # from this many on a run takes minutes rather than second
 LINKS = ("modes.front_long_arm=2", "modes.rear_long_arm=2")
 UNDAMPED = ("modal_damping.chassis=0",)
 DISTRIBUTED = tuple(f"vehicle.forces.{axle}_tyre.contact=distributed" for axle in ("front", "rear"))
+ADAMS = ("integrator.method=adams",)
 FINER = ("integrator.relative_tolerance=1e-8",)
 SEEDS = (1, 2, 3)
+SPEEDS = (6.5, 7.0, 7.5, 8.0, 8.5)  # m/s over the terrain
 REPEATS = 9  # timed runs of each model
 
 
@@ -106,6 +108,15 @@ def list_finer_runs():
     ]
 
 
+def list_adams_runs():
+    """Rigid, 2 and 4 modes by an integrator that knows nothing of vibrations beforehand, as the paper's did not."""
+    return [
+        PaperRun(f"{run}_{name_modes(n)}_adams", f"{run}.toml", chassis_modes(n) + ADAMS)
+        for run in ("bump", "terrain")
+        for n in (0, 2, 4)
+    ]
+
+
 def list_tyre_runs():
     """Rigid, 2 and 4 modes over both roads on tyres that touch along a length of road instead of in a point."""
     return [
@@ -117,6 +128,37 @@ def list_tyre_runs():
 
 def name_road(band, seed):
     return f"road_{BANDS.index(band) + 1}_seed{seed}.txt"
+
+
+def read_terrain_file():
+    """terrain.toml as a dict."""
+    return tomllib.loads((TRUCK / "terrain.toml").read_text(encoding="utf-8"))
+
+
+def name_speed(speed):
+    """What a run's name has at its end for its speed; nothing for that of terrain.toml."""
+    return "" if speed == read_terrain_file()["speed"] else f"_speed{speed:g}"
+
+
+def list_speed_runs():
+    """Rigid, 2 and 4 modes over the terrain at other speeds, over the same metres of it: times go with 1/speed."""
+    file = read_terrain_file()
+    times = {
+        "statistics.from": file["statistics"]["from"],
+        "statistics.to": file["statistics"]["to"],
+        "duration": file["duration"],
+    }
+    return [
+        PaperRun(
+            f"terrain_{name_modes(n)}{name_speed(speed)}",
+            "terrain.toml",
+            chassis_modes(n)
+            + (f"speed={speed:g}", *(f"{key}={time * file['speed'] / speed:.3f}" for key, time in times.items())),
+        )
+        for speed in SPEEDS
+        if speed != file["speed"]
+        for n in (0, 2, 4)
+    ]
 
 
 def list_sensitivity_runs(folder):
@@ -231,15 +273,6 @@ def measure_costs(programs, folder, repeats=REPEATS, report=print):
         for run in runs:
             times[run.name].append(measure_processor_time(make_command(programs, run, folder)))
     return {name: statistics.median(values) for name, values in times.items()}
-
-
-def write_costs(path, costs):
-    path.write_text(json.dumps(costs, indent=1) + "\n", encoding="utf-8")
-
-
-def read_costs(path):
-    """What write_costs() wrote; None if there is no such file."""
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
 
 def print_progress(text):

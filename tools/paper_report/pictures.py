@@ -1,18 +1,17 @@
 """The report's figures: the paper's Figures 9 to 14, and the spectra of the chassis' acceleration."""
 
 import io
-import os
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from paper_report.run_numbers import FRONT_END, MIDDLE, CENTRE
-from paper_report.tables import chassis_frequencies
-from results_file import ResultsError, read_numbers
+from paper_report.run_numbers import CENTRE, FRONT_END, MIDDLE, chassis_frequencies
+from results_file import read_numbers
 from run_caption import make_caption, read_run_file
 from spectra import calc_amplitude_spectrum, calc_power_spectrum
+from whole_file import write_whole
 
 # Okabe and Ito's colours, which stay apart for colour-blind readers; the first run is drawn on top as the thinnest line.
 COLOURS = {"rigid": "#000000", "2 modes": "#0072B2", "4 modes": "#E69F00", "2 modes, flexible arms": "#CC79A7",
@@ -252,10 +251,6 @@ def write_picture(figure, path):
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DOTS_PER_INCH)
     picture = Image.open(drawn).convert("RGB").quantize(PALETTE, dither=Image.Dither.NONE)
-    unfinished = path.with_name(f".unfinished-{os.getpid()}-{path.name}")
-    try:
-        picture.save(unfinished, format="PNG", optimize=True)
-        os.replace(unfinished, path)
-    except OSError as error:
-        unfinished.unlink(missing_ok=True)
-        raise ResultsError(f"{path}: error: cannot write the picture ({error})") from error
+    packed = io.BytesIO()
+    picture.save(packed, format="PNG", optimize=True)
+    write_whole(path, packed.getvalue())

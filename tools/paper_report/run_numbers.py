@@ -110,19 +110,32 @@ class RunNumbers:
         )
 
 
-class Numbers:
-    """The numbers of all runs in a folder, opened when they are asked for."""
+def chassis_frequencies(run, most):
+    """The assembled truck's frequencies that its rigid model does not have: above 2.5 Hz, not the axles' hop at 11.4 to
+    11.6 Hz."""
+    found = [value for value in run.frequencies if value > 2.5 and not 11.4 < value < 11.6]
+    return found[:most]
 
-    def __init__(self, folder, costs=None):
+
+class Numbers:
+    """The numbers of all runs in a folder, opened when they are asked for.
+
+    made: names of the runs that count, so that files left there by an earlier work are not taken for new; None: all.
+    """
+
+    def __init__(self, folder, costs=None, made=None):
         self.folder = folder
+        self.made = made
         self.costs = costs  # processor times, dict of run name → s, or None
         self.opened = {}
 
     def has(self, name):
-        return (self.folder / f"{name}.h5").exists()
+        return (self.made is None or name in self.made) and (self.folder / f"{name}.h5").exists()
 
     def run(self, name):
-        """The numbers of a run by its name. ResultsError if its file is not there or cannot be used."""
+        """The numbers of a run by its name. ResultsError if it is not one of those made or its file cannot be used."""
+        if self.made is not None and name not in self.made:
+            raise ResultsError(f"{self.folder / name}.h5: error: this run was not made")
         if name not in self.opened:
             self.opened[name] = RunNumbers(self.folder / f"{name}.h5")
         return self.opened[name]

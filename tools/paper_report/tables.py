@@ -4,8 +4,9 @@ left out, so that a test can make those that are cheap."""
 import numpy as np
 
 from paper_report.claims import format_holds, list_claims
-from paper_report.paper_runs import BANDS, MODE_COUNTS, SEEDS, TERRAIN, name_modes, name_road
-from paper_report.run_numbers import CENTRE, MIDDLE, SEAT
+from paper_report.paper_runs import MODE_COUNTS, name_modes
+from paper_report.run_numbers import CENTRE, MIDDLE, SEAT, chassis_frequencies
+from paper_report.sensitivity_tables import make_sensitivity_table, make_speed_table
 from ride_measures import (
     calc_bending,
     calc_comfort,
@@ -140,6 +141,20 @@ def make_effort_table(numbers):
     return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
 
 
+def make_adams_table(numbers):
+    """The same by Adams' method."""
+    rows = []
+    for count in (0, 2, 4):
+        cells = []
+        for road in ROADS:
+            evaluations, rigid = (
+                numbers.run(f"{road}_{name_modes(n)}_adams").evaluations for n in (count, 0)
+            )
+            cells += [f"{evaluations}", f"{evaluations / rigid:.2f}"]
+        rows.append((str(count), *cells))
+    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
+
+
 def make_cost_table(numbers):
     """Measured processor times of the whole program, no results file; no rows without measured ones."""
     rows = []
@@ -149,42 +164,6 @@ def make_cost_table(numbers):
             time = numbers.costs[f"{road}_{name_modes(count)}"]
             rows.append((f"{road}, {MODELS[count]}", f"{time:.2f}", f"{time / rigid:.2f}"))
     return ("", "processor time s", "over rigid"), rows
-
-
-def chassis_frequencies(run, most):
-    """The assembled truck's frequencies that its rigid model does not have: above 2.5 Hz, not the axles' hop at 11.4 to
-    11.6 Hz."""
-    found = [value for value in run.frequencies if value > 2.5 and not 11.4 < value < 11.6]
-    return found[:most]
-
-
-def make_sensitivity_table(numbers):
-    """Terrain results for each band and seed."""
-    rows = []
-    for band in BANDS:
-        for seed in SEEDS:
-            suffix = "" if (band, seed) == (BANDS[0], TERRAIN.seed) else f"_{name_road(band, seed)[:-4]}"
-            names = [f"terrain_{name_modes(count)}{suffix}" for count in (0, 2, 4)]
-            if not all(map(numbers.has, names)):
-                continue
-            runs = [numbers.run(name) for name in names]
-            middle, centre = ([run.rms_acceleration(point) for run in runs] for point in (MIDDLE, CENTRE))
-            rows.append(
-                (
-                    f"{band.name} 1/m, seed {seed}",
-                    f"{1e3 * calc_rms(runs[0].displacement(MIDDLE)):.1f}",
-                    *(f"{value:.2f}" for value in middle),
-                    f"{100 * (middle[1] / middle[0] - 1):+.0f} %, {100 * (middle[2] / middle[0] - 1):+.0f} %",
-                    *(f"{value:.2f}" for value in centre),
-                    f"{runs[1].front_end.ratio:.1f}, {runs[2].front_end.ratio:.1f}",
-                    f"{runs[2].front_end.frequency:.2f}",
-                )
-            )
-    headings = (
-        "terrain", "displacement rigid mm", "middle rigid m/s²", "2 modes", "4 modes", "2, 4 modes over rigid",
-        "centre of mass rigid m/s²", "2 modes", "4 modes", "front end peak/static 2, 4 modes", "its frequency, 4 modes Hz",
-    )  # fmt: skip
-    return headings, rows
 
 
 def make_ride_table(numbers):
@@ -219,6 +198,7 @@ def make_ride_column(results, superelements, count):
         ] = f"{contact.dynamic_rms / contact.static:.2f}"
         column[f"{axle} tyres: greatest load over static"] = f"{contact.greatest / contact.static:.1f}"
         column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
+        column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
         moments = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
         bending = find_largest_moment(results, *moments, window)
@@ -293,7 +273,9 @@ def list_tables():
         "terrain bands": make_bands_table,
         "convergence": make_convergence_table,
         "effort": make_effort_table,
+        "effort of Adams": make_adams_table,
         "sensitivity": make_sensitivity_table,
+        "speed": make_speed_table,
         "ride": make_ride_table,
         "tyres": make_tyres_table,
         "accuracy": make_accuracy_table,

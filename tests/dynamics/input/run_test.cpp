@@ -67,7 +67,7 @@ TEST_CASE("A run file is read as it is written, its paths relative to its folder
   CHECK(run.start == dynamics::Run::Start::kAsGiven);
   CHECK(run.statistics_from == 0.5);
   CHECK(run.statistics_to == 4.5);
-  CHECK(run.integrator.method == dynamics::IntegratorSettings::Method::kBdf);
+  CHECK(run.integrator.method == dynamics::Integrator::Method::kBdf);
   CHECK(run.integrator.relative_tolerance == 1e-8);
   CHECK(run.integrator.largest_step == 0.01);
   CHECK(dynamics::make_road(run)->height(2.0) == 0.2);
@@ -86,7 +86,7 @@ TEST_CASE("Only vehicle and duration are needed") {
   CHECK(run.start == dynamics::Run::Start::kEquilibrium);
   CHECK(run.statistics_from == 0.0);
   CHECK(run.statistics_to == 2.0);
-  CHECK(run.integrator.method == dynamics::IntegratorSettings::Method::kAdams);
+  CHECK_FALSE(run.integrator.method.has_value());
   CHECK(run.integrator.relative_tolerance == 1e-6);
   CHECK_FALSE(run.integrator.largest_step.has_value());
   CHECK(dynamics::make_road(run)->height(2.0) == 0.0);
@@ -140,7 +140,7 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
         "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a string "
         "\"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
-        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"adams\", \"bdf\"; got a string "
+        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", \"adams\", \"bdf\"; got a string "
         "\"bfd\" (did you mean 'bdf'?)");
   CHECK(error_of("from = 0.5", "form = 0.5") ==
         "runs/first.toml:14:1: error: unknown key 'form' in 'statistics' (did you mean 'from'?)");

@@ -81,3 +81,32 @@ TEST_CASE("The plain evaluator takes no memory either", "[truck]") {
     CHECK(taken == 0);
   }
 }
+
+TEST_CASE("Steps of the exponential integrator over the bump take no memory", "[truck]") {
+  for (const int num_modes : {0, 4, 36}) {
+    const test::BumpStart bump({.num_chassis_modes = num_modes});
+    dynamics::PartitionedOde ode(bump.model);
+    ode.set_state(bump.state, 0.0, 0.0);
+    ode.make_state(0.0, ode.y());
+    ode.update_branches();
+    const auto integrator = make_integrator(ode, {.relative_tolerance = 1e-5});
+    integrator->start(0.0, ode.y(), 1.0);
+    integrator->step(1e-3);  // finds the modes of small motion, for which it does ask
+    std::vector<double> y(ode.y().size());
+    long taken = 0, steps = 0;
+    while (integrator->time() < 1.0) {
+      const long before = test::num_allocations();
+      const dynamics::Integrator::StepResult result = integrator->step(ode.calc_longest_step());
+      integrator->interpolate(integrator->time(), y);
+      taken += test::num_allocations() - before;
+      ++steps;
+      if (result != dynamics::Integrator::StepResult::kSwitched) continue;
+      ode.make_state(integrator->time(), y);
+      ode.update_branches();
+      integrator->start(integrator->time(), y, 1.0);
+    }
+    INFO(num_modes << " modes");
+    CHECK(steps > 50);
+    CHECK(taken == 0);
+  }
+}

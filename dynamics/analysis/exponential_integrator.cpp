@@ -1,0 +1,383 @@
+#include "dynamics/analysis/exponential_integrator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tools/support/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+using lobatto::cubic_weights;
+using lobatto::node_polynomial;
+
+constexpr double kFirstLength = 1e-3;       // s; too long a step is found out
+constexpr double kShortestStep = 1e-12;     // s
+constexpr double kSwitchTolerance = 1e-12;  // s
+
+constexpr int kMaxSweeps = 6;
+constexpr double kIterationShare = 0.3;    // error of the iteration, of what is allowed
+constexpr double kFirstContraction = 0.3;  // until it is known
+constexpr double kLeastContraction = 0.02;
+constexpr double kUselessContraction = 0.9;
+constexpr double kHopelessError =
+    2.0;  // of what is allowed, at which a step is given up before its iteration ends
+constexpr int kFailuresBeforeLinearising = 3;
+
+// Step control: the truncation within a step is of order 5.
+constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
+constexpr double kMemory =
+    0.5;  // share of the last step's error that counts: an estimate may pass through zero
+// A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
+constexpr double kWorthwhile = 1.15;
+constexpr double kTruncationOfFirst =
+    0.3;  // part of fourth degree, of that of third, where no step was before
+
+// out = Σ_j weight_j values_j
+template <class Out>
+void combine(const lobatto::NodeValues& values, const lobatto::NodeWeights& weights, Out&& out) {
+  out = weights[0] * values.col(0) + weights[1] * values.col(1) + weights[2] * values.col(2) +
+        weights[3] * values.col(3);
+}
+
+bool crosses(double before, double after) {
+  return before * after < 0.0 || (after == 0.0 && before != 0.0);
+}
+
+template <class Before, class After>
+bool any_crosses(const Before& before, const After& after) {
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    if (crosses(before[i], after[i])) return true;
+  }
+  return false;
+}
+
+std::span<double> span_of(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
+[[noreturn]] void throw_stopped(double time, const char* reason) {
+  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
+}
+
+}  // namespace
+
+ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_tolerance)
+    : system_(system),
+      tolerance_(relative_tolerance),
+      f_(system.num_freedoms()),
+      num_quadratures_(system.size() - 2 * system.num_freedoms()),
+      num_switches_(system.num_switches()),
+      contraction_(kFirstContraction) {
+  if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
+  y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
+  const Motion motion{Vector::Zero(2 * f_), Vector::Zero(num_quadratures_)};
+  end_ = difference_ = between_motion_ = motion;
+  stages_.fill(motion);
+  between_ = LobattoPropagator(f_);
+  propagators_.fill(between_);
+  now_.motion = motion;
+  now_.drive.pairs = lobatto::NodeValues::Zero(2 * f_, kNumNodes);
+  now_.drive.rates = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);
+  now_.quartic_pairs = pairs_jump_ = motion.u;
+  now_.quartic_rates = rates_jump_ = motion.w;
+  last_ = now_;
+  switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
+  switch_low_ = switch_high_ = switch_between_ = Vector::Zero(num_switches_);
+}
+
+void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
+  if (statistics_.steps > 0) ++statistics_.restarts;
+  const bool follows = last_.length > 0.0 && time == time_;
+  time_ = time;
+  end_time_ = end_time;
+  std::copy(y.begin(), y.end(), y_.data());
+  has_begun_ = false;
+  past_ = follows ? Past::kSwitched : Past::kNone;
+  if (version_ != system_.coordinate_version()) wants_linearisation_ = true;
+  if (next_length_ == 0.0) next_length_ = kFirstLength;
+}
+
+// Any basis is right: what it leaves out of the accelerations stays in the drive.
+void ExponentialIntegrator::linearise() {
+  SmallMotion motion;
+  if (!system_.calc_small_motion(time_, y(), motion)) {
+    motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_),
+              Eigen::MatrixXd::Zero(f_, f_)};
+  }
+  basis_ = make_vibration_basis(motion);
+  version_ = system_.coordinate_version();
+  wants_linearisation_ = has_begun_ = false;
+  last_linearisation_ = statistics_.steps;
+  propagator_length_ = 0.0;
+  past_ = Past::kNone;
+}
+
+void ExponentialIntegrator::begin() {
+  now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
+  now_.motion.w = y_.tail(num_quadratures_);
+  stage_y_ = y_;
+  if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there");
+  has_begun_ = true;
+}
+
+void ExponentialIntegrator::propagate(const LobattoPropagator& propagator, const Step& step,
+                                      Motion& motion) const {
+  propagator.apply(basis_.blocks, step.motion.u, step.drive.pairs, motion.u);
+  motion.w = step.motion.w;
+  for (int j = 0; j < kNumNodes; ++j) motion.w += propagator.integral_weight(j) * step.drive.rates.col(j);
+}
+
+void ExponentialIntegrator::to_physical(const Motion& motion, Vector& y) const {
+  y.head(2 * f_).noalias() = basis_.T * motion.u;
+  y.tail(num_quadratures_) = motion.w;
+}
+
+// Root mean square over the components of y, each by its size that is allowed.
+double ExponentialIntegrator::calc_norm(const Motion& difference) {
+  to_physical(difference, difference_y_);
+  return std::sqrt((difference_y_.array() / scales_.array()).square().mean());
+}
+
+// The drive at stage_y_, which `motion` stands for.
+bool ExponentialIntegrator::evaluate(double time, const Motion& motion, int node) {
+  if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
+    return false;
+  auto pairs = now_.drive.pairs.col(node);
+  pairs.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+  basis_.blocks.subtract_product(motion.u, pairs);
+  now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
+  if (num_switches_ == 0) return true;
+  return system_.calc_switches(time, span_of(stage_y_),
+                               {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
+}
+
+// The polynomial of the last step goes on; behind a switch, beside itself through the drive that holds there.
+void ExponentialIntegrator::predict_drive() {
+  Drive& drive = now_.drive;
+  if (past_ == Past::kNone) {
+    for (int j = 1; j < kNumNodes; ++j) {
+      drive.pairs.col(j) = drive.pairs.col(0);
+      drive.rates.col(j) = drive.rates.col(0);
+    }
+    return;
+  }
+  const double origin = (now_.start - last_.start) / last_.length;
+  const bool switched = past_ == Past::kSwitched;
+  if (switched) {
+    const lobatto::NodeWeights weights = cubic_weights(origin);
+    combine(last_.drive.pairs, weights, pairs_jump_);
+    combine(last_.drive.rates, weights, rates_jump_);
+    pairs_jump_ = drive.pairs.col(0) - pairs_jump_;
+    rates_jump_ = drive.rates.col(0) - rates_jump_;
+  }
+  for (int j = 1; j < kNumNodes; ++j) {
+    const double theta = origin + lobatto::node(j) * now_.length / last_.length;
+    const lobatto::NodeWeights weights = cubic_weights(theta);
+    combine(last_.drive.pairs, weights, drive.pairs.col(j));
+    combine(last_.drive.rates, weights, drive.rates.col(j));
+    if (switched) {
+      drive.pairs.col(j) += pairs_jump_;
+      drive.rates.col(j) += rates_jump_;
+    } else if (last_.has_quartic) {
+      drive.pairs.col(j) += node_polynomial(theta) * last_.quartic_pairs;
+      drive.rates.col(j) += node_polynomial(theta) * last_.quartic_rates;
+    }
+  }
+}
+
+// Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
+bool ExponentialIntegrator::iterate() {
+  double last_change = 0.0;
+  for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
+    for (int i = 1; i < kNumNodes; ++i) {
+      const auto node = static_cast<std::size_t>(i);
+      propagate(propagators_[node], now_, stages_[node]);
+      to_physical(stages_[node], stage_y_);
+      if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
+    }
+    double change = 0.0;
+    for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
+      propagate(propagators_[node], now_, end_);
+      difference_.u = end_.u - stages_[node].u;
+      difference_.w.setZero();
+      change = std::max(change, calc_norm(difference_));
+    }
+    if (!std::isfinite(change)) return false;
+    if (sweep > 1 && last_change > 0.0) {
+      contraction_ = std::max(kLeastContraction, 0.5 * (contraction_ + change / last_change));
+      if (sweep > 2 && contraction_ > kUselessContraction) return false;
+    }
+    last_change = change;
+    const double rate = std::min(kUselessContraction, contraction_);
+    if (change * rate / (1.0 - rate) <= kIterationShare || calc_truncation() > kHopelessError) return true;
+  }
+  return false;
+}
+
+// Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
+// before.
+void ExponentialIntegrator::evaluate_quartic() {
+  now_.has_quartic = past_ == Past::kSmooth;
+  if (!now_.has_quartic) {
+    const lobatto::NodeWeights third = kTruncationOfFirst * lobatto::third_degree_weights();
+    combine(now_.drive.pairs, third, now_.quartic_pairs);
+    combine(now_.drive.rates, third, now_.quartic_rates);
+    return;
+  }
+  const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
+  const lobatto::NodeWeights weights = cubic_weights(theta);
+  combine(now_.drive.pairs, weights, now_.quartic_pairs);
+  combine(now_.drive.rates, weights, now_.quartic_rates);
+  const double divisor = node_polynomial(theta);
+  now_.quartic_pairs = (last_.drive.pairs.col(2) - now_.quartic_pairs) / divisor;
+  now_.quartic_rates = (last_.drive.rates.col(2) - now_.quartic_rates) / divisor;
+}
+
+// What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
+double ExponentialIntegrator::calc_truncation() {
+  evaluate_quartic();
+  double sum = 0.0;
+  for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
+    propagators_[node].apply_quartic(basis_.blocks, now_.quartic_pairs, difference_.u);
+    difference_.w = propagators_[node].integral_quartic() * now_.quartic_rates;
+    sum += std::pow(calc_norm(difference_), 2);
+  }
+  return std::sqrt(sum);
+}
+
+double ExponentialIntegrator::choose_length(double longest_step) const {
+  const double left = end_time_ - time_;
+  const double length = std::min(next_length_, longest_step);
+  if (length >= left * (1.0 - 1e-9)) return left;
+  return 2.0 * length > left ? 0.5 * left : length;
+}
+
+Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
+  if (end_time_ - time_ <= kShortestStep) {
+    time_ = end_time_;
+    return StepResult::kEnded;
+  }
+  if (wants_linearisation_) linearise();
+  if (!has_begun_) begin();
+  system_.calc_error_scales(y(), span_of(scales_));
+  scales_ *= tolerance_;
+
+  double factor = 1.0;
+  for (int failures = 0;;) {
+    now_.start = time_;
+    now_.length = choose_length(longest_step);
+    if (now_.length < kShortestStep) {
+      throw_stopped(time_,
+                    "the step has become too short; look at forces and positions just before that time");
+    }
+    if (now_.length != propagator_length_) {
+      for (int i = 1; i < kNumNodes; ++i) {
+        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, basis_.blocks);
+      }
+      propagator_length_ = now_.length;
+    }
+    predict_drive();
+    if (!iterate()) {
+      ++statistics_.iteration_failures;
+      contraction_ = kFirstContraction;
+      past_ = Past::kNone;
+      next_length_ = 0.5 * now_.length;
+      // The oscillators may be those of a state long past.
+      if (++failures == kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
+        linearise();
+        begin();
+      }
+      continue;
+    }
+    const double error = calc_truncation();
+    factor = kSafety * std::pow(std::max({error, kMemory * last_error_, 1e-10}), -1.0 / kOrder);
+    factor = std::clamp(factor, kLeastFactor, kLargestFactor);
+    last_error_ = error;
+    if (error <= 1.0) break;
+    ++statistics_.error_test_failures;
+    next_length_ = std::min(factor, 0.9) * now_.length;
+  }
+  ++statistics_.steps;
+  if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
+  if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
+  if (finish_step()) return StepResult::kSwitched;
+  return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
+}
+
+// now_ becomes last_, and the next one starts at its end. @return true if a switch cut it off
+bool ExponentialIntegrator::finish_step() {
+  const bool switched = num_switches_ > 0 && locate_switch();
+  if (switched) {
+    std::swap(now_, last_);
+    to_physical(between_motion_, y_);
+    has_begun_ = false;
+    return true;
+  }
+  time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
+  propagate(propagators_[kNumNodes - 1], now_, end_);
+  to_physical(end_, y_);
+  std::swap(now_, last_);
+  std::swap(now_.motion, end_);
+  now_.drive.pairs.col(0) = last_.drive.pairs.col(kNumNodes - 1);
+  now_.drive.rates.col(0) = last_.drive.rates.col(kNumNodes - 1);
+  if (num_switches_ > 0) switches_.col(0) = switches_.col(kNumNodes - 1);
+  past_ = Past::kSmooth;
+  return false;
+}
+
+// The first zero of a switch function in now_, between two of its nodes: by the Illinois rule, to the far
+// side of it. time_ and between_motion_ are there.
+bool ExponentialIntegrator::locate_switch() {
+  int after = 1;
+  while (after < kNumNodes && !any_crosses(switches_.col(after - 1), switches_.col(after))) ++after;
+  if (after == kNumNodes) return false;
+  double low = lobatto::node(after - 1), high = lobatto::node(after);
+  switch_low_ = switches_.col(after - 1);
+  switch_high_ = switches_.col(after);
+  const auto move_to = [this](double theta) {
+    between_.update(theta, now_.length, basis_.blocks);
+    propagate(between_, now_, between_motion_);
+  };
+  const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
+  double weight = 1.0;  // of the value at `high`
+  int last_moved = 0;
+  for (int iteration = 0; iteration < 100 && high - low > tolerance; ++iteration) {
+    double theta = high;
+    for (Eigen::Index i = 0; i < num_switches_; ++i) {
+      if (!crosses(switch_low_[i], switch_high_[i])) continue;
+      theta =
+          std::min(theta, low + (high - low) * switch_low_[i] / (switch_low_[i] - weight * switch_high_[i]));
+    }
+    theta = std::clamp(theta, low + 0.5 * tolerance, high - 0.5 * tolerance);
+    move_to(theta);
+    to_physical(between_motion_, stage_y_);
+    if (!system_.calc_switches(now_.start + theta * now_.length, span_of(stage_y_),
+                               span_of(switch_between_))) {
+      throw_stopped(now_.start + theta * now_.length, "no positions can be found there");
+    }
+    const bool is_behind = any_crosses(switch_low_, switch_between_);
+    (is_behind ? high : low) = theta;
+    (is_behind ? switch_high_ : switch_low_).swap(switch_between_);
+    const int moved = is_behind ? 1 : -1;
+    weight = moved != last_moved ? 1.0 : is_behind ? 2.0 * weight : 0.5 * weight;
+    last_moved = moved;
+  }
+  time_ = now_.start + high * now_.length;
+  move_to(high);
+  return true;
+}
+
+void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
+  between_.update((time - last_.start) / last_.length, last_.length, basis_.blocks);
+  propagate(between_, last_, between_motion_);
+  to_physical(between_motion_, between_y_);
+  std::copy(between_y_.begin(), between_y_.end(), y.begin());
+}
+
+}  // namespace sprung::dynamics

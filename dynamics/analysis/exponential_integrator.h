@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "dynamics/analysis/integrator.h"
+#include "dynamics/analysis/lobatto_step.h"
+
+namespace sprung::dynamics {
+
+/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
+/// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
+/// the step through its values at the four Lobatto points, found by iteration. So the step follows what
+/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a
+/// switch is needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck &
+/// Ostermann 2010] (dynamics/README.md, eqs. 51–56).
+class ExponentialIntegrator final : public Integrator {
+ public:
+  /// @param system  f > 0 freedoms; has to outlive this
+  ExponentialIntegrator(OdeSystem& system, double relative_tolerance);
+
+  void start(double time, std::span<const double> y, double end_time) override;
+  StepResult step(double longest_step) override;
+  double time() const override { return time_; }
+  std::span<const double> y() const override { return {y_.data(), static_cast<std::size_t>(y_.size())}; }
+  void interpolate(double time, std::span<double> y) const override;
+  Statistics statistics() const override { return statistics_; }
+
+ private:
+  static constexpr int kNumNodes = lobatto::kNumNodes;
+  using Vector = Eigen::VectorXd;
+
+  // Pairs, 2f, and quadratures at one instant.
+  struct Motion {
+    Vector u, w;
+  };
+  // What drives them at the nodes.
+  struct Drive {
+    lobatto::NodeValues pairs, rates;
+  };
+  // The start and the drive tell all of a step.
+  struct Step {
+    double start = 0.0, length = 0.0;  // [s]
+    Motion motion;
+    Drive drive;
+    Vector quartic_pairs, quartic_rates;  // coefficients of node_polynomial, estimated
+    bool has_quartic = false;
+  };
+  // What the forces at the nodes are predicted from.
+  enum class Past {
+    kNone,
+    kSwitched,  // last_ was cut off where now_ starts
+    kSmooth,    // last_ ended where now_ starts
+  };
+
+  void linearise();
+  void begin();
+  double choose_length(double longest_step) const;
+  bool evaluate(double time, const Motion& motion, int node);
+  void evaluate_quartic();
+  void predict_drive();
+  bool iterate();
+  double calc_truncation();
+  bool finish_step();
+  bool locate_switch();
+  void propagate(const LobattoPropagator& propagator, const Step& step, Motion& motion) const;
+  void to_physical(const Motion& motion, Vector& y) const;
+  double calc_norm(const Motion& difference);
+
+  OdeSystem& system_;
+  double tolerance_;
+  Eigen::Index f_, num_quadratures_;
+  int num_switches_;
+  Statistics statistics_;
+
+  VibrationBasis basis_;
+  int version_ = 0;  // of the coordinates that it is for
+  bool wants_linearisation_ = true;
+  long last_linearisation_ = 0;  // step
+
+  double time_ = 0.0, end_time_ = 0.0;
+  double next_length_ = 0.0;
+  Vector y_;         // at time_
+  Step now_, last_;  // being made; finished
+  bool has_begun_ = false;
+  Past past_ = Past::kNone;
+  double contraction_;                                    // of the iteration, from sweep to sweep
+  double last_error_ = 0.0;                               // of the step before, of the tolerance
+  std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
+  double propagator_length_ = 0.0;
+  std::array<Motion, kNumNodes> stages_;
+  Eigen::MatrixXd switches_;  // num_switches × 4
+  Vector switch_low_, switch_high_, switch_between_;
+
+  Motion end_, difference_;
+  Vector y_dot_, scales_, stage_y_, difference_y_;
+  Vector pairs_jump_, rates_jump_;
+  mutable LobattoPropagator between_;
+  mutable Motion between_motion_;
+  mutable Vector between_y_;
+};
+
+}  // namespace sprung::dynamics

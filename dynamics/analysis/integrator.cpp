@@ -1,0 +1,33 @@
+#include "dynamics/analysis/integrator.h"
+
+#include "dynamics/analysis/cvode_integrator.h"
+#include "dynamics/analysis/exponential_integrator.h"
+
+namespace sprung::dynamics {
+
+std::string_view method_name(Integrator::Method method) {
+  switch (method) {
+    case Integrator::Method::kAdams:
+      return "adams";
+    case Integrator::Method::kBdf:
+      return "bdf";
+    case Integrator::Method::kExponential:
+      return "exponential";
+  }
+  return "";
+}
+
+Integrator::Method default_method(int num_freedoms) {
+  constexpr int kMostForFullMatrices = 100;
+  return num_freedoms > 0 && num_freedoms <= kMostForFullMatrices ? Integrator::Method::kExponential
+                                                                  : Integrator::Method::kAdams;
+}
+
+std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options) {
+  if (options.method == Integrator::Method::kExponential) {
+    return std::make_unique<ExponentialIntegrator>(system, options.relative_tolerance);
+  }
+  return std::make_unique<CvodeIntegrator>(system, options);
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "dynamics/analysis/ode_system.h"
+
+namespace sprung::dynamics {
+
+/// Integration of an OdeSystem step by step, with location of the zeros of its switch functions.
+class Integrator {
+ public:
+  enum class Method {
+    kAdams,        ///< CVODE, orders 1–12, functional iteration: smooth motion that is not stiff
+    kBdf,          ///< CVODE, orders 1–5, Newton iteration: stiff systems
+    kExponential,  ///< exponential collocation: linear vibration exactly, the rest by a quadrature of order 6
+  };
+  struct Options {
+    Method method = Method::kExponential;
+    double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
+  };
+  enum class StepResult {
+    kStepped,   ///< one step taken
+    kSwitched,  ///< a switch function has a zero at time(); `start` has to be called before the next step
+    kEnded,     ///< the end time is reached
+  };
+  struct Statistics {
+    long steps = 0, error_test_failures = 0, iteration_failures = 0, restarts = 0;
+  };
+
+  virtual ~Integrator() = default;
+
+  /// Starts, or starts anew, at (time, y).
+  virtual void start(double time, std::span<const double> y, double end_time) = 0;
+  /// One step of at most `longest_step`.
+  /// @throws support::NumericalError with the time and the reason
+  virtual StepResult step(double longest_step) = 0;
+
+  virtual double time() const = 0;                ///< end of the last step, or of its part up to a switch
+  virtual std::span<const double> y() const = 0;  ///< at time()
+  /// Solution at a time within the last step.
+  virtual void interpolate(double time, std::span<double> y) const = 0;
+  virtual Statistics statistics() const = 0;
+};
+
+/// As in run files: "exponential".
+std::string_view method_name(Integrator::Method method);
+/// The method for who does not choose: exponential where there are vibrations to be known beforehand, and not
+/// so many freedoms that its full matrices, 2f×2f, cost more than the equations.
+Integrator::Method default_method(int num_freedoms);
+
+/// @param system  has to outlive the integrator
+/// @throws std::invalid_argument for the exponential method without a freedom
+std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,38 @@
+"""tools/whole_file.py: a file is written whole or stays as it was."""
+
+import os
+import unittest
+from unittest import mock
+
+from tool_test_case import ToolTestCase
+
+from results_file import ResultsError
+from whole_file import write_whole
+
+
+class WholeFile(ToolTestCase):
+    def test_text_and_bytes_take_the_place_of_what_was_there(self):
+        path = self.folder / "a.txt"
+        for content, expected in (("ε\n", "ε\n".encode()), (b"\x00\xff", b"\x00\xff")):
+            write_whole(path, content)
+            self.assertEqual(path.read_bytes(), expected)
+        self.assertEqual(os.listdir(self.folder), ["a.txt"])
+
+    def test_an_interruption_leaves_the_earlier_file_and_nothing_else(self):
+        path = self.folder / "a.txt"
+        path.write_text("earlier", encoding="utf-8")
+        with mock.patch("os.replace", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            write_whole(path, "later")
+        self.assertEqual(path.read_text(encoding="utf-8"), "earlier")
+        self.assertEqual(os.listdir(self.folder), ["a.txt"])
+
+    def test_a_place_that_cannot_be_written_is_named(self):
+        (self.folder / "taken").mkdir()
+        for place in ("none/a.txt", "taken", "."):
+            with self.assertRaisesRegex(ResultsError, f"{place}: error: cannot write the file"):
+                write_whole(self.folder / place if place != "." else place, "text")
+        self.assertEqual(os.listdir(self.folder), ["taken"])
+
+
+if __name__ == "__main__":
+    unittest.main()
