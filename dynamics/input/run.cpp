@@ -69,6 +69,7 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
 
 AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
   AdaptivitySettings settings;
+  settings.location = table.location();
   if (const auto enabled = table.find("enabled")) settings.enabled = enabled->boolean();
   if (const auto indicator = table.find("indicator")) settings.indicator = indicator->boolean();
   settings.recall = table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
@@ -169,6 +170,7 @@ Run read_run(const support::TomlDocument& document) {
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
+  if (const auto table = root.find_table("stiffening")) run.stiffening = read_stiffening(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
   if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
@@ -208,6 +210,10 @@ ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selec
 
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
   return resolve_modal_damping(run.modal_damping, selection, vehicle);
+}
+
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
+  return resolve_stiffening(run.stiffening, selection, vehicle);
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {

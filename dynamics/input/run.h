@@ -12,6 +12,7 @@
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
+#include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/analysis/integrator.h"
 #include "dynamics/system/model.h"
@@ -37,6 +38,7 @@ struct IntegratorSettings {
 
 /// `[adaptivity]`: modes that join and leave during the run.
 struct AdaptivitySettings {
+  support::SourceLocation location;
   bool enabled = false;
   bool indicator = true;  ///< whether a run with a fixed set is told what it misses
   double recall = 1e-2, drop = 2e-3, residence = 0.2;  ///< as in AdaptivityOptions
@@ -63,6 +65,7 @@ struct Run {
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;
   DampingRequests modal_damping;
+  StiffeningRequests stiffening;
   RoadDescription road;
   IntegratorSettings integrator;
   AdaptivitySettings adaptivity;
@@ -82,6 +85,7 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
 /// @throws support::InputError as resolve_modes
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at the run's reference to a point that the vehicle lacks

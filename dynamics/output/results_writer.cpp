@@ -75,7 +75,7 @@ void ResultsWriter::add_point_series() {
     });
     if (body.num_modes() == 0) continue;
     add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, Eigen::Vector2d(marker.Phi * now.q.segment(first + 3, size - 3)));
+      put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
     });
   }
 }

@@ -82,11 +82,17 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
   const ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
+  const StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
+  if (run.adaptivity.enabled && !stiffened.empty()) {
+    throw support::InputError(run.adaptivity.location,
+                              "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
+                              "be stiffened; take a fixed set of modes, or leave stiffening out");
+  }
 
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.balance_model =
       make_model(vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
-                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
+                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
@@ -101,7 +107,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.road = make_road(run);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping);
+  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping,
+                              MotionUse::kMoving, stiffened);
   std::optional<Integrator::Method>& method = prepared.run.integrator.method;
   if (!method) method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {

@@ -182,7 +182,7 @@ def read_checks_of(folder, name, content_hash):
     path = os.path.join(folder, f"{name}.h5")
     if not os.path.exists(path):
         return {"problem": f"Not shown: there is no {path}."}
-    with open_hdf5(path, "sprung-superelement", 1) as file:
+    with open_hdf5(path, "sprung-superelement", 2) as file:
         if text_of(file.attrs.get("content_hash", "")) != content_hash:
             return {"problem": f"Not shown: {path} is another superelement than the one that was run."}
         values, _ = read_numbers(file, "checks/value")
