@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/analysis/integrator.h"
-#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/analysis/system_stepper.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
@@ -29,7 +29,7 @@ struct Event {
 /// Everything about the vehicle at one output time; valid during the call that gets it.
 struct Snapshot {
   double time = 0.0;
-  const PartitionedEquations& equations;  ///< positions, velocities, accelerations, multipliers up to date
+  const ConstrainedEquations& equations;  ///< positions, velocities, accelerations, multipliers up to date
   std::span<const int> branches;
   EnergyBook energy;
 };
@@ -45,10 +45,8 @@ struct TransientOptions {
 };
 
 struct TransientStatistics {
-  Integrator::Statistics integrator;
-  long evaluations = 0;         ///< of the equations, by the integrator
-  long output_evaluations = 0;  ///< for the outputs
-  long repartitions = 0;
+  SystemStepper::Statistics stepper;
+  long output_evaluations = 0;  ///< of the equations, for the outputs
   long switches = 0;
   bool completed = false;       ///< false: stopped by on_step
 };

@@ -74,7 +74,7 @@ TEST_CASE("Three integrators take the truck over the bump alike", "[truck]") {
 TEST_CASE("Stiff modes cost few evaluations more: steps follow what excites them", "[truck]") {
   const auto evaluations = [](int num_modes) {
     const test::BumpResult run = test::drive_over_bump({.num_chassis_modes = num_modes, .relative_tolerance = 1e-3});
-    return static_cast<double>(run.statistics.evaluations);
+    return static_cast<double>(run.statistics.stepper.evaluations);
   };
   const double rigid = evaluations(0);
   CHECK(rigid < 4000);

@@ -63,7 +63,7 @@ TEST_CASE("Outputs come at 0, at every step and at the end", "[analysis]") {
   CHECK(times.back() <= 0.5);
   CHECK(statistics.completed);
   CHECK(statistics.output_evaluations == 51);
-  CHECK(statistics.evaluations > 0);
+  CHECK(statistics.stepper.evaluations > 0);
 }
 
 TEST_CASE("A run can be stopped after any step", "[analysis]") {
