@@ -2,12 +2,16 @@
 
 #include <utility>
 
+#include "dynamics/analysis/generalized_alpha_stepper.h"
 #include "dynamics/analysis/partitioned_stepper.h"
 
 namespace sprung::dynamics {
 
 std::unique_ptr<SystemStepper> make_stepper(const Model& model, const Integrator::Options& options,
                                             std::function<void(double time)> on_repartition) {
+  if (options.method == Integrator::Method::kGeneralizedAlpha) {
+    return std::make_unique<GeneralizedAlphaStepper>(model, options);
+  }
   return std::make_unique<PartitionedStepper>(model, options, std::move(on_repartition));
 }
 
