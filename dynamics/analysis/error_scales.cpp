@@ -21,12 +21,16 @@ ErrorScales::ErrorScales(const Model& model)
   energy_scale_ = 0.5 * mass * std::pow(velocity_scale_ * model.length_scale, 2);
 }
 
-double ErrorScales::position(int coordinate) const { return kStepShare * model_->coordinate_scale(coordinate); }
+double ErrorScales::position(int coordinate) const {
+  return kStepShare * model_->coordinate_scale(coordinate);
+}
 
 double ErrorScales::velocity(int coordinate, double velocity) const {
   return kStepShare * (velocity_scale_ * model_->coordinate_scale(coordinate) + std::abs(velocity));
 }
 
-double ErrorScales::energy() const { return kStepShare * energy_scale_; }
+double ErrorScales::energy() const {
+  return kStepShare * energy_scale_;
+}
 
 }  // namespace sprung::dynamics

@@ -4,8 +4,8 @@
 
 namespace sprung::dynamics {
 
-/// What the relative tolerance is of: the error that a step may make in a quantity is the tolerance times its scale
-/// here (dynamics/README.md, "Error control"). None depends on where the origin is.
+/// What the relative tolerance is of: the error that a step may make in a quantity is the tolerance times its
+/// scale here (dynamics/README.md, "Error control"). None depends on where the origin is.
 class ErrorScales {
  public:
   /// @param model has to outlive this

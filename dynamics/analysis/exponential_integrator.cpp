@@ -322,7 +322,8 @@ bool ExponentialIntegrator::finish_step() {
 // The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.
 bool ExponentialIntegrator::locate_switch() {
   int after = 1;
-  while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after))) ++after;
+  while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
+    ++after;
   if (after == kNumNodes) return false;
   const auto move_to = [this](double theta) {
     between_.update(theta, now_.length, basis_.blocks);
@@ -330,8 +331,8 @@ bool ExponentialIntegrator::locate_switch() {
   };
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
   const double theta = switch_search_.locate(
-      lobatto::node(after - 1), lobatto::node(after), tolerance, switches_.col(after - 1), switches_.col(after),
-      [&](double place, Vector& values) {
+      lobatto::node(after - 1), lobatto::node(after), tolerance, switches_.col(after - 1),
+      switches_.col(after), [&](double place, Vector& values) {
         move_to(place);
         to_physical(between_motion_, stage_y_);
         const double time = now_.start + place * now_.length;

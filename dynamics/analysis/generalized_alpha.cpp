@@ -18,7 +18,9 @@ GeneralizedAlpha::GeneralizedAlpha(double spectral_radius) {
   beta = 0.25 * std::pow(gamma + 0.5, 2);
 }
 
-double GeneralizedAlpha::position_error() const { return beta + 0.5 * offset() - 1.0 / 6.0; }
+double GeneralizedAlpha::position_error() const {
+  return beta + 0.5 * offset() - 1.0 / 6.0;
+}
 
 double GeneralizedAlpha::velocity_error() const {
   const double of_auxiliary = alpha_f * (1.0 - alpha_f) - alpha_m * (1.0 - alpha_m);

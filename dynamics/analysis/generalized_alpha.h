@@ -2,9 +2,8 @@
 
 namespace sprung::dynamics {
 
-/// The coefficients of the generalized-α method (dynamics/README.md, eqs. 58 and 59): second order whatever the
-/// spectral radius ρ at infinite frequency, least damping below it.
-/// Source: [Chung & Hulbert 1993]
+/// The coefficients of the generalized-α method (dynamics/README.md, eqs. 58 and 59): second order whatever
+/// the spectral radius ρ at infinite frequency, least damping below it. Source: [Chung & Hulbert 1993]
 struct GeneralizedAlpha {
   double alpha_m = 0.0, alpha_f = 0.0, beta = 0.0, gamma = 0.0;
 

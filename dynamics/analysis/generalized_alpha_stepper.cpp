@@ -15,17 +15,19 @@ namespace {
 constexpr double kFirstLength = 1e-4;       // s; too long a step is found out
 constexpr double kShortestStep = 1e-10;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
-constexpr double kProbe = 1e-3;             // of a step, for rates at a start
+constexpr double kProbe = 1e-5;             // of a step, for rates at a start
 
 constexpr int kMaxIterations = 8;
-constexpr double kIterationShare = 0.05;    // error of the iteration, of what is allowed
-constexpr double kNothingLeft = 1e-3;       // of what is allowed
-constexpr double kSlowContraction = 0.15;   // beyond it another matrix is cheaper than the iterations
+constexpr double kIterationShare = 0.05;   // error of the iteration, of what is allowed
+constexpr double kNothingLeft = 1e-3;      // of what is allowed
+constexpr double kSlowContraction = 0.15;  // beyond it another matrix is cheaper than the iterations
 constexpr double kUselessContraction = 0.7;
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();  // of the natural size
+constexpr double kRounding =
+    64.0 * std::numeric_limits<double>::epsilon();  // of a coordinate and its natural size
 
 constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
-// A step is kept as it is where a better one would hardly be longer: equal steps make the smoother multipliers.
+// A step is kept as it is where a better one would hardly be longer: equal steps make the smoother
+// multipliers.
 constexpr double kWorthwhile = 1.2;
 
 [[noreturn]] void throw_stopped(double time, const char* reason) {
@@ -59,7 +61,7 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integ
       next_length_(kFirstLength),
       switch_search_(piece_.num_switches()) {
   auxiliary_begin_ = auxiliary_end_ = delta_ = q_ = v_ = probe_ = begin_.motion.q;
-  delta_lambda_ = scaled_phi_ = rate_ = begin_.motion.lambda;
+  delta_lambda_ = scaled_phi_ = begin_.motion.lambda;
 }
 
 void GeneralizedAlphaStepper::start(const State& state) {
@@ -71,13 +73,35 @@ void GeneralizedAlphaStepper::start(const State& state) {
   has_step_ = false;
 }
 
-// Dissipated, and put in by forces and by prescribed motion, at the motion of the residual.
-GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power(const Vector& lambda) {
-  Pair power(residual_.terms().power().dissipated, residual_.terms().power().input);
-  if (!model_->has_motions) return power;
-  residual_.terms().calc_time_rate(rate_);
-  power.y() += lambda.dot(rate_);
-  return power;
+// The equations at a motion that need not satisfy the constraints of the velocities.
+void GeneralizedAlphaStepper::evaluate_equations(const ConstrainedMotion& motion) {
+  ++num_evaluations_;
+  SystemTerms& terms = equations_.terms();
+  terms.update_positions(motion.time, motion.q);
+  terms.update_jacobian();
+  terms.update_velocities(motion.v);
+  if (!equations_.update_accelerations(piece_.branches())) {
+    throw_stopped(time_, "no accelerations can be found there");
+  }
+}
+
+// Dissipated, and put in, where the equations are.
+GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power() {
+  const Power& power = equations_.terms().power();
+  return {power.dissipated, power.input + equations_.calc_motion_power()};
+}
+
+// Prescribed motion works with the multipliers that belong to the motion: those of the step jump where its
+// length does.
+void GeneralizedAlphaStepper::update_end_power() {
+  if (model_->has_motions) {
+    evaluate_equations(end_.motion);
+    end_.power = calc_power();
+    return;
+  }
+  // The residual is of the motion before the last change, by much less than the tolerance.
+  const Power& power = residual_.terms().power();
+  end_.power = {power.dissipated, power.input};
 }
 
 void GeneralizedAlphaStepper::resume(double end_time) {
@@ -98,32 +122,25 @@ void GeneralizedAlphaStepper::resume(double end_time) {
   has_step_ = false;
   if (end_time_ - time_ > kShortestStep) find_rates();
   residual_.update(motion, piece_.branches());
-  piece_.calc_switches(residual_.terms(), {begin_.switches.data(), static_cast<std::size_t>(begin_.switches.size())});
+  piece_.calc_switches(residual_.terms(),
+                       {begin_.switches.data(), static_cast<std::size_t>(begin_.switches.size())});
 }
 
-// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61). It is
-// found from the accelerations a little later.
+// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61).
+// It is found from the accelerations a little later.
 void GeneralizedAlphaStepper::find_rates() {
   const ConstrainedMotion& motion = begin_.motion;
-  residual_.update(motion, piece_.branches());
-  begin_.power = calc_power(motion.lambda);
+  begin_.power = calc_power();
   const double shift = kProbe * std::min(next_length_, end_time_ - time_);
   end_.motion = motion;
   end_.motion.time = motion.time + shift;
   end_.motion.q += shift * motion.v + 0.5 * shift * shift * motion.v_dot;
   end_.motion.v += shift * motion.v_dot;
-  SystemTerms& terms = equations_.terms();
-  terms.update_positions(end_.motion.time, end_.motion.q);
-  terms.update_jacobian();
-  terms.update_velocities(end_.motion.v);
-  if (!equations_.update_accelerations(piece_.branches())) {
-    throw_stopped(time_, "no accelerations can be found there");
-  }
+  evaluate_equations(end_.motion);
   begin_.jerk = (equations_.v_dot() - motion.v_dot) / shift;
   begin_.lambda_rate = (equations_.multipliers() - motion.lambda) / shift;
   begin_.lead = method_.offset() * begin_.jerk;
-  residual_.update(end_.motion, piece_.branches());
-  begin_.power_rate = (calc_power(equations_.multipliers()) - begin_.power) / shift;
+  begin_.power_rate = (calc_power() - begin_.power) / shift;
 }
 
 double GeneralizedAlphaStepper::choose_length(double longest_step) const {
@@ -168,16 +185,28 @@ void GeneralizedAlphaStepper::renew_matrix(const Index3Newton::Weights& weights)
   is_fresh_ = true;
 }
 
-// Root mean square of what the iteration has changed in q and v, of what is allowed; not below their rounding.
+// What an error may be; not below what rounding of positions does, which over a short step is much in
+// velocities.
+double GeneralizedAlphaStepper::allowed_position(int i) const {
+  return std::max(tolerance_ * scales_.position(i), rounding(i));
+}
+
+double GeneralizedAlphaStepper::allowed_velocity(int i, double length) const {
+  return std::max(tolerance_ * scales_.velocity(i, begin_.motion.v[i]),
+                  rounding(i) * method_.gamma / (method_.beta * length));
+}
+
+double GeneralizedAlphaStepper::rounding(int i) const {
+  return kRounding * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
+}
+
+// Root mean square of what the iteration has changed in q and v, of what is allowed.
 double GeneralizedAlphaStepper::calc_iteration_norm(double length) const {
-  const double to_q = method_.beta * length * length, to_v = method_.gamma * length;
+  const Index3Newton::Weights change = weights(length);
   double sum = 0.0;
   for (int i = 0; i < model_->num_coordinates; ++i) {
-    const double rounding = kRounding * model_->coordinate_scale(i);
-    const double allowed_q = std::max(tolerance_ * scales_.position(i), rounding);
-    const double allowed_v =
-        std::max(tolerance_ * scales_.velocity(i, begin_.motion.v[i]), rounding * to_v / to_q);
-    sum += std::pow(to_q * delta_[i] / allowed_q, 2) + std::pow(to_v * delta_[i] / allowed_v, 2);
+    sum += std::pow(change.position * delta_[i] / allowed_position(i), 2) +
+           std::pow(change.velocity * delta_[i] / allowed_velocity(i, length), 2);
   }
   return std::sqrt(sum / (2.0 * model_->num_coordinates));
 }
@@ -225,8 +254,8 @@ bool GeneralizedAlphaStepper::converge(double length) {
   return true;
 }
 
-// e ← the part of an error in the coordinates that counts, by Newton's matrix: without what the constraints take away
-// again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
+// e ← the part of an error in the coordinates that counts, by Newton's matrix: without what the constraints
+// take away again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
 void GeneralizedAlphaStepper::filter_error(Vector& error) {
   scaled_phi_.setZero();
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
@@ -248,12 +277,11 @@ double GeneralizedAlphaStepper::calc_error(double length) {
   filter_error(v_);
   double sum = 0.0;
   for (int i = 0; i < model_->num_coordinates; ++i) {
-    sum += std::pow(q_[i] / scales_.position(i), 2) +
-           std::pow(v_[i] / scales_.velocity(i, begin_.motion.v[i]), 2);
+    sum += std::pow(q_[i] / allowed_position(i), 2) + std::pow(v_[i] / allowed_velocity(i, length), 2);
   }
   const Pair curvature = ((end_.power - begin_.power) / length - begin_.power_rate) / between;
-  sum += (cubed / 12.0 * curvature / scales_.energy()).squaredNorm();
-  return std::sqrt(sum / (2.0 * model_->num_coordinates + 2.0)) / tolerance_;
+  sum += (cubed / 12.0 * curvature / (tolerance_ * scales_.energy())).squaredNorm();
+  return std::sqrt(sum / (2.0 * model_->num_coordinates + 2.0));
 }
 
 Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
@@ -267,20 +295,22 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   while (true) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
-      throw_stopped(time_,
-                    "the step has become too short; look at forces and positions just before that time, which may be "
-                    "a singular one");
+      throw_stopped(
+          time_,
+          "the step has become too short; look at forces and positions just before that time, which may be "
+          "a singular one");
     }
     if (!converge(length)) {
-      if (fixed_step_ > 0.0) throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step");
+      if (fixed_step_ > 0.0)
+        throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step");
       next_length_ = 0.25 * length;
       continue;
     }
-    // The residual is of the motion before the last change, by much less than the tolerance.
-    end_.power = calc_power(end_.motion.lambda);
+    update_end_power();
     if (fixed_step_ > 0.0) break;
     const double error = calc_error(length);
-    factor = std::clamp(kSafety * std::pow(std::max(error, 1e-10), -1.0 / kOrder), kLeastFactor, kLargestFactor);
+    factor =
+        std::clamp(kSafety * std::pow(std::max(error, 1e-10), -1.0 / kOrder), kLeastFactor, kLargestFactor);
     if (error <= 1.0) break;
     ++statistics_.integrator.error_test_failures;
     next_length_ = std::min(factor, 0.9) * length;
@@ -314,7 +344,8 @@ void GeneralizedAlphaStepper::interpolate(double time) {
   const double rate_of_a = length * s * (1.0 - s) * (1.0 - s), rate_of_b = -length * s * s * (1.0 - s);
   q_ = of_a * a.q + of_b * b.q + rate_of_a * a.v + rate_of_b * b.v;
   v_ = of_a * a.v + of_b * b.v + rate_of_a * a.v_dot + rate_of_b * b.v_dot;
-  evaluated_energy_ = of_a * begin_.energy + of_b * end_.energy + rate_of_a * begin_.power + rate_of_b * end_.power;
+  evaluated_energy_ =
+      of_a * begin_.energy + of_b * end_.energy + rate_of_a * begin_.power + rate_of_b * end_.power;
 }
 
 bool GeneralizedAlphaStepper::locate_switch() {
@@ -323,8 +354,8 @@ bool GeneralizedAlphaStepper::locate_switch() {
   if (!SwitchSearch::any_crosses(begin_.switches, end_.switches)) return false;
   const double from = begin_.motion.time, length = end_.motion.time - from;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
-  const double theta =
-      switch_search_.locate(0.0, 1.0, tolerance, begin_.switches, end_.switches, [&](double place, Vector& values) {
+  const double theta = switch_search_.locate(
+      0.0, 1.0, tolerance, begin_.switches, end_.switches, [&](double place, Vector& values) {
         interpolate(from + place * length);
         residual_.terms().update_positions(piece_.evaluation_time(from + place * length), q_);
         residual_.terms().update_velocities(v_);
@@ -355,7 +386,7 @@ void GeneralizedAlphaStepper::evaluate(double time) {
 
 SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {
   Statistics statistics = statistics_;
-  statistics.evaluations = residual_.num_updates();
+  statistics.evaluations = residual_.num_updates() + num_evaluations_;
   return statistics;
 }
 

@@ -11,11 +11,12 @@
 
 namespace sprung::dynamics {
 
-/// Generalized-α on the constrained system as it stands: positions, velocities, accelerations and multipliers of all
-/// coordinates, the constraints on the level of positions, no partition (dynamics/README.md, eqs. 57–62). Second
-/// order. Velocities and accelerations satisfy their constraints to the order of the method only: `evaluate` closes
-/// positions and velocities and finds accelerations and multipliers from them, without touching what is integrated.
-/// Source: [Arnold & Brüls 2007]; variable step as in [Jay & Negrut 2009]
+/// Generalized-α on the constrained system as it stands: positions, velocities, accelerations and multipliers
+/// of all coordinates, the constraints on the level of positions, no partition (dynamics/README.md, eqs.
+/// 57–62). Second order. Velocities and accelerations satisfy their constraints to the order of the method
+/// only: `evaluate` closes positions and velocities and finds accelerations and multipliers from them,
+/// without touching what is integrated. Source: [Arnold & Brüls 2007]; variable step as in [Jay & Negrut
+/// 2009]
 class GeneralizedAlphaStepper final : public SystemStepper {
  public:
   /// @param model  has to outlive this
@@ -33,6 +34,9 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   SmoothPiece& piece() override { return piece_; }
   Statistics statistics() const override;
 
+  /// What is integrated, at the end of the last step: before anything is closed.
+  const ConstrainedMotion& motion() const { return has_step_ ? end_.motion : begin_.motion; }
+
  private:
   using Vector = Eigen::VectorXd;
   using Pair = Eigen::Vector2d;  // dissipated, put in
@@ -41,9 +45,9 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   struct Node {
     explicit Node(const Model& model, int num_switches);
     ConstrainedMotion motion;
-    Vector lead;              // (a − v̇) over the step's length: the same for the next step, whatever its length
-    Vector jerk;              // of a, over the step that ended here; at a start that of the motion
-    Vector lambda_rate;       // likewise
+    Vector lead;  // (a − v̇) over the step's length: the same for the next step, whatever its length
+    Vector jerk;  // of a, over the step that ended here; at a start that of the motion
+    Vector lambda_rate;  // likewise
     Pair energy, power, power_rate;
     double step_before = 0.0;  // length of that step, 0 at a start [s]
     Vector switches;
@@ -56,13 +60,18 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   bool converge(double length);
   void renew_matrix(const Index3Newton::Weights& weights);
   Index3Newton::Weights weights(double length) const;
+  double rounding(int i) const;
+  double allowed_position(int i) const;
+  double allowed_velocity(int i, double length) const;
   double calc_iteration_norm(double length) const;
   void filter_error(Vector& error);
   double calc_error(double length);
   void finish_step(double length);
   bool locate_switch();
   void interpolate(double time);
-  Pair calc_power(const Vector& lambda);
+  void evaluate_equations(const ConstrainedMotion& motion);
+  Pair calc_power();
+  void update_end_power();
   void find_rates();
 
   const Model* model_;
@@ -70,10 +79,12 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   double tolerance_, fixed_step_;
   ErrorScales scales_;
   SmoothPiece piece_;
-  ConstrainedEquations equations_;  // at the state evaluated last
-  Index3Residual residual_;         // of the step
+  ConstrainedEquations
+      equations_;            // at the state evaluated last; between evaluations wherever they are needed
+  Index3Residual residual_;  // of the step
   Index3Newton newton_;
   Statistics statistics_;
+  long num_evaluations_ = 0;  // of the equations
 
   Node begin_, end_;  // of the step being made, or made last
   bool has_step_ = false;
@@ -84,11 +95,11 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   // What of Newton's matrix is renewed before the next iteration.
   enum class Renewal { kNone, kFactors, kAll };
   Renewal renewal_ = Renewal::kAll;
-  bool is_fresh_ = false;  // renewed in this step
+  bool is_fresh_ = false;     // renewed in this step
   double contraction_ = 0.0;  // of the last iteration
 
-  Vector auxiliary_begin_, auxiliary_end_;                         // a, nq
-  Vector delta_, delta_lambda_, scaled_phi_, rate_, q_, v_, probe_;
+  Vector auxiliary_begin_, auxiliary_end_;  // a, nq
+  Vector delta_, delta_lambda_, scaled_phi_, q_, v_, probe_;
   SwitchSearch switch_search_;
 };
 

@@ -33,10 +33,10 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
 bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const auto f = static_cast<std::size_t>(equations_.num_freedoms());
   const double formula_time = piece_.evaluation_time(time);
-  if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin())) return true;
+  if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin()))
+    return true;
   evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
-  if (equations_.update_positions(formula_time, y.first(f)) !=
-      PartitionedEquations::Outcome::kGood)
+  if (equations_.update_positions(formula_time, y.first(f)) != PartitionedEquations::Outcome::kGood)
     return false;
   equations_.update_velocities(y.subspan(f, f));
   evaluated_time_ = formula_time;
@@ -80,7 +80,8 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
 bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) {
   ++num_derivatives_;
   if (!evaluate_motion(time, y)) return false;
-  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) return false;
+  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood)
+    return false;
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
   for (std::size_t k = 0; k < f; ++k) {

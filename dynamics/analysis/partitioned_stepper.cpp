@@ -31,8 +31,8 @@ void PartitionedStepper::resume(double end_time) {
   is_running_ = true;
 }
 
-// A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is seen to
-// grow bad: beyond it no position can be found. Another partition goes on from there.
+// A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is
+// seen to grow bad: beyond it no position can be found. Another partition goes on from there.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
   try {
@@ -56,8 +56,10 @@ void PartitionedStepper::choose_partition() {
 
 void PartitionedStepper::evaluate(double time) {
   if (is_running_) {
-    if (time >= integrator_->time()) std::copy(integrator_->y().begin(), integrator_->y().end(), y_.begin());
-    else integrator_->interpolate(time, y_);
+    if (time >= integrator_->time())
+      std::copy(integrator_->y().begin(), integrator_->y().end(), y_.begin());
+    else
+      integrator_->interpolate(time, y_);
   }
   evaluated_time_ = time;
   ode_.make_state(time, y_);

@@ -10,7 +10,8 @@
 
 namespace sprung::dynamics {
 
-/// Steps in independent coordinates, by any Integrator. Chooses other coordinates where those at hand grow bad.
+/// Steps in independent coordinates, by any Integrator. Chooses other coordinates where those at hand grow
+/// bad.
 class PartitionedStepper final : public SystemStepper {
  public:
   PartitionedStepper(const Model& model, const Integrator::Options& options,

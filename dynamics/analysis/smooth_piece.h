@@ -16,8 +16,8 @@ struct BranchChange {
   std::string text;     ///< "touches the ground"
 };
 
-/// What makes the equations smooth for a while: the formulas in use, up to the next zero of a switch function, and the
-/// pieces of functions of time, up to their next break.
+/// What makes the equations smooth for a while: the formulas in use, up to the next zero of a switch
+/// function, and the pieces of functions of time, up to their next break.
 class SmoothPiece {
  public:
   /// @param model has to outlive this
@@ -34,11 +34,11 @@ class SmoothPiece {
   /// Longest step that no force element and no prescribed motion would regret, at the state of the terms [s].
   double calc_longest_step(const SystemTerms& terms) const;
 
-  /// The next break in time of a function of time after `time`, infinite where there is none. From now on that is
-  /// where the piece ends.
+  /// The next break in time of a function of time after `time`, infinite where there is none. From now on
+  /// that is where the piece ends.
   double update_next_break(double time);
-  /// The time to evaluate at for `time`: at the break itself a hair before it, so that the formula that ends there is
-  /// used up to its end.
+  /// The time to evaluate at for `time`: at the break itself a hair before it, so that the formula that ends
+  /// there is used up to its end.
   double evaluation_time(double time) const { return std::min(time, latest_time_); }
 
  private:

@@ -5,8 +5,8 @@
 
 namespace sprung::dynamics {
 
-/// Finds the first zero of several functions of one variable between two places, by the Illinois rule. Allocates
-/// nothing. Source: [Dowell & Jarratt 1971]
+/// Finds the first zero of several functions of one variable between two places, by the Illinois rule.
+/// Allocates nothing. Source: [Dowell & Jarratt 1971]
 class SwitchSearch {
  public:
   explicit SwitchSearch(Eigen::Index num_switches) {

@@ -9,8 +9,8 @@
 
 namespace sprung::dynamics {
 
-/// Carries a state of the constrained system forward in time, in whatever unknowns. It integrates the smooth piece
-/// that holds; between pieces the caller chooses the next one and lets it resume.
+/// Carries a state of the constrained system forward in time, in whatever unknowns. It integrates the smooth
+/// piece that holds; between pieces the caller chooses the next one and lets it resume.
 class SystemStepper {
  public:
   /// Energy that has left and entered the mechanical energy since the start [J].
@@ -19,7 +19,7 @@ class SystemStepper {
   };
   struct Statistics {
     Integrator::Statistics integrator;
-    long evaluations = 0;             ///< of the equations, by the integrator
+    long evaluations = 0;  ///< of the equations, by the integrator
     long repartitions = 0;
     double velocity_violation = 0.0;  ///< largest |φ_q v + φ_t| of a step's end that was closed for output
   };
@@ -38,8 +38,8 @@ class SystemStepper {
   /// Longest step that the piece would not regret, at the state evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
-  /// Brings equations() and energy_flow() to a time within the last step: joints closed, all markers, accelerations
-  /// and multipliers those of the equations.
+  /// Brings equations() and energy_flow() to a time within the last step: joints closed, all markers,
+  /// accelerations and multipliers those of the equations.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
   virtual const ConstrainedEquations& equations() const = 0;

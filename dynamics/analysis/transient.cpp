@@ -11,8 +11,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kMaxSwitchesInPlace = 100;   // switches within kSamePlace of each other before the run is given up
-constexpr double kSamePlace = 1e-9;        // s
+constexpr int kMaxSwitchesInPlace =
+    100;                             // switches within kSamePlace of each other before the run is given up
+constexpr double kSamePlace = 1e-9;  // s
 
 class TransientRun {
  public:
@@ -61,7 +62,8 @@ class TransientRun {
     statistics_.completed = true;
   }
 
-  // Functions of time are smooth from `time` to the next of their breaks: the integrator goes no further in one go.
+  // Functions of time are smooth from `time` to the next of their breaks: the integrator goes no further in
+  // one go.
   void find_end_of_smoothness(double time) {
     double next = piece().update_next_break(time);
     while (next - time < kSamePlace) next = piece().update_next_break(next);  // too short to be integrated
@@ -81,8 +83,8 @@ class TransientRun {
   void count_switch(double time) {
     num_in_place_ = time - last_switch_ > kSamePlace ? 0 : num_in_place_ + 1;
     if (num_in_place_ > kMaxSwitchesInPlace) {
-      throw support::NumericalError(
-          fmt::format("a force switches back and forth without end at t = {:.9g} s; look at tyres and road there", time));
+      throw support::NumericalError(fmt::format(
+          "a force switches back and forth without end at t = {:.9g} s; look at tyres and road there", time));
     }
     last_switch_ = time;
     ++statistics_.switches;
@@ -105,10 +107,11 @@ class TransientRun {
     if (!options_.on_output) return;
     const ConstrainedEquations& equations = stepper_->equations();
     const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
-    options_.on_output({.time = time,
-                        .equations = equations,
-                        .branches = piece().branches(),
-                        .energy = {calc_energy(equations.terms(), piece().branches()), flow.dissipated, flow.input}});
+    options_.on_output(
+        {.time = time,
+         .equations = equations,
+         .branches = piece().branches(),
+         .energy = {calc_energy(equations.terms(), piece().branches()), flow.dissipated, flow.input}});
   }
 
   const TransientOptions& options_;

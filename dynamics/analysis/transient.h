@@ -35,20 +35,20 @@ struct Snapshot {
 };
 
 struct TransientOptions {
-  double end_time = 0.0;       ///< [s]
-  double output_step = 1e-3;   ///< > 0 [s]
+  double end_time = 0.0;                                          ///< [s]
+  double output_step = 1e-3;                                      ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
   Integrator::Options integrator;
-  std::function<void(const Snapshot&)> on_output;   ///< at 0, output_step, … to the end
-  std::function<void(const Event&)> on_event;       ///< may be empty
-  std::function<bool(double time)> on_step;         ///< after every step; false stops the run; may be empty
+  std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
+  std::function<void(const Event&)> on_event;      ///< may be empty
+  std::function<bool(double time)> on_step;        ///< after every step; false stops the run; may be empty
 };
 
 struct TransientStatistics {
   SystemStepper::Statistics stepper;
   long output_evaluations = 0;  ///< of the equations, for the outputs
   long switches = 0;
-  bool completed = false;       ///< false: stopped by on_step
+  bool completed = false;  ///< false: stopped by on_step
 };
 
 /// Runs a state forward in time. The state has to satisfy the constraints; its branches are chosen here.

@@ -165,6 +165,7 @@ void write_results_summary(support::Hdf5Writer& file, const RunStatistics& stati
     write("acceleration", point.acceleration);
   }
   file.attribute("/summary", "constraint_violation", statistics.constraint_violation());
+  file.attribute("/summary", "velocity_violation", transient.stepper.velocity_violation);
   file.attribute("/summary", "energy_closure", statistics.energy_closure());
   file.attribute("/summary", "num_samples", std::int64_t{statistics.num_samples()});
   file.attribute("/summary", "steps", std::int64_t{transient.stepper.integrator.steps});

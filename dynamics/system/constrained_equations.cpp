@@ -24,7 +24,9 @@ void ConstrainedEquations::apply_inverse_mass(Eigen::VectorXd& x) const {
   }
 }
 
-bool ConstrainedEquations::factorise() { return multipliers_.factorise(terms_.jacobian(), terms_.masses()); }
+bool ConstrainedEquations::factorise() {
+  return multipliers_.factorise(terms_.jacobian(), terms_.masses());
+}
 
 // step_ = M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ residual_, the multipliers in impulse_.
 void ConstrainedEquations::calc_correction() {

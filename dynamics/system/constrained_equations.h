@@ -8,9 +8,9 @@
 
 namespace sprung::dynamics {
 
-/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates (dynamics/README.md, eqs. 12 and 17–19):
-/// what every way of integrating them ends in. nq coordinates, m constraints. No allocation (but see MultiplierSolver
-/// for large systems).
+/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates (dynamics/README.md, eqs. 12 and
+/// 17–19): what every way of integrating them ends in. nq coordinates, m constraints. No allocation (but see
+/// MultiplierSolver for large systems).
 class ConstrainedEquations {
  public:
   ConstrainedEquations(const Model& model, SystemTerms::Markers scope);
@@ -43,7 +43,7 @@ class ConstrainedEquations {
   const Model* model_;
   SystemTerms terms_;
   MultiplierSolver multipliers_;
-  Eigen::VectorXd v_dot_, moved_, step_;        // nq
+  Eigen::VectorXd v_dot_, moved_, step_;         // nq
   Eigen::VectorXd lambda_, residual_, impulse_;  // m
 };
 

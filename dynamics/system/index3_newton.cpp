@@ -7,8 +7,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kMostDense = 100;   // unknowns
-constexpr double kShift = 1e-6;   // of the natural size, for differences
+constexpr int kMostDense = 100;  // unknowns
+constexpr double kShift = 1e-6;  // of the natural size, for differences
 
 }  // namespace
 
@@ -36,7 +36,8 @@ void Index3Newton::find_couplings() {
       for (const int j : markers) {
         const int a = model_->markers[static_cast<std::size_t>(i)].body;
         const int b = model_->markers[static_cast<std::size_t>(j)].body;
-        if (a != kGround && b != kGround) feels[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
+        if (a != kGround && b != kGround)
+          feels[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
       }
     }
   };
@@ -45,7 +46,8 @@ void Index3Newton::find_couplings() {
   for (std::size_t a = 0; a < num_bodies; ++a) {
     for (std::size_t b = 0; b < num_bodies; ++b) {
       if (!feels[a][b]) continue;
-      const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(model_->bodies[a].num_coordinates(), model_->bodies[b].num_coordinates());
+      const Eigen::MatrixXd zero =
+          Eigen::MatrixXd::Zero(model_->bodies[a].num_coordinates(), model_->bodies[b].num_coordinates());
       couplings_.push_back({static_cast<int>(a), static_cast<int>(b), zero, zero});
     }
   }
@@ -62,9 +64,11 @@ void Index3Newton::colour_bodies() {
   std::vector<std::vector<bool>> taken;  // rows of each colour
   for (std::size_t b = 0; b < num_bodies; ++b) {
     const auto fits = [&](const std::vector<bool>& rows) {
-      return std::none_of(felt_by[b].begin(), felt_by[b].end(), [&](int row) { return rows[static_cast<std::size_t>(row)]; });
+      return std::none_of(felt_by[b].begin(), felt_by[b].end(),
+                          [&](int row) { return rows[static_cast<std::size_t>(row)]; });
     };
-    const auto colour = static_cast<std::size_t>(std::find_if(taken.begin(), taken.end(), fits) - taken.begin());
+    const auto colour =
+        static_cast<std::size_t>(std::find_if(taken.begin(), taken.end(), fits) - taken.begin());
     if (colour == taken.size()) {
       taken.emplace_back(num_bodies, false);
       colours_.emplace_back();
@@ -74,8 +78,8 @@ void Index3Newton::colour_bodies() {
   }
 }
 
-void Index3Newton::difference(Index3Residual& residual, ConstrainedMotion& moved, std::span<const int> branches,
-                              bool of_velocity) {
+void Index3Newton::difference(Index3Residual& residual, ConstrainedMotion& moved,
+                              std::span<const int> branches, bool of_velocity) {
   Eigen::VectorXd& x = of_velocity ? moved.v : moved.q;
   for (const std::vector<int>& bodies : colours_) {
     int num_columns = 0;
@@ -134,8 +138,10 @@ void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weig
     for (int j = 0; j < coupling.K.cols(); ++j) {
       for (int i = 0; i < coupling.K.rows(); ++i) {
         double value = weights.velocity * coupling.C(i, j) + weights.position * coupling.K(i, j);
-        if (coupling.row_body == coupling.column_body) value += weights.acceleration * terms.mass(row_body)(i, j);
-        entries_.push_back({row + i, column + j, value * coordinate_scale_[row + i] * coordinate_scale_[column + j]});
+        if (coupling.row_body == coupling.column_body)
+          value += weights.acceleration * terms.mass(row_body)(i, j);
+        entries_.push_back(
+            {row + i, column + j, value * coordinate_scale_[row + i] * coordinate_scale_[column + j]});
       }
     }
   }
@@ -178,7 +184,8 @@ bool Index3Newton::factorise(const SystemTerms& terms, const Weights& weights) {
   const std::span<double> matrix = dense_.matrix();
   std::fill(matrix.begin(), matrix.end(), 0.0);
   for (const Entry& entry : entries_) {
-    matrix[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(unknowns_.size()) + static_cast<std::size_t>(entry.column)] += entry.value;
+    matrix[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(unknowns_.size()) +
+           static_cast<std::size_t>(entry.column)] += entry.value;
   }
   dense_.factorise();
   return std::isfinite(dense_.determinant()) && dense_.determinant() != 0.0;
@@ -188,8 +195,10 @@ void Index3Newton::solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, E
                          Eigen::VectorXd& delta_lambda) {
   unknowns_.head(num_coordinates_) = -r.cwiseProduct(coordinate_scale_);
   unknowns_.tail(num_constraints_) = -phi.cwiseProduct(constraint_scale_);
-  if (is_dense_) dense_.solve(unknowns_.data());
-  else unknowns_ = sparse_factor_.solve(unknowns_).eval();
+  if (is_dense_)
+    dense_.solve(unknowns_.data());
+  else
+    unknowns_ = sparse_factor_.solve(unknowns_).eval();
   delta = unknowns_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
   delta_lambda = unknowns_.tail(num_constraints_).cwiseProduct(constraint_scale_);
 }

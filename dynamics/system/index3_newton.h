@@ -10,16 +10,17 @@
 
 namespace sprung::dynamics {
 
-/// Newton's equations of an implicit step on the index-3 system. δ is the change of the accelerations at the end of
-/// the step, by which v̇ changes b₀δ, v changes b₁δ and q changes b₂δ:
+/// Newton's equations of an implicit step on the index-3 system. δ is the change of the accelerations at the
+/// end of the step, by which v̇ changes b₀δ, v changes b₁δ and q changes b₂δ:
 ///
 ///     | b₀M + b₁C + b₂K   φ_qᵀ | | δ  |     | r    |
-///     | φ_q               0    | | δλ | = − | φ/b₂ |                                  (dynamics/README.md, eq. 60)
+///     | φ_q               0    | | δλ | = − | φ/b₂ |                                  (dynamics/README.md,
+///     eq. 60)
 ///
-/// The unknowns are accelerations and multipliers and the second row is divided by b₂, so that the matrix tends to a
-/// limit as the step becomes short; coordinates are scaled by 1/√M_jj and constraints to rows of length one, so that it
-/// does not depend on units either. Dense up to a hundred unknowns or so, sparse beyond (that one allocates).
-/// Source: [Bottasso, Dopico & Trainelli 2008]
+/// The unknowns are accelerations and multipliers and the second row is divided by b₂, so that the matrix
+/// tends to a limit as the step becomes short; coordinates are scaled by 1/√M_jj and constraints to rows of
+/// length one, so that it does not depend on units either. Dense up to a hundred unknowns or so, sparse
+/// beyond (that one allocates). Source: [Bottasso, Dopico & Trainelli 2008]
 class Index3Newton {
  public:
   /// b₀ [1], b₁ [s], b₂ [s²]
@@ -29,8 +30,9 @@ class Index3Newton {
 
   explicit Index3Newton(const Model& model);
 
-  /// K = ∂r/∂q and C = ∂r/∂v by forward differences. Bodies that no common neighbour feels move at once, so that the
-  /// number of differences does not grow with the length of a chain. Leaves `residual` at the motion.
+  /// K = ∂r/∂q and C = ∂r/∂v by forward differences. Bodies that no common neighbour feels move at once, so
+  /// that the number of differences does not grow with the length of a chain. Leaves `residual` at the
+  /// motion.
   void linearise(Index3Residual& residual, const ConstrainedMotion& motion, std::span<const int> branches);
   /// Factors with M and φ_q of the terms and the K and C at hand.
   /// @return false where the matrix is singular
@@ -56,7 +58,8 @@ class Index3Newton {
 
   void find_couplings();
   void colour_bodies();
-  void difference(Index3Residual& residual, ConstrainedMotion& moved, std::span<const int> branches, bool of_velocity);
+  void difference(Index3Residual& residual, ConstrainedMotion& moved, std::span<const int> branches,
+                  bool of_velocity);
   void collect_entries(const SystemTerms& terms, const Weights& weights);
 
   const Model* model_;

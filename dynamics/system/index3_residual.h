@@ -16,15 +16,16 @@ struct ConstrainedMotion {
         v_dot(q),
         lambda(Eigen::VectorXd::Zero(model.num_constraints)) {}
 
-  double time = 0.0;             ///< [s]
+  double time = 0.0;            ///< [s]
   Eigen::VectorXd q, v, v_dot;  ///< nq
-  Eigen::VectorXd lambda;        ///< m
+  Eigen::VectorXd lambda;       ///< m
 };
 
-/// What is left of the equations of motion and of the constraints on the level of positions at any motion, consistent
-/// or not:
+/// What is left of the equations of motion and of the constraints on the level of positions at any motion,
+/// consistent or not:
 ///
-///     r = M(q) v̇ + φ_qᵀλ − Q(q, v, t),   φ(q, t)                                      (dynamics/README.md, eq. 57)
+///     r = M(q) v̇ + φ_qᵀλ − Q(q, v, t),   φ(q, t)                                      (dynamics/README.md,
+///     eq. 57)
 class Index3Residual {
  public:
   explicit Index3Residual(const Model& model);

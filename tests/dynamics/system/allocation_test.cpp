@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/analysis/generalized_alpha_stepper.h"
 #include "dynamics/analysis/partitioned_ode.h"
 #include "dynamics/road/bump_road.h"
 #include "tests/catch.h"
@@ -104,6 +105,32 @@ TEST_CASE("Steps of the exponential integrator over the bump take no memory", "[
       ode.make_state(integrator->time(), y);
       ode.piece().update_branches(ode.equations().terms());
       integrator->start(integrator->time(), y, 1.0);
+    }
+    INFO(num_modes << " modes");
+    CHECK(steps > 50);
+    CHECK(taken == 0);
+  }
+}
+
+TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
+  for (const int num_modes : {0, 4, 36}) {
+    const test::BumpStart bump({.num_chassis_modes = num_modes});
+    dynamics::GeneralizedAlphaStepper stepper(bump.model, {.relative_tolerance = 1e-4});
+    stepper.start(bump.state);
+    stepper.evaluate(0.0);
+    stepper.piece().update_branches(stepper.equations().terms());
+    stepper.resume(0.6);
+    stepper.step(1e-3);  // lists the entries of its matrix
+    long taken = 0, steps = 0;
+    while (stepper.time() < 0.6) {
+      const long before = test::num_allocations();
+      const dynamics::Integrator::StepResult result = stepper.step(stepper.calc_longest_step());
+      stepper.evaluate(stepper.time());
+      taken += test::num_allocations() - before;
+      ++steps;
+      if (result != dynamics::Integrator::StepResult::kSwitched) continue;
+      stepper.piece().update_branches(stepper.equations().terms());
+      stepper.resume(0.6);
     }
     INFO(num_modes << " modes");
     CHECK(steps > 50);
