@@ -42,7 +42,7 @@ class SystemStepper {
   /// accelerations and multipliers those of the equations.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
-  virtual const ConstrainedEquations& equations() const = 0;
+  virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
   virtual EnergyFlow energy_flow() const = 0;
 
   virtual SmoothPiece& piece() = 0;
