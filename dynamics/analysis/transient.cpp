@@ -109,7 +109,11 @@ class TransientRun {
     const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
     options_.on_output(
         {.time = time,
-         .equations = equations,
+         .terms = equations.terms(),
+         .q = equations.q(),
+         .v = equations.v(),
+         .v_dot = equations.v_dot(),
+         .multipliers = equations.multipliers(),
          .branches = piece().branches(),
          .energy = {calc_energy(equations.terms(), piece().branches()), flow.dissipated, flow.input}});
   }

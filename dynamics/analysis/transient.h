@@ -29,7 +29,9 @@ struct Event {
 /// Everything about the vehicle at one output time; valid during the call that gets it.
 struct Snapshot {
   double time = 0.0;
-  const ConstrainedEquations& equations;  ///< positions, velocities, accelerations, multipliers up to date
+  const SystemTerms& terms;  ///< positions, velocities and forces up to date, all markers
+  const Eigen::VectorXd& q, &v, &v_dot;  ///< num_coordinates
+  const Eigen::VectorXd& multipliers;    ///< num_constraints
   std::span<const int> branches;
   EnergyBook energy;
 };

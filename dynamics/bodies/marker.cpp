@@ -5,7 +5,7 @@ namespace sprung::dynamics {
 void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
                           const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state) {
   Eigen::Vector2d u = marker.p_BP;
-  state.angle = q[2];
+  state.angle = q[2] + marker.alpha_BP;
   for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
     const Eigen::Vector2d shape = marker.Phi.col(k);
     u += shape * q[3 + k];

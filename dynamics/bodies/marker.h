@@ -16,6 +16,7 @@ struct Marker {
   std::string name;                    ///< "body.point"
   int body = kGround;
   Eigen::Vector2d p_BP = Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
+  double alpha_BP = 0.0;               ///< undeformed angle against the body's axes [rad]
   Eigen::Matrix2Xd Phi;                ///< displacement per unit modal coordinate, body axes, 2×n [m]
   Eigen::RowVectorXd Phi_rotation;     ///< rotation per unit modal coordinate, 1×n [rad]
 };

@@ -112,6 +112,17 @@ std::vector<PointReference> read_output(const support::TomlTable& table) {
   return points;
 }
 
+// Their names without repetition.
+std::vector<std::string> resolve_points(const std::vector<PointReference>& points, const Vehicle& vehicle) {
+  const std::vector<std::string> known = point_names(vehicle);
+  std::vector<std::string> names;
+  for (const PointReference& point : points) {
+    check_point(point, known);
+    if (std::find(names.begin(), names.end(), point.name) == names.end()) names.push_back(point.name);
+  }
+  return names;
+}
+
 const Body& find_moved_body(const Model& model, const std::string& name, const InitialMotion& motion) {
   const int index = model.find_body(name);
   if (index >= 0) return model.bodies[static_cast<std::size_t>(index)];
@@ -159,6 +170,8 @@ Run read_run(const support::TomlDocument& document) {
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
   if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
+  run.response.location = {.path = document.name()};
+  if (const auto table = root.find_table("response")) run.response = read_response(*table);
   root.reject_unknown_keys();
   return run;
 }
@@ -176,13 +189,12 @@ ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selectio
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {
-  const std::vector<std::string> known = point_names(vehicle);
-  std::vector<std::string> names;
-  for (const PointReference& point : run.output_points.empty() ? vehicle.monitor : run.output_points) {
-    check_point(point, known);
-    if (std::find(names.begin(), names.end(), point.name) == names.end()) names.push_back(point.name);
-  }
-  return names;
+  return resolve_points(run.output_points.empty() ? vehicle.monitor : run.output_points, vehicle);
+}
+
+std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle) {
+  if (run.response.points.empty()) return resolve_output_points(run, vehicle);
+  return resolve_points(run.response.points, vehicle);
 }
 
 void add_initial_amplitudes(const Run& run, const Model& model, Eigen::VectorXd& q) {

@@ -10,6 +10,7 @@
 
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
+#include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/analysis/integrator.h"
@@ -40,7 +41,7 @@ struct IntegratorSettings {
 struct Run {
   enum class Start {
     kEquilibrium,  ///< static balance, prescribed motion standing still
-    kSteady,       ///< balance of the bodies' modes while prescribed motion goes on at its rate
+    kSteady,       ///< balance of what prescribed motion carries along at its rate
     kAsGiven,
   };
 
@@ -60,6 +61,7 @@ struct Run {
   IntegratorSettings integrator;
   std::map<std::string, InitialMotion> initial;  ///< by body
   std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
+  ResponseRequest response;
 };
 
 /// Reads a run file; the vehicle's own file is not opened.
@@ -74,6 +76,9 @@ ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selectio
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at the run's reference to a point that the vehicle lacks
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle);
+/// Names of the points whose frequency response is reported: those of `[response]`, else the above.
+/// @throws support::InputError likewise
+std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle);
 
 /// Adds the run's initial modal amplitudes to q.
 /// @throws support::InputError for a body the vehicle lacks, or amplitudes that are not as many as its active

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -29,20 +32,32 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
           .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
-// Steady motion is a balance in coordinates that stand still in it: modes do, places and angles of bodies
-// that are carried round do not.
-void check_steady(const PreparedRun& prepared) {
-  const Model& model = prepared.balance_model;
-  if (!model.has_motions) return;
-  for (const int i : prepared.equilibrium->linearised.partition.independent) {
-    const std::string name = model.coordinate_name(i);
-    if (name.find(".mode ") != std::string::npos) continue;
-    throw support::InputError(prepared.run.start_location,
-                              fmt::format("'start' can be \"steady\" only where prescribed motion leaves "
-                                          "nothing free but modes of flexible "
-                                          "bodies, clamped where they are held; '{}' is free",
-                                          name));
-  }
+bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  const std::vector<int>& free = equations.partition().independent;
+  return std::all_of(free.begin(), free.end(), [&](int i) {
+    return model.coordinate_name(i).find(".mode ") != std::string::npos;
+  });
+}
+
+// The motion that a run's start is in balance in.
+SteadyMotion find_motion(const Run& run, const Model& model, const Eigen::VectorXd& q) {
+  if (run.start != Run::Start::kSteady) return {};
+  if (const std::optional<SteadyMotion> motion = find_steady_motion(model, q)) return *motion;
+  // Modes stand still in their bodies, however these move.
+  if (only_modes_are_free(model, q)) return {};
+  throw support::InputError(run.start_location,
+                            "'start' can be \"steady\" only where prescribed motion carries the whole system "
+                            "round or along as if it were rigid, or leaves nothing free but modes");
+}
+
+void check_steady(const Run& run, const Model& model, const Equilibrium& equilibrium) {
+  if (is_steady(model, equilibrium.motion, equilibrium.q)) return;
+  throw support::InputError(run.start_location,
+                            "'start' can be \"steady\" only where what is carried along sees the same forces "
+                            "at all times: not with weight on what turns, springs to the ground, or a motion that "
+                            "changes its rate");
 }
 
 }  // namespace
@@ -73,9 +88,10 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
-    prepared.equilibrium = find_equilibrium(prepared.balance_model, q);
+    prepared.equilibrium =
+        find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
     q = prepared.equilibrium->q;
-    if (run.start == Run::Start::kSteady) check_steady(prepared);
+    check_steady(run, prepared.balance_model, *prepared.equilibrium);
   }
 
   SystemTerms terms(prepared.balance_model);
@@ -95,6 +111,10 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
     assemble_positions(prepared.model, q);
   }
   Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
+  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {  // carried along, in place of the speed
+    for (const Body& body : prepared.model.bodies) v[body.first_coordinate] -= vehicle.direction * run.speed;
+    v += prepared.equilibrium->motion.calc_velocity(prepared.model, q);
+  }
   prepared.initial_velocities = project_velocities(prepared.model, 0.0, q, v);
   prepared.start = make_state(prepared.model, q, v);
   return prepared;

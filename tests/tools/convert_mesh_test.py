@@ -324,9 +324,18 @@ class Refusing(ToolTestCase):
         self.assert_refuses(missing, "none.inp: error: no such file")
         (self.folder / "a.inp").write_text(ABAQUS, encoding="utf-8")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.vtk"), "must end in .msh")
-        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the mesh")
+        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the file")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.msh", "--scale", "0"), "expected a length > 0")
         self.assertEqual(os.listdir(self.folder), ["a.inp"])
+
+    def test_the_source_and_an_earlier_mesh_stay_as_they_were(self):
+        source = (FEM_DATA / "portal_41.msh").read_bytes()
+        (self.folder / "a.msh").write_bytes(source)
+        self.assert_refuses(self.run_tool("convert_mesh", "a.msh", "a.msh"), "a.msh: error: is one of the input files")
+        (self.folder / "bad.inp").write_text(ABAQUS + "*ELGEN\n1, 5\n", encoding="utf-8")
+        self.assert_refuses(self.run_tool("convert_mesh", "bad.inp", "a.msh"), "*ELGEN")
+        self.assertEqual((self.folder / "a.msh").read_bytes(), source)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.msh", "bad.inp"])
 
 
 if __name__ == "__main__":
