@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/partition.h"
+#include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
 
@@ -120,24 +122,14 @@ VelocityReport project_velocities(const Model& model, double time, const Eigen::
   VelocityReport report;
   if (model.num_constraints == 0) return report;
   const Eigen::VectorXd asked = v;
-  SystemTerms terms(model);
-  terms.update_positions(time, q);
-  terms.update_jacobian();
-  terms.update_mass();
-  // v ← v − M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ (φ_q v + φ_t)
-  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
-  Eigen::MatrixXd weighted = Phi_q.transpose();
-  for (Eigen::Index k = 0; k < weighted.cols(); ++k) {
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      terms.masses()[b].solve(weighted.col(k).data() + model.bodies[b].first_coordinate);
-    }
+  ConstrainedEquations equations(model, SystemTerms::Markers::kActing);
+  equations.terms().update_positions(time, q);
+  equations.terms().update_jacobian();
+  if (!std::isfinite(equations.close_rates(v))) {
+    throw support::NumericalError(
+        fmt::format("the joints allow no velocities at t = {:.9g} s: a singular position; start beside it", time));
   }
-  Eigen::VectorXd rate(model.num_constraints);
-  terms.calc_time_rate(rate);
-  for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
-    const Eigen::VectorXd violation = Phi_q * v + rate;
-    v -= weighted * (Phi_q * weighted).ldlt().solve(violation);
-  }
+  v = equations.v();
   for (int i = 0; i < model.num_coordinates; ++i) {
     const double change = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
     if (change <= report.largest_change) continue;

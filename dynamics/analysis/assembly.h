@@ -29,6 +29,7 @@ struct VelocityReport {
 /// The velocity nearest to v, in the mass metric, that the constraints allow; for prescribed motion it is the one
 /// that follows it.
 /// @param q  assembled
+/// @throws support::NumericalError at a singular position
 VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v);
 
 }  // namespace sprung::dynamics

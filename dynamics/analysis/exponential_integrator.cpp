@@ -45,18 +45,6 @@ void combine(const lobatto::NodeValues& values, const lobatto::NodeWeights& weig
         weights[3] * values.col(3);
 }
 
-bool crosses(double before, double after) {
-  return before * after < 0.0 || (after == 0.0 && before != 0.0);
-}
-
-template <class Before, class After>
-bool any_crosses(const Before& before, const After& after) {
-  for (Eigen::Index i = 0; i < before.size(); ++i) {
-    if (crosses(before[i], after[i])) return true;
-  }
-  return false;
-}
-
 std::span<double> span_of(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
@@ -73,7 +61,8 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       f_(system.num_freedoms()),
       num_quadratures_(system.size() - 2 * system.num_freedoms()),
       num_switches_(system.num_switches()),
-      contraction_(kFirstContraction) {
+      contraction_(kFirstContraction),
+      switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   const Motion motion{Vector::Zero(2 * f_), Vector::Zero(num_quadratures_)};
@@ -88,7 +77,6 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   now_.quartic_rates = rates_jump_ = motion.w;
   last_ = now_;
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
-  switch_low_ = switch_high_ = switch_between_ = Vector::Zero(num_switches_);
 }
 
 void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
@@ -331,45 +319,29 @@ bool ExponentialIntegrator::finish_step() {
   return false;
 }
 
-// The first zero of a switch function in now_, between two of its nodes: by the Illinois rule, to the far
-// side of it. time_ and between_motion_ are there.
+// The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.
 bool ExponentialIntegrator::locate_switch() {
   int after = 1;
-  while (after < kNumNodes && !any_crosses(switches_.col(after - 1), switches_.col(after))) ++after;
+  while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
+    ++after;
   if (after == kNumNodes) return false;
-  double low = lobatto::node(after - 1), high = lobatto::node(after);
-  switch_low_ = switches_.col(after - 1);
-  switch_high_ = switches_.col(after);
   const auto move_to = [this](double theta) {
     between_.update(theta, now_.length, basis_.blocks);
     propagate(between_, now_, between_motion_);
   };
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
-  double weight = 1.0;  // of the value at `high`
-  int last_moved = 0;
-  for (int iteration = 0; iteration < 100 && high - low > tolerance; ++iteration) {
-    double theta = high;
-    for (Eigen::Index i = 0; i < num_switches_; ++i) {
-      if (!crosses(switch_low_[i], switch_high_[i])) continue;
-      theta =
-          std::min(theta, low + (high - low) * switch_low_[i] / (switch_low_[i] - weight * switch_high_[i]));
-    }
-    theta = std::clamp(theta, low + 0.5 * tolerance, high - 0.5 * tolerance);
-    move_to(theta);
-    to_physical(between_motion_, stage_y_);
-    if (!system_.calc_switches(now_.start + theta * now_.length, span_of(stage_y_),
-                               span_of(switch_between_))) {
-      throw_stopped(now_.start + theta * now_.length, "no positions can be found there");
-    }
-    const bool is_behind = any_crosses(switch_low_, switch_between_);
-    (is_behind ? high : low) = theta;
-    (is_behind ? switch_high_ : switch_low_).swap(switch_between_);
-    const int moved = is_behind ? 1 : -1;
-    weight = moved != last_moved ? 1.0 : is_behind ? 2.0 * weight : 0.5 * weight;
-    last_moved = moved;
-  }
-  time_ = now_.start + high * now_.length;
-  move_to(high);
+  const double theta = switch_search_.locate(
+      lobatto::node(after - 1), lobatto::node(after), tolerance, switches_.col(after - 1),
+      switches_.col(after), [&](double place, Vector& values) {
+        move_to(place);
+        to_physical(between_motion_, stage_y_);
+        const double time = now_.start + place * now_.length;
+        if (!system_.calc_switches(time, span_of(stage_y_), span_of(values))) {
+          throw_stopped(time, "no positions can be found there");
+        }
+      });
+  time_ = now_.start + theta * now_.length;
+  move_to(theta);
   return true;
 }
 

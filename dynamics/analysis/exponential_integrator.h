@@ -5,6 +5,7 @@
 
 #include "dynamics/analysis/integrator.h"
 #include "dynamics/analysis/lobatto_step.h"
+#include "dynamics/analysis/switch_search.h"
 
 namespace sprung::dynamics {
 
@@ -90,7 +91,7 @@ class ExponentialIntegrator final : public Integrator {
   double propagator_length_ = 0.0;
   std::array<Motion, kNumNodes> stages_;
   Eigen::MatrixXd switches_;  // num_switches × 4
-  Vector switch_low_, switch_high_, switch_between_;
+  SwitchSearch switch_search_;
 
   Motion end_, difference_;
   Vector y_dot_, scales_, stage_y_, difference_y_;

@@ -1,5 +1,7 @@
 #include "dynamics/analysis/integrator.h"
 
+#include <stdexcept>
+
 #include "dynamics/analysis/cvode_integrator.h"
 #include "dynamics/analysis/exponential_integrator.h"
 
@@ -13,6 +15,8 @@ std::string_view method_name(Integrator::Method method) {
       return "bdf";
     case Integrator::Method::kExponential:
       return "exponential";
+    case Integrator::Method::kGeneralizedAlpha:
+      return "generalized-alpha";
   }
   return "";
 }
@@ -26,6 +30,9 @@ Integrator::Method default_method(int num_freedoms) {
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options) {
   if (options.method == Integrator::Method::kExponential) {
     return std::make_unique<ExponentialIntegrator>(system, options.relative_tolerance);
+  }
+  if (options.method == Integrator::Method::kGeneralizedAlpha) {
+    throw std::invalid_argument("make_integrator: generalized-alpha is a stepper of the whole system");
   }
   return std::make_unique<CvodeIntegrator>(system, options);
 }

@@ -3,19 +3,14 @@
 #include <Eigen/Core>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "dynamics/analysis/error_scales.h"
 #include "dynamics/analysis/ode_system.h"
+#include "dynamics/analysis/smooth_piece.h"
 #include "dynamics/system/partitioned_equations.h"
 
 namespace sprung::dynamics {
-
-/// A force element that went over to another of its formulas.
-struct BranchChange {
-  std::string element;  ///< its name
-  std::string text;     ///< "touches the ground"
-};
 
 /// The partitioned equations in first-order form, with the energy book as quadratures:
 /// y = (q_i, v_i, dissipated energy, energy put in), 2f + 2 components (dynamics/README.md, eqs. 20 and 25).
@@ -32,21 +27,13 @@ class PartitionedOde final : public OdeSystem {
   /// The state that y stands for; all terms of `equations()` are evaluated there.
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
-  /// Chooses the branches of the force elements at the state evaluated last. @return the changes worth
-  /// telling
-  std::vector<BranchChange> update_branches();
 
   PartitionedEquations& equations() { return equations_; }
-  const std::vector<int>& branches() const { return branches_; }
+  const PartitionedEquations& equations() const { return equations_; }
+  SmoothPiece& piece() { return piece_; }
+  const SmoothPiece& piece() const { return piece_; }
   double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
   double input(std::span<const double> y) const { return y[y.size() - 1]; }
-  /// Longest step that no force element and no prescribed motion would regret, at the state evaluated last
-  /// [s].
-  double calc_longest_step() const;
-  /// The next break in time of a function of time after `time`, infinite where there is none. From now on
-  /// evaluations at the break itself are made a hair before it: the formula that ends there is used up to its
-  /// end.
-  double update_next_break(double time);
 
   long num_derivatives() const { return num_derivatives_; }
 
@@ -55,7 +42,7 @@ class PartitionedOde final : public OdeSystem {
   bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) override;
   int coordinate_version() const override { return coordinate_version_; }
   bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
-  int num_switches() const override { return num_switches_; }
+  int num_switches() const override { return piece_.num_switches(); }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
   void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
 
@@ -64,18 +51,14 @@ class PartitionedOde final : public OdeSystem {
 
   const Model* model_;
   PartitionedEquations equations_;
-  std::vector<int> branches_;
-  int num_switches_ = 0;
+  SmoothPiece piece_;
+  ErrorScales scales_;
   long num_derivatives_ = 0;
-  double latest_time_ =
-      std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
   std::vector<double> y_;
   int coordinate_version_ = 0;
   // The arguments at which the motion of the equations was evaluated last.
   double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> evaluated_y_;
-  double velocity_scale_ = 0.0;  // [natural sizes/s]
-  double energy_scale_ = 0.0;    // [J]
 };
 
 }  // namespace sprung::dynamics

@@ -7,7 +7,7 @@
 
 #include "dynamics/analysis/integrator.h"
 #include "dynamics/analysis/mode_adaptation.h"
-#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/analysis/system_stepper.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
@@ -39,23 +39,21 @@ struct Snapshot {
 };
 
 struct TransientOptions {
-  double end_time = 0.0;       ///< [s]
-  double output_step = 1e-3;   ///< > 0 [s]
+  double end_time = 0.0;                                          ///< [s]
+  double output_step = 1e-3;                                      ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
   Integrator::Options integrator;
   /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the run are
   /// the full ones.
   std::optional<AdaptivityOptions> adaptivity;
-  std::function<void(const Snapshot&)> on_output;   ///< at 0, output_step, … to the end
-  std::function<void(const Event&)> on_event;       ///< may be empty
-  std::function<bool(double time)> on_step;         ///< after every step; false stops the run; may be empty
+  std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
+  std::function<void(const Event&)> on_event;      ///< may be empty
+  std::function<bool(double time)> on_step;        ///< after every step; false stops the run; may be empty
 };
 
 struct TransientStatistics {
-  Integrator::Statistics integrator;
-  long evaluations = 0;         ///< of the equations, by the integrator
-  long output_evaluations = 0;  ///< for the outputs
-  long repartitions = 0;
+  SystemStepper::Statistics stepper;
+  long output_evaluations = 0;  ///< of the equations, for the outputs
   long switches = 0;
   long mode_changes = 0;
   double mean_active_modes = 0.0;  ///< over time

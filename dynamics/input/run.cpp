@@ -51,11 +51,14 @@ void read_statistics(const support::TomlTable& root, Run& run) {
 
 IntegratorSettings read_integrator(const support::TomlTable& table) {
   using Method = Integrator::Method;
-  static const std::array<std::string, 3> kMethods{"exponential", "adams", "bdf"};
+  static const std::array<std::string, 4> kMethods{"exponential", "generalized-alpha", "adams", "bdf"};
   IntegratorSettings settings;
   if (const std::optional<support::TomlValue> method = table.find("method")) {
     const std::string name = method->one_of(kMethods);
-    settings.method = name == "adams" ? Method::kAdams : name == "bdf" ? Method::kBdf : Method::kExponential;
+    settings.method = name == "adams"               ? Method::kAdams
+                      : name == "bdf"               ? Method::kBdf
+                      : name == "generalized-alpha" ? Method::kGeneralizedAlpha
+                                                    : Method::kExponential;
   }
   // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
   settings.relative_tolerance = table.number_or("relative_tolerance", settings.relative_tolerance,
@@ -63,6 +66,15 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   if (const std::optional<support::TomlValue> step = table.find("largest_step")) {
     settings.largest_step = step->number(support::positive("s"));
   }
+  const std::optional<support::TomlValue> radius = table.find("spectral_radius");
+  const std::optional<support::TomlValue> fixed_step = table.find("fixed_step");
+  for (const auto& value : {radius, fixed_step}) {
+    if (value && settings.method != Method::kGeneralizedAlpha) {
+      throw value->error("has a meaning with method = \"generalized-alpha\" alone");
+    }
+  }
+  if (radius) settings.spectral_radius = radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
+  if (fixed_step) settings.fixed_step = fixed_step->number(support::positive("s"));
   table.reject_unknown_keys();
   return settings;
 }

@@ -34,6 +34,8 @@ struct IntegratorSettings {
   std::optional<Integrator::Method> method;  ///< none: default_method()
   double relative_tolerance = 1e-6;
   std::optional<double> largest_step;  ///< > 0 [s]
+  std::optional<double> spectral_radius;  ///< 0 to 1; of generalized-α alone
+  std::optional<double> fixed_step;       ///< > 0 [s]; of generalized-α alone
 };
 
 /// `[adaptivity]`: modes that join and leave during the run.

@@ -165,13 +165,14 @@ void write_results_summary(support::Hdf5Writer& file, const RunStatistics& stati
     write("acceleration", point.acceleration);
   }
   file.attribute("/summary", "constraint_violation", statistics.constraint_violation());
+  file.attribute("/summary", "velocity_violation", transient.stepper.velocity_violation);
   file.attribute("/summary", "energy_closure", statistics.energy_closure());
   file.attribute("/summary", "num_samples", std::int64_t{statistics.num_samples()});
-  file.attribute("/summary", "steps", std::int64_t{transient.integrator.steps});
-  file.attribute("/summary", "evaluations", std::int64_t{transient.evaluations});
+  file.attribute("/summary", "steps", std::int64_t{transient.stepper.integrator.steps});
+  file.attribute("/summary", "evaluations", std::int64_t{transient.stepper.evaluations});
   file.attribute("/summary", "output_evaluations", std::int64_t{transient.output_evaluations});
   file.attribute("/summary", "switches", std::int64_t{transient.switches});
-  file.attribute("/summary", "repartitions", std::int64_t{transient.repartitions});
+  file.attribute("/summary", "repartitions", std::int64_t{transient.stepper.repartitions});
 }
 
 }  // namespace sprung::dynamics

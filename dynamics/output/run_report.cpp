@@ -76,10 +76,13 @@ std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
   support::TextTable run({"quantity", "value"});
   run.add_row(
       {"largest constraint violation", fmt::format("{:.1e}", summary.statistics.constraint_violation())});
+  if (transient.stepper.velocity_violation > 0.0) {
+    run.add_row({"of velocities, closed for output", fmt::format("{:.1e}", transient.stepper.velocity_violation)});
+  }
   run.add_row({"energy balance, relative", fmt::format("{:.1e}", summary.statistics.energy_closure())});
-  run.add_row({"steps", fmt::format("{}", transient.integrator.steps)});
+  run.add_row({"steps", fmt::format("{}", transient.stepper.integrator.steps)});
   run.add_row({"evaluations (and for output)",
-               fmt::format("{} ({})", transient.evaluations, transient.output_evaluations)});
+               fmt::format("{} ({})", transient.stepper.evaluations, transient.output_evaluations)});
   run.add_row({"switches located", fmt::format("{}", transient.switches)});
   std::string warning;
   if (summary.adaptivity) {
@@ -131,13 +134,14 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
              .add("freedoms", static_cast<double>(model.num_freedoms()))
              .add("points", points)
              .add("constraint_violation", summary.statistics.constraint_violation())
+             .add("velocity_violation", transient.stepper.velocity_violation)
              .add("energy_closure", summary.statistics.energy_closure())
-             .add("steps", static_cast<double>(transient.integrator.steps))
-             .add("evaluations", static_cast<double>(transient.evaluations))
+             .add("steps", static_cast<double>(transient.stepper.integrator.steps))
+             .add("evaluations", static_cast<double>(transient.stepper.evaluations))
              .add("output_evaluations", static_cast<double>(transient.output_evaluations))
              .add("switches", static_cast<double>(transient.switches))
              .add("modes", modes)
-             .add("repartitions", static_cast<double>(transient.repartitions))
+             .add("repartitions", static_cast<double>(transient.stepper.repartitions))
              .add("elapsed", summary.elapsed)
              .add("real_time_factor", summary.duration / summary.elapsed)
              .str() +

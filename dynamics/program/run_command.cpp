@@ -26,6 +26,8 @@ TransientOptions make_options(const Run& run) {
   options.largest_step = run.integrator.largest_step.value_or(std::numeric_limits<double>::infinity());
   options.integrator.relative_tolerance = run.integrator.relative_tolerance;
   options.integrator.method = run.integrator.method.value();
+  options.integrator.spectral_radius = run.integrator.spectral_radius.value_or(options.integrator.spectral_radius);
+  options.integrator.fixed_step = run.integrator.fixed_step.value_or(options.integrator.fixed_step);
   return options;
 }
 

@@ -15,28 +15,27 @@ constexpr int kMaxNewtonIterations = 12;
 
 PartitionedEquations::PartitionedEquations(const Model& model)
     : model_(&model),
-      terms_(model, SystemTerms::Markers::kActing),
-      multipliers_(terms_.jacobian(), model.num_constraints),
+      full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  q_ = v_ = v_dot_ = last_good_q_ = step_ = Eigen::VectorXd::Zero(model.num_coordinates);
-  lambda_ = residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
+  q_ = v_ = last_good_q_ = step_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
 }
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
   q_ = last_good_q_ = q;
-  terms_.update_positions(time, q_);
-  terms_.update_jacobian();
-  terms_.update_mass();
-  partition_ = choose_partition(terms_);
-  dependents_ = DependentSolver(terms_.jacobian(), partition_, model_->num_coordinates);
-  dependents_.factorise(terms_.jacobian());
+  mutable_terms().update_positions(time, q_);
+  mutable_terms().update_jacobian();
+  mutable_terms().update_mass();
+  partition_ = choose_partition(terms());
+  dependents_ = DependentSolver(terms().jacobian(), partition_, model_->num_coordinates);
+  dependents_.factorise(terms().jacobian());
   dependents_.set_reference();
 }
 
 void PartitionedEquations::refactor() {
-  terms_.update_jacobian();
-  dependents_.factorise(terms_.jacobian());
+  mutable_terms().update_jacobian();
+  dependents_.factorise(terms().jacobian());
 }
 
 // Newton for the dependents; the factors of φ_d, from the last positions, are renewed only where they no longer
@@ -45,9 +44,9 @@ bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
-    terms_.update_positions(time, q_);
+    mutable_terms().update_positions(time, q_);
     if (num_constraints_ == 0) return true;
-    terms_.calc_residual(residual_);
+    terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
     if (size <= tolerance) return true;
@@ -73,7 +72,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   }
   if (num_constraints_ > 0) {
     residual_.setZero();
-    terms_.jacobian().add_product(step_, residual_);
+    terms().jacobian().add_product(step_, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
@@ -89,7 +88,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
     return Outcome::kGood;
   }
   q_ = last_good_q_;  // the next search starts where the last one ended well
-  terms_.update_positions(time, q_);
+  mutable_terms().update_positions(time, q_);
   refactor();
   return Outcome::kNotAssembled;
 }
@@ -98,45 +97,18 @@ void PartitionedEquations::update_velocities(std::span<const double> v_independe
   v_.setZero();
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) v_[partition_.independent[k]] = v_independent[k];
   if (num_constraints_ > 0) {
-    terms_.calc_time_rate(residual_);
-    terms_.jacobian().add_product(v_, residual_);
+    terms().calc_time_rate(residual_);
+    terms().jacobian().add_product(v_, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       v_[partition_.dependent[k]] = -correction_[static_cast<Eigen::Index>(k)];
     }
   }
-  terms_.update_velocities(v_);
+  mutable_terms().update_velocities(v_);
 }
 
-// With a₀ = M⁻¹Q: (φ_q M⁻¹ φ_qᵀ) λ = φ_q a₀ − γ, q̈ = a₀ − M⁻¹φ_qᵀλ.
 PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::span<const int> branches) {
-  terms_.update_mass();
-  terms_.update_forces(branches);
-  v_dot_ = terms_.forces();
-  const auto apply_inverse_mass = [this](Eigen::VectorXd& x) {
-    for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-      terms_.masses()[b].solve(x.data() + model_->bodies[b].first_coordinate);
-    }
-  };
-  apply_inverse_mass(v_dot_);
-  if (num_constraints_ > 0) {
-    terms_.calc_gamma(correction_);
-    residual_ = -correction_;
-    terms_.jacobian().add_product(v_dot_, residual_);
-    if (!multipliers_.factorise(terms_.jacobian(), terms_.masses())) return Outcome::kNotFinite;
-    multipliers_.solve(residual_, lambda_);
-    step_.setZero();
-    terms_.jacobian().add_transposed_product(lambda_, step_);
-    apply_inverse_mass(step_);
-    v_dot_ -= step_;
-  }
-  return v_dot_.allFinite() ? Outcome::kGood : Outcome::kNotFinite;
-}
-
-double PartitionedEquations::calc_motion_power() {
-  if (!model_->has_motions) return 0.0;
-  terms_.calc_time_rate(residual_);
-  return lambda_.dot(residual_);
+  return full_.update_accelerations(branches) ? Outcome::kGood : Outcome::kNotFinite;
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {
@@ -146,7 +118,7 @@ Eigen::MatrixXd PartitionedEquations::calc_directions() const {
     column.setZero();
     column[partition_.independent[k]] = 1.0;
     r.setZero();
-    terms_.jacobian().add_product(column, r);
+    terms().jacobian().add_product(column, r);
     dependents_.solve(r, x);
     for (std::size_t d = 0; d < partition_.dependent.size(); ++d) {
       column[partition_.dependent[d]] = -x[static_cast<Eigen::Index>(d)];
@@ -161,24 +133,24 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     const Eigen::MatrixXd rows = directions.middleRows(body.first_coordinate, body.num_coordinates());
-    reduced += rows.transpose() * terms_.mass(b) * rows;
+    reduced += rows.transpose() * terms().mass(b) * rows;
   }
   return reduced;
 }
 
 Eigen::VectorXd PartitionedEquations::calc_reduced_force(const Eigen::MatrixXd& directions) const {
   // Dᵀφ_qᵀ = 0: multipliers do no work along the free directions.
-  Eigen::VectorXd force = terms_.forces();
-  Eigen::VectorXd alpha = v_dot_;  // what is left of q̈ when the independents' is taken away: D q̈_i
+  Eigen::VectorXd force = terms().forces();
+  Eigen::VectorXd alpha = v_dot();  // what is left of q̈ when the independents' is taken away: D q̈_i
   Eigen::VectorXd independent(num_freedoms_);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    independent[static_cast<Eigen::Index>(k)] = v_dot_[partition_.independent[k]];
+    independent[static_cast<Eigen::Index>(k)] = v_dot()[partition_.independent[k]];
   }
   alpha -= directions * independent;
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     force.segment(body.first_coordinate, body.num_coordinates()) -=
-        terms_.mass(b) * alpha.segment(body.first_coordinate, body.num_coordinates());
+        terms().mass(b) * alpha.segment(body.first_coordinate, body.num_coordinates());
   }
   return directions.transpose() * force;
 }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
+#include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/dependent_solver.h"
-#include "dynamics/system/multiplier_solver.h"
 #include "dynamics/system/partition.h"
 #include "dynamics/system/system_terms.h"
 
@@ -41,16 +41,18 @@ class PartitionedEquations {
   Outcome update_accelerations(std::span<const int> branches);
 
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (dynamics/README.md, eq. 29).
-  double calc_motion_power();
+  double calc_motion_power() { return full_.calc_motion_power(); }
 
   /// Brings the markers that only results ask for up to date as well.
-  void update_all_markers() { terms_.update_all_markers(); }
+  void update_all_markers() { mutable_terms().update_all_markers(); }
 
-  const SystemTerms& terms() const { return terms_; }
+  /// The equations in all coordinates, at the motion evaluated last.
+  const ConstrainedEquations& constrained() const { return full_; }
+  const SystemTerms& terms() const { return full_.terms(); }
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
-  const Eigen::VectorXd& v_dot() const { return v_dot_; }
-  const Eigen::VectorXd& multipliers() const { return lambda_; }
+  const Eigen::VectorXd& v_dot() const { return full_.v_dot(); }
+  const Eigen::VectorXd& multipliers() const { return full_.multipliers(); }
 
   /// D = ∂v/∂v_i, nq×f, what the constraints leave free, at the positions evaluated last.
   Eigen::MatrixXd calc_directions() const;
@@ -63,17 +65,17 @@ class PartitionedEquations {
   double partition_decay() const { return dependents_.decay(); }
 
  private:
+  SystemTerms& mutable_terms() { return full_.terms(); }
   bool solve_dependents(double time);
   void refactor();
 
   const Model* model_;
-  SystemTerms terms_;
+  ConstrainedEquations full_;
   Partition partition_;
   DependentSolver dependents_;
-  MultiplierSolver multipliers_;
   int num_freedoms_, num_constraints_;
 
-  Eigen::VectorXd q_, v_, v_dot_, lambda_, last_good_q_;
+  Eigen::VectorXd q_, v_, last_good_q_;
   Eigen::VectorXd residual_, correction_;  // m
   Eigen::VectorXd step_;                   // nq
 };

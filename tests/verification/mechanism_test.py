@@ -3,6 +3,7 @@
 
 import unittest
 
+import h5py
 import numpy as np
 
 from verification_case import EXAMPLES, MODELS, VerificationCase
@@ -112,6 +113,49 @@ class Chains(VerificationCase):
         results = self.run_to_results(MODELS / "folding_chain_run.toml", "--set", "duration=1.0")
         self.assertGreaterEqual(results.summary["repartitions"], 3)
         self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+class GeneralizedAlpha(VerificationCase):
+    """The second integrator has neither coordinates nor formulas in common with the first, which serves as reference."""
+
+    def compare(self, run_file, tolerance, *, position, reaction, arguments=()):
+        """Positions of all bodies to `position` [m, rad], reactions to `reaction` of the largest."""
+        found = []
+        for method, its_tolerance in (("generalized-alpha", tolerance), ("adams", 1e-9)):
+            (self.folder / method).mkdir()
+            path = self.folder / method / "results.h5"
+            self.program("run", run_file, *arguments, "-o", str(path), "--set", f"integrator.method={method}",
+                         "--set", f"integrator.relative_tolerance={its_tolerance}")
+            with h5py.File(path) as file:
+                found.append(({name: file[f"bodies/{name}/position"][:] for name in file["bodies"]},
+                              {name: file[f"joints/{name}/reaction"][:] for name in file["joints"]
+                               if "reaction" in file[f"joints/{name}"]}))
+        (bodies, joints), (reference, reference_joints) = found
+        largest = max(np.max(np.abs(values)) for values in reference_joints.values())
+        for name, values in bodies.items():
+            self.assert_close(values, reference[name], absolute=position)
+        for name, values in joints.items():
+            self.assert_close(values, reference_joints[name], absolute=reaction * largest)
+
+    def test_andrews(self):
+        self.compare(EXAMPLES / "andrews_run.toml", 1e-7, position=1e-6, reaction=1e-6)
+
+    def test_four_bar_that_leaves_no_freedom(self):
+        self.compare(EXAMPLES / "four_bar_run.toml", 1e-5, position=1e-9, reaction=1e-9)
+
+    def test_slider_crank(self):
+        self.compare(EXAMPLES / "slider_crank_run.toml", 1e-7, position=1e-6, reaction=1e-5)
+
+    def test_track(self):
+        self.compare(EXAMPLES / "track_run.toml", 1e-7, position=1e-5, reaction=1e-5, arguments=("--set", "duration=0.5"))
+
+    def test_fixed_steps_of_any_radius(self):
+        results = self.run_to_results(EXAMPLES / "slider_crank_run.toml", "--set", "integrator.method=generalized-alpha",
+                                      "--set", "integrator.spectral_radius=0.5", "--set", "integrator.fixed_step=5e-4")
+        # Points of the gas force's table and the ends of the motor's step lie on the grid of steps.
+        self.assertEqual(results.summary["steps"], 3000)
+        self.assertGreater(results.summary["velocity_violation"], 1e-9)
+        self.assertLess(results.summary["energy_closure"], 1e-3)
 
 
 if __name__ == "__main__":

@@ -104,7 +104,7 @@ TEST_CASE("A pendulum going round keeps its period while its partition changes o
   for (const auto method : {Integrator::Method::kAdams, Integrator::Method::kBdf, Integrator::Method::kExponential}) {
     const Motion motion = run(model, test::place_pendulum(kArm, -0.5 * pi), turning(-0.5 * pi, bottom_rate),
                               10.0 * turn, turn / 20.0, 1e-9, method);
-    CHECK(motion.statistics.repartitions >= 10);
+    CHECK(motion.statistics.stepper.repartitions >= 10);
     CHECK(motion.q.back()[2] == Approx(-0.5 * pi + 20.0 * pi).margin(1e-6));
     CHECK((motion.v.back() - motion.v.front()).norm() < 1e-5);
     CHECK(motion.largest_energy_change < 1e-6);
@@ -138,7 +138,7 @@ TEST_CASE("The energy book goes on through changes of partition", "[analysis]") 
     largest_error = std::max(largest_error, std::abs(book.stored.total() - first + dissipated - book.input));
   };
   const dynamics::TransientStatistics statistics = dynamics::run_transient(model, start, options);
-  CHECK(statistics.repartitions >= 5);
+  CHECK(statistics.stepper.repartitions >= 5);
   CHECK(dissipated > 10.0);  // J, of 90 J that it starts with
   CHECK(largest_error < 1e-5);
   CHECK(least_growth > -1e-6);
@@ -219,7 +219,7 @@ TEST_CASE("A closed chain turning fully takes the time that its energy and inert
   VectorXd v = rate * crank_directions(start_angle);
   dynamics::project_velocities(model, 0.0, q, v);
   const Motion motion = run(model, q, v, 5.0 * turn, turn / 50.0, 1e-10);
-  CHECK(motion.statistics.repartitions >= 5);
+  CHECK(motion.statistics.stepper.repartitions >= 5);
   CHECK(motion.q.back()[2] == Approx(start_angle + 10.0 * pi).margin(1e-6));
   CHECK(motion.largest_energy_change < 1e-7 * energy);
   CHECK(motion.largest_violation < 1e-9);

@@ -140,13 +140,13 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
         "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a string "
         "\"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
-        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", \"adams\", \"bdf\"; got a string "
-        "\"bfd\" (did you mean 'bdf'?)");
+        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", \"generalized-alpha\", \"adams\", \"bdf\"; got "
+        "a string \"bfd\" (did you mean 'bdf'?)");
   CHECK(error_of("from = 0.5", "form = 0.5") ==
         "runs/first.toml:14:1: error: unknown key 'form' in 'statistics' (did you mean 'from'?)");
   CHECK(error_of("largest_step", "max_step") ==
         "runs/first.toml:26:1: error: unknown key 'max_step' in 'integrator' (known keys: method, "
-        "relative_tolerance, largest_step)");
+        "relative_tolerance, largest_step, spectral_radius, fixed_step)");
   CHECK(error_of("angular_velocity", "angular_speed") ==
         "runs/first.toml:33:1: error: unknown key 'angular_speed' in 'initial.frame' (known keys: velocity, "
         "angular_velocity, modal_amplitude, modal_rate)");
@@ -178,6 +178,21 @@ TEST_CASE("Settings of the integrator out of range are refused") {
         "runs/first.toml:25:22: error: 'integrator.relative_tolerance' must be ≥ 1e-13 and ≤ 0.1, got 0.5");
   CHECK(error_of("largest_step = 0.01", "largest_step = 0.0") ==
         "runs/first.toml:26:16: error: 'integrator.largest_step' must be > 0 s, got 0");
+  const std::string alpha = "method = \"generalized-alpha\"\n";
+  CHECK(error_of("method = \"bdf\"\n", alpha + "spectral_radius = 1.1\n") ==
+        "runs/first.toml:25:19: error: 'integrator.spectral_radius' must be ≥ 0 and ≤ 1, got 1.1");
+  CHECK(error_of("method = \"bdf\"\n", alpha + "fixed_step = 0\n") ==
+        "runs/first.toml:25:14: error: 'integrator.fixed_step' must be > 0 s, got 0");
+  CHECK(error_of("largest_step = 0.01", "fixed_step = 0.01") ==
+        "runs/first.toml:26:14: error: 'integrator.fixed_step' has a meaning with method = \"generalized-alpha\" alone");
+}
+
+TEST_CASE("Generalized-α takes a spectral radius and a fixed step") {
+  const dynamics::Run run = read(test::with_change(
+      kText, "method = \"bdf\"\n", "method = \"generalized-alpha\"\nspectral_radius = 0.6\nfixed_step = 1e-4\n"));
+  CHECK(run.integrator.method == dynamics::Integrator::Method::kGeneralizedAlpha);
+  CHECK(run.integrator.spectral_radius == 0.6);
+  CHECK(run.integrator.fixed_step == 1e-4);
 }
 
 TEST_CASE("Output points that the vehicle lacks are refused") {

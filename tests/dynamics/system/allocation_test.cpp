@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/analysis/generalized_alpha_stepper.h"
 #include "dynamics/analysis/partitioned_ode.h"
 #include "dynamics/road/bump_road.h"
 #include "tests/catch.h"
@@ -37,7 +38,7 @@ TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
     dynamics::PartitionedOde ode(model);
     ode.set_state(state, 0.0, 0.0);
     ode.make_state(0.0, ode.y());
-    ode.update_branches();
+    ode.piece().update_branches(ode.equations().terms());
     std::vector<double> y(ode.y().begin(), ode.y().end()), rate(y.size()), scales(y.size());
     std::vector<double> switches(static_cast<std::size_t>(ode.num_switches()));
     bool good = true;
@@ -47,7 +48,7 @@ TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
       good &= ode.calc_derivative(0.0, y, rate);
       good &= ode.calc_switches(0.0, y, switches);
       ode.calc_error_scales(y, scales);
-      good &= ode.calc_longest_step() > 0.0 && ode.equations().partition_decay() > 0.0;
+      good &= ode.piece().calc_longest_step(ode.equations().terms()) > 0.0 && ode.equations().partition_decay() > 0.0;
     }
     const long taken = test::num_allocations() - before;
     INFO(num_modes << " modes");
@@ -88,7 +89,7 @@ TEST_CASE("Steps of the exponential integrator over the bump take no memory", "[
     dynamics::PartitionedOde ode(bump.model);
     ode.set_state(bump.state, 0.0, 0.0);
     ode.make_state(0.0, ode.y());
-    ode.update_branches();
+    ode.piece().update_branches(ode.equations().terms());
     const auto integrator = make_integrator(ode, {.relative_tolerance = 1e-5});
     integrator->start(0.0, ode.y(), 1.0);
     integrator->step(1e-3);  // finds the modes of small motion, for which it does ask
@@ -96,14 +97,40 @@ TEST_CASE("Steps of the exponential integrator over the bump take no memory", "[
     long taken = 0, steps = 0;
     while (integrator->time() < 1.0) {
       const long before = test::num_allocations();
-      const dynamics::Integrator::StepResult result = integrator->step(ode.calc_longest_step());
+      const dynamics::Integrator::StepResult result = integrator->step(ode.piece().calc_longest_step(ode.equations().terms()));
       integrator->interpolate(integrator->time(), y);
       taken += test::num_allocations() - before;
       ++steps;
       if (result != dynamics::Integrator::StepResult::kSwitched) continue;
       ode.make_state(integrator->time(), y);
-      ode.update_branches();
+      ode.piece().update_branches(ode.equations().terms());
       integrator->start(integrator->time(), y, 1.0);
+    }
+    INFO(num_modes << " modes");
+    CHECK(steps > 50);
+    CHECK(taken == 0);
+  }
+}
+
+TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
+  for (const int num_modes : {0, 4, 36}) {
+    const test::BumpStart bump({.num_chassis_modes = num_modes});
+    dynamics::GeneralizedAlphaStepper stepper(bump.model, {.relative_tolerance = 1e-4});
+    stepper.start(bump.state);
+    stepper.evaluate(0.0);
+    stepper.piece().update_branches(stepper.equations().terms());
+    stepper.resume(0.6);
+    stepper.step(1e-3);  // lists the entries of its matrix
+    long taken = 0, steps = 0;
+    while (stepper.time() < 0.6) {
+      const long before = test::num_allocations();
+      const dynamics::Integrator::StepResult result = stepper.step(stepper.calc_longest_step());
+      stepper.evaluate(stepper.time());
+      taken += test::num_allocations() - before;
+      ++steps;
+      if (result != dynamics::Integrator::StepResult::kSwitched) continue;
+      stepper.piece().update_branches(stepper.equations().terms());
+      stepper.resume(0.6);
     }
     INFO(num_modes << " modes");
     CHECK(steps > 50);

@@ -1,0 +1,36 @@
+#include "dynamics/analysis/error_scales.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+// The tolerance is meant for a whole run, of which errors of the steps add up; this share of it is allowed in
+// a step. With it the energy book closes to the tolerance.
+constexpr double kStepShare = 1.0 / 300.0;
+
+}  // namespace
+
+// A natural velocity: what gravity gives over a length scale, at least one natural size per second.
+ErrorScales::ErrorScales(const Model& model)
+    : model_(&model), velocity_scale_(std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale))) {
+  double mass = 0.0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  energy_scale_ = 0.5 * mass * std::pow(velocity_scale_ * model.length_scale, 2);
+}
+
+double ErrorScales::position(int coordinate) const {
+  return kStepShare * model_->coordinate_scale(coordinate);
+}
+
+double ErrorScales::velocity(int coordinate, double velocity) const {
+  return kStepShare * (velocity_scale_ * model_->coordinate_scale(coordinate) + std::abs(velocity));
+}
+
+double ErrorScales::energy() const {
+  return kStepShare * energy_scale_;
+}
+
+}  // namespace sprung::dynamics

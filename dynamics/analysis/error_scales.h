@@ -1,0 +1,24 @@
+#pragma once
+
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// What the relative tolerance is of: the error that a step may make in a quantity is the tolerance times its
+/// scale here (dynamics/README.md, "Error control"). None depends on where the origin is.
+class ErrorScales {
+ public:
+  /// @param model has to outlive this
+  explicit ErrorScales(const Model& model);
+
+  double position(int coordinate) const;                   ///< in the coordinate's unit
+  double velocity(int coordinate, double velocity) const;  ///< in the coordinate's unit/s
+  double energy() const;                                   ///< [J]
+
+ private:
+  const Model* model_;
+  double velocity_scale_;  // [natural sizes/s]
+  double energy_scale_;    // [J]
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,61 @@
+#include "dynamics/analysis/smooth_piece.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+SmoothPiece::SmoothPiece(const Model& model)
+    : model_(&model), branches_(static_cast<std::size_t>(model.num_branches)) {
+  for (const auto& force : model.forces) num_switches_ += force->num_switches();
+}
+
+std::vector<BranchChange> SmoothPiece::update_branches(const SystemTerms& terms) {
+  const std::vector<int> old_branches = branches_;
+  terms.choose_branches(branches_);
+  std::vector<BranchChange> changes;
+  for (std::size_t i = 0; i < model_->forces.size(); ++i) {
+    const ForceElement& force = *model_->forces[i];
+    const auto first = static_cast<std::size_t>(model_->force_branches[i]);
+    const auto count = static_cast<std::size_t>(force.num_branches());
+    const std::string text = force.describe_change(std::span(old_branches).subspan(first, count),
+                                                   std::span(branches_).subspan(first, count));
+    if (!text.empty()) changes.push_back({force.name, text});
+  }
+  return changes;
+}
+
+void SmoothPiece::calc_switches(const SystemTerms& terms, std::span<double> values) const {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < model_->forces.size(); ++i) {
+    const ForceElement& force = *model_->forces[i];
+    const auto count = static_cast<std::size_t>(force.num_switches());
+    force.calc_switches(terms.instant(),
+                        std::span(branches_).subspan(static_cast<std::size_t>(model_->force_branches[i]),
+                                                     static_cast<std::size_t>(force.num_branches())),
+                        values.subspan(next, count));
+    next += count;
+  }
+}
+
+double SmoothPiece::calc_longest_step(const SystemTerms& terms) const {
+  const Instant now = terms.instant();
+  double longest = model_->time_resolution;
+  for (const auto& force : model_->forces) longest = std::min(longest, force->calc_longest_step(now));
+  if (model_->has_motions) {
+    for (const auto& joint : model_->joints) {
+      longest = std::min(longest, joint->calc_longest_step(now.time, model_->length_scale));
+    }
+  }
+  return longest;
+}
+
+double SmoothPiece::update_next_break(double time) {
+  const auto next = std::upper_bound(model_->time_breaks.begin(), model_->time_breaks.end(), time);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (next == model_->time_breaks.end()) return latest_time_ = kInfinity;
+  latest_time_ = std::nextafter(*next, -kInfinity);
+  return *next;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "dynamics/analysis/integrator.h"
+#include "dynamics/analysis/smooth_piece.h"
+#include "dynamics/system/constrained_equations.h"
+
+namespace sprung::dynamics {
+
+/// Carries a state of the constrained system forward in time, in whatever unknowns. It integrates the smooth
+/// piece that holds; between pieces the caller chooses the next one and lets it resume.
+class SystemStepper {
+ public:
+  /// Energy that has left and entered the mechanical energy since the start [J].
+  struct EnergyFlow {
+    double dissipated = 0.0, input = 0.0;
+  };
+  struct Statistics {
+    Integrator::Statistics integrator;
+    long evaluations = 0;  ///< of the equations, by the integrator
+    long repartitions = 0;
+    double velocity_violation = 0.0;  ///< largest |φ_q v + φ_t| of a step's end that was closed for output
+  };
+
+  virtual ~SystemStepper() = default;
+
+  /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
+  virtual void start(const State& state) = 0;
+  /// Goes on from where `evaluate` was called last with the branches of piece(), up to `end_time`.
+  /// @throws support::NumericalError where there are no accelerations
+  virtual void resume(double end_time) = 0;
+  /// One step of at most `longest_step`.
+  /// @throws support::NumericalError with the time and the reason
+  virtual Integrator::StepResult step(double longest_step) = 0;
+  virtual double time() const = 0;  ///< end of the last step, or of its part up to a switch
+  /// Longest step that the piece would not regret, at the state evaluated last [s].
+  virtual double calc_longest_step() const = 0;
+
+  /// Brings equations() and energy_flow() to a time within the last step: joints closed, all markers,
+  /// accelerations and multipliers those of the equations.
+  /// @throws support::NumericalError if the joints cannot be closed
+  virtual void evaluate(double time) = 0;
+  virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
+  virtual EnergyFlow energy_flow() const = 0;
+
+  virtual SmoothPiece& piece() = 0;
+  virtual Statistics statistics() const = 0;
+};
+
+/// @param model           has to outlive the stepper
+/// @param on_repartition  told the time at which independent coordinates were chosen anew
+std::unique_ptr<SystemStepper> make_stepper(const Model& model, const Integrator::Options& options,
+                                            std::function<void(double time)> on_repartition);
+
+}  // namespace sprung::dynamics

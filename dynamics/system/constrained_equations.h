@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "dynamics/system/multiplier_solver.h"
+#include "dynamics/system/system_terms.h"
+
+namespace sprung::dynamics {
+
+/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates (dynamics/README.md, eqs. 12 and
+/// 17–19): what every way of integrating them ends in. nq coordinates, m constraints. No allocation (but see
+/// MultiplierSolver for large systems).
+class ConstrainedEquations {
+ public:
+  ConstrainedEquations(const Model& model, SystemTerms::Markers scope);
+
+  SystemTerms& terms() { return terms_; }
+  const SystemTerms& terms() const { return terms_; }
+  const Eigen::VectorXd& q() const { return terms_.q(); }
+  const Eigen::VectorXd& v() const { return terms_.v(); }
+  const Eigen::VectorXd& v_dot() const { return v_dot_; }
+  const Eigen::VectorXd& multipliers() const { return lambda_; }
+
+  /// Accelerations and multipliers. Positions, Jacobian and velocities of the terms have to be up to date.
+  /// @return false where NaN or infinity came out, or constraints have become dependent
+  bool update_accelerations(std::span<const int> branches);
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (eq. 29).
+  double calc_motion_power();
+
+  /// Positions and Jacobian at q, moved the least way in the mass metric to where the joints close.
+  /// @return false where they do not
+  bool close_joints(double time, const Eigen::VectorXd& q);
+  /// Velocities nearest to v, in the mass metric, that the joints allow; after close_joints.
+  /// @return largest |φ_q v + φ_t| before [m/s, rad/s]; NaN where there is no such velocity
+  double close_rates(const Eigen::VectorXd& v);
+
+ private:
+  void apply_inverse_mass(Eigen::VectorXd& x) const;
+  bool factorise();
+  void calc_correction();
+
+  const Model* model_;
+  SystemTerms terms_;
+  MultiplierSolver multipliers_;
+  Eigen::VectorXd v_dot_, moved_, step_;         // nq
+  Eigen::VectorXd lambda_, residual_, impulse_;  // m
+};
+
+}  // namespace sprung::dynamics

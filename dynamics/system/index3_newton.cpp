@@ -1,0 +1,212 @@
+#include "dynamics/system/index3_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMostDense = 100;  // unknowns
+constexpr double kShift = 1e-6;  // of the natural size, for differences
+
+}  // namespace
+
+Index3Newton::Index3Newton(const Model& model)
+    : model_(&model),
+      num_coordinates_(model.num_coordinates),
+      num_constraints_(model.num_constraints),
+      base_force_(Eigen::VectorXd::Zero(model.num_coordinates)),
+      moved_(model),
+      coordinate_scale_(base_force_),
+      constraint_scale_(Eigen::VectorXd::Zero(model.num_constraints)),
+      unknowns_(Eigen::VectorXd::Zero(model.num_coordinates + model.num_constraints)),
+      is_dense_(unknowns_.size() <= kMostDense),
+      dense_(is_dense_ ? static_cast<int>(unknowns_.size()) : 0) {
+  find_couplings();
+  colour_bodies();
+}
+
+void Index3Newton::find_couplings() {
+  const std::size_t num_bodies = model_->bodies.size();
+  std::vector<std::vector<bool>> feels(num_bodies, std::vector<bool>(num_bodies, false));
+  for (std::size_t b = 0; b < num_bodies; ++b) feels[b][b] = true;
+  const auto couple = [&](const std::vector<int>& markers) {
+    for (const int i : markers) {
+      for (const int j : markers) {
+        const int a = model_->markers[static_cast<std::size_t>(i)].body;
+        const int b = model_->markers[static_cast<std::size_t>(j)].body;
+        if (a != kGround && b != kGround)
+          feels[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
+      }
+    }
+  };
+  for (const auto& joint : model_->joints) couple({joint->marker_a, joint->marker_b});
+  for (const auto& force : model_->forces) couple(force->markers());
+  for (std::size_t a = 0; a < num_bodies; ++a) {
+    for (std::size_t b = 0; b < num_bodies; ++b) {
+      if (!feels[a][b]) continue;
+      const Eigen::MatrixXd zero =
+          Eigen::MatrixXd::Zero(model_->bodies[a].num_coordinates(), model_->bodies[b].num_coordinates());
+      couplings_.push_back({static_cast<int>(a), static_cast<int>(b), zero, zero});
+    }
+  }
+}
+
+// Greedy: a body takes the first colour in which nobody is felt where it is felt.
+// Source: [Curtis, Powell & Reid 1974]
+void Index3Newton::colour_bodies() {
+  const std::size_t num_bodies = model_->bodies.size();
+  std::vector<std::vector<int>> felt_by(num_bodies);
+  for (const Coupling& coupling : couplings_) {
+    felt_by[static_cast<std::size_t>(coupling.column_body)].push_back(coupling.row_body);
+  }
+  std::vector<std::vector<bool>> taken;  // rows of each colour
+  for (std::size_t b = 0; b < num_bodies; ++b) {
+    const auto fits = [&](const std::vector<bool>& rows) {
+      return std::none_of(felt_by[b].begin(), felt_by[b].end(),
+                          [&](int row) { return rows[static_cast<std::size_t>(row)]; });
+    };
+    const auto colour =
+        static_cast<std::size_t>(std::find_if(taken.begin(), taken.end(), fits) - taken.begin());
+    if (colour == taken.size()) {
+      taken.emplace_back(num_bodies, false);
+      colours_.emplace_back();
+    }
+    for (const int row : felt_by[b]) taken[colour][static_cast<std::size_t>(row)] = true;
+    colours_[colour].push_back(static_cast<int>(b));
+  }
+}
+
+void Index3Newton::difference(Index3Residual& residual, ConstrainedMotion& moved,
+                              std::span<const int> branches, bool of_velocity) {
+  Eigen::VectorXd& x = of_velocity ? moved.v : moved.q;
+  for (const std::vector<int>& bodies : colours_) {
+    int num_columns = 0;
+    for (const int b : bodies) {
+      num_columns = std::max(num_columns, model_->bodies[static_cast<std::size_t>(b)].num_coordinates());
+    }
+    for (int k = 0; k < num_columns; ++k) {
+      const auto shift_all = [&](double sign) {
+        for (const int b : bodies) {
+          const Body& body = model_->bodies[static_cast<std::size_t>(b)];
+          if (k >= body.num_coordinates()) continue;
+          const int i = body.first_coordinate + k;
+          x[i] += sign * kShift * model_->coordinate_scale(i);
+        }
+      };
+      shift_all(1.0);
+      residual.update(moved, branches);
+      shift_all(-1.0);
+      for (Coupling& coupling : couplings_) {
+        if (std::find(bodies.begin(), bodies.end(), coupling.column_body) == bodies.end()) continue;
+        const Body& column = model_->bodies[static_cast<std::size_t>(coupling.column_body)];
+        const Body& row = model_->bodies[static_cast<std::size_t>(coupling.row_body)];
+        if (k >= column.num_coordinates()) continue;
+        const double shift = kShift * model_->coordinate_scale(column.first_coordinate + k);
+        (of_velocity ? coupling.C : coupling.K).col(k) =
+            (residual.force() - base_force_).segment(row.first_coordinate, row.num_coordinates()) / shift;
+      }
+    }
+  }
+}
+
+void Index3Newton::linearise(Index3Residual& residual, const ConstrainedMotion& motion,
+                             std::span<const int> branches) {
+  residual.update(motion, branches);
+  base_force_ = residual.force();
+  moved_ = motion;
+  difference(residual, moved_, branches, false);
+  moved_.q = motion.q;
+  difference(residual, moved_, branches, true);
+  residual.update(motion, branches);
+}
+
+void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weights) {
+  entries_.clear();
+  constraint_scale_.setZero();
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    for (int k = 0; k < body.num_coordinates(); ++k) {
+      coordinate_scale_[body.first_coordinate + k] = 1.0 / std::sqrt(terms.mass(b)(k, k));
+    }
+  }
+  for (const Coupling& coupling : couplings_) {
+    const auto row_body = static_cast<std::size_t>(coupling.row_body);
+    const int row = model_->bodies[row_body].first_coordinate;
+    const int column = model_->bodies[static_cast<std::size_t>(coupling.column_body)].first_coordinate;
+    for (int j = 0; j < coupling.K.cols(); ++j) {
+      for (int i = 0; i < coupling.K.rows(); ++i) {
+        double value = weights.velocity * coupling.C(i, j) + weights.position * coupling.K(i, j);
+        if (coupling.row_body == coupling.column_body)
+          value += weights.acceleration * terms.mass(row_body)(i, j);
+        entries_.push_back(
+            {row + i, column + j, value * coordinate_scale_[row + i] * coordinate_scale_[column + j]});
+      }
+    }
+  }
+  const std::size_t first = entries_.size();
+  const BlockJacobian& jacobian = terms.jacobian();
+  for (std::size_t k = 0; k < jacobian.blocks().size(); ++k) {
+    const BlockJacobian::Block& block = jacobian.blocks()[k];
+    const double* value = jacobian.values(k);
+    for (int i = 0; i < block.num_rows; ++i) {
+      for (int j = 0; j < block.num_columns; ++j) {
+        const double scaled = *value++ * coordinate_scale_[block.column + j];
+        entries_.push_back({block.row + i, block.column + j, scaled});
+        constraint_scale_[block.row + i] += scaled * scaled;
+      }
+    }
+  }
+  constraint_scale_ = constraint_scale_.cwiseSqrt().cwiseInverse();
+  const std::size_t end = entries_.size();
+  for (std::size_t k = first; k < end; ++k) {
+    Entry& entry = entries_[k];
+    entry.value *= constraint_scale_[entry.row];
+    entry.row += num_coordinates_;
+    entries_.push_back({entry.column, entry.row, entry.value});
+  }
+}
+
+bool Index3Newton::factorise(const SystemTerms& terms, const Weights& weights) {
+  collect_entries(terms, weights);
+  if (!is_dense_) {
+    std::vector<Eigen::Triplet<double>> triplets;
+    triplets.reserve(entries_.size());
+    for (const Entry& entry : entries_) triplets.emplace_back(entry.row, entry.column, entry.value);
+    const bool has_pattern = sparse_.rows() > 0;
+    sparse_.resize(unknowns_.size(), unknowns_.size());
+    sparse_.setFromTriplets(triplets.begin(), triplets.end());
+    if (!has_pattern) sparse_factor_.analyzePattern(sparse_);
+    sparse_factor_.factorize(sparse_);
+    return sparse_factor_.info() == Eigen::Success;
+  }
+  const std::span<double> matrix = dense_.matrix();
+  std::fill(matrix.begin(), matrix.end(), 0.0);
+  for (const Entry& entry : entries_) {
+    matrix[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(unknowns_.size()) +
+           static_cast<std::size_t>(entry.column)] += entry.value;
+  }
+  dense_.factorise();
+  return std::isfinite(dense_.determinant()) && dense_.determinant() != 0.0;
+}
+
+void Index3Newton::solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, Eigen::VectorXd& delta,
+                         Eigen::VectorXd& delta_lambda) {
+  unknowns_.head(num_coordinates_) = -r.cwiseProduct(coordinate_scale_);
+  unknowns_.tail(num_constraints_) = -phi.cwiseProduct(constraint_scale_);
+  if (is_dense_)
+    dense_.solve(unknowns_.data());
+  else
+    unknowns_ = sparse_factor_.solve(unknowns_).eval();
+  delta = unknowns_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
+  delta_lambda = unknowns_.tail(num_constraints_).cwiseProduct(constraint_scale_);
+}
+
+Eigen::MatrixXd Index3Newton::dense() const {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  for (const Entry& entry : entries_) matrix(entry.row, entry.column) += entry.value;
+  return matrix;
+}
+
+}  // namespace sprung::dynamics

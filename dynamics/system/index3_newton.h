@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <vector>
+
+#include "dynamics/system/index3_residual.h"
+#include "dynamics/system/small_lu.h"
+
+namespace sprung::dynamics {
+
+/// Newton's equations of an implicit step on the index-3 system. δ is the change of the accelerations at the
+/// end of the step, by which v̇ changes b₀δ, v changes b₁δ and q changes b₂δ:
+///
+///     | b₀M + b₁C + b₂K   φ_qᵀ | | δ  |     | r    |
+///     | φ_q               0    | | δλ | = − | φ/b₂ |                                  (dynamics/README.md,
+///     eq. 60)
+///
+/// The unknowns are accelerations and multipliers and the second row is divided by b₂, so that the matrix
+/// tends to a limit as the step becomes short; coordinates are scaled by 1/√M_jj and constraints to rows of
+/// length one, so that it does not depend on units either. Dense up to a hundred unknowns or so, sparse
+/// beyond (that one allocates). Source: [Bottasso, Dopico & Trainelli 2008]
+class Index3Newton {
+ public:
+  /// b₀ [1], b₁ [s], b₂ [s²]
+  struct Weights {
+    double acceleration = 1.0, velocity = 0.0, position = 0.0;
+  };
+
+  explicit Index3Newton(const Model& model);
+
+  /// K = ∂r/∂q and C = ∂r/∂v by forward differences. Bodies that no common neighbour feels move at once, so
+  /// that the number of differences does not grow with the length of a chain. Leaves `residual` at the
+  /// motion.
+  void linearise(Index3Residual& residual, const ConstrainedMotion& motion, std::span<const int> branches);
+  /// Factors with M and φ_q of the terms and the K and C at hand.
+  /// @return false where the matrix is singular
+  bool factorise(const SystemTerms& terms, const Weights& weights);
+  /// @param r     nq, residual of the forces   @param phi  m, φ/b₂
+  /// @param[out] delta  nq                        @param[out] delta_lambda  m
+  void solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, Eigen::VectorXd& delta,
+             Eigen::VectorXd& delta_lambda);
+
+  /// The scaled matrix that was factorised: for tests.
+  Eigen::MatrixXd dense() const;
+
+ private:
+  // Of the forces on one body with respect to the coordinates of another that it feels, or itself.
+  struct Coupling {
+    int row_body, column_body;
+    Eigen::MatrixXd K, C;
+  };
+  struct Entry {
+    int row, column;
+    double value;
+  };
+
+  void find_couplings();
+  void colour_bodies();
+  void difference(Index3Residual& residual, ConstrainedMotion& moved, std::span<const int> branches,
+                  bool of_velocity);
+  void collect_entries(const SystemTerms& terms, const Weights& weights);
+
+  const Model* model_;
+  int num_coordinates_, num_constraints_;
+  std::vector<Coupling> couplings_;
+  std::vector<std::vector<int>> colours_;  // bodies that are moved at once
+  Eigen::VectorXd base_force_;
+  ConstrainedMotion moved_;
+
+  std::vector<Entry> entries_;  // of the scaled matrix
+  Eigen::VectorXd coordinate_scale_, constraint_scale_, unknowns_;
+  bool is_dense_;
+  SmallLu dense_;
+  Eigen::SparseMatrix<double> sparse_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_factor_;
+};
+
+}  // namespace sprung::dynamics
