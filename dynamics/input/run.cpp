@@ -153,6 +153,7 @@ Run read_run(const support::TomlDocument& document) {
     run.start_location = start->location();
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
+  if (const auto table = root.find_table("mode_choice")) run.mode_choice = read_mode_choice(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);

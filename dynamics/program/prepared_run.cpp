@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "dynamics/program/automatic_modes.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -79,9 +80,17 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
-  const ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
-
+  ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();
+  prepared.road = make_road(run);
+  if (!list_automatic_bodies(run.modes).empty()) {
+    const ModeSelection all = prepared.selection;
+    prepared.choice = choose_automatic_modes(run, vehicle, all, damping, *prepared.road);
+    prepared.selection = keep_modes(*prepared.choice, all);
+    damping = keep_damping(damping, all, prepared.selection);
+  }
+  if (preparation == Preparation::kChoice) return prepared;
+
   prepared.balance_model =
       make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
                  run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
@@ -96,7 +105,6 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
 
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
-  prepared.road = make_road(run);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
   prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping);

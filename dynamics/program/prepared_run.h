@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/analysis/assembly.h"
+#include "dynamics/analysis/basis_choice.h"
 #include "dynamics/analysis/equilibrium.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/input/run.h"
@@ -26,6 +27,7 @@ struct PreparedRun {
   Run run;
   Vehicle vehicle;
   ModeSelection selection;
+  std::optional<BasisChoice> choice;  ///< of bodies with modes "auto"; none where there are none
   std::vector<std::string> output_points;
   AssemblyReport assembly;
   VelocityReport initial_velocities;
@@ -39,6 +41,7 @@ struct PreparedRun {
 
 /// Which part of the preparation is wanted.
 enum class Preparation {
+  kChoice,   ///< up to the choice of the modes
   kBalance,  ///< up to the equilibrium, whatever the run's own start
   kRun,      ///< all of it
 };

@@ -6,6 +6,7 @@
 
 #include "dynamics/analysis/transient.h"
 #include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/output/choice_report.h"
 #include "dynamics/output/results_writer.h"
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
@@ -57,6 +58,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (!output.json && !request.quiet) {
     fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
                                   prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+    if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
   }
 
   std::unique_ptr<ResultsWriter> writer;
@@ -64,7 +66,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     writer = std::make_unique<ResultsWriter>(
         output.results, ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
                                       request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                                      std::move(modes)});
+                                      std::move(modes), prepared.choice ? &*prepared.choice : nullptr});
   }
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from, run.statistics_to);
