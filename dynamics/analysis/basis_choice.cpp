@@ -14,7 +14,7 @@ namespace {
 using Kind = WatchedQuantity::Kind;
 using Set = std::vector<int>;  // positions among the candidates
 
-constexpr double kCutShare = 0.3;       // accuracy of the range of frequencies, of the tolerance
+constexpr double kCutShare = 0.1;       // accuracy of the range of frequencies, of the tolerance
 constexpr double kLeastTolerance = 1e-4;  // what it is never finer than
 constexpr Eigen::Index kMostShown = 2000;
 
