@@ -16,8 +16,8 @@ using Kind = WatchedQuantity::Kind;
 
 constexpr double kLongestSettling = 20.0;    // s
 constexpr double kHighest = 1.5;             // frequencies looked at, of the vehicle's highest
-constexpr Eigen::Index kMostLines = 1 << 14;
-constexpr Eigen::Index kEveryLine = 2000;    // up to here the search for the highest line looks at each, then at
+constexpr Eigen::Index kMostLines = 1 << 12;
+constexpr Eigen::Index kEveryLine = 1000;    // up to here the search for the highest line looks at each, then at
                                              // every second, third, …
 constexpr std::size_t kMostValues = 1 << 24; // complex numbers held at once
 constexpr double kLeastSize = 0.01;          // of the largest quantity of its kind
