@@ -26,17 +26,30 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
   active_.assign(n, false);
   effective_.assign(n, Eigen::Vector3d::Zero());
   reach_.assign(n, 0.0);
+  for (const int coordinate : modal_) {
+    double largest = 0.0;
+    for (const Marker& marker : full.markers) {
+      if (marker.body == kGround) continue;
+      const int k = coordinate - full.bodies[static_cast<std::size_t>(marker.body)].first_coordinate - 3;
+      if (k >= 0 && k < marker.Phi.cols()) largest = std::max(largest, marker.Phi.col(k).norm());
+    }
+    bending_.push_back(largest);
+  }
   oscillators_.assign(n, Eigen::Vector3d::Zero());
   neglected_.assign(n, {});
   residual_ = Eigen::VectorXd::Zero(full.num_coordinates);
 
-  PartitionedEquations equations(full);
-  const LinearisedSystem small = linearise(equations, time, q);
-  independent_ = small.partition.independent;
-  mass_ = small.mass;
-  damping_ = small.damping;
-  stiffness_ = small.stiffness;
-  directions_ = small.directions;
+  try {
+    PartitionedEquations equations(full);
+    const LinearisedSystem small = linearise(equations, time, q);
+    independent_ = small.partition.independent;
+    mass_ = small.mass;
+    damping_ = small.damping;
+    stiffness_ = small.stiffness;
+    directions_ = small.directions;
+  } catch (const support::NumericalError&) {
+    // Near a singular position: each mode by itself, as if nothing gave way.
+  }
 
   terms_.update_positions(time, q);
   for (const int i : points_) {
@@ -103,7 +116,7 @@ double ModeIndicator::frequency(std::size_t mode) const {
 }
 
 ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
-  return {reach_[mode] * std::abs(amplitude) / largest_deflection_,
+  return {bending_[mode] * std::abs(amplitude) / largest_deflection_,
           reach_[mode] * std::abs(acceleration) / largest_acceleration_};
 }
 
@@ -124,12 +137,17 @@ void ModeIndicator::update(double time, const Eigen::VectorXd& q, const Eigen::V
         terms_.mass(b) * v_dot.segment(body.first_coordinate, body.num_coordinates());
   }
 
+  for (const Marker& marker : full_->markers) {
+    if (marker.body == kGround || marker.Phi.cols() == 0) continue;
+    const int first = full_->bodies[static_cast<std::size_t>(marker.body)].first_coordinate + 3;
+    Eigen::Vector2d deflection = Eigen::Vector2d::Zero();
+    for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) deflection += marker.Phi.col(k) * q[first + k];
+    largest_deflection_ = std::max(largest_deflection_, deflection.norm());
+  }
   for (const int i : points_) {
     const Marker& marker = full_->markers[static_cast<std::size_t>(i)];
     if (marker.body == kGround) continue;
     const Body& body = full_->bodies[static_cast<std::size_t>(marker.body)];
-    const auto eta = q.segment(body.first_coordinate + 3, body.num_modes());
-    largest_deflection_ = std::max(largest_deflection_, (marker.Phi * eta).norm());
     largest_acceleration_ = std::max(
         largest_acceleration_, calc_marker_acceleration(terms_.markers()[static_cast<std::size_t>(i)],
                                                         v_dot.segment(body.first_coordinate, body.num_coordinates()))
@@ -151,11 +169,12 @@ void ModeIndicator::update(double time, const Eigen::VectorXd& q, const Eigen::V
       rate = r.c_rate * x + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
       x = next;
     }
+    if (!has_begun_ && stiffness > 0.0) x = force / stiffness;  // what is missing from the start on is no vibration
     oscillators_[j][2] = force;
     // Amplitude rather than instant, which may pass through zero; and what the force would do for good.
     const double amplitude = stiffness > 0.0 ? std::max(std::sqrt(x * x + rate * rate / stiffness), std::abs(force) / stiffness)
                                              : std::abs(x);
-    const double acceleration = std::max(std::abs(force - 2.0 * decay * rate - stiffness * x), stiffness * std::abs(x));
+    const double acceleration = std::hypot(force - 2.0 * decay * rate - stiffness * x, std::sqrt(stiffness) * rate);
     neglected_[j] = share(j, amplitude, acceleration);
   }
   time_ = time;

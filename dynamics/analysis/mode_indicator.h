@@ -9,10 +9,10 @@
 
 namespace sprung::dynamics {
 
-/// What a modal coordinate does to the asked points, as a share of the largest that any of them has had so far.
+/// What a modal coordinate does, as a share of the largest that there has been so far.
 struct ModeShare {
-  double deflection = 0.0;    ///< of the largest deflection
-  double acceleration = 0.0;  ///< of the largest acceleration
+  double deflection = 0.0;    ///< of any named point of a flexible body
+  double acceleration = 0.0;  ///< of the points asked for
   double worst() const { return deflection > acceleration ? deflection : acceleration; }
 };
 
@@ -44,6 +44,8 @@ class ModeIndicator {
   const std::vector<ModeShare>& neglected() const { return neglected_; }
   /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
+  /// The force that the run leaves unbalanced on a mode left out, at the last update.
+  double unbalanced_force(std::size_t mode) const { return effective_[mode][0] * oscillators_[mode][2]; }
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
@@ -73,8 +75,9 @@ class ModeIndicator {
   std::vector<Eigen::Matrix2Xd> point_motion_;  // of each point, per coordinate of `full`
 
   std::vector<Eigen::Vector3d> effective_;  // mass, damping, stiffness
-  std::vector<double> reach_;               // largest displacement of an asked point per unit of the mode
-  std::vector<Eigen::Vector3d> oscillators_;
+  std::vector<double> bending_;             // largest deflection of a named point per unit of the mode
+  std::vector<double> reach_;               // largest displacement of an asked point, with what gives way
+  std::vector<Eigen::Vector3d> oscillators_;  // ξ, ξ̇, r/m
   std::vector<ModeShare> neglected_;
   double time_ = 0.0;
   bool has_begun_ = false;

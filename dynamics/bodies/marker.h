@@ -19,27 +19,41 @@ struct Marker {
   double alpha_BP = 0.0;               ///< undeformed angle against the body's axes [rad]
   Eigen::Matrix2Xd Phi;                ///< displacement per unit modal coordinate, body axes, 2×n [m]
   Eigen::RowVectorXd Phi_rotation;     ///< rotation per unit modal coordinate, 1×n [rad]
+  SecondOrder K;                       ///< of the point where its body stiffens, else empty
+
+  bool has_second_order() const { return K[0].size() > 0; }
 };
 
 /// Motion of a marker, world axes; what joints and forces see of the vehicle.
 struct MarkerState {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();       ///< position [m]
-  double angle = 0.0;                                ///< θ + Φ_rotation η [rad]
+  double angle = 0.0;                                ///< θ + Φ_rotation η, and of second order [rad]
   Eigen::Vector2d v = Eigen::Vector2d::Zero();       ///< velocity [m/s]
   double omega = 0.0;                                ///< angular velocity [rad/s]
   Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();  ///< acceleration while q̈ = 0 [m/s²]
+  double alpha_bias = 0.0;                           ///< angular acceleration while q̈ = 0 [rad/s²]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
   Eigen::Matrix2Xd r_eta;                            ///< ∂r/∂η, 2×n [m]
+  Eigen::RowVectorXd angle_eta;                      ///< ∂angle/∂η, 1×n [rad]
 };
 
-/// Position-level part of a marker's state.                                           (dynamics/README.md, eq. 1)
-/// @param q  the body's 3+n coordinates; state.r_eta must have its n columns already
+/// A marker's state with room for its gradients; of a marker on the ground, which stays so, its position too.
+MarkerState make_marker_state(const Marker& marker);
+
+/// Displacement of the marker that its body's modes make, body axes: Φη, and of second order [m].
+/// @param eta  n
+Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta);
+
+/// Position-level part of a marker's state.                                       (dynamics/README.md, eqs. 1, 41)
+/// @param q      the body's 3+n coordinates
+/// @param state  made by make_marker_state
 void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
                           const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state);
 
-/// Velocity-level part, after calc_marker_position.                                   (dynamics/README.md, eq. 2)
+/// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)
 /// @param v  the body's 3+n velocities
-void calc_marker_velocity(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state);
+void calc_marker_velocity(const Marker& marker, const FrameRotation& rotation,
+                          const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state);
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
 /// @param v_dot  the body's 3+n accelerations

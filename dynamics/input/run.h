@@ -12,6 +12,7 @@
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
+#include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/analysis/integrator.h"
 #include "dynamics/system/model.h"
@@ -35,6 +36,15 @@ struct IntegratorSettings {
   std::optional<double> largest_step;  ///< > 0 [s]
 };
 
+/// `[adaptivity]`: modes that join and leave during the run.
+struct AdaptivitySettings {
+  support::SourceLocation location;
+  bool enabled = false;
+  bool indicator = true;  ///< whether a run with a fixed set is told what it misses
+  double recall = 1e-2, drop = 2e-3, residence = 0.2;  ///< as in AdaptivityOptions
+  ModeRequests available;  ///< bodies that are not named have all modes of their file
+};
+
 /// What a run file says.
 struct Run {
   enum class Start {
@@ -56,8 +66,10 @@ struct Run {
   ModeRequests modes;
   ModeChoiceSettings mode_choice;
   DampingRequests modal_damping;
+  StiffeningRequests stiffening;
   RoadDescription road;
   IntegratorSettings integrator;
+  AdaptivitySettings adaptivity;
   std::map<std::string, InitialMotion> initial;  ///< by body
   std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
   ResponseRequest response;
@@ -70,7 +82,11 @@ Run read_run(const support::TomlDocument& document);
 
 std::unique_ptr<Road> make_road(const Run& run);
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
+/// The modes that may be active: those selected, and with adaptivity the ones available besides.
+/// @throws support::InputError as resolve_modes
+ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at the run's reference to a point that the vehicle lacks

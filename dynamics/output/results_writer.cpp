@@ -35,6 +35,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   add_series("/time", 0, "s", [](const Snapshot& now, std::vector<double>& row) { row[0] = now.time; });
   add_point_series();
   add_body_series();
+  if (header.full) add_neglected_series(*header.full);
   add_joint_series();
   add_force_series();
   add_recovery_series(header.vehicle);
@@ -74,7 +75,7 @@ void ResultsWriter::add_point_series() {
     });
     if (body.num_modes() == 0) continue;
     add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, Eigen::Vector2d(marker.Phi * now.q.segment(first + 3, size - 3)));
+      put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
     });
   }
 }
@@ -123,9 +124,34 @@ void ResultsWriter::add_body_series() {
                [first, n](const Snapshot& now, std::vector<double>& row) {
                  put(row, now.v_dot.segment(first + 3, n));
                });
-    add_series(group + "/modal/active", columns, "1", [](const Snapshot&, std::vector<double>& row) {
-      std::fill(row.begin(), row.end(), 1.0);
+    add_series(group + "/modal/active", columns, "1", [first](const Snapshot& now, std::vector<double>& row) {
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto coordinate = static_cast<std::size_t>(first) + 3 + k;
+        row[k] = now.modes && now.modes->options().changes && !now.modes->active()[coordinate] ? 0.0 : 1.0;
+      }
     });
+  }
+}
+
+void ResultsWriter::add_neglected_series(const Model& full) {
+  for (const Body& body : full.bodies) {
+    if (body.num_modes() == 0) continue;
+    const int first = body.first_coordinate + 3, last = first + body.num_modes() - 1;
+    const std::vector<int> numbers = body.mode_numbers;
+    add_series("/bodies/" + body.name + "/modal/neglected", 3, "1",
+               [first, last, numbers](const Snapshot& now, std::vector<double>& row) {
+                 std::fill(row.begin(), row.end(), 0.0);
+                 const ModeIndicator& indicator = now.modes->indicator();
+                 double worst = 0.0;
+                 for (std::size_t j = 0; j < indicator.num_modes(); ++j) {
+                   const int coordinate = indicator.modal_coordinates()[j];
+                   const ModeShare& share = indicator.neglected()[j];
+                   if (coordinate < first || coordinate > last || share.worst() <= worst) continue;
+                   worst = share.worst();
+                   row = {share.deflection, share.acceleration,
+                          static_cast<double>(numbers[static_cast<std::size_t>(coordinate - first)])};
+                 }
+               });
   }
 }
 

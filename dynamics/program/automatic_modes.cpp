@@ -51,13 +51,14 @@ std::vector<CandidateMode> list_candidates(const Run& run, const Vehicle& vehicl
 }  // namespace
 
 BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const ModeSelection& all,
-                                   const ModalDamping& damping, const Road& road) {
+                                   const ModalDamping& damping, const StiffenedBodies& stiffened,
+                                   const Road& road) {
   const FlatRoad level;
   const PlacedRoad placed{&level, vehicle.direction, 0.0};
-  const Model model = make_model(vehicle, all, placed, damping, MotionUse::kHeld);
+  const Model model = make_model(vehicle, all, placed, damping, MotionUse::kHeld, stiffened);
   const std::vector<CandidateMode> candidates = list_candidates(run, vehicle, model);
   const double tolerance = run.mode_choice.tolerance;
-  const std::string unknown = find_unknown(run, make_model(vehicle, all, placed, damping));
+  const std::string unknown = find_unknown(run, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
   if (!unknown.empty()) return keep_all(candidates, tolerance, unknown);
 
   Eigen::VectorXd q = make_start_positions(model, vehicle);

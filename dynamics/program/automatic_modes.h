@@ -13,7 +13,8 @@ namespace sprung::dynamics {
 /// @param all  the selection with all modes of these bodies  @param damping  of that selection
 /// @throws support::InputError, support::NumericalError as making the run ready
 BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const ModeSelection& all,
-                                   const ModalDamping& damping, const Road& road);
+                                   const ModalDamping& damping, const StiffenedBodies& stiffened,
+                                   const Road& road);
 
 /// A selection without the modes that the choice leaves out; bodies without any are left out.
 ModeSelection keep_modes(const BasisChoice& choice, ModeSelection all);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "dynamics/program/automatic_modes.h"
@@ -79,21 +80,34 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
+  prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
-  ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
+  ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
+  StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
+  if (run.adaptivity.enabled && !stiffened.empty()) {
+    throw support::InputError(run.adaptivity.location,
+                              "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
+                              "be stiffened; take a fixed set of modes, or leave stiffening out");
+  }
+
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.road = make_road(run);
   if (!list_automatic_bodies(run.modes).empty()) {
-    const ModeSelection all = prepared.selection;
-    prepared.choice = choose_automatic_modes(run, vehicle, all, damping, *prepared.road);
-    prepared.selection = keep_modes(*prepared.choice, all);
-    damping = keep_damping(damping, all, prepared.selection);
+    const ModalDamping start_damping = keep_damping(damping, prepared.available, prepared.selection);
+    prepared.choice =
+        choose_automatic_modes(run, vehicle, prepared.selection, start_damping, stiffened, *prepared.road);
+    prepared.selection = keep_modes(*prepared.choice, prepared.selection);
+    if (!run.adaptivity.enabled) {
+      damping = keep_damping(damping, prepared.available, prepared.selection);
+      prepared.available = prepared.selection;
+      std::erase_if(stiffened, [&](const std::string& body) { return !prepared.selection.contains(body); });
+    }
   }
   if (preparation == Preparation::kChoice) return prepared;
 
   prepared.balance_model =
-      make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
-                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
+      make_model(vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
+                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
@@ -107,7 +121,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping);
+  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping,
+                              MotionUse::kMoving, stiffened);
   std::optional<Integrator::Method>& method = prepared.run.integrator.method;
   if (!method) method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {
@@ -126,6 +141,49 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.initial_velocities = project_velocities(prepared.model, 0.0, q, v);
   prepared.start = make_state(prepared.model, q, v);
   return prepared;
+}
+
+std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, std::optional<Model>& full) {
+  const AdaptivitySettings& settings = prepared.run.adaptivity;
+  if (!settings.enabled && !settings.indicator) return std::nullopt;
+  AdaptivityOptions options;
+  options.changes = settings.enabled;
+  options.recall = settings.recall;
+  options.drop = settings.drop;
+  options.residence = settings.residence;
+  if (settings.enabled) {
+    options.full = &prepared.model;
+  } else {
+    ModeSelection all;
+    ModalDamping damping;
+    for (const BodyDescription& body : prepared.vehicle.bodies) {
+      const reduce::Superelement* superelement = prepared.vehicle.superelement_of(body);
+      if (!superelement) continue;
+      std::vector<int>& numbers = all[body.name];
+      numbers.resize(static_cast<std::size_t>(superelement->num_modes()));
+      std::iota(numbers.begin(), numbers.end(), 1);
+      // A ratio for all modes holds for those left out, too; a list names its own.
+      const auto request = prepared.run.modal_damping.find(body.name);
+      if (request != prepared.run.modal_damping.end() && request->second.ratios.size() == 1) {
+        damping[body.name] = request->second.ratios;
+      }
+    }
+    full = make_model(prepared.vehicle, all, prepared.placed_road, damping);
+    if (full->num_coordinates == prepared.model.num_coordinates) return std::nullopt;
+    options.full = &*full;
+  }
+  options.active.assign(static_cast<std::size_t>(options.full->num_coordinates), true);
+  for (const Body& body : options.full->bodies) {
+    const auto selected = prepared.selection.find(body.name);
+    for (int k = 0; k < body.num_modes(); ++k) {
+      const int number = body.mode_numbers[static_cast<std::size_t>(k)];
+      options.active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] =
+          selected != prepared.selection.end() &&
+          std::binary_search(selected->second.begin(), selected->second.end(), number);
+    }
+  }
+  for (const std::string& point : prepared.output_points) options.points.push_back(options.full->find_marker(point));
+  return options;
 }
 
 }  // namespace sprung::dynamics

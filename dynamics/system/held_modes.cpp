@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -95,6 +96,22 @@ HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, cons
   model.gravity = full.gravity;
   number_model(model);
   model.length_scale = full.length_scale;
+  return result;
+}
+
+HeldModes match_modes(const Model& model, const Model& full) {
+  HeldModes result;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = full.bodies[b];
+    for (int k = 0; k < 3; ++k) result.coordinates.push_back(body.first_coordinate + k);
+    for (const int number : model.bodies[b].mode_numbers) {
+      const auto found = std::lower_bound(body.mode_numbers.begin(), body.mode_numbers.end(), number);
+      if (found == body.mode_numbers.end() || *found != number) {
+        throw std::invalid_argument(fmt::format("match_modes: '{}' has no mode {}", body.name, number));
+      }
+      result.coordinates.push_back(body.first_coordinate + 3 + static_cast<int>(found - body.mode_numbers.begin()));
+    }
+  }
   return result;
 }
 

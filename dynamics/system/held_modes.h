@@ -20,6 +20,10 @@ struct HeldModes {
 /// @throws std::invalid_argument where held and active modes of a body are coupled by stiffness: that would be a force
 HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, const Eigen::VectorXd& q);
 
+/// A model beside a fuller one of the same vehicle, of whose modes it lacks some: only the places of its coordinates.
+/// @throws std::invalid_argument for a mode that `full` does not have
+HeldModes match_modes(const Model& model, const Model& full);
+
 /// Values of the active coordinates.
 Eigen::VectorXd select_active(const HeldModes& held, const Eigen::VectorXd& full);
 /// Puts the values of the active coordinates in their places; the others stay.

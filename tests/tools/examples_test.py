@@ -19,10 +19,11 @@ RUNS = {
     "terrain_rigid": ("terrain", 0),
     "terrain_2modes": ("terrain", 2),
 }
+RESPONSES = {"rigid": 0, "modes": 4}
 WRITTEN = {
     "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
     "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
-    "export_paraview": ("modes.pvd", "bump.pvd"),
+    "export_paraview": ("modes.pvd", "bump.pvd"), "plot_response": ("response.png",),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
 CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
@@ -61,6 +62,10 @@ class PythonTools(Examples):
         for name, (run, modes) in RUNS.items():
             command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / f"{run}.toml", "--superelements", superelements, "--quiet",
                        "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
+            subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
+        for name, modes in RESPONSES.items():
+            command = [os.environ["SPRUNG_DYNAMICS"], "response", TRUCK / "terrain.toml", "--superelements", superelements,
+                       "--quiet", "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
             subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)

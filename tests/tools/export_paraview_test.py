@@ -74,6 +74,17 @@ class OfTheTruck(ToolTestCase):
             for column, name in enumerate(CELLS):
                 np.testing.assert_allclose(mesh.cell_data[name][0], ends[:, :, column], rtol=1e-13)
 
+    def test_modes_are_magnified_with_their_resultants_and_a_mode_named_twice_is_written_once(self):
+        self.export("chassis.h5", "-o", "plain.pvd", "--modes", "2")
+        told = self.export("chassis.h5", "-o", "large.pvd", "--modes", "2", "2", "--magnify", "3")
+        self.assertIn("sections: 1 frame\n", told)
+        ((_, plain),), ((_, large),) = (read_collection(self.folder / f"{name}.pvd") for name in ("plain", "large"))
+        for name in ("displacement", "rotation"):
+            np.testing.assert_allclose(large.point_data[name], 3.0 * plain.point_data[name], rtol=1e-13)
+        moment = plain.cell_data["bending_moment"][0]
+        self.assertGreater(np.abs(moment).max(), 0.0)
+        np.testing.assert_allclose(large.cell_data["bending_moment"][0], 3.0 * moment, rtol=1e-13)
+
     def test_all_modes_are_written_unless_some_are_asked_for(self):
         self.export("chassis.h5", "-o", "modes.pvd")
         with h5py.File(self.folder / "chassis.h5") as file:

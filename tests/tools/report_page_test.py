@@ -91,6 +91,19 @@ class ReportPage(unittest.TestCase):
                 hidden = "[...document.querySelectorAll('[hidden]')].filter((one) => one.getBoundingClientRect().height > 0).length"
                 self.assertEqual(page.evaluate(hidden), 0)
 
+    def test_the_time_axes_are_marked_and_both_runs_are_in_the_summary_on_the_smallest_telephone(self):
+        page = self.browser.open(self.folder / "truck.html", 320, 568, touch=True)
+        self.addCleanup(page.close)
+        counts = page.evaluate(
+            "[...document.querySelectorAll('#history-charts .plot')].map((one) =>"
+            "one.querySelectorAll('.dygraph-axis-label-x').length)"
+        )
+        self.assertGreaterEqual(min(counts), 3, counts)
+        table, last = page.box("#summary .scroll"), page.box("#summary-table thead th:last-child")
+        self.assertLessEqual(last[0] + last[2], table[0] + table[2] + 0.5)
+        page.picture(PICTURES / "smallest.png")
+        self.assertEqual(page.problems(), [])
+
     def test_every_diagram_shows_both_runs(self):
         page = self.open()
         places = page.evaluate(

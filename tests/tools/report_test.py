@@ -96,9 +96,12 @@ class Report(ToolTestCase):
         (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]
         self.assertIn("is another superelement than the one that was run", found["problem"])
         self.assertEqual(found["checks"], [])
-        self.assertIn(
-            "there is no", self.report("soft.h5", "--superelements", "none")[1]["superelements"][0]["problem"]
-        )
+        (self.folder / "empty").mkdir()
+        (found,) = self.report("soft.h5", "--superelements", "empty")[1]["superelements"]
+        self.assertIn("there is no", found["problem"])
+        mistaken = self.run_tool("report", "soft.h5", "-o", "other.html", "--superelements", "none")
+        self.assert_refuses(mistaken, "none: error: no such folder")
+        self.assertFalse((self.folder / "other.html").exists())
 
     def test_names_cannot_break_out_of_the_page(self):
         label = "</script><script>alert(1)</script> <!-- \"'&Ü @DATA@"

@@ -2,6 +2,7 @@
 // Diagrams over time with a common zoom: histories and modal amplitudes. Drawn by dygraphs.
 
 const NUM_HISTORIES = 4;
+const PIXELS_PER_LABEL = 50;  // of time: two marks on the smallest telephone, room for 59.995
 const linked = [];  // diagrams over time: {graph, cursor}
 const charts = [];  // functions that draw everything anew, for another colour scheme
 let zoomed = null;  // [from, to] s, null for the whole run
@@ -80,7 +81,7 @@ function drawLinked(chart, rows, labels, colours, unit, name) {
     ...commonOptions(chart.legend), labels: ["time", ...labels], colors: colours, ylabel: unit, xlabel: "time, s",
     dateWindow: zoomed, includeZero: false,
     axes: {
-      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: formatTick},
+      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: formatTick, pixelsPerLabel: PIXELS_PER_LABEL},
       y: {axisLabelWidth: 54, axisLabelFormatter: formatTick, valueFormatter: (value) => format(value)},
     },
     drawCallback: (graph, isFirst) => { if (!isFirst) follow(graph); placeCursor(chart); },

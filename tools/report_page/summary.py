@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from results_file import open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from results_file import ResultsError, open_hdf5, read_attribute, read_numbers, read_texts, text_of
 from run_caption import describe_road, read_run_file
 
 # Of forces of every kind, by the results file's names: what their greatest values are called, and their unit.
@@ -158,8 +158,11 @@ def list_frequencies(results):
 def read_checks(folder, runs):
     """The checks that stage one made of each superelement that the runs used, from the files in a folder, if given.
 
-    A file is used only where its content hash is the one that the run names. Returns a list of dicts.
+    A file is used only where its content hash is the one that the run names. Returns a list of dicts. ResultsError if
+    the folder is not there.
     """
+    if folder and not os.path.isdir(folder):
+        raise ResultsError(f"{folder}: error: no such folder")
     users = {}
     for run in runs:
         for name in run.results.names("model/superelements"):
@@ -179,7 +182,7 @@ def read_checks_of(folder, name, content_hash):
     path = os.path.join(folder, f"{name}.h5")
     if not os.path.exists(path):
         return {"problem": f"Not shown: there is no {path}."}
-    with open_hdf5(path, "sprung-superelement", 1) as file:
+    with open_hdf5(path, "sprung-superelement", 2) as file:
         if text_of(file.attrs.get("content_hash", "")) != content_hash:
             return {"problem": f"Not shown: {path} is another superelement than the one that was run."}
         values, _ = read_numbers(file, "checks/value")
