@@ -183,8 +183,8 @@ TEST_CASE("Modes of one frequency stay together, whichever way their basis is tu
       marker.Phi *= R;
       marker.Phi_rotation *= R;
     }
-    beam.shake(beam.tip, 0.7 * beam.frequency(1));
-    return beam.choose(0.02);
+    beam.shake(beam.tip, 0.9 * beam.frequency(1));
+    return beam.choose(0.05);
   };
   const BasisChoice straight = choose(0.0), turned = choose(0.6);
   // One member is excited, the other not at all; both are kept.

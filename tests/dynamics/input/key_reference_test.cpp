@@ -106,6 +106,7 @@ std::string section_of(const std::string& path, const std::string& type) {
       {"forces.*.damper", "Laws: damper"},
       {"statistics", "Statistics"},
       {"integrator", "Integrator"},
+      {"adaptivity", "Adaptivity"},
       {"mode_choice", "Mode choice"},
       {"output", "Output"},
       {"response", "Response"},
