@@ -45,6 +45,10 @@ int run(int argc, char** argv) {
       "response", "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
   add_input_options(*response, request, output);
   response->add_option("-o,--output", output.results, "response file (HDF5); none is written without it");
+  CLI::App* select = app.add_subcommand(
+      "select-modes", "what each mode is worth under the run's forcing, and which are kept for modes \"auto\"");
+  add_input_options(*select, request, output);
+  select->add_option("-o,--output", output.results, "file of the choice (HDF5); none is written without it");
 
   try {
     app.parse(argc, argv);
@@ -53,6 +57,7 @@ int run(int argc, char** argv) {
   }
   if (*run) return run_command(request, output);
   if (*equilibrium) return equilibrium_command(request, output.json);
+  if (*select) return select_modes_command(request, output);
   if (*response) return response_command(request, output);
   return modes_command(request, output.json);
 }

@@ -114,6 +114,23 @@ void LinearOutputs::append(const LinearOutputs& other) {
   put_below(by_force, other.by_force);
 }
 
+LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
+  LinearOutputs picked{.names = {},
+                       .units = {},
+                       .by_position = by_position(rows, Eigen::all),
+                       .by_velocity = by_velocity(rows, Eigen::all),
+                       .by_acceleration = by_acceleration(rows, Eigen::all),
+                       .by_force = by_force(rows, Eigen::all),
+                       .channels = {}};
+  for (const int row : rows) {
+    const auto i = static_cast<std::size_t>(row);
+    picked.names.push_back(names[i]);
+    picked.units.push_back(units[i]);
+    picked.channels.push_back(channels[i]);
+  }
+  return picked;
+}
+
 LinearOutputs make_point_outputs(const LinearVehicle& vehicle, int marker) {
   const Eigen::MatrixXd motion =
       calc_marker_jacobian(vehicle.equations().terms(), marker) * vehicle.system().directions;
@@ -206,18 +223,23 @@ LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle) {
   return outputs;
 }
 
+Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const Eigen::MatrixXcd& x,
+                             const Eigen::MatrixXcd& forces, const Eigen::MatrixXcd& channels) {
+  const std::complex<double> s(0.0, omega);
+  const Eigen::MatrixXcd by_motion =
+      outputs.by_position + s * outputs.by_velocity + (s * s) * outputs.by_acceleration;
+  Eigen::MatrixXcd y = by_motion * x + outputs.by_force * forces;
+  for (std::size_t i = 0; i < outputs.channels.size(); ++i) {
+    if (outputs.channels[i] >= 0) y.row(static_cast<Eigen::Index>(i)) += channels.row(outputs.channels[i]);
+  }
+  return y;
+}
+
 Eigen::MatrixXcd calc_transfer(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                const RoadWave& wave) {
   const RoadAction action = vehicle.calc_road_action(wave);
   const Eigen::MatrixXcd x = vehicle.calc_motion(wave.frequency, action);
-  const std::complex<double> s(0.0, wave.frequency);
-  Eigen::MatrixXcd y = outputs.by_position * x + s * (outputs.by_velocity * x) +
-                       (s * s) * (outputs.by_acceleration * x) + outputs.by_force * action.forces;
-  for (std::size_t i = 0; i < outputs.channels.size(); ++i) {
-    if (outputs.channels[i] >= 0)
-      y.row(static_cast<Eigen::Index>(i)) += action.channels.row(outputs.channels[i]);
-  }
-  return y;
+  return sum_outputs(outputs, wave.frequency, x, action.forces, action.channels);
 }
 
 Eigen::VectorXcd calc_response(const LinearVehicle& vehicle, const LinearOutputs& outputs,

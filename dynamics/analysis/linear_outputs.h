@@ -20,6 +20,7 @@ struct LinearOutputs {
 
   int size() const { return static_cast<int>(names.size()); }
   void append(const LinearOutputs& other);
+  LinearOutputs pick(const std::vector<int>& rows) const;
 };
 
 /// Displacement, velocity and acceleration of a marker: x, y and angle of each, world axes, 9 outputs.
@@ -39,6 +40,12 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle);
 
 /// Reactions of all joints, x, y and torque at their point a.
 LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle);
+
+/// The outputs of motion x of the independent coordinates under generalized forces and what these do to the channels
+/// directly: eq. 44 for k columns at once.
+/// @param x  f×k  @param forces  nq×k  @param channels  of all force elements, ×k  @return p×k
+Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const Eigen::MatrixXcd& x,
+                             const Eigen::MatrixXcd& forces, const Eigen::MatrixXcd& channels);
 
 /// Complex amplitudes of the outputs for a wave of 1 m at each input, and nowhere else: p×k. Times
 /// calc_delays(): the vehicle on the whole wave.

@@ -30,8 +30,10 @@ ModeRequest read_mode_request(const support::TomlValue& value) {
     }
   } else if (value.is_string() && value.string() == "all") {
     request.kind = ModeRequest::Kind::kAll;
+  } else if (value.is_string() && value.string() == "auto") {
+    request.kind = ModeRequest::Kind::kAuto;
   } else {
-    throw value.error(fmt::format("must be a number of modes, a list of mode numbers or \"all\"{}",
+    throw value.error(fmt::format("must be a number of modes, a list of mode numbers, \"all\" or \"auto\"{}",
                                   value.is_string() ? fmt::format(", got \"{}\"", value.string()) : ""));
   }
   return request;
@@ -70,7 +72,7 @@ std::vector<int> resolve_count(const ModeRequest& request, const reduce::Superel
 
 std::vector<int> resolve_request(const ModeRequest& request, const reduce::Superelement& superelement) {
   const int available = superelement.num_modes();
-  if (request.kind == ModeRequest::Kind::kAll) {
+  if (request.kind == ModeRequest::Kind::kAll || request.kind == ModeRequest::Kind::kAuto) {
     std::vector<int> numbers(static_cast<std::size_t>(available));
     std::iota(numbers.begin(), numbers.end(), 1);
     return numbers;
@@ -109,6 +111,22 @@ ModeRequests read_modes(const support::TomlTable& table) {
   ModeRequests requests;
   for (const auto& [body, value] : table.entries()) requests.emplace(body, read_mode_request(value));
   return requests;
+}
+
+ModeChoiceSettings read_mode_choice(const support::TomlTable& table) {
+  ModeChoiceSettings settings;
+  settings.tolerance =
+      table.number_or("tolerance", settings.tolerance, {.unit = "", .at_least = 0.0, .at_most = 0.5});
+  table.reject_unknown_keys();
+  return settings;
+}
+
+std::vector<std::string> list_automatic_bodies(const ModeRequests& requests) {
+  std::vector<std::string> bodies;
+  for (const auto& [body, request] : requests) {
+    if (request.kind == ModeRequest::Kind::kAuto) bodies.push_back(body);
+  }
+  return bodies;
 }
 
 DampingRequests read_modal_damping(const support::TomlTable& table) {
@@ -150,6 +168,25 @@ ModalDamping resolve_modal_damping(const DampingRequests& requests, const ModeSe
     damping.emplace(body, request.ratios);
   }
   return damping;
+}
+
+ModalDamping keep_damping(const ModalDamping& damping, const ModeSelection& all, const ModeSelection& kept) {
+  ModalDamping result;
+  for (const auto& [body, ratios] : damping) {
+    const auto kept_modes = kept.find(body);
+    if (kept_modes == kept.end()) continue;
+    std::vector<double>& kept_ratios = result[body];
+    kept_ratios = ratios;
+    if (ratios.size() == 1) continue;
+    kept_ratios.clear();
+    const std::vector<int>& numbers = all.at(body);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      if (std::binary_search(kept_modes->second.begin(), kept_modes->second.end(), numbers[k])) {
+        kept_ratios.push_back(ratios[k]);
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace sprung::dynamics

@@ -181,6 +181,7 @@ Run read_run(const support::TomlDocument& document) {
     run.start_location = start->location();
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
+  if (const auto table = root.find_table("mode_choice")) run.mode_choice = read_mode_choice(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
   if (const auto table = root.find_table("stiffening")) run.stiffening = read_stiffening(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
@@ -199,7 +200,14 @@ std::unique_ptr<Road> make_road(const Run& run) {
 }
 
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
-  return resolve_modes(run.modes, vehicle);
+  ModeRequests requests = run.modes;
+  if (run.adaptivity.enabled) {  // "auto" chooses from what may be recalled
+    for (const std::string& body : list_automatic_bodies(run.modes)) {
+      const auto available = run.adaptivity.available.find(body);
+      if (available != run.adaptivity.available.end()) requests[body] = available->second;
+    }
+  }
+  return resolve_modes(requests, vehicle);
 }
 
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle) {

@@ -66,6 +66,7 @@ struct Run {
   double statistics_from = 0.0;  ///< [s]
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;
+  ModeChoiceSettings mode_choice;
   DampingRequests modal_damping;
   StiffeningRequests stiffening;
   RoadDescription road;

@@ -1,5 +1,7 @@
 #include "dynamics/output/results_model.h"
 
+#include "dynamics/output/choice_report.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -148,6 +150,7 @@ void write_results_model(support::Hdf5Writer& file, const ResultsHeader& header)
   write_road(file, header);
   write_equilibrium(file, header);
   write_modes(file, header);
+  if (header.choice != nullptr) write_choice(file, "/model/mode_choice", *header.choice);
 }
 
 void write_results_summary(support::Hdf5Writer& file, const RunStatistics& statistics,

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/analysis/basis_choice.h"
 #include "dynamics/analysis/equilibrium.h"
 #include "dynamics/analysis/transient.h"
 #include "dynamics/analysis/vehicle_modes.h"
@@ -30,6 +31,7 @@ struct ResultsHeader {
   const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
   std::vector<VehicleMode> modes;          ///< about the equilibrium
   const Model* full = nullptr;             ///< with the modes whose neglect is told, null for none
+  const BasisChoice* choice = nullptr;     ///< of modes "auto"; null where there are none
 };
 
 /// Root attribute `format` of a results file.

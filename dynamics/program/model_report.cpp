@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "dynamics/output/balance_report.h"
+#include "dynamics/output/choice_report.h"
 #include "dynamics/output/json.h"
 #include "dynamics/output/run_report.h"
 #include "tools/support/text_table.h"
@@ -62,6 +63,7 @@ std::string format_model(const PreparedRun& prepared) {
   std::string text = describe_run(prepared.vehicle, model, prepared.run, prepared.assembly,
                                   prepared.initial_velocities, equilibrium);
   text += fmt::format("\nInertia is about the origin of the body's frame.\n{}", bodies.str());
+  if (prepared.choice) text += fmt::format("\n{}", format_choice(*prepared.choice));
   if (!model.joints.empty()) text += fmt::format("\n{}", joints.str());
   if (!model.forces.empty()) text += fmt::format("\n{}", forces.str());
   if (equilibrium != nullptr) text += fmt::format("\n{}", format_equilibrium(balance_of(prepared)));
@@ -88,6 +90,7 @@ std::string format_model_json(const PreparedRun& prepared) {
       .add("coordinates", static_cast<double>(model.num_coordinates))
       .add("constraints", static_cast<double>(model.num_constraints))
       .add("freedoms", static_cast<double>(model.num_freedoms()));
+  if (prepared.choice) report.add("mode_choice", make_choice_json(*prepared.choice));
   if (prepared.equilibrium) {
     JsonObject places;
     for (const Body& body : model.bodies) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "dynamics/program/automatic_modes.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -81,8 +82,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.selection = resolve_modes(run, vehicle);
   prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
-  const ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
-  const StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
+  ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
+  StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
   if (run.adaptivity.enabled && !stiffened.empty()) {
     throw support::InputError(run.adaptivity.location,
                               "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
@@ -90,6 +91,20 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   }
 
   prepared.level_road = std::make_unique<FlatRoad>();
+  prepared.road = make_road(run);
+  if (!list_automatic_bodies(run.modes).empty()) {
+    const ModalDamping start_damping = keep_damping(damping, prepared.available, prepared.selection);
+    prepared.choice =
+        choose_automatic_modes(run, vehicle, prepared.selection, start_damping, stiffened, *prepared.road);
+    prepared.selection = keep_modes(*prepared.choice, prepared.selection);
+    if (!run.adaptivity.enabled) {
+      damping = keep_damping(damping, prepared.available, prepared.selection);
+      prepared.available = prepared.selection;
+      std::erase_if(stiffened, [&](const std::string& body) { return !prepared.selection.contains(body); });
+    }
+  }
+  if (preparation == Preparation::kChoice) return prepared;
+
   prepared.balance_model =
       make_model(vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
                  run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
@@ -104,7 +119,6 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
 
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
-  prepared.road = make_road(run);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
   prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/analysis/assembly.h"
+#include "dynamics/analysis/basis_choice.h"
 #include "dynamics/analysis/equilibrium.h"
 #include "dynamics/analysis/mode_adaptation.h"
 #include "dynamics/input/make_model.h"
@@ -28,6 +29,7 @@ struct PreparedRun {
   Vehicle vehicle;
   ModeSelection selection;                 ///< at the start
   ModeSelection available;                 ///< of the models below: more than `selection` where modes join and leave
+  std::optional<BasisChoice> choice;  ///< of bodies with modes "auto"; none where there are none
   std::vector<std::string> output_points;
   AssemblyReport assembly;
   VelocityReport initial_velocities;
@@ -41,6 +43,7 @@ struct PreparedRun {
 
 /// Which part of the preparation is wanted.
 enum class Preparation {
+  kChoice,   ///< up to the choice of the modes
   kBalance,  ///< up to the equilibrium, whatever the run's own start
   kRun,      ///< all of it
 };

@@ -6,6 +6,7 @@
 
 #include "dynamics/analysis/transient.h"
 #include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/output/choice_report.h"
 #include "dynamics/output/results_writer.h"
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
@@ -59,6 +60,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (!output.json && !request.quiet) {
     fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
                                   prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+    if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
   }
 
   TransientOptions options = make_options(run);
@@ -69,7 +71,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     writer = std::make_unique<ResultsWriter>(
         output.results, ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
                                       request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr});
+                                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr,
+                                      prepared.choice ? &*prepared.choice : nullptr});
   }
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from, run.statistics_to);

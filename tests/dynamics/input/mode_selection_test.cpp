@@ -35,6 +35,7 @@ TEST_CASE("Modes are selected by a count, by numbers or all of them") {
   CHECK(select("frame = 3").at("frame") == Numbers{1, 2, 3});
   CHECK(select("frame = [2, 4]").at("frame") == Numbers{2, 4});
   CHECK(select("frame = \"all\"").at("frame") == Numbers{1, 2, 3, 4});
+  CHECK(select("frame = \"auto\"").at("frame") == Numbers{1, 2, 3, 4});  // what there is to choose from
   CHECK(select("frame = 0").empty());
   CHECK(select("frame = []").empty());
   CHECK(select("").empty());
@@ -63,11 +64,12 @@ TEST_CASE("Modes that are not there are refused") {
 }
 
 TEST_CASE("Selections that mean nothing are refused") {
-  CHECK(error_of("frame = \"auto\"") ==
-        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers or \"all\", "
-        "got \"auto\"");
+  CHECK(error_of("frame = \"some\"") ==
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\" or "
+        "\"auto\", got \"some\"");
   CHECK(error_of("frame = 2.5") ==
-        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers or \"all\"");
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\" or "
+        "\"auto\"");
   CHECK(error_of("frime = 2") ==
         "run.toml:2:9: error: 'modes.frime' is about no body of the vehicle: there is no 'frime' (did you "
         "mean 'frame'?)");
@@ -96,4 +98,25 @@ TEST_CASE("Damping ratios that fit no mode are refused") {
   CHECK(input_error_of([&] { damp("frome = 0.1", three); }) ==
         "run.toml:2:9: error: 'modal_damping.frome' is about no body of the vehicle: there is no 'frome' "
         "(did you mean 'frame'?)");
+}
+
+TEST_CASE("Damping of modes that the program chooses is that of the modes it keeps") {
+  const dynamics::ModeSelection all = select("frame = \"auto\"");
+  const dynamics::ModeSelection kept{{"frame", {1, 2, 4}}};
+  CHECK(dynamics::keep_damping(damp("frame = [0.1, 0.2, 0.3, 0.4]", all), all, kept).at("frame") ==
+        std::vector<double>{0.1, 0.2, 0.4});
+  CHECK(dynamics::keep_damping(damp("frame = 0.1", all), all, kept).at("frame") == std::vector<double>{0.1});
+  CHECK(dynamics::keep_damping(damp("frame = 0.1", all), all, {}).empty());
+}
+
+TEST_CASE("The tolerance of the choice has a range") {
+  const auto read = [](const std::string& line) {
+    const support::TomlDocument document = support::TomlDocument::parse("[mode_choice]\n" + line, "run.toml");
+    return dynamics::read_mode_choice(document.root().at("mode_choice").table()).tolerance;
+  };
+  CHECK(read("") == 0.01);
+  CHECK(read("tolerance = 0.0") == 0.0);
+  CHECK(input_error_of([&] { read("tolerance = 0.6"); }) ==
+        "run.toml:2:13: error: 'mode_choice.tolerance' must be ≥ 0 and ≤ 0.5, got 0.6");
+  CHECK_THAT(input_error_of([&] { read("tolerence = 0.1"); }), Catch::Matchers::Contains("tolerence"));
 }

@@ -1,0 +1,95 @@
+#include "dynamics/program/automatic_modes.h"
+
+#include <algorithm>
+#include <string>
+
+#include "dynamics/analysis/assembly.h"
+#include "dynamics/analysis/equilibrium.h"
+#include "dynamics/input/make_model.h"
+#include "dynamics/road/flat_road.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kGrowth = 1e-7;  // real part of an eigenvalue that is no rounding, of the largest
+
+bool is_driven(const Model& moving) {
+  return std::any_of(moving.joints.begin(), moving.joints.end(), [](const auto& joint) {
+    const std::vector<const TimeFunction*> functions = joint->time_functions();
+    return std::any_of(functions.begin(), functions.end(), [](const TimeFunction* f) { return !f->is_constant(); });
+  });
+}
+
+// Why the forcing of a run cannot be known beforehand; "" where it can.
+std::string find_unknown(const Run& run, const Model& moving) {
+  if (run.start != Run::Start::kEquilibrium) return "the run does not start in static balance";
+  if (is_driven(moving)) return "prescribed motion drives the vehicle";
+  if (!run.initial.empty()) return "[initial] adds motion at the start";
+  if (run.speed < 0.0 && run.road.shape != "flat") return "the vehicle drives backwards over the road";
+  return "";
+}
+
+std::vector<CandidateMode> list_candidates(const Run& run, const Vehicle& vehicle, const Model& model) {
+  const std::vector<std::string> automatic = list_automatic_bodies(run.modes);
+  std::vector<CandidateMode> candidates;
+  for (const Body& body : model.bodies) {
+    if (std::find(automatic.begin(), automatic.end(), body.name) == automatic.end()) continue;
+    const reduce::Superelement& superelement = *vehicle.superelement_of(*vehicle.find_body(body.name));
+    for (int k = 0; k < body.num_modes(); ++k) {
+      const int number = body.mode_numbers[static_cast<std::size_t>(k)];
+      candidates.push_back({.body = body.name,
+                            .number = number,
+                            .frequency_hz = superelement.frequency_hz[number - 1],
+                            .cluster = superelement.cluster[number - 1],
+                            .coordinate = body.first_coordinate + 3 + k});
+    }
+  }
+  return candidates;
+}
+
+}  // namespace
+
+BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const ModeSelection& all,
+                                   const ModalDamping& damping, const StiffenedBodies& stiffened,
+                                   const Road& road) {
+  const FlatRoad level;
+  const PlacedRoad placed{&level, vehicle.direction, 0.0};
+  const Model model = make_model(vehicle, all, placed, damping, MotionUse::kHeld, stiffened);
+  const std::vector<CandidateMode> candidates = list_candidates(run, vehicle, model);
+  const double tolerance = run.mode_choice.tolerance;
+  const std::string unknown = find_unknown(run, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
+  if (!unknown.empty()) return keep_all(candidates, tolerance, unknown);
+
+  Eigen::VectorXd q = make_start_positions(model, vehicle);
+  assemble_positions(model, q);
+  const Equilibrium equilibrium = find_equilibrium(model, q);
+  const LinearVehicle linear(model, equilibrium.q);
+  const Eigen::VectorXcd eigenvalues = linear.solver().eigenvalues();
+  if (!equilibrium.stable || eigenvalues.real().maxCoeff() > kGrowth * eigenvalues.cwiseAbs().maxCoeff()) {
+    return keep_all(candidates, tolerance, "the static balance is unstable");
+  }
+  std::vector<int> points;
+  for (const std::string& name : resolve_output_points(run, vehicle)) {
+    const int marker = model.find_marker(name);
+    if (model.markers[static_cast<std::size_t>(marker)].body != kGround) points.push_back(marker);
+  }
+  const KnownForcing forcing{.road = &road, .speed = std::max(run.speed, 0.0), .duration = run.duration};
+  BasisChoice choice = choose_basis(linear, candidates, points, forcing, tolerance);
+  for (const RoadInput& input : linear.inputs()) {
+    if (!input.is_pressed) choice.remarks.push_back("'" + input.name + "' is off the ground in static balance: the road does nothing there");
+  }
+  return choice;
+}
+
+ModeSelection keep_modes(const BasisChoice& choice, ModeSelection all) {
+  for (const ModeVerdict& verdict : choice.verdicts) {
+    if (verdict.is_kept) continue;
+    const auto body = all.find(verdict.mode.body);
+    std::erase(body->second, verdict.mode.number);
+    if (body->second.empty()) all.erase(body);
+  }
+  return all;
+}
+
+}  // namespace sprung::dynamics

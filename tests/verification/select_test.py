@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+"""Modes chosen from the forcing: the truck against its full basis, and what the program says of its choice."""
+
+import json
+import os
+import subprocess
+import unittest
+
+import h5py
+import numpy as np
+
+from response_case import overrides
+from verification_case import ROOT, VerificationCase
+
+TRUCK = ROOT / "dynamics/models/truck"
+TRUCK_SUPERELEMENTS = os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]
+AUTO = ["--set", 'modes.chassis="auto"']
+
+
+class Truck(VerificationCase):
+    def select(self, run, *arguments):
+        return self.program("select-modes", TRUCK / f"{run}.toml", *AUTO, *arguments, superelements=TRUCK_SUPERELEMENTS)
+
+    def run_truck(self, run, *arguments):
+        return self.run_to_results(TRUCK / f"{run}.toml", *arguments, superelements=TRUCK_SUPERELEMENTS)
+
+    @staticmethod
+    def kept(report):
+        return [(mode["body"], mode["number"]) for mode in report["modes"] if mode["kept"]]
+
+    def test_terrain_run_within_one_percent_of_the_full_basis(self):
+        full = self.run_truck("terrain", "--set", 'modes.chassis="all"').summary
+        results = self.run_truck("terrain", *AUTO)
+        auto = results.summary
+        for point in ("chassis.origin", "chassis.seat"):
+            with self.subTest(point):
+                rms = [summary["points"][point]["acceleration"]["rms"] for summary in (auto, full)]
+                self.assert_close(rms[0], rms[1], relative=0.01)
+        # Fewer modes; two of them are too few.
+        chosen = results["model/mode_choice/kept"].sum()
+        self.assertEqual(len(results["model/mode_choice/kept"]), 36)
+        self.assertEqual(results.file["bodies/chassis/modal/amplitude"].shape[1], chosen)
+        self.assertLess(chosen, 18)
+        two = self.run_truck("terrain", "--set", "modes.chassis=2").summary
+        rms = two["points"]["chassis.origin"]["acceleration"]["rms"] / full["points"]["chassis.origin"]["acceleration"]["rms"]
+        self.assertGreater(abs(rms - 1.0), 0.05)
+        self.assertLess(auto["evaluations"], 0.8 * full["evaluations"])
+
+    def test_what_is_predicted_is_what_a_run_neglects(self):
+        # A terrain of a twentieth of its height, where the truck is nearly linear but for the damper, made equal both ways.
+        s, height = np.loadtxt(TRUCK / "terrain_road.txt", unpack=True)
+        road = self.folder / "low.txt"
+        np.savetxt(road, np.column_stack([s, height / 20.0]), fmt="%.12g")
+        setting = [
+            *overrides(**{f"vehicle__forces__{end}_suspension__damper": "{ coefficient = 11527.5 }" for end in ("front", "rear")}),
+            *overrides(road=f"{{ shape = 'table', start = 1.0, file = '{road}' }}", integrator__relative_tolerance=1e-9,
+                       mode_choice__tolerance=0.05),
+        ]  # fmt: skip
+        report = self.select("terrain", *setting)
+        self.assertEqual(report["neglected_of"], "peak acceleration of chassis.seat")
+        runs = {}
+        for modes in ('"all"', '"auto"'):
+            runs[modes] = self.run_truck("terrain", *setting, "--set", f"modes.chassis={modes}")["points/chassis.seat/acceleration"]
+        difference = np.hypot(*(runs['"auto"'] - runs['"all"']).T)
+        neglected = difference.max() / np.hypot(*runs['"all"'].T).max()
+        self.assert_close(neglected, report["neglected"], relative=0.15)
+
+    def test_the_faster_the_more_modes(self):
+        slow, fast = (self.select("terrain", *overrides(speed=speed)) for speed in (1.0, 7.5))
+        self.assertLess(len(self.kept(slow)), len(self.kept(fast)))
+        self.assertLess(set(self.kept(slow)), set(self.kept(fast)))
+
+    def test_several_bodies_share_one_tolerance(self):
+        report = self.select("terrain", "--set", 'modes.front_long_arm="auto"')
+        self.assertEqual({mode["body"] for mode in report["modes"]}, {"chassis", "front_long_arm"})
+        self.assertLess(report["neglected"], 0.01)
+        kept = set(self.kept(report))
+        for body, numbers in (("chassis", range(1, 37)), ("front_long_arm", range(1, 7))):
+            frequency = {mode["number"]: mode["frequency"] for mode in report["modes"] if mode["body"] == body}
+            for number in numbers:
+                for other in numbers:  # equal frequencies stay together
+                    if abs(frequency[number] / frequency[other] - 1.0) < 1e-6:
+                        self.assertEqual((body, number) in kept, (body, other) in kept)
+
+    def test_tolerance_zero_keeps_all(self):
+        report = self.select("terrain", *overrides(mode_choice__tolerance=0, duration=2.0, statistics="{ from = 0, to = 2 }"))
+        self.assertEqual(len(self.kept(report)), 36)
+
+    def test_says_why_all_are_kept_where_the_forcing_is_not_known(self):
+        for setting, why in (
+            (overrides(start="'as-given'"), "the run does not start in static balance"),
+            (overrides(initial__chassis__angular_velocity=0.1), "[initial] adds motion at the start"),
+            (overrides(speed=-3.0), "the vehicle drives backwards over the road"),
+        ):
+            report = self.select("bump", *setting)
+            self.assertEqual(len(self.kept(report)), 36)
+            self.assertEqual(report["remarks"], [f"all modes are kept, as {why}"])
+            self.assertEqual({mode["reason"] for mode in report["modes"]}, {f"kept: not measured, as {why}"})
+
+    def test_a_run_stores_what_select_modes_and_the_dry_run_show(self):
+        short = overrides(duration=0.05, mode_choice__tolerance=0.2)
+        report = self.select("bump", *short)
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", str(TRUCK / "bump.toml"), "--superelements", TRUCK_SUPERELEMENTS,
+                   *AUTO, *short, "--dry-run"]  # fmt: skip
+        dry = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        shown = subprocess.run([*command, "--json"], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        self.assertEqual(json.loads(shown)["mode_choice"], report)
+        results = self.run_truck("bump", *AUTO, *short)
+        path = self.folder / "choice.h5"
+        self.select("bump", *short, "-o", str(path))
+        with h5py.File(path, "r") as choice:
+            self.assertEqual(choice.attrs["format"].decode(), "sprung-mode-choice")
+            for file in (choice, results.file):
+                group = file["model/mode_choice"]
+                self.assertEqual([text.decode() for text in group["reason"]], [mode["reason"] for mode in report["modes"]])
+                self.assertEqual(list(group["kept"]), [mode["kept"] for mode in report["modes"]])
+                self.assertEqual(group["transfer/chassis.seat"].shape, group["frequency"].shape)
+                # A long wave lifts the seat by its height: acceleration ω².
+                omega = 2.0 * np.pi * group["frequency"][0]
+                self.assert_close(group["transfer/chassis.seat"][0] / omega**2, 1.0, relative=0.1)
+        for mode in report["modes"]:
+            self.assertIn(mode["reason"], dry)
+
+    def test_refusals(self):
+        for arguments, fragment in (
+            ((), 'leaves no body\'s modes to the program: say [modes] BODY = "auto"'),
+            ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: is in the way and is left alone"),
+        ):
+            (self.folder / "foreign.h5").write_text("mine", encoding="utf-8")
+            process = subprocess.run(
+                [os.environ["SPRUNG_DYNAMICS"], "select-modes", str(TRUCK / "bump.toml"), "--superelements",
+                 TRUCK_SUPERELEMENTS, *arguments],
+                cwd=self.folder, capture_output=True, text=True, check=False,
+            )  # fmt: skip
+            self.assertEqual(process.returncode, 2)
+            self.assertIn(fragment, process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
