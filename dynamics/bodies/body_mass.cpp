@@ -64,11 +64,10 @@ void BodyMass::solve(double* x) const {
   }
 }
 
-void BodyMass::reduce_row(const double* G, double* Y, double* Z) const {
+void BodyMass::reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const {
   const Eigen::Index n = body_->num_modes();
-  Eigen::Map<Eigen::Vector3d> rigid(Y);
-  rigid = Eigen::Map<const Eigen::Vector3d>(G);
-  for (Eigen::Index k = 0; k < n; ++k) rigid -= W_.col(k) * G[3 + k];
+  Y = Eigen::Map<const Eigen::Vector3d>(G);
+  for (Eigen::Index k = 0; k < n; ++k) Y -= W_.col(k) * G[3 + k];
   if (diagonal_) {
     for (Eigen::Index k = 0; k < n; ++k) Z[k] = G[3 + k] * diagonal_inverse_[k];
   } else {

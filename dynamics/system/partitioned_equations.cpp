@@ -45,7 +45,8 @@ bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
-    terms_.update_positions(time, q_);
+    if (iteration == 0) terms_.update_positions(time, q_);
+    else terms_.adjust_positions(q_);
     if (num_constraints_ == 0) return true;
     terms_.calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 
 #include "dynamics/system/dependent_solver.h"
@@ -13,8 +12,8 @@ namespace sprung::dynamics {
 
 /// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i and v_i,
 /// finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost grows with the
-/// number of joints and, for each body, with its modes; no allocation in the evaluating functions (but see
-/// MultiplierSolver for large systems). f freedoms, m constraints, nq coordinates.
+/// number of joints and, for each body, with its modes; no allocation in the evaluating functions, but where pivots of
+/// φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
