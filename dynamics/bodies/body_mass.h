@@ -30,6 +30,7 @@ class BodyMass {
 
  private:
   const Body* body_;
+  bool constant_;  // the mass matrix: of a rigid body about its centre of mass
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
   Eigen::MatrixXd M_ff_inverse_;  // used where it is not

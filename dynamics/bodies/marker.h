@@ -33,12 +33,33 @@ struct MarkerState {
 
 /// Position-level part of a marker's state.                                           (dynamics/README.md, eq. 1)
 /// @param q  the body's 3+n coordinates; state.r_eta must have its n columns already
-void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
-                          const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state);
+inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
+                                 const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state) {
+  Eigen::Vector2d u = marker.p_BP;
+  state.angle = q[2];
+  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
+    const Eigen::Vector2d shape = marker.Phi.col(k);
+    u += shape * q[3 + k];
+    state.angle += marker.Phi_rotation[k] * q[3 + k];
+    state.r_eta.col(k) = rotation * shape;
+  }
+  const Eigen::Vector2d arm = rotation * u;
+  state.r = q.head<2>() + arm;
+  state.r_theta = turned(arm);
+}
 
 /// Velocity-level part, after calc_marker_position.                                   (dynamics/README.md, eq. 2)
 /// @param v  the body's 3+n velocities
-void calc_marker_velocity(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state);
+inline void calc_marker_velocity(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state) {
+  Eigen::Vector2d bending = Eigen::Vector2d::Zero();  // A Φ η̇
+  state.omega = v[2];
+  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
+    bending += state.r_eta.col(k) * v[3 + k];
+    state.omega += marker.Phi_rotation[k] * v[3 + k];
+  }
+  state.v = v.head<2>() + state.r_theta * v[2] + bending;
+  state.a_bias = v[2] * turned(state.r_theta * v[2] + 2.0 * bending);
+}
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
 /// @param v_dot  the body's 3+n accelerations

@@ -14,8 +14,9 @@ void BlockJacobian::add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) co
     const double* value = values_.data() + block.offset;
     const double* part = v.data() + block.column;
     for (int i = 0; i < block.num_rows; ++i) {
-      double sum = 0.0;
-      for (int j = 0; j < block.num_columns; ++j) sum += *value++ * part[j];
+      double sum = value[0] * part[0] + value[1] * part[1] + value[2] * part[2];
+      for (int j = 3; j < block.num_columns; ++j) sum += value[j] * part[j];
+      value += block.num_columns;
       r[block.row + i] += sum;
     }
   }
@@ -27,7 +28,9 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
     double* part = Q.data() + block.column;
     for (int i = 0; i < block.num_rows; ++i) {
       const double factor = lambda[block.row + i];
-      for (int j = 0; j < block.num_columns; ++j) part[j] += *value++ * factor;
+      for (int j = 0; j < 3; ++j) part[j] += value[j] * factor;
+      for (int j = 3; j < block.num_columns; ++j) part[j] += value[j] * factor;
+      value += block.num_columns;
     }
   }
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-
 namespace sprung::dynamics {
 
 /// φ_q as the blocks it consists of: a joint touches the coordinates of two bodies and no others.
@@ -12,7 +11,7 @@ class BlockJacobian {
   /// Rows of one joint, columns of one body; stored row by row.
   struct Block {
     int row = 0, num_rows = 0;        ///< constraints
-    int column = 0, num_columns = 0;  ///< coordinates
+    int column = 0, num_columns = 0;  ///< coordinates, at least a body's 3
     int body = 0;
     std::size_t offset = 0;  ///< of its values
   };

@@ -44,33 +44,37 @@ MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constr
 
   std::vector<std::pair<int, int>> entries;
   for (const auto& [p, q] : list_pairs(blocks)) {
-    const bool same_rows = blocks[p].row == blocks[q].row;
-    pairs_.push_back({p, q, entries.size(), same_rows});
+    pairs_.push_back({.num_rows_p = blocks[p].num_rows,
+                      .num_rows_q = blocks[q].num_rows,
+                      .num_modes = blocks[p].num_columns - 3,
+                      .row_p = row_offsets_[p],
+                      .row_q = row_offsets_[q],
+                      .modal_p = blocks[p].offset + 3,
+                      .modal_q = modal_offsets_[q],
+                      .first_place = entries.size()});
     for (int i = 0; i < blocks[p].num_rows; ++i) {
-      const int end = same_rows ? i + 1 : blocks[q].num_rows;
-      for (int j = 0; j < end; ++j) entries.emplace_back(blocks[p].row + i, blocks[q].row + j);
+      for (int j = 0; j < blocks[q].num_rows; ++j) entries.emplace_back(blocks[p].row + i, blocks[q].row + j);
     }
   }
   factor_ = SparseCholesky(num_constraints, entries);
-  for (const auto& [i, j] : entries) places_.push_back(factor_.place(i, j));
+  for (const auto& [i, j] : entries) places_.push_back(i >= j ? factor_.place(i, j) : factor_.unused_place());
 }
 
 // Yᵢ·C⁻¹Yⱼ + G_fᵢ·Zⱼ for the rows i of p and j of q.
-// @tparam num_modes  of the body, where it is known beforehand; −1: any
-template <int num_modes>
-void MultiplierSolver::add_products(const Pair& pair, const BlockJacobian& jacobian) {
-  const Block& p = jacobian.blocks()[pair.p];
-  const Block& q = jacobian.blocks()[pair.q];
-  const int modes = num_modes >= 0 ? num_modes : p.num_columns - 3;
-  const Eigen::Vector3d* Y = Y_.data() + row_offsets_[pair.p];
-  const Eigen::Vector3d* CY = CY_.data() + row_offsets_[pair.q];
+// @tparam num_rows, num_modes  of both blocks and of the body, where they are known beforehand; −1: any
+template <int num_rows, int num_modes>
+void MultiplierSolver::add_products(const Pair& pair, const double* jacobian_values) {
+  const int rows_p = num_rows >= 0 ? num_rows : pair.num_rows_p;
+  const int rows_q = num_rows >= 0 ? num_rows : pair.num_rows_q;
+  const int modes = num_modes >= 0 ? num_modes : pair.num_modes;
+  const Eigen::Vector3d* Y = Y_.data() + pair.row_p;
+  const Eigen::Vector3d* CY = CY_.data() + pair.row_q;
   const int* place = places_.data() + pair.first_place;
   double* values = factor_.values().data();
-  for (int i = 0; i < p.num_rows; ++i) {
-    const double* G = jacobian.values(pair.p) + i * p.num_columns + 3;
-    const double* Z = Z_.data() + modal_offsets_[pair.q];
-    const int end = pair.same_rows ? i + 1 : q.num_rows;
-    for (int j = 0; j < end; ++j, Z += modes) {
+  for (int i = 0; i < rows_p; ++i) {
+    const double* G = jacobian_values + pair.modal_p + i * (3 + modes);
+    for (int j = 0; j < rows_q; ++j) {
+      const double* Z = Z_.data() + pair.modal_q + j * modes;
       double sum = Y[i][0] * CY[j][0] + Y[i][1] * CY[j][1] + Y[i][2] * CY[j][2];
       for (int m = 0; m < modes; ++m) sum += G[m] * Z[m];
       values[*place++] += sum;
@@ -93,8 +97,10 @@ bool MultiplierSolver::factorise(const BlockJacobian& jacobian, const std::vecto
   }
   std::fill(factor_.values().begin(), factor_.values().end(), 0.0);
   for (const Pair& pair : pairs_) {
-    if (blocks[pair.p].num_columns == 3) add_products<0>(pair, jacobian);
-    else add_products<-1>(pair, jacobian);
+    const bool revolute = pair.num_rows_p == 2 && pair.num_rows_q == 2;  // what most joints are
+    if (revolute && pair.num_modes == 0) add_products<2, 0>(pair, jacobian.data());
+    else if (revolute) add_products<2, -1>(pair, jacobian.data());
+    else add_products<-1, -1>(pair, jacobian.data());
   }
   return factor_.factorise();
 }

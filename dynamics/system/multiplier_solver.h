@@ -22,18 +22,18 @@ class MultiplierSolver {
   int num_factor_entries() const { return factor_.num_factor_entries(); }
 
  private:
-  // Blocks p and q of the Jacobian on one body: rows of p times rows of q. Where both are a joint's own rows, only
-  // those of q up to the row of p.
+  // Blocks p and q of the Jacobian on one body: rows of p times rows of q.
   struct Pair {
-    std::size_t p, q;
-    std::size_t first_place;  // of the products in the matrix, q's rows running faster
-    bool same_rows;
+    int num_rows_p, num_rows_q, num_modes;
+    std::size_t row_p, row_q;      // in Y_ and CY_
+    std::size_t modal_p, modal_q;  // in the Jacobian's values and in Z_
+    std::size_t first_place;       // of the products in places_, q's rows running faster
   };
-  template <int num_modes>
-  void add_products(const Pair& pair, const BlockJacobian& jacobian);
+  template <int num_rows, int num_modes>
+  void add_products(const Pair& pair, const double* jacobian_values);
 
   std::vector<Pair> pairs_;
-  std::vector<int> places_;
+  std::vector<int> places_;  // in the matrix; of what stands above the diagonal: beside it
   std::vector<std::size_t> row_offsets_;  // of each block's rows in Y_, and of its modal parts in Z_
   std::vector<std::size_t> modal_offsets_;
   std::vector<Eigen::Vector3d> Y_, CY_;  // of each row: reduced, and times C⁻¹

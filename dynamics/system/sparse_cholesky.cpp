@@ -57,7 +57,7 @@ SparseCholesky::SparseCholesky(int size, const std::vector<std::pair<int, int>>&
     std::sort(rows_.begin() + first_.back(), rows_.end());
   }
   first_.push_back(static_cast<int>(rows_.size()));
-  values_.assign(rows_.size(), 0.0);
+  values_.assign(rows_.size() + 1, 0.0);
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const auto begin = static_cast<std::size_t>(first_[k]) + 1, end = static_cast<std::size_t>(first_[k + 1]);
     for (std::size_t j = begin; j < end; ++j) {
@@ -101,20 +101,19 @@ bool SparseCholesky::factorise() {
 
 void SparseCholesky::solve(double* x) const {
   double* y = work_.data();
-  const auto size = static_cast<std::size_t>(size_);
-  for (std::size_t k = 0; k < size; ++k) y[k] = x[order_[k]];
-  for (std::size_t k = 0; k < size; ++k) {
-    for (int i = first_[k] + 1; i < first_[k + 1]; ++i) {
-      y[rows_[static_cast<std::size_t>(i)]] -= values_[static_cast<std::size_t>(i)] * y[k];
-    }
+  const double* values = values_.data();
+  const int* rows = rows_.data();
+  const int* first = first_.data();
+  for (int k = 0; k < size_; ++k) y[k] = x[order_[static_cast<std::size_t>(k)]];
+  for (int k = 0; k < size_; ++k) {
+    const double solved = y[k];
+    for (int i = first[k] + 1; i < first[k + 1]; ++i) y[rows[i]] -= values[i] * solved;
   }
-  for (std::size_t k = size; k-- > 0;) {
-    double sum = y[k] * values_[static_cast<std::size_t>(first_[k])];
-    for (int i = first_[k] + 1; i < first_[k + 1]; ++i) {
-      sum -= values_[static_cast<std::size_t>(i)] * y[rows_[static_cast<std::size_t>(i)]];
-    }
+  for (int k = size_ - 1; k >= 0; --k) {
+    double sum = y[k] * values[first[k]];
+    for (int i = first[k] + 1; i < first[k + 1]; ++i) sum -= values[i] * y[rows[i]];
     y[k] = sum;
-    x[order_[k]] = sum;
+    x[order_[static_cast<std::size_t>(k)]] = sum;
   }
 }
 

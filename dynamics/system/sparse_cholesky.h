@@ -17,6 +17,8 @@ class SparseCholesky {
 
   /// Where the value of an entry of the pattern goes in `values`; the same for (j, i) as for (i, j).
   int place(int i, int j) const;
+  /// A place in `values` that nothing reads.
+  int unused_place() const { return static_cast<int>(rows_.size()); }
   /// Fill before `factorise`, which writes the factors over it. Zero where nothing was filled in.
   std::vector<double>& values() { return values_; }
 
@@ -24,7 +26,7 @@ class SparseCholesky {
   bool factorise();
   /// x ← A⁻¹ x
   void solve(double* x) const;
-  int num_factor_entries() const { return static_cast<int>(values_.size()); }
+  int num_factor_entries() const { return static_cast<int>(rows_.size()); }
 
  private:
   int size_ = 0;

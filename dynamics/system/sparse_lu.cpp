@@ -193,23 +193,22 @@ void SparseLu::factorise(std::span<const double> values) {
 
 void SparseLu::solve(double* x) const {
   double* y = work_.data();
-  for (std::size_t k = 0; k < steps_.size(); ++k) y[k] = x[steps_[k].row];
-  for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const Step& step = steps_[k];
-    const std::size_t first = static_cast<std::size_t>(step.first + 1 + step.num_upper);
-    for (std::size_t l = first; l < first + static_cast<std::size_t>(step.num_lower); ++l) {
-      y[indices_[l]] -= factors_[l] * y[k];
-    }
+  const double* factors = factors_.data();
+  const int* indices = indices_.data();
+  const int size = size_;
+  const Step* steps = steps_.data();
+  for (int k = 0; k < size; ++k) y[k] = x[steps[k].row];
+  for (int k = 0; k < size; ++k) {
+    const int first = steps[k].first + 1 + steps[k].num_upper, end = first + steps[k].num_lower;
+    const double solved = y[k];
+    for (int l = first; l < end; ++l) y[indices[l]] -= factors[l] * solved;
   }
-  for (std::size_t k = steps_.size(); k-- > 0;) {
-    const Step& step = steps_[k];
-    const std::size_t first = static_cast<std::size_t>(step.first + 1);
+  for (int k = size - 1; k >= 0; --k) {
+    const int first = steps[k].first + 1, end = first + steps[k].num_upper;
     double sum = y[k];
-    for (std::size_t u = first; u < first + static_cast<std::size_t>(step.num_upper); ++u) {
-      sum -= factors_[u] * y[indices_[u]];
-    }
-    y[k] = sum * factors_[static_cast<std::size_t>(step.first)];
-    x[step.column] = y[k];
+    for (int u = first; u < end; ++u) sum -= factors[u] * y[indices[u]];
+    y[k] = sum * factors[steps[k].first];
+    x[steps[k].column] = y[k];
   }
 }
 
