@@ -73,14 +73,13 @@ void BodyMass::solve(double* x) const {
   }
 }
 
-void BodyMass::reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const {
+void BodyMass::reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const {
   const Eigen::Index n = body_->num_modes();
-  Y = Eigen::Map<const Eigen::Vector3d>(G);
-  for (Eigen::Index k = 0; k < n; ++k) Y -= W_.col(k) * G[3 + k];
+  for (Eigen::Index k = 0; k < n; ++k) Y -= W_.col(k) * G_f[k];
   if (diagonal_) {
-    for (Eigen::Index k = 0; k < n; ++k) Z[k] = G[3 + k] * diagonal_inverse_[k];
+    for (Eigen::Index k = 0; k < n; ++k) Z[k] = G_f[k] * diagonal_inverse_[k];
   } else {
-    Eigen::Map<Eigen::VectorXd>(Z, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G + 3, n));
+    Eigen::Map<Eigen::VectorXd>(Z, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G_f, n));
   }
 }
 

@@ -24,11 +24,16 @@ class BodyMass {
 
   /// The rows G of a Jacobian that belong to this body, made ready for G₁ M⁻¹ G₂ᵀ = Y₁ C⁻¹ Y₂ᵀ + G_f₁ M_ff⁻¹ G_f₂ᵀ.
   /// @param G  (3+n) values   @param[out] Y  G_r − G_f M_ff⁻¹ Hᵀ   @param[out] Z  n values, G_f M_ff⁻¹
-  void reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const;
+  void reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const {
+    Y = Eigen::Map<const Eigen::Vector3d>(G);
+    if (W_.cols() > 0) reduce_modal_part(G + 3, Y, Z);
+  }
   /// C⁻¹ y.
   Eigen::Vector3d solve_rigid(const Eigen::Vector3d& y) const { return C_inverse_ * y; }
 
  private:
+  void reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const;
+
   const Body* body_;
   bool constant_;  // the mass matrix: of a rigid body about its centre of mass
   bool diagonal_;  // M_ff is diagonal to rounding

@@ -105,7 +105,8 @@ void SparseLu::choose_pivots(std::span<const double> values) {
 
   // Places of entries: by the step that comes first of their row's and their column's.
   factors_.assign(static_cast<std::size_t>(num_factors), 0.0);
-  indices_.assign(factors_.size(), -1);
+  forward_.clear();
+  backward_.clear();
   std::map<std::pair<int, int>, int> places;  // by steps of row and column
   for (std::size_t k = 0; k < size; ++k) {
     const int step = static_cast<int>(k);
@@ -113,15 +114,16 @@ void SparseLu::choose_pivots(std::span<const double> values) {
     places[{step, step}] = place++;
     for (const int j : upper[k]) {
       const int column = step_of_column[static_cast<std::size_t>(j)];
-      indices_[static_cast<std::size_t>(place)] = column;
+      backward_.push_back({step, column, place});
       places[{step, column}] = place++;
     }
     for (const int i : lower[k]) {
       const int row = step_of_row[static_cast<std::size_t>(i)];
-      indices_[static_cast<std::size_t>(place)] = row;
+      forward_.push_back({row, step, place});
       places[{row, step}] = place++;
     }
   }
+  std::reverse(backward_.begin(), backward_.end());
   places_.clear();
   for (const Position& entry : entries_) {
     places_.push_back(places.at({step_of_row[static_cast<std::size_t>(entry.row)],
@@ -162,7 +164,7 @@ bool SparseLu::eliminate() {
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     double* pivot = factors_.data() + step.first;
-    const double* upper = pivot + 1;
+    double* upper = pivot + 1;
     double* lower = pivot + 1 + step.num_upper;
     good &= std::abs(*pivot) >= kPivotDecay * first_pivots_[k];
     determinant_ *= *pivot;
@@ -172,6 +174,7 @@ bool SparseLu::eliminate() {
       lower[i] *= inverse;
       for (int j = 0; j < step.num_upper; ++j) factors_[static_cast<std::size_t>(*target++)] -= lower[i] * upper[j];
     }
+    for (int j = 0; j < step.num_upper; ++j) upper[j] *= inverse;
   }
   return good;
 }
@@ -194,22 +197,12 @@ void SparseLu::factorise(std::span<const double> values) {
 void SparseLu::solve(double* x) const {
   double* y = work_.data();
   const double* factors = factors_.data();
-  const int* indices = indices_.data();
-  const int size = size_;
-  const Step* steps = steps_.data();
-  for (int k = 0; k < size; ++k) y[k] = x[steps[k].row];
-  for (int k = 0; k < size; ++k) {
-    const int first = steps[k].first + 1 + steps[k].num_upper, end = first + steps[k].num_lower;
-    const double solved = y[k];
-    for (int l = first; l < end; ++l) y[indices[l]] -= factors[l] * solved;
-  }
-  for (int k = size - 1; k >= 0; --k) {
-    const int first = steps[k].first + 1, end = first + steps[k].num_upper;
-    double sum = y[k];
-    for (int u = first; u < end; ++u) sum -= factors[u] * y[indices[u]];
-    y[k] = sum * factors[steps[k].first];
-    x[steps[k].column] = y[k];
-  }
+  const auto size = static_cast<std::size_t>(size_);
+  for (std::size_t k = 0; k < size; ++k) y[k] = x[steps_[k].row];
+  for (const Product& one : forward_) y[one.target] -= factors[one.place] * y[one.source];
+  for (std::size_t k = 0; k < size; ++k) y[k] *= factors[steps_[k].first];
+  for (const Product& one : backward_) y[one.target] -= factors[one.place] * y[one.source];
+  for (std::size_t k = 0; k < size; ++k) x[steps_[k].column] = y[k];
 }
 
 }  // namespace sprung::dynamics

@@ -31,11 +31,15 @@ class SparseLu {
   int num_factor_entries() const { return static_cast<int>(factors_.size()); }
 
  private:
-  // Elimination of one row and column. factors_ holds its pivot, inverted; then upper, then lower.
+  // Elimination of one row and column. factors_ holds its pivot, inverted; then upper, then lower, both divided by it.
   struct Step {
     int first;             // of its entries in factors_
     int num_upper, num_lower;
     int row, column;       // in A
+  };
+  // y[target] −= factors_[place] y[source], in the order of the list.
+  struct Product {
+    int target, source, place;
   };
   struct Elimination;
 
@@ -47,8 +51,8 @@ class SparseLu {
   std::vector<Position> entries_;
   std::vector<Step> steps_;
   std::vector<int> places_;   // of A's entries in factors_
-  std::vector<int> indices_;  // beside factors_: of an upper or lower entry the step of its column or row
   std::vector<int> targets_;  // for every lower entry and every upper one beside it: what their product is taken from
+  std::vector<Product> forward_, backward_;
   std::vector<double> factors_;
   std::vector<double> first_pivots_;  // as they were when they were chosen
   double permutation_sign_ = 1.0;
