@@ -164,6 +164,12 @@ void DependentSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const 
   }
 }
 
+int DependentSolver::num_factor_entries() const {
+  int count = 0;
+  for (const DiagonalBlock& block : blocks_) count += block.lu.num_factor_entries() + static_cast<int>(block.outside.size());
+  return count;
+}
+
 void DependentSolver::set_reference() {
   for (DiagonalBlock& block : blocks_) block.reference_determinant = block.lu.determinant();
 }

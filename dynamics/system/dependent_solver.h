@@ -30,6 +30,7 @@ class DependentSolver {
   /// Whether the determinant of a block has changed sign since `set_reference`. It cannot while the motion is followed:
   /// a mechanism goes through det φ_d = 0 only where its independents turn round, and there another partition is due.
   bool is_mirrored() const;
+  int num_factor_entries() const;
   int num_blocks() const { return static_cast<int>(blocks_.size()); }
 
  private:

@@ -58,6 +58,9 @@ class PartitionedEquations {
   /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
   Eigen::VectorXd calc_reduced_force(const Eigen::MatrixXd& directions) const;
 
+  /// Entries of the factors that an evaluation computes: its work grows with them.
+  int num_factor_entries() const { return dependents_.num_factor_entries() + multipliers_.num_factor_entries(); }
+
   /// How much worse the dependents follow the independents than when the partition was chosen, at least 1.
   double partition_decay() const { return dependents_.decay(); }
 
