@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <vector>
 
+#include "dynamics/system/multiplier_solver.h"
 #include "dynamics/system/partition.h"
+#include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
 
@@ -16,6 +18,7 @@ namespace {
 
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-12;  // of the length scale
+constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
   Eigen::VectorXd inverse(terms.model().num_coordinates);
@@ -75,12 +78,14 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   for (int iteration = 0; size > kTolerance * model.length_scale; ++iteration) {
     if (iteration == kMaxIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
-    const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
-    const Eigen::MatrixXd weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
-    const Eigen::MatrixXd normal = Phi_q * weighted;
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(normal, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(1e-12);
-    Eigen::VectorXd step = -weighted * svd.solve(phi);
+    const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
+    const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
+    Eigen::SparseMatrix<double> normal = Phi_q * weighted;
+    // Redundant joints are told of below; until then they must not be in the way.
+    const double shift = kRegularisation * normal.diagonal().maxCoeff();
+    for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+    Eigen::VectorXd step = -(weighted * factor.solve(phi));
     double largest = 0.0;
     for (int i = 0; i < model.num_coordinates; ++i) {
       largest = std::max(largest, std::abs(step[i]) / model.coordinate_scale(i));
@@ -125,23 +130,27 @@ VelocityReport project_velocities(const Model& model, double time, const Eigen::
   terms.update_jacobian();
   terms.update_mass();
   // v ← v − M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ (φ_q v + φ_t)
-  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
-  Eigen::MatrixXd weighted = Phi_q.transpose();
-  for (Eigen::Index k = 0; k < weighted.cols(); ++k) {
-    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-      terms.masses()[b].solve(weighted.col(k).data() + model.bodies[b].first_coordinate);
-    }
+  MultiplierSolver solver(terms.jacobian(), model.num_constraints);
+  if (!solver.factorise(terms.jacobian(), terms.masses())) {
+    throw support::NumericalError(
+        fmt::format("the joints' velocities cannot be found at t = {:.9g} s: a singular position", time));
   }
-  Eigen::VectorXd rate(model.num_constraints);
-  terms.calc_time_rate(rate);
+  Eigen::VectorXd violation(model.num_constraints), impulse(model.num_constraints), change(model.num_coordinates);
   for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
-    const Eigen::VectorXd violation = Phi_q * v + rate;
-    v -= weighted * (Phi_q * weighted).ldlt().solve(violation);
+    terms.calc_time_rate(violation);
+    terms.jacobian().add_product(v, violation);
+    solver.solve(violation, impulse);
+    change.setZero();
+    terms.jacobian().add_transposed_product(impulse, change);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      terms.masses()[b].solve(change.data() + model.bodies[b].first_coordinate);
+    }
+    v -= change;
   }
   for (int i = 0; i < model.num_coordinates; ++i) {
-    const double change = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
-    if (change <= report.largest_change) continue;
-    report = {change, model.coordinate_name(i)};
+    const double relative = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
+    if (relative <= report.largest_change) continue;
+    report = {relative, model.coordinate_name(i)};
   }
   return report;
 }

@@ -35,14 +35,18 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
   }
 }
 
-Eigen::MatrixXd BlockJacobian::dense() const {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(num_rows_, num_columns_);
+Eigen::MatrixXd BlockJacobian::dense() const { return sparse().toDense(); }
+
+Eigen::SparseMatrix<double> BlockJacobian::sparse() const {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const Block& block : blocks_) {
     const double* value = values_.data() + block.offset;
     for (int i = 0; i < block.num_rows; ++i) {
-      for (int j = 0; j < block.num_columns; ++j) matrix(block.row + i, block.column + j) += *value++;
+      for (int j = 0; j < block.num_columns; ++j) entries.emplace_back(block.row + i, block.column + j, *value++);
     }
   }
+  Eigen::SparseMatrix<double> matrix(num_rows_, num_columns_);
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 

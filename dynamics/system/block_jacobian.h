@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 namespace sprung::dynamics {
@@ -30,8 +31,9 @@ class BlockJacobian {
   void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;
   /// Q += φ_qᵀ λ.  @param lambda num_rows  @param Q num_columns
   void add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const;
-  /// The dense matrix, num_rows×num_columns: for what is done once.
+  /// The same num_rows×num_columns, for what is done once.
   Eigen::MatrixXd dense() const;
+  Eigen::SparseMatrix<double> sparse() const;
 
  private:
   int num_rows_ = 0, num_columns_ = 0;
