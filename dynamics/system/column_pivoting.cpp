@@ -1,6 +1,8 @@
 #include "dynamics/system/column_pivoting.h"
 
+#include <Eigen/QR>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -8,81 +10,76 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kEqual = 1e-9;     // share by which norms differ that differ by more than rounding
-constexpr double kNothing = 1e-14;  // share of a column that is rounding
+constexpr double kEqual = 1e-9;        // share by which norms differ that differ by more than rounding
+constexpr double kLeastPivot = 1e-12;  // of AᵀA: squares
 
-using Column = Eigen::SparseVector<double>;
-
-// What is left of the columns while pivots are taken.
+// What is left of AᵀA while pivots are taken.
 class Remainder {
  public:
-  explicit Remainder(const Eigen::SparseMatrix<double>& matrix)
-      : columns_with_(static_cast<std::size_t>(matrix.rows())) {
-    for (int j = 0; j < matrix.cols(); ++j) {
-      columns_.emplace_back(matrix.col(j));
-      for (Column::InnerIterator entry(columns_.back()); entry; ++entry) with(entry.index()).insert(j);
-      first_norms_.push_back(columns_.back().norm());
-      keys_.push_back(key(first_norms_.back()));
-      by_norm_.emplace(keys_.back(), j);
+  explicit Remainder(const Eigen::SparseMatrix<double>& matrix) : rows_(static_cast<std::size_t>(matrix.cols())) {
+    const Eigen::SparseMatrix<double> products = matrix.transpose() * matrix;
+    for (int j = 0; j < products.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(products, j); entry; ++entry) {
+        row(j)[static_cast<int>(entry.row())] = entry.value();
+      }
+      if (row(j).count(j) > 0) by_size_.emplace(key(j), j);
     }
   }
 
-  int largest() const { return by_norm_.begin()->second; }
-  double norm(int column) const { return columns_[static_cast<std::size_t>(column)].norm(); }
-  bool is_empty() const { return by_norm_.empty(); }
+  int largest() const { return by_size_.empty() ? -1 : by_size_.begin()->second; }
+  double pivot(int column) { return row(column).at(column); }
 
-  // Takes a column away, and from the others what lies along it.
-  void take(int pivot) {
-    const Column direction = columns_[static_cast<std::size_t>(pivot)] / norm(pivot);
-    remove(pivot);
-    std::set<int> others;
-    for (Column::InnerIterator entry(direction); entry; ++entry) {
-      others.insert(with(entry.index()).begin(), with(entry.index()).end());
-    }
-    for (const int j : others) {
-      Column& column = columns_[static_cast<std::size_t>(j)];
-      const double along = direction.dot(column);
-      if (along == 0.0) continue;
-      remove(j);
-      column = (column - along * direction).pruned(first_norms_[static_cast<std::size_t>(j)], kNothing);
-      insert(j);
+  void take(int pivot_column) {
+    by_size_.erase({key(pivot_column), pivot_column});
+    const std::map<int, double> pivot_row = std::move(row(pivot_column));
+    const double inverse = 1.0 / pivot_row.at(pivot_column);
+    for (const auto& [i, value] : pivot_row) {
+      if (i == pivot_column) continue;
+      by_size_.erase({key(i), i});
+      row(i).erase(pivot_column);
+      const double factor = value * inverse;
+      for (const auto& [j, other] : pivot_row) {
+        if (j != pivot_column) row(i)[j] -= factor * other;
+      }
+      by_size_.emplace(key(i), i);
     }
   }
 
  private:
-  std::set<int>& with(Eigen::Index row) { return columns_with_[static_cast<std::size_t>(row)]; }
-  // Ascending where norms descend; one for all that differ by rounding.
-  static double key(double norm) { return norm > 0.0 ? -std::round(std::log(norm) / kEqual) : 1e300; }
-
-  void remove(int j) {
-    const auto place = static_cast<std::size_t>(j);
-    by_norm_.erase({keys_[place], j});
-    for (Column::InnerIterator entry(columns_[place]); entry; ++entry) with(entry.index()).erase(j);
-  }
-  void insert(int j) {
-    const auto place = static_cast<std::size_t>(j);
-    keys_[place] = key(columns_[place].norm());
-    by_norm_.emplace(keys_[place], j);
-    for (Column::InnerIterator entry(columns_[place]); entry; ++entry) with(entry.index()).insert(j);
+  std::map<int, double>& row(int i) { return rows_[static_cast<std::size_t>(i)]; }
+  // Ascending where pivots descend; the same for all that differ by rounding.
+  double key(int column) {
+    const double size = pivot(column);
+    return size > 0.0 ? -std::round(0.5 * std::log(size) / kEqual) : 1e300;
   }
 
-  std::vector<Column> columns_;
-  std::vector<double> first_norms_, keys_;
-  std::vector<std::set<int>> columns_with_;  // an entry in a row
-  std::set<std::pair<double, int>> by_norm_;
+  std::vector<std::map<int, double>> rows_;
+  std::set<std::pair<double, int>> by_size_;
 };
+
+ColumnPivots choose_densely(const Eigen::SparseMatrix<double>& matrix) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix.toDense());
+  ColumnPivots pivots;
+  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+    pivots.columns.push_back(qr.colsPermutation().indices()[k]);
+    pivots.norms.push_back(std::abs(qr.matrixQR()(k, k)));
+  }
+  return pivots;
+}
 
 }  // namespace
 
 ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
   Remainder remainder(matrix);
   ColumnPivots pivots;
-  while (static_cast<int>(pivots.columns.size()) < matrix.rows() && !remainder.is_empty()) {
+  double first = 0.0;
+  while (static_cast<Eigen::Index>(pivots.columns.size()) < matrix.rows()) {
     const int column = remainder.largest();
-    const double norm = remainder.norm(column);
-    if (!(norm > 0.0)) break;
+    const double pivot = column < 0 ? 0.0 : remainder.pivot(column);
+    first = std::max(first, pivot);
+    if (!(pivot > kLeastPivot * first)) return choose_densely(matrix);
     pivots.columns.push_back(column);
-    pivots.norms.push_back(norm);
+    pivots.norms.push_back(std::sqrt(pivot));
     remainder.take(column);
   }
   return pivots;
