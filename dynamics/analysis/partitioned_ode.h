@@ -71,6 +71,7 @@ class PartitionedOde final : public OdeSystem {
       std::numeric_limits<double>::infinity();  // of an evaluation: just before the next break
   std::vector<double> y_;
   int coordinate_version_ = 0;
+  std::vector<double> natural_sizes_;  // of the independents
   // The arguments at which the motion of the equations was evaluated last.
   double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> evaluated_y_;
