@@ -16,7 +16,8 @@ constexpr double kLeastPivot = 1e-12;  // of AᵀA: squares
 // What is left of AᵀA while pivots are taken.
 class Remainder {
  public:
-  explicit Remainder(const Eigen::SparseMatrix<double>& matrix) : rows_(static_cast<std::size_t>(matrix.cols())) {
+  explicit Remainder(const Eigen::SparseMatrix<double>& matrix)
+      : rows_(static_cast<std::size_t>(matrix.cols())) {
     const Eigen::SparseMatrix<double> products = matrix.transpose() * matrix;
     for (int j = 0; j < products.outerSize(); ++j) {
       for (Eigen::SparseMatrix<double>::InnerIterator entry(products, j); entry; ++entry) {

@@ -98,9 +98,12 @@ bool MultiplierSolver::factorise(const BlockJacobian& jacobian, const std::vecto
   std::fill(factor_.values().begin(), factor_.values().end(), 0.0);
   for (const Pair& pair : pairs_) {
     const bool revolute = pair.num_rows_p == 2 && pair.num_rows_q == 2;  // what most joints are
-    if (revolute && pair.num_modes == 0) add_products<2, 0>(pair, jacobian.data());
-    else if (revolute) add_products<2, -1>(pair, jacobian.data());
-    else add_products<-1, -1>(pair, jacobian.data());
+    if (revolute && pair.num_modes == 0)
+      add_products<2, 0>(pair, jacobian.data());
+    else if (revolute)
+      add_products<2, -1>(pair, jacobian.data());
+    else
+      add_products<-1, -1>(pair, jacobian.data());
   }
   return factor_.factorise();
 }

@@ -9,8 +9,8 @@
 
 namespace sprung::dynamics {
 
-/// Solves (φ_q M⁻¹ φ_qᵀ) λ = r. The matrix couples only constraints that share a body: the cost grows with the number
-/// of such pairs and of what elimination adds to them. No allocation once made.
+/// Solves (φ_q M⁻¹ φ_qᵀ) λ = r. The matrix couples only constraints that share a body: the cost grows with
+/// the number of such pairs and of what elimination adds to them. No allocation once made.
 class MultiplierSolver {
  public:
   MultiplierSolver(const BlockJacobian& jacobian, int num_constraints);
@@ -33,7 +33,7 @@ class MultiplierSolver {
   void add_products(const Pair& pair, const double* jacobian_values);
 
   std::vector<Pair> pairs_;
-  std::vector<int> places_;  // in the matrix; of what stands above the diagonal: beside it
+  std::vector<int> places_;               // in the matrix; of what stands above the diagonal: beside it
   std::vector<std::size_t> row_offsets_;  // of each block's rows in Y_, and of its modal parts in Z_
   std::vector<std::size_t> modal_offsets_;
   std::vector<Eigen::Vector3d> Y_, CY_;  // of each row: reduced, and times C⁻¹

@@ -49,7 +49,8 @@ SparseCholesky::SparseCholesky(int size, const std::vector<std::pair<int, int>>&
     : size_(size), step_(static_cast<std::size_t>(size)), work_(static_cast<std::size_t>(size)) {
   Elimination elimination = eliminate_by_degree(size, entries);
   order_ = std::move(elimination.order);
-  for (std::size_t k = 0; k < order_.size(); ++k) step_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    step_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
   for (std::size_t k = 0; k < order_.size(); ++k) {
     first_.push_back(static_cast<int>(rows_.size()));
     rows_.push_back(static_cast<int>(k));
@@ -62,7 +63,8 @@ SparseCholesky::SparseCholesky(int size, const std::vector<std::pair<int, int>>&
     const auto begin = static_cast<std::size_t>(first_[k]) + 1, end = static_cast<std::size_t>(first_[k + 1]);
     for (std::size_t j = begin; j < end; ++j) {
       for (std::size_t i = j; i < end; ++i) {
-        targets_.push_back(place(order_[static_cast<std::size_t>(rows_[i])], order_[static_cast<std::size_t>(rows_[j])]));
+        targets_.push_back(
+            place(order_[static_cast<std::size_t>(rows_[i])], order_[static_cast<std::size_t>(rows_[j])]));
       }
     }
   }

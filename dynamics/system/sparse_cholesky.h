@@ -5,9 +5,9 @@
 
 namespace sprung::dynamics {
 
-/// Factors L D Lᵀ of a symmetric positive definite sparse matrix whose pattern stays and whose values come again and
-/// again. The order of elimination (minimum degree) and the places of all products are found once; factorising and
-/// solving are plain loops that ask for no memory, their work grows with the entries of L.
+/// Factors L D Lᵀ of a symmetric positive definite sparse matrix whose pattern stays and whose values come
+/// again and again. The order of elimination (minimum degree) and the places of all products are found once;
+/// factorising and solving are plain loops that ask for no memory, their work grows with the entries of L.
 /// Source: [Duff, Erisman & Reid 2017], §§7.3, 11.2
 class SparseCholesky {
  public:
@@ -31,9 +31,9 @@ class SparseCholesky {
  private:
   int size_ = 0;
   std::vector<int> order_, step_;  // rows in the order in which they are eliminated; the inverse
-  std::vector<int> first_;         // of each step's entries in values_: the diagonal, then those below; size_ + 1
-  std::vector<int> rows_;          // beside values_: steps, ascending in a column
-  std::vector<int> targets_;       // for all pairs of entries below a diagonal: what their product is taken from
+  std::vector<int> first_;    // of each step's entries in values_: the diagonal, then those below; size_ + 1
+  std::vector<int> rows_;     // beside values_: steps, ascending in a column
+  std::vector<int> targets_;  // for all pairs of entries below a diagonal: what their product is taken from
   std::vector<double> values_;
   mutable std::vector<double> work_;
 };

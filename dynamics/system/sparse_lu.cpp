@@ -11,9 +11,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kThreshold = 0.1;      // of the largest in its row: smallest pivot
-constexpr double kPivotDecay = 0.02;    // of its first size: a pivot below is chosen anew
-constexpr int kNumRowsSearched = 4;     // for a pivot, among those with the fewest entries
+constexpr double kThreshold = 0.1;    // of the largest in its row: smallest pivot
+constexpr double kPivotDecay = 0.02;  // of its first size: a pivot below is chosen anew
+constexpr int kNumRowsSearched = 4;   // for a pivot, among those with the fewest entries
 
 }  // namespace
 
@@ -46,14 +46,16 @@ struct SparseLu::Elimination {
       for (const auto& [j, value] : row(i)) {
         if (!(std::abs(value) >= kThreshold * largest)) continue;
         const std::size_t cost = (count - 1) * (column(j).size() - 1);
-        if (best.row >= 0 && (cost > least_cost || (cost == least_cost && std::abs(value) <= best_size))) continue;
+        if (best.row >= 0 && (cost > least_cost || (cost == least_cost && std::abs(value) <= best_size)))
+          continue;
         best = {i, j};
         least_cost = cost;
         best_size = std::abs(value);
       }
     }
     // Values that are not numbers: any pivots will do.
-    if (best.row < 0) best = {rows_by_count.begin()->second, row(rows_by_count.begin()->second).begin()->first};
+    if (best.row < 0)
+      best = {rows_by_count.begin()->second, row(rows_by_count.begin()->second).begin()->first};
     return best;
   }
 
@@ -97,8 +99,8 @@ void SparseLu::choose_pivots(std::span<const double> values) {
     }
     step_of_row[static_cast<std::size_t>(pivot.row)] = static_cast<int>(k);
     step_of_column[static_cast<std::size_t>(pivot.column)] = static_cast<int>(k);
-    steps_.push_back({num_factors, static_cast<int>(upper[k].size()), static_cast<int>(lower[k].size()), pivot.row,
-                      pivot.column});
+    steps_.push_back({num_factors, static_cast<int>(upper[k].size()), static_cast<int>(lower[k].size()),
+                      pivot.row, pivot.column});
     num_factors += 1 + steps_.back().num_upper + steps_.back().num_lower;
     matrix.eliminate(pivot);
   }
@@ -133,8 +135,8 @@ void SparseLu::choose_pivots(std::span<const double> values) {
   for (std::size_t k = 0; k < size; ++k) {
     for (const int i : lower[k]) {
       for (const int j : upper[k]) {
-        targets_.push_back(places.at({step_of_row[static_cast<std::size_t>(i)],
-                                      step_of_column[static_cast<std::size_t>(j)]}));
+        targets_.push_back(places.at(
+            {step_of_row[static_cast<std::size_t>(i)], step_of_column[static_cast<std::size_t>(j)]}));
       }
     }
   }
@@ -153,7 +155,8 @@ void SparseLu::choose_pivots(std::span<const double> values) {
 
 void SparseLu::load(std::span<const double> values) {
   std::fill(factors_.begin(), factors_.end(), 0.0);
-  for (std::size_t k = 0; k < places_.size(); ++k) factors_[static_cast<std::size_t>(places_[k])] += values[k];
+  for (std::size_t k = 0; k < places_.size(); ++k)
+    factors_[static_cast<std::size_t>(places_[k])] += values[k];
 }
 
 // @return false where a pivot has become small against its first size
@@ -172,7 +175,8 @@ bool SparseLu::eliminate() {
     *pivot = inverse;  // kept inverted: solving then divides nowhere
     for (int i = 0; i < step.num_lower; ++i) {
       lower[i] *= inverse;
-      for (int j = 0; j < step.num_upper; ++j) factors_[static_cast<std::size_t>(*target++)] -= lower[i] * upper[j];
+      for (int j = 0; j < step.num_upper; ++j)
+        factors_[static_cast<std::size_t>(*target++)] -= lower[i] * upper[j];
     }
     for (int j = 0; j < step.num_upper; ++j) upper[j] *= inverse;
   }
@@ -190,7 +194,8 @@ void SparseLu::factorise(std::span<const double> values) {
   eliminate();
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double size = 1.0 / std::abs(factors_[static_cast<std::size_t>(steps_[k].first)]);
-    first_pivots_[k] = size > 0.0 ? size : std::numeric_limits<double>::infinity();  // singular: again next time
+    first_pivots_[k] =
+        size > 0.0 ? size : std::numeric_limits<double>::infinity();  // singular: again next time
   }
 }
 

@@ -21,11 +21,11 @@ constexpr std::array<std::array<double, 6>, 6> kA{{
     {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
 }};
 // Order 5 less order 4.
-constexpr std::array<double, 7> kError{71.0 / 57600.0, 0.0,           -71.0 / 16695.0, 71.0 / 1920.0,
+constexpr std::array<double, 7> kError{71.0 / 57600.0,      0.0,          -71.0 / 16695.0, 71.0 / 1920.0,
                                        -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0};
 // Of the continuous extension.
-constexpr std::array<double, 7> kDense{-12715105075.0 / 11282082432.0, 0.0,
-                                       87487479700.0 / 32700410799.0,  -10690763975.0 / 1880347072.0,
+constexpr std::array<double, 7> kDense{-12715105075.0 / 11282082432.0,  0.0,
+                                       87487479700.0 / 32700410799.0,   -10690763975.0 / 1880347072.0,
                                        701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
                                        69997945.0 / 29380423.0};
 constexpr double kShortestStep = 1e-12;  // s
@@ -60,8 +60,8 @@ bool DenseBaseline::evaluate(const Vector& y, Vector& y_dot) {
   return y_dot.allFinite();
 }
 
-void DenseBaseline::write_outputs(double time, double step, const Vector& y, const Vector& y_new, double end_time,
-                                  double output_step, const Output& output) {
+void DenseBaseline::write_outputs(double time, double step, const Vector& y, const Vector& y_new,
+                                  double end_time, double output_step, const Output& output) {
   const double slack = 1e-9 * output_step;
   Vector at(y.size()), rate(y.size());
   const Vector change = y_new - y, first = step * k_[0] - change, second = change - step * k_[6] - first;
@@ -73,7 +73,8 @@ void DenseBaseline::write_outputs(double time, double step, const Vector& y, con
     if (next > std::min(end_time, time + step) + slack) break;
     const double s = std::min(1.0, (next - time) / step);
     at = y + s * (change + (1.0 - s) * (first + s * (second + (1.0 - s) * third)));
-    if (!evaluate(at, rate)) throw support::NumericalError(fmt::format("dense baseline: stopped at t = {} s", next));
+    if (!evaluate(at, rate))
+      throw support::NumericalError(fmt::format("dense baseline: stopped at t = {} s", next));
     output(next, q_, evaluator_.v_dot());
   }
   statistics_.evaluations = evaluations;  // those of the integration alone
@@ -111,7 +112,8 @@ DenseBaseline::Statistics DenseBaseline::run(double end_time, double tolerance, 
       ++statistics_.rejected;
       factor_limit = 1.0;
       step *= factor;
-      if (step < kShortestStep) throw support::NumericalError(fmt::format("dense baseline: stopped at t = {} s", time));
+      if (step < kShortestStep)
+        throw support::NumericalError(fmt::format("dense baseline: stopped at t = {} s", time));
       continue;
     }
     if (output) write_outputs(time, step, y, y_new, end_time, output_step, output);

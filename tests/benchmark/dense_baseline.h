@@ -9,9 +9,9 @@
 
 namespace sprung::benchmark {
 
-/// What the toolchain is measured against: the plain dense evaluator under adaptive Dormand–Prince 5(4), with one
-/// partition for the whole run, the same error scales, and nothing located: the step control finds kinks and jumps.
-/// Source: [Hairer, Nørsett & Wanner 1993], §§II.4–6: DOPRI5 with its continuous extension
+/// What the toolchain is measured against: the plain dense evaluator under adaptive Dormand–Prince 5(4), with
+/// one partition for the whole run, the same error scales, and nothing located: the step control finds kinks
+/// and jumps. Source: [Hairer, Nørsett & Wanner 1993], §§II.4–6: DOPRI5 with its continuous extension
 class DenseBaseline {
  public:
   /// A row of outputs: motion of all coordinates.
@@ -27,7 +27,8 @@ class DenseBaseline {
   /// @param largest_step  so that no obstacle is stepped over [s]
   /// @param output        at 0, output_step, … up to end_time; may be empty
   /// @throws support::NumericalError where the step becomes too short
-  Statistics run(double end_time, double tolerance, double largest_step, double output_step, const Output& output);
+  Statistics run(double end_time, double tolerance, double largest_step, double output_step,
+                 const Output& output);
 
  private:
   using Vector = Eigen::VectorXd;

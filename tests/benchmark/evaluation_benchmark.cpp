@@ -1,6 +1,6 @@
-// One evaluation of the truck's equations of motion (positions of the dependents, velocities, accelerations), by the
-// fast evaluator and by the plain dense one, with 0, 2, 4, 12 and 36 chassis modes. Compare ratios within one run: the
-// machine's speed drifts. tools/benchmark prints them.
+// One evaluation of the truck's equations of motion (positions of the dependents, velocities, accelerations),
+// by the fast evaluator and by the plain dense one, with 0, 2, 4, 12 and 36 chassis modes. Compare ratios
+// within one run: the machine's speed drifts. tools/benchmark prints them.
 
 #include <benchmark/benchmark.h>
 
@@ -30,7 +30,8 @@ struct Truck {
     branches.resize(static_cast<std::size_t>(at_rest.model.num_branches));
     fast.terms().choose_branches(branches);
     for (std::size_t k = 0; k < sines.size(); ++k) {
-      sines[k] = std::sin(2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(sines.size()));
+      sines[k] =
+          std::sin(2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(sines.size()));
     }
     q = fast.q();
     v = fast.v();
@@ -38,7 +39,8 @@ struct Truck {
   // As far as an integrator moves in a step.
   void move() {
     ++step;
-    for (std::size_t k = 0; k < q_i.size(); ++k) q_i[k] = start[k] + 1e-4 * sines[(step + 10 * k) % sines.size()];
+    for (std::size_t k = 0; k < q_i.size(); ++k)
+      q_i[k] = start[k] + 1e-4 * sines[(step + 10 * k) % sines.size()];
   }
 
   test::TruckAtRest at_rest;

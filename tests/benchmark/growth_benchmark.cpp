@@ -1,5 +1,6 @@
-// Cost of one evaluation and of one step against the number of bodies: an open chain of pendulums, and a chain closed
-// round like a track. Prints a line of JSON for each model; tools/benchmark makes a table of them.
+// Cost of one evaluation and of one step against the number of bodies: an open chain of pendulums, and a
+// chain closed round like a track. Prints a line of JSON for each model; tools/benchmark makes a table of
+// them.
 //
 //   growth_benchmark 10 100 1000
 
@@ -38,16 +39,19 @@ void benchmark_chain(const char* name, const test::Chain& chain, int num_steps) 
   const double begun = thread_seconds();
   for (int i = 0; i < num_steps; ++i) integrator->step(1e-3);
   const double seconds = thread_seconds() - begun;
-  fmt::print(R"({{"chain": "{}", "bodies": {}, "freedoms": {}, "factor_entries": {}, "seconds_to_start": {:.4e}, )"
-             R"("seconds_per_evaluation": {:.4e}, "seconds_per_step": {:.4e}}})" "\n",
-             name, chain.model.bodies.size(), chain.model.num_freedoms(), ode.equations().num_factor_entries(),
-             started - before, seconds / static_cast<double>(ode.num_derivatives() - first), seconds / num_steps);
+  fmt::print(
+      R"({{"chain": "{}", "bodies": {}, "freedoms": {}, "factor_entries": {}, "seconds_to_start": {:.4e}, )"
+      R"("seconds_per_evaluation": {:.4e}, "seconds_per_step": {:.4e}}})"
+      "\n",
+      name, chain.model.bodies.size(), chain.model.num_freedoms(), ode.equations().num_factor_entries(),
+      started - before, seconds / static_cast<double>(ode.num_derivatives() - first), seconds / num_steps);
 }
 
 int run(int argc, char** argv) {
   std::vector<int> sizes{10, 100, 1000};
   int num_steps = 50;
-  CLI::App app("Cost of an evaluation and of a step against the number of bodies, as JSON: see tools/benchmark");
+  CLI::App app(
+      "Cost of an evaluation and of a step against the number of bodies, as JSON: see tools/benchmark");
   app.add_option("sizes", sizes, "numbers of bodies");
   app.add_option("--steps", num_steps, "that are timed");
   try {

@@ -1,11 +1,12 @@
-// Whole runs of the truck at several tolerances: what they cost and what they give. tools/benchmark compares the series
-// with those of a converged run, and prints the costs.
+// Whole runs of the truck at several tolerances: what they cost and what they give. tools/benchmark compares
+// the series with those of a converged run, and prints the costs.
 //
-//   run_benchmark RUN.toml SUPERELEMENTS --modes 2 --method adams --tolerance 1e-5 1e-6 --repetitions 5 --series FILE
+//   run_benchmark RUN.toml SUPERELEMENTS --modes 2 --method adams --tolerance 1e-5 1e-6 --repetitions 5
+//   --series FILE
 //
-// Prints a line of JSON for each tolerance. The time is that of this thread's own clock, for a run without outputs.
-// FILE gets for each tolerance the run's samples one after the other, 4 doubles each: time, height and vertical
-// acceleration of the chassis, front-end deflection, in SI units.
+// Prints a line of JSON for each tolerance. The time is that of this thread's own clock, for a run without
+// outputs. FILE gets for each tolerance the run's samples one after the other, 4 doubles each: time, height
+// and vertical acceleration of the chassis, front-end deflection, in SI units.
 
 #include <fmt/format.h>
 #include <time.h>
@@ -55,7 +56,8 @@ class Chassis {
  public:
   explicit Chassis(const dynamics::Model& model) {
     const int body = model.find_body("chassis"), marker = model.find_marker("chassis.front_end");
-    if (body < 0 || marker < 0) throw std::invalid_argument("run_benchmark: the vehicle has no point chassis.front_end");
+    if (body < 0 || marker < 0)
+      throw std::invalid_argument("run_benchmark: the vehicle has no point chassis.front_end");
     first_ = model.bodies[static_cast<std::size_t>(body)].first_coordinate;
     front_end_ = model.markers[static_cast<std::size_t>(marker)].Phi.row(1);
   }
@@ -112,8 +114,10 @@ void benchmark_tolerance(const dynamics::PreparedRun& prepared, const Request& r
     cost = run_once(prepared, request, tolerance, nullptr);
     seconds += fmt::format("{}{:.6e}", i > 0 ? ", " : "", thread_seconds() - start);
   }
-  fmt::print(R"({{"method": "{}", "modes": {}, "tolerance": {:g}, "evaluations": {}, "steps": {}, "seconds": [{}]}})"
-             "\n", request.method, request.num_modes, tolerance, cost.evaluations, cost.steps, seconds);
+  fmt::print(
+      R"({{"method": "{}", "modes": {}, "tolerance": {:g}, "evaluations": {}, "steps": {}, "seconds": [{}]}})"
+      "\n",
+      request.method, request.num_modes, tolerance, cost.evaluations, cost.steps, seconds);
 }
 
 int run(int argc, char** argv) {
@@ -133,7 +137,8 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? support::kGood : support::kBadInput;
   }
   std::vector<std::string> overrides{fmt::format("modes.chassis={}", request.num_modes)};
-  if (request.method != kBaseline) overrides.push_back(fmt::format("integrator.method=\"{}\"", request.method));
+  if (request.method != kBaseline)
+    overrides.push_back(fmt::format("integrator.method=\"{}\"", request.method));
   const dynamics::PreparedRun prepared = dynamics::prepare_run({.run_file = request.run_file,
                                                                 .superelement_folder = request.superelements,
                                                                 .overrides = overrides,

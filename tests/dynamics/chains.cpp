@@ -30,7 +30,8 @@ Chain make_links(const std::vector<Eigen::Vector2d>& corners) {
     const std::string name = "link " + std::to_string(i + 1);
     const int link = add_body(chain.model, dynamics::make_rigid_body(name, kMass, kInertia));
     const double half = 0.5 * (corners[i + 1] - corners[i]).norm();
-    add_pin(chain.model, name + " pin", last_end, add_marker(chain.model, link, {-half, 0.0}, name + " begin"));
+    add_pin(chain.model, name + " pin", last_end,
+            add_marker(chain.model, link, {-half, 0.0}, name + " begin"));
     last_end = add_marker(chain.model, link, {half, 0.0}, name + " end");
     chain.state.q.segment<3>(static_cast<Eigen::Index>(3 * i)) = place_between(corners[i], corners[i + 1]);
   }
@@ -71,8 +72,8 @@ Chain make_closed_chain(int num_links) {
     const std::string name = "spring " + std::to_string(i + 1);
     const Eigen::Vector2d middle = chain.state.q.segment<2>(3 * i);
     const int link = add_marker(model, i, Eigen::Vector2d::Zero(), name + " link");
-    add_spring(model, name, link, add_marker(model, dynamics::kGround, 1.1 * middle, name + " ground"), 0.1 * radius,
-               2e3, 20.0);
+    add_spring(model, name, link, add_marker(model, dynamics::kGround, 1.1 * middle, name + " ground"),
+               0.1 * radius, 2e3, 20.0);
   }
   complete(chain);
   return chain;

@@ -15,8 +15,8 @@ struct Chain {
 /// @param num_links  > 0
 Chain make_open_chain(int num_links);
 
-/// Links pinned end to end around a regular polygon, as a track, on a pin to the ground at the first; springs from every
-/// fifth link to the ground: num_links − 2 freedoms.
+/// Links pinned end to end around a regular polygon, as a track, on a pin to the ground at the first; springs
+/// from every fifth link to the ground: num_links − 2 freedoms.
 /// @param num_links  > 3
 Chain make_closed_chain(int num_links);
 

@@ -1,4 +1,5 @@
-// The sparse factors against Eigen's dense ones, on patterns with no order in them, and what they cost on chains.
+// The sparse factors against Eigen's dense ones, on patterns with no order in them, and what they cost on
+// chains.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -29,7 +30,8 @@ std::vector<dynamics::SparseLu::Position> scattered_pattern(int size) {
   return pattern;
 }
 
-MatrixXd make_dense(int size, const std::vector<dynamics::SparseLu::Position>& pattern, const VectorXd& values) {
+MatrixXd make_dense(int size, const std::vector<dynamics::SparseLu::Position>& pattern,
+                    const VectorXd& values) {
   MatrixXd matrix = MatrixXd::Zero(size, size);
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     matrix(pattern[k].row, pattern[k].column) += values[static_cast<Eigen::Index>(k)];
@@ -78,7 +80,8 @@ TEST_CASE("Sparse Cholesky solves, and tells an indefinite matrix", "[system]") 
   MatrixXd dense = 8.0 * MatrixXd::Identity(kSize, kSize);
   const auto load = [&] {
     std::fill(factor.values().begin(), factor.values().end(), 0.0);
-    for (int i = 0; i < kSize; ++i) factor.values()[static_cast<std::size_t>(factor.place(i, i))] = dense(i, i);
+    for (int i = 0; i < kSize; ++i)
+      factor.values()[static_cast<std::size_t>(factor.place(i, i))] = dense(i, i);
     for (const auto& [i, j] : pattern) {
       if (i == j) continue;
       factor.values()[static_cast<std::size_t>(factor.place(i, j))] = dense(i, j);
@@ -103,7 +106,8 @@ TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
   for (int i = 0; i < 20; ++i) {
     MatrixXd dense = MatrixXd::Zero(9, 15);
     for (int k = 0; k < 45; ++k) dense((7 * k + i) % 9, (4 * k) % 15) = random.size_up_to(1.0);
-    if (i % 4 == 0) dense.row(3) = dense.row(5) - 2.0 * dense.row(8);  // of lower rank: nothing is left for the last
+    if (i % 4 == 0)
+      dense.row(3) = dense.row(5) - 2.0 * dense.row(8);  // of lower rank: nothing is left for the last
     const dynamics::ColumnPivots found = dynamics::choose_columns(dense.sparseView());
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(dense);
     REQUIRE(found.columns.size() == 9);
