@@ -8,6 +8,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kAssemblyTolerance = 1e-12;  // of the model's length scale
+constexpr double kAim = 0.01;  // of the tolerance: what is left would else be noise to a fine integration
 constexpr int kMaxNewtonIterations = 12;
 
 }  // namespace
@@ -53,7 +54,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     if (size <= tolerance) return true;
     // Until it is seen: with the factors from a distance d the residual is of order d², and falls by the share d.
     const double contraction = iteration == 0 ? std::sqrt(size / model_->length_scale) : size / last;
-    if (size * contraction * contraction > tolerance) refactor();
+    if (size * contraction * contraction > kAim * tolerance) refactor();
     last = size;
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
