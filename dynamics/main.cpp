@@ -41,6 +41,10 @@ int run(int argc, char** argv) {
   add_input_options(*equilibrium, request, output);
   CLI::App* modes = app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");
   add_input_options(*modes, request, output);
+  CLI::App* response = app.add_subcommand(
+      "response", "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
+  add_input_options(*response, request, output);
+  response->add_option("-o,--output", output.results, "response file (HDF5); none is written without it");
 
   try {
     app.parse(argc, argv);
@@ -49,6 +53,7 @@ int run(int argc, char** argv) {
   }
   if (*run) return run_command(request, output);
   if (*equilibrium) return equilibrium_command(request, output.json);
+  if (*response) return response_command(request, output);
   return modes_command(request, output.json);
 }
 

@@ -1,6 +1,11 @@
 #include "fem/assembly.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
 #include <vector>
+
+#include "fem/geometric_stiffness.h"
 
 namespace sprung::fem {
 
@@ -49,6 +54,24 @@ AssembledMatrices assemble(const BeamModel& model) {
   }
   const int num_dofs = 3 * model.mesh.num_nodes();
   return {.stiffness = make_matrix(num_dofs, stiffness), .mass = make_matrix(num_dofs, mass)};
+}
+
+Eigen::SparseMatrix<double> assemble_geometric_stiffness(const BeamModel& model,
+                                                         const std::vector<AxialForce>& axial_forces) {
+  check_beam_model(model, "assemble_geometric_stiffness");
+  if (axial_forces.size() != model.mesh.elements.size()) {
+    throw std::invalid_argument(
+        fmt::format("assemble_geometric_stiffness: {} axial forces, expected one for each of {} elements",
+                    axial_forces.size(), model.mesh.elements.size()));
+  }
+  Triplets stiffness;
+  stiffness.reserve(36 * model.mesh.elements.size());
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    const auto index = static_cast<std::size_t>(e);
+    add_symmetric(stiffness, model.mesh.elements[index],
+                  calc_geometric_stiffness(make_element(model, e), axial_forces[index]));
+  }
+  return make_matrix(3 * model.mesh.num_nodes(), stiffness);
 }
 
 Eigen::MatrixXd calc_rigid_motions(const Mesh& mesh, const Eigen::Vector2d& origin) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <vector>
 
+#include "fem/axial_force.h"
 #include "fem/beam_model.h"
 
 namespace sprung::fem {
@@ -17,6 +19,15 @@ struct AssembledMatrices {
 /// @throws std::invalid_argument if the model is not consistent (check_beam_model)
 /// Checked by tests/fem/assembly_test.cpp
 AssembledMatrices assemble(const BeamModel& model);
+
+/// Adds up the elements' geometric stiffness under given axial forces (fem/README.md, eq. 21).
+///
+/// @param axial_forces  one for each element
+/// @return 3N×3N, exactly symmetric, zero on the two translations [N/m, N, N·m]
+/// @throws std::invalid_argument if the model is not consistent, or there are not as many forces as elements
+/// Checked by tests/fem/geometric_stiffness_test.cpp
+Eigen::SparseMatrix<double> assemble_geometric_stiffness(const BeamModel& model,
+                                                         const std::vector<AxialForce>& axial_forces);
 
 /// The three rigid motions of a frame: unit translation along x, along y, unit rotation about a point.
 ///

@@ -1,9 +1,10 @@
 #include "fem/mass_moments.h"
 
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "fem/gauss_points.h"
 
 namespace sprung::fem {
 
@@ -12,21 +13,6 @@ namespace {
 using Triplets = std::vector<Eigen::Triplet<double>>;
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-// Gauss–Legendre on 0 … 1, exact to degree 7; the products of cubic shape functions have degree 6.
-struct GaussPoint {
-  double xi, weight;
-};
-std::array<GaussPoint, 4> make_gauss_points() {
-  const double inner = std::sqrt(3.0 / 7.0 - 2.0 / 7.0 * std::sqrt(6.0 / 5.0));
-  const double outer = std::sqrt(3.0 / 7.0 + 2.0 / 7.0 * std::sqrt(6.0 / 5.0));
-  const double inner_weight = (18.0 + std::sqrt(30.0)) / 72.0;
-  const double outer_weight = (18.0 - std::sqrt(30.0)) / 72.0;
-  return {{{0.5 - 0.5 * outer, outer_weight},
-           {0.5 - 0.5 * inner, inner_weight},
-           {0.5 + 0.5 * inner, inner_weight},
-           {0.5 + 0.5 * outer, outer_weight}}};
-}
 
 // The triplets of the four matrices, beside the vectors that are added up in place.
 struct Sums {

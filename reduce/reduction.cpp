@@ -10,7 +10,9 @@
 #include "reduce/canonical_basis.h"
 #include "reduce/clusters.h"
 #include "reduce/distance_weighted_mass.h"
+#include "reduce/held_node.h"
 #include "reduce/inertia_invariants.h"
+#include "reduce/reference_stiffness.h"
 #include "reduce/rounding_error.h"
 #include "reduce/superelement_checks.h"
 #include "tools/support/numerical_error.h"
@@ -23,31 +25,6 @@ using support::InputError;
 using support::NumericalError;
 
 constexpr double kResidualTolerance = 1e-6;
-
-// Rows and columns of a sparse matrix without the three of a node.
-Eigen::SparseMatrix<double> remove_node(const Eigen::SparseMatrix<double>& matrix, int node) {
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(static_cast<std::size_t>(matrix.nonZeros()));
-  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (entry.row() / 3 == node || entry.col() / 3 == node) continue;
-      const auto row = static_cast<int>(entry.row()), col = static_cast<int>(entry.col());
-      triplets.emplace_back(row / 3 > node ? row - 3 : row, col / 3 > node ? col - 3 : col, entry.value());
-    }
-  }
-  Eigen::SparseMatrix<double> result(matrix.rows() - 3, matrix.cols() - 3);
-  result.setFromTriplets(triplets.begin(), triplets.end());
-  return result;
-}
-
-// Shapes of all freedoms from those of a held frame: nothing moves at the node.
-Eigen::MatrixXd insert_node(const Eigen::MatrixXd& vectors, int node) {
-  Eigen::MatrixXd shapes(vectors.rows() + 3, vectors.cols());
-  shapes.topRows(3 * node) = vectors.topRows(3 * node);
-  shapes.middleRows(3 * node, 3).setZero();
-  shapes.bottomRows(vectors.rows() - 3 * node) = vectors.bottomRows(vectors.rows() - 3 * node);
-  return shapes;
-}
 
 void check_rounding(double error, double frequency_hz) {
   if (error <= kMaxRoundingError) return;
@@ -139,8 +116,7 @@ void copy_mesh(const fem::Mesh& mesh, const Eigen::Matrix2Xd& node_positions, Su
 // The checks for which the finite element model is needed.
 void add_model_checks(const ModalProblem& problem, const ClampedModes& modes, int reference_node,
                       double rounding, Superelement& s) {
-  Eigen::MatrixXd held(problem.size(), s.shapes.cols());
-  held << s.shapes.topRows(3 * reference_node), s.shapes.bottomRows(s.shapes.rows() - 3 * reference_node - 3);
+  const Eigen::MatrixXd held = remove_node(s.shapes, reference_node);
   const auto num_found = static_cast<double>(modes.pairs.omega_squared.size());
   s.checks.push_back({.name = "modes missing below the highest one",
                       .value = std::abs(static_cast<double>(modes.num_below) - num_found),
@@ -198,6 +174,8 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.mass = s.inertia.M_ff;
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
   s.resultants = calc_mode_resultants(model, basis.shapes);
+  s.geometric_stiffness =
+      calc_reference_stiffness(model, design.reference_node, problem.stiffness, moments, basis.shapes);
   s.provenance = design.provenance;
 
   add_model_checks(problem, modes, design.reference_node, rounding, s);

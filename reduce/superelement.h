@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,22 @@ struct InertiaInvariants {
   // The same integrals by component; what is above follows from them and from the rotary inertia.
   Eigen::RowVectorXd x_phi_x, x_phi_y, y_phi_x, y_phi_y;  ///< 1×n each, ∫x φ_x dm …
   Eigen::MatrixXd phi_x_phi_x, phi_x_phi_y, phi_y_phi_y;  ///< n×n each, ∫φ_xᵀφ_x dm …
+};
+
+/// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
+/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times minus
+/// one half it is, in the load's direction, the displacement of second order in the modal coordinates that
+/// beams which bend without stretching make (eq. 23).
+struct GeometricStiffness {
+  Eigen::MatrixXd centrifugal;           ///< K_ω, of turning at 1 rad/s about the body frame's origin [1]
+  Eigen::MatrixXd angular_acceleration;  ///< K_α, of the inertia at 1 rad/s² [1]
+  /// K_x, K_y, of the inertia at an acceleration of the frame of 1 m/s² along its axes [1/m]
+  std::array<Eigen::MatrixXd, 2> acceleration;
+  /// Of each of the superelement's points: K of a force of 1 N along x, along y [1/(kg·m)], of a moment of
+  /// 1 N·m [1/(kg·m²)] on its node
+  std::vector<std::array<Eigen::MatrixXd, 3>> point_loads;
+
+  int num_modes() const { return static_cast<int>(centrifugal.rows()); }
 };
 
 /// A node that a design gave a name.
@@ -74,6 +92,7 @@ struct Superelement {
   InertiaInvariants inertia;
   Eigen::MatrixXd resultants;  ///< 6E×n per unit modal coordinate: N [N], Q [N], M [N·m] at the first, then
                                ///< the second end of each element
+  std::optional<GeometricStiffness> geometric_stiffness;  ///< none in files of version 1
 
   std::vector<CheckResult> checks;
   Provenance provenance;
@@ -83,10 +102,11 @@ struct Superelement {
   int num_nodes() const { return static_cast<int>(node_ids.size()); }
 };
 
-/// Version of the file format that is written; every earlier one can be read (reduce/superelement.md).
-inline constexpr std::int64_t kSuperelementVersion = 1;
+/// Newest version of the file format; every earlier one can be read (reduce/superelement.md).
+inline constexpr std::int64_t kSuperelementVersion = 2;
 
-/// Writes the file whole or not at all; equal superelements give equal bytes.
+/// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it is
+/// a file of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

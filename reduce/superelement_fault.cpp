@@ -181,6 +181,38 @@ Fault check_inertia(const InertiaInvariants& inertia, Eigen::Index n) {
   return check_positive_definite("/inertia/M_ff", inertia.M_ff);
 }
 
+Fault check_symmetric(const std::string& dataset, const Eigen::MatrixXd& matrix, Eigen::Index size) {
+  if (Fault fault = check_matrix(dataset, matrix, size, size)) return fault;
+  return check_symmetry(dataset, matrix, 1.0);
+}
+
+Fault check_geometric_stiffness(const Superelement& s) {
+  const GeometricStiffness& geometric = *s.geometric_stiffness;
+  const Eigen::Index m = geometric.num_modes();
+  if (m < 1 || m > s.num_modes()) {
+    return SuperelementFault{"/stiffening/centrifugal",
+                             fmt::format("is of {} modes, expected 1 … {}", m, s.num_modes())};
+  }
+  if (Fault fault = check_symmetric("/stiffening/centrifugal", geometric.centrifugal, m)) return fault;
+  if (Fault fault = check_symmetric("/stiffening/angular_acceleration", geometric.angular_acceleration, m)) {
+    return fault;
+  }
+  for (const Eigen::MatrixXd& K : geometric.acceleration) {
+    if (Fault fault = check_symmetric("/stiffening/acceleration", K, m)) return fault;
+  }
+  if (geometric.point_loads.size() != s.points.size()) {
+    return SuperelementFault{"/stiffening/point_load",
+                             fmt::format("is of {} points, expected {}", geometric.point_loads.size(),
+                                         s.points.size())};
+  }
+  for (const auto& loads : geometric.point_loads) {
+    for (const Eigen::MatrixXd& K : loads) {
+      if (Fault fault = check_symmetric("/stiffening/point_load", K, m)) return fault;
+    }
+  }
+  return {};
+}
+
 Fault check_provenance(const Superelement& s) {
   if (s.provenance.input_names.size() != s.provenance.input_hashes.size()) {
     return SuperelementFault{"/provenance/input_hash",
@@ -208,6 +240,9 @@ std::optional<SuperelementFault> find_fault(const Superelement& superelement) {
   if (Fault fault = check_matrix("/resultants", superelement.resultants, 6 * superelement.elements.cols(),
                                  superelement.frequency_hz.size())) {
     return fault;
+  }
+  if (superelement.geometric_stiffness) {
+    if (Fault fault = check_geometric_stiffness(superelement)) return fault;
   }
   return check_provenance(superelement);
 }

@@ -72,6 +72,15 @@ void add_inertia(ContentHash& hash, const InertiaInvariants& inertia) {
   add(hash, "/inertia/phi_y_phi_y", inertia.phi_y_phi_y);
 }
 
+void add_geometric_stiffness(ContentHash& hash, const GeometricStiffness& geometric) {
+  add(hash, "/stiffening/centrifugal", geometric.centrifugal);
+  add(hash, "/stiffening/angular_acceleration", geometric.angular_acceleration);
+  for (const Eigen::MatrixXd& K : geometric.acceleration) add(hash, "/stiffening/acceleration", K);
+  for (const auto& loads : geometric.point_loads) {
+    for (const Eigen::MatrixXd& K : loads) add(hash, "/stiffening/point_load", K);
+  }
+}
+
 void add_record(ContentHash& hash, const Superelement& s) {
   for (const CheckResult& check : s.checks) {
     const double numbers[] = {check.value, check.tolerance};
@@ -93,6 +102,7 @@ std::string calc_content_hash(const Superelement& superelement) {
   add_body(hash, superelement);
   add_modes(hash, superelement);
   add_inertia(hash, superelement.inertia);
+  if (superelement.geometric_stiffness) add_geometric_stiffness(hash, *superelement.geometric_stiffness);
   add_record(hash, superelement);
   return hash.hex();
 }

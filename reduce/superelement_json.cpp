@@ -105,6 +105,8 @@ std::string format_superelement_json(const Superelement& s, std::span<const Chec
                  {"num_nodes", fmt::format("{}", s.num_nodes())},
                  {"num_elements", fmt::format("{}", s.elements.cols())},
                  {"num_elastic_dofs", fmt::format("{}", s.num_elastic_dofs)},
+                 {"num_stiffened_modes",
+                  fmt::format("{}", s.geometric_stiffness ? s.geometric_stiffness->num_modes() : 0)},
                  {"mass_kg", number(s.inertia.mass)},
                  {"center_of_mass_m", list({number(center.x()), number(center.y())})},
                  {"inertia_center_of_mass_kg_m2", number(central)},

@@ -20,7 +20,8 @@ InputError dataset_error(const Hdf5Reader& file, const std::string& dataset, con
   return InputError({.path = file.path().string()}, fmt::format("dataset '{}' {}", dataset, message));
 }
 
-void check_format(const Hdf5Reader& file) {
+// The version of the format.
+std::int64_t read_version(const Hdf5Reader& file) {
   const support::SourceLocation where{.path = file.path().string()};
   if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != "sprung-superelement") {
     throw InputError(where, "not a superelement: attribute 'format' is not 'sprung-superelement'");
@@ -34,6 +35,7 @@ void check_format(const Hdf5Reader& file) {
   }
   if (version < 1)
     throw InputError(where, fmt::format("superelement format version {}, expected ≥ 1", version));
+  return version;
 }
 
 std::size_t as_size(Eigen::Index value) {
@@ -109,6 +111,22 @@ void read_inertia(const Hdf5Reader& file, Eigen::Index n, InertiaInvariants& ine
   inertia.phi_y_phi_y = file.matrix("/inertia/phi_y_phi_y", n, n);
 }
 
+GeometricStiffness read_geometric_stiffness(const Hdf5Reader& file, std::size_t num_points) {
+  GeometricStiffness geometric;
+  geometric.centrifugal = file.matrix("/stiffening/centrifugal", -1, -1);
+  const Eigen::Index m = geometric.centrifugal.rows();
+  geometric.angular_acceleration = file.matrix("/stiffening/angular_acceleration", m, m);
+  const Eigen::MatrixXd accelerations = read_grouped(file, "/stiffening/acceleration", 2 * m, m, m);
+  geometric.acceleration = {accelerations.topRows(m), accelerations.bottomRows(m)};
+  const auto num_loads = 3 * static_cast<Eigen::Index>(num_points);
+  const Eigen::MatrixXd loads = read_grouped(file, "/stiffening/point_load", num_loads * m, m, m);
+  for (Eigen::Index first = 0; first < num_loads * m; first += 3 * m) {
+    geometric.point_loads.push_back(
+        {loads.middleRows(first, m), loads.middleRows(first + m, m), loads.middleRows(first + 2 * m, m)});
+  }
+  return geometric;
+}
+
 std::string read_single_string(const Hdf5Reader& file, const std::string& dataset) {
   const std::vector<std::string> texts = file.strings(dataset);
   if (texts.size() == 1) return texts.front();
@@ -135,11 +153,12 @@ void read_record(const Hdf5Reader& file, Superelement& s) {
 
 Superelement read_superelement(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
-  check_format(file);
+  const std::int64_t version = read_version(file);
   Superelement s;
   read_body(file, s);
   read_modes(file, s);
   read_inertia(file, s.frequency_hz.size(), s.inertia);
+  if (version >= 2) s.geometric_stiffness = read_geometric_stiffness(file, s.points.size());
   read_record(file, s);
   if (const std::optional<SuperelementFault> fault = find_fault(s)) {
     throw dataset_error(file, fault->dataset, fault->message);

@@ -78,6 +78,27 @@ void write_inertia(Hdf5Writer& file, const InertiaInvariants& inertia) {
   file.write("/inertia/phi_y_phi_y", inertia.phi_y_phi_y, "1");
 }
 
+// Matrices of one size, m×m each, as an array of rank 3.
+template <typename Matrices>
+void write_matrices(Hdf5Writer& file, const std::string& dataset, const Matrices& matrices, Eigen::Index m,
+                    std::string_view unit) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(matrices.size()) * m, m);
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    rows.middleRows(static_cast<Eigen::Index>(i) * m, m) = matrices[i];
+  }
+  write_grouped(file, dataset, rows, static_cast<std::size_t>(m), unit);
+}
+
+void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& geometric) {
+  const Eigen::Index m = geometric.num_modes();
+  file.write("/stiffening/centrifugal", geometric.centrifugal, "1");
+  file.write("/stiffening/angular_acceleration", geometric.angular_acceleration, "1");
+  write_matrices(file, "/stiffening/acceleration", geometric.acceleration, m, "1/m");
+  std::vector<Eigen::MatrixXd> loads;
+  for (const auto& of_point : geometric.point_loads) loads.insert(loads.end(), of_point.begin(), of_point.end());
+  write_matrices(file, "/stiffening/point_load", loads, m, "1/(kg·m), 1/(kg·m), 1/(kg·m^2)");
+}
+
 void write_record(Hdf5Writer& file, const Superelement& s) {
   std::vector<std::string> names;
   std::vector<double> values, tolerances;
@@ -107,7 +128,7 @@ std::string write_superelement(const Superelement& superelement, const std::file
   const std::string hash = calc_content_hash(superelement);
   Hdf5Writer file(path);
   file.attribute("/", "format", std::string_view("sprung-superelement"));
-  file.attribute("/", "version", kSuperelementVersion);
+  file.attribute("/", "version", superelement.geometric_stiffness ? kSuperelementVersion : std::int64_t{1});
   file.attribute("/", "units", std::string_view("SI: kg, m, s, N, rad; frequencies in Hz"));
   file.attribute("/", "name", std::string_view(superelement.name));
   file.attribute("/", "num_elastic_dofs", superelement.num_elastic_dofs);
@@ -115,6 +136,7 @@ std::string write_superelement(const Superelement& superelement, const std::file
   write_body(file, superelement);
   write_modes(file, superelement);
   write_inertia(file, superelement.inertia);
+  if (superelement.geometric_stiffness) write_geometric_stiffness(file, *superelement.geometric_stiffness);
   write_record(file, superelement);
   file.commit();
   return hash;

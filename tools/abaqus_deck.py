@@ -2,7 +2,7 @@
 
 meshio's own reader is not used for it: in version 5.0 it keeps the last *NODE block alone, gives an element set to the
 wrong block when an earlier *ELEMENT has no ELSET, leaves node sets of set names empty, and does not tell what else the
-deck holds. tests/tools/convert_mesh_test.py compares the two where meshio's is right.
+deck holds. tests/tools/mesh_reading_test.py compares the two where meshio's is right.
 """
 
 import os
@@ -19,6 +19,7 @@ KINDS = {  # what a beam of that type is in Abaqus
     "B21": "shear-flexible", "B31": "shear-flexible", "PIPE21": "shear-flexible", "PIPE31": "shear-flexible",
     "B23": "cubic, without shear", "B33": "cubic, without shear", "T2D2": "axial alone", "T3D2": "axial alone",
 }  # fmt: skip
+IN_ASSEMBLY = "Assembly."  # before the name of an assembly's set where the part has one of that name
 GENERATING = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"}
 SILENT = {"HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "END STEP"}
 
@@ -40,8 +41,11 @@ class Block(NamedTuple):
         return f"*{', '.join([self.keyword, *shown])} (line {self.line})"
 
 
-def read_blocks(path):
-    """All blocks of a deck, those of *INCLUDE in their place. MeshError if it is not a whole deck."""
+def read_blocks(path, including=()):
+    """All blocks of a deck, those of *INCLUDE in their place. MeshError if it is not a whole deck.
+
+    including: the files that include this one, each by the one before.
+    """
     try:
         with open(path, encoding="utf-8", errors="replace") as file:
             text = file.read()
@@ -63,14 +67,19 @@ def read_blocks(path):
             )
         else:
             blocks[-1].data.append((number, [part.strip().strip("\"'") for part in line.split(",")]))
-    return [found for block in blocks for found in follow_include(block)]
+    return [found for block in blocks for found in follow_include(block, (*including, path))]
 
 
-def follow_include(block):
+def follow_include(block, including):
     if block.keyword != "INCLUDE":
         return [block]
     name = block.parameters.get("INPUT", "")
-    return read_blocks(os.path.join(os.path.dirname(block.path), name))
+    if not name:
+        block.fail("has no file (INPUT=…)")
+    path = os.path.join(os.path.dirname(block.path), name)
+    if any(os.path.realpath(path) == os.path.realpath(one) for one in including):
+        block.fail(f"'{name}' includes itself")
+    return read_blocks(path, including)
 
 
 def join_lines(lines):
@@ -91,7 +100,7 @@ def join_lines(lines):
 
 def read_number(block, line, text, kind):
     try:
-        value = kind(text)
+        value = kind(text.upper().replace("D", "E") if kind is float else text)  # Fortran's 1.0D0
     except ValueError:
         value = None
     if value is None or (kind is float and not np.isfinite(value)):
@@ -138,6 +147,8 @@ def check_structure(blocks, path):
     for block in blocks:
         if block.keyword in GENERATING:
             block.fail("is not followed, and nodes or elements would be missing or misplaced; write them out")
+        if block.keyword in ("NODE", "ELEMENT", "NSET", "ELSET") and "INPUT" in block.parameters:
+            block.fail("has its data in another file (INPUT=…), which is not followed; take it in by *INCLUDE")
         if block.keyword == "NODE" and block.parameters.get("SYSTEM", "R").upper() != "R":
             block.fail("is not in rectangular coordinates")
 
@@ -155,6 +166,9 @@ class Deck:
         self.other_ids = set()  # of elements that are no lines
         self.others = {}  # type of elements that are no lines → number of them
         self.kinds = {}  # type of lines → number of them
+        self.nodes_of = []  # (node set, element set whose nodes it takes in)
+        self.instance = ""  # name of the one instance in capitals, which may stand before numbers and names of sets
+        self.of_part = None  # in the assembly: what sets the part has, as in spelling
         self.directions = 0  # lines with an orientation node
         self.left = []
 
@@ -166,6 +180,12 @@ class Deck:
             return
         if "SECTION" in block.keyword and block.parameters.get("ELSET"):
             self.section_sets.append(self.name("E", block.parameters["ELSET"]))
+        if block.keyword == "ASSEMBLY":
+            self.of_part = set(self.spelling)
+        elif block.keyword == "INSTANCE":
+            self.instance = block.parameters.get("NAME", "").upper()
+        elif block.keyword == "END ASSEMBLY":
+            self.of_part = None
         if block.keyword not in SILENT:
             self.left.append(block.describe())
 
@@ -210,19 +230,37 @@ class Deck:
 
     def take_node_set(self, block):
         members = self.read_set(block, "N", self.node_sets)
+        name = self.set_name(block, "N")
+        self.node_sets.setdefault(name, []).extend(members)
         if block.parameters.get("ELSET"):
-            self.left.append(block.describe())
-            return
-        self.node_sets.setdefault(self.name("N", self.set_name(block, "NSET")), []).extend(members)
+            self.nodes_of.append((name, self.find_set(block, "E", block.parameters["ELSET"], self.element_sets)))
 
     def take_element_set(self, block):
         members = self.read_set(block, "E", self.element_sets)
-        self.element_sets.setdefault(self.name("E", self.set_name(block, "ELSET")), []).extend(members)
+        self.element_sets.setdefault(self.set_name(block, "E"), []).extend(members)
 
-    def set_name(self, block, key):
-        if not block.parameters.get(key):
+    def set_name(self, block, kind):
+        """The name of the set that a block defines; an assembly's set is another than its part's of the same name."""
+        key = {"N": "NSET", "E": "ELSET"}[kind]
+        text = block.parameters.get(key)
+        if not text:
             block.fail(f"has no name ({key}=…)")
-        return block.parameters[key]
+        if self.of_part is not None and (kind, text.upper()) in self.of_part:
+            text = IN_ASSEMBLY + text
+        return self.name(kind, text)
+
+    def find_set(self, block, kind, text, sets, line=None):
+        """The name of the set that a text refers to: of the assembly, if it has it, else of the part."""
+        for candidate in (IN_ASSEMBLY + text, self.without_instance(text)):
+            name = self.spelling.get((kind, candidate.upper()))
+            if name in sets and (self.of_part is not None or not candidate.startswith(IN_ASSEMBLY)):
+                return name
+        return block.fail(f"names the set '{text}', which is not there", line)
+
+    def without_instance(self, text):
+        """PART-1-1.27 → 27 where PART-1-1 is the instance."""
+        instance, _, rest = text.rpartition(".")
+        return rest if instance and instance.upper() == self.instance else text
 
     def read_set(self, block, kind, sets):
         members = []
@@ -235,12 +273,11 @@ class Deck:
                 members += range(row[0], row[1] + 1, row[2] if len(row) == 3 else 1)
                 continue
             for text in fields:
-                if text.isdecimal():
-                    members.append(int(text))
-                elif self.name(kind, text) in sets:
-                    members += sets[self.name(kind, text)]
+                plain = self.without_instance(text)
+                if plain.isdecimal():
+                    members.append(int(plain))
                 else:
-                    block.fail(f"names the set '{text}', which is not there", line)
+                    members += sets[self.find_set(block, kind, text, sets, line)]
         return members
 
     def make_mesh(self):
@@ -254,6 +291,10 @@ class Deck:
                 lines[place, end] = number[ends[end]]
         element_number = {element: place for place, element in enumerate(self.elements)}
         self.check_members(self.element_sets, {*element_number, *self.other_ids}, "element")
+        for name, elements in self.nodes_of:
+            for element in self.element_sets[elements]:
+                if element in self.elements:
+                    self.node_sets[name] += self.elements[element][1]
         self.check_members(self.node_sets, number, "node")
         return LineMesh(
             path=self.path,

@@ -1,10 +1,8 @@
 """Writing a plane frame as a gmsh 4.1 mesh: text, every number with the 17 digits that give it back exactly."""
 
-import os
-
 import numpy as np
 
-from line_mesh import MeshError
+from whole_file import write_whole
 
 LINE, POINT = 1, 15  # gmsh's numbers of the two-node line and the point
 
@@ -81,14 +79,5 @@ def format_elements(frame, ends):
 
 
 def write_msh(frame, path):
-    """Writes the mesh whole or not at all. MeshError if it cannot be written."""
-    folder, name = os.path.split(path)
-    unfinished = os.path.join(folder, f".unfinished-{os.getpid()}-{name}")
-    try:
-        with open(unfinished, "w", encoding="utf-8") as file:
-            file.write(format_msh(frame))
-        os.replace(unfinished, path)
-    except OSError as error:
-        if os.path.exists(unfinished):
-            os.remove(unfinished)
-        raise MeshError(f"{path}: error: cannot write the mesh ({error})") from error
+    """Writes the mesh whole or not at all. ResultsError if it cannot be written."""
+    write_whole(path, format_msh(frame))

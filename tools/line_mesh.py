@@ -10,6 +10,7 @@ from results_file import ResultsError
 
 SAME_PLACE = 1e-9  # of the frame's extent: nodes nearer than this are one, a plane is flat to this
 REST = "lines"  # the group of elements that the source puts in no set
+LONGEST_NAME = 127  # bytes, of a group in gmsh
 AXES = "xyz"
 
 
@@ -59,6 +60,8 @@ def make_plane_frame(mesh, plane="xy", wanted_sets=(), scale=1.0):
     check_places(mesh, positions)
     curves = choose_curves(mesh, wanted_sets, remarks)
     points = name_points(mesh, remarks)
+    curves = rename_for_gmsh(curves, "element set", remarks)
+    points = rename_for_gmsh(points, "node set", remarks)
     return PlaneFrame(mesh.node_ids, positions, mesh.line_ids, mesh.lines, curves, points, remarks)
 
 
@@ -122,19 +125,28 @@ def check_places(mesh, positions):
         )
     extent = np.linalg.norm(np.ptp(positions, axis=0))
     near = SAME_PLACE * extent
-    order = np.lexsort((positions[:, 1], positions[:, 0]))
-    for place, first in enumerate(order):
-        for second in order[place + 1 :]:
-            apart = positions[second] - positions[first]
-            if apart[0] > near:
-                break
-            if abs(apart[1]) <= near:
-                a, b = sorted((mesh.node_ids[first], mesh.node_ids[second]))
-                x, y = positions[first]
-                raise MeshError(
-                    f"{mesh.path}: error: nodes {a} and {b} are both at ({x:.9g}, {y:.9g}); elements meet at a common "
-                    "node, so merge them"
-                )
+    pair = find_near_pair(positions, near)
+    if pair is not None:
+        a, b = sorted(mesh.node_ids[node] for node in pair)
+        x, y = positions[pair[0]]
+        raise MeshError(
+            f"{mesh.path}: error: nodes {a} and {b} are both at ({x:.9g}, {y:.9g}); elements meet at a common "
+            "node, so merge them"
+        )
+
+
+def find_near_pair(positions, near):
+    """Two nodes [N×2] no further than `near` apart in x and in y, or None. Each is sought among those of its own and
+    the eight neighbouring squares of that size alone, so that many nodes above one another take no longer."""
+    squares = np.floor((positions - positions.min(axis=0)) / (near or 1.0)).astype(int)
+    nodes_in = {}
+    for node, (i, j) in enumerate(squares.tolist()):
+        for square in ((i + a, j + b) for a in (-1, 0, 1) for b in (-1, 0, 1)):
+            for other in nodes_in.get(square, ()):
+                if np.all(np.abs(positions[node] - positions[other]) <= near):
+                    return other, node
+        nodes_in.setdefault((i, j), []).append(node)
+    return None
 
 
 def choose_curves(mesh, wanted_sets, remarks):
@@ -209,6 +221,25 @@ def name_points(mesh, remarks):
                 raise MeshError(f"{mesh.path}: error: two node sets give points of the name '{point}'")
             points[point] = int(node)
     return points
+
+
+def rename_for_gmsh(groups, kind, remarks):
+    """The groups (name → members) under names that gmsh keeps: of at most LONGEST_NAME bytes on one line, not blank, no
+    blank at either end, no double quote; says in remarks what it renamed. kind: what a group was, for the remark."""
+    renamed = {}
+    for name, members in groups.items():
+        plain = "".join(letter if letter.isprintable() else " " for letter in name.replace('"', "'")).strip()
+        if len(plain.encode()) > LONGEST_NAME:
+            plain = plain.encode()[: LONGEST_NAME - 7].decode(errors="ignore").strip()  # room for _2, _3, …
+        plain = plain or "unnamed"
+        given, number = plain, 1
+        while given in renamed or (given != name and given in groups):
+            number += 1
+            given = f"{plain}_{number}"
+        if given != name:
+            remarks.append(f"{kind} '{name}': now '{given}', because gmsh has no such names")
+        renamed[given] = members
+    return renamed
 
 
 def pick_members(sets, number):

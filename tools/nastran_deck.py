@@ -2,7 +2,7 @@
 
 meshio's own reader is not used for it: in version 5.0 it passes over CBAR* cards and cards in small letters, reads
 nodes of other coordinate systems as if they were in the basic one, and does not tell what else the deck holds.
-tests/tools/convert_mesh_test.py compares the two where meshio's is right.
+tests/tools/mesh_reading_test.py compares the two where meshio's is right.
 """
 
 import re
@@ -94,6 +94,12 @@ def read_cards(path):
     raise MeshError(f"{path}: error: no ENDDATA: the file is truncated, or no Nastran deck")
 
 
+def is_nastran(path):
+    """Whether a file that may be anything else by its ending has the line that ends a Nastran deck."""
+    with open(path, "rb") as file:
+        return any(line.strip().upper().startswith(b"ENDDATA") for line in file)
+
+
 def read_nastran(path):
     """The lines of a deck; each property's elements are the set property_ID, each SET1's nodes the set set_ID.
     MeshError at the line of the fault."""
@@ -131,8 +137,12 @@ class Deck:
             card.fail("is not followed; write one deck without it")
         elif card.name == "GRDSET" and card.integer(1, "coordinate system", 0) != 0:
             card.fail("gives a coordinate system to nodes; write them in the basic one")
+        elif card.name in ("BAROR", "BEAMOR") and card.field(1):
+            card.fail("gives a property to bars that name none; write it on each")
         elif card.name == "SET1":
             name = f"set_{card.integer(0, 'set number')}"
+            if name in self.node_sets:
+                card.fail(f"set {card.field(0)} is defined twice")
             self.node_sets[name] = list(read_members(card))
         else:
             self.others.setdefault(card.name, []).append(card.field(0))
@@ -205,7 +215,7 @@ class Deck:
 
 def read_members(card):
     """The numbers of a SET1 card: single ones, or FIRST THRU LAST."""
-    texts = [text for text in card.fields[1:] if text]
+    texts = [text.upper() for text in card.fields[1:] if text]
     place = 0
     while place < len(texts):
         if texts[place + 1 : place + 2] == ["THRU"] and place + 2 < len(texts):

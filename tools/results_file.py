@@ -117,6 +117,26 @@ def read_numbers(file, name):
     return values, text_of(dataset.attrs.get("unit", ""))
 
 
+def read_texts(file, name):
+    """A dataset of strings as a list of str. ResultsError if missing, damaged or no strings."""
+    dataset = file.get(name)
+    if not isinstance(dataset, h5py.Dataset) or dataset.dtype.kind not in "SO":
+        raise ResultsError(f"{file.filename}: error: no dataset '{name}' of strings")
+    try:
+        return [text_of(one) for one in np.atleast_1d(dataset[()])]
+    except OSError as error:
+        raise ResultsError(f"{file.filename}: error: dataset '{name}' is damaged ({error})") from error
+
+
+def read_attribute(file, group, name):
+    """An attribute of a group. ResultsError if the group or the attribute is missing."""
+    if group not in file:
+        raise ResultsError(f"{file.filename}: error: no group '{group}'")
+    if name not in file[group].attrs:
+        raise ResultsError(f"{file.filename}: error: no attribute '{name}' of '{group}'")
+    return file[group].attrs[name]
+
+
 def open_results(path):
     """Opens a results file. ResultsError if it cannot be used or its run did not finish."""
     file = open_hdf5(str(path), FORMAT, VERSION)
@@ -151,6 +171,12 @@ class ResultsFile:
     def title(self):
         """The run's title; the file's name if it has none."""
         return text_of(self.file.attrs.get("title", "")) or os.path.basename(self.path)
+
+    @property
+    def is_from_balance(self):
+        """Whether the run starts from static balance, from which displacements are counted."""
+        equilibrium = self.file.get("model/equilibrium")
+        return equilibrium is not None and int(equilibrium.attrs.get("is_static_equilibrium", 0)) == 1
 
     def names(self, group):
         """What a group holds, e.g. names("bodies"); empty if there is no such group."""
@@ -214,7 +240,7 @@ class ResultsFile:
         )
 
     def _static_value(self, dataset, column):
-        if self.file["model/equilibrium"].attrs.get("is_static_equilibrium", 0) != 1:
+        if not self.is_from_balance:
             raise ResultsError(
                 f"{self.path}: error: no displacement in '{dataset}': static balance was not sought"
             )

@@ -36,7 +36,7 @@ class Superelement(NamedTuple):
 
 def read_superelement(path):
     """Reads a superelement file for (1). ResultsError if it cannot be used."""
-    with open_hdf5(str(path), "sprung-superelement", 1) as file:
+    with open_hdf5(str(path), "sprung-superelement", 2) as file:
         names = [text_of(name) for name in file["points/name"]]
         return Superelement(
             path=str(path),

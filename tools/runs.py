@@ -63,9 +63,10 @@ def open_runs(arguments):
         label, path = split_label(argument)
         results = open_results(path)
         runs.append(Run(label or describe(results), results))
-    labels = [run.label for run in runs]
-    if len(set(labels)) < len(labels):
-        runs = [Run(f"{run.label} ({os.path.basename(run.results.path)})", run.results) for run in runs]
+    for tell_apart in (lambda run, _: os.path.basename(run.results.path), lambda _, number: f"no. {number}"):
+        labels = [run.label for run in runs]
+        if len(set(labels)) < len(labels):
+            runs = [Run(f"{run.label} ({tell_apart(run, number)})", run.results) for number, run in enumerate(runs, 1)]
     return runs
 
 
@@ -81,6 +82,12 @@ def runs_with(runs, shown):
     if not found:
         runs[0].results.series(shown.quantity)  # raises, naming what there is
     return found
+
+
+def check_output(path, inputs):
+    """ResultsError if the file to be written is one of those that are read."""
+    if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
+        raise ResultsError(f"{path}: error: is one of the input files, which the output would replace")
 
 
 def describe(results):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from results_file import ResultsError, read_numbers, text_of
+from results_file import ResultsError, read_attribute, read_numbers, read_texts, text_of
 
 HANGS_ON = 1e-6  # of the body's extent: a point nearer to a node than this is that node
 UNDRAWN = ("center_of_mass",)
@@ -47,10 +47,11 @@ class Wheel(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What is drawn between two points: a spring-damper; or a joint, of which both are one place."""
+    """What is drawn between two points: a spring-damper, a rod that keeps their distance, or a joint, whose place is
+    that of its first point."""
 
     name: str
-    kind: str
+    kind: str  # spring, rod, joint
     ends: tuple  # two (body, node), or (None, (x, y)) on the ground
 
 
@@ -66,15 +67,18 @@ def read_vehicle(results):
 
 
 def read_bodies(results):
-    """All bodies of a run, in the order of their names."""
+    """All bodies of a run, in the order of their names. ResultsError if there is none."""
     vehicle = read_vehicle(results)
-    return [read_body(results, name, vehicle) for name in results.names("model/bodies")]
+    names = results.names("model/bodies")
+    if not names:
+        raise ResultsError(f"{results.path}: error: no bodies in 'model/bodies'")
+    return [read_body(results, name, vehicle) for name in names]
 
 
 def read_body(results, name, vehicle):
     group = results.file[f"model/bodies/{name}"]
     positions, _ = read_numbers(results.file, f"model/bodies/{name}/point_positions")
-    names = [text_of(one).partition(".")[2] or text_of(one) for one in group["point_names"][()]]
+    names = [one.partition(".")[2] or one for one in read_texts(results.file, f"model/bodies/{name}/point_names")]
     points = {point: place for point, place in zip(names, positions) if point not in UNDRAWN}
     superelement = text_of(group.attrs.get("superelement", ""))
     if not superelement:
@@ -184,25 +188,25 @@ def read_wheels(results, bodies):
 
 
 def read_links(results, bodies):
-    """Spring-dampers and joints between two points."""
+    """Spring-dampers and joints between two points; not those that turn alone, which have no length."""
     vehicle = read_vehicle(results)
     ground = vehicle.get("ground", {}).get("points", {})
     links = []
-    for kind in ("forces", "joints"):
-        for item in vehicle.get(kind, []):
+    for group in ("forces", "joints"):
+        for item in vehicle.get(group, []):
             ends = tuple(find_point(item.get(end, ""), bodies, ground) for end in ("a", "b"))
-            if None not in ends:
-                links.append(
-                    Link(item.get("name", ""), "joint" if kind == "joints" else item.get("type", ""), ends)
-                )
+            if None in ends or item.get("type") == "rotational-spring-damper":
+                continue
+            kind = "spring" if group == "forces" else "rod" if item.get("type") == "distance" else "joint"
+            links.append(Link(item.get("name", ""), kind, ends))
     return links
 
 
 def find_point(reference, bodies, ground):
     """`body.point` → (body, node); on the ground (None, (x, y)); None if there is no such point."""
     body_name, _, point = reference.partition(".")
-    if body_name == "ground" and point in ground:
-        return None, tuple(map(float, ground[point]))
+    if body_name == "ground" and (point in ground or point == "origin"):
+        return None, tuple(map(float, ground.get(point, (0.0, 0.0))))
     for body in bodies:
         if body.name == body_name and point in body.points:
             return body.name, body.points[point]
@@ -213,10 +217,10 @@ def read_road(results):
     """The road's course [k], [k] m in world axes, ascending in x; None if the file has none."""
     if "model/road" not in results.file:
         return None
-    attributes = results.file["model/road"].attrs
     distance, height = (
         read_numbers(results.file, f"model/road/{name}")[0] for name in ("distance", "height")
     )
-    x = (distance + float(attributes["origin"])) / float(attributes["direction"])
+    origin, direction = (float(read_attribute(results.file, "model/road", name)) for name in ("origin", "direction"))
+    x = (distance + origin) / direction
     order = np.argsort(x, kind="stable")
     return x[order], height[order]

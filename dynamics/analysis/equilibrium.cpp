@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/analysis/frequency_solver.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -17,6 +18,7 @@ constexpr int kMaxIterations = 200;
 constexpr double kTolerance = 1e-12;        // last step, natural sizes
 constexpr double kNeutralStiffness = 1e-9;  // of the largest stiffness-to-mass ratio
 constexpr double kNeutralForce = 1e-7;      // acceleration along a neutral direction, natural sizes/s²
+constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that is rounding, of the largest
 constexpr double kLargestStep = 0.05;       // natural sizes per iteration
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates, const Eigen::VectorXd& values) {
@@ -65,6 +67,12 @@ struct ModalForce {
   }
 };
 
+bool is_stable(const LinearisedSystem& system) {
+  const FrequencySolver solver(system.mass, system.damping, system.stiffness);
+  const Eigen::VectorXcd eigenvalues = solver.eigenvalues();
+  return eigenvalues.real().maxCoeff() <= kGrowth * eigenvalues.cwiseAbs().maxCoeff();
+}
+
 NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   NeutralDirection neutral;
   std::vector<std::string> moving;
@@ -112,15 +120,16 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
 // One accepted step downhill from q_i: the potential energy falls, or the forces do.
 // @param[in,out] damping  kept from step to step
 Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
-                              const ModalForce& modal, const Eigen::VectorXd& q_i, double& damping) {
+                              const ModalForce& modal, const Eigen::VectorXd& q_i, const SteadyMotion& motion,
+                              double& damping) {
   double potential = 0.0;
-  calc_static_force(equations, 0.0, q_i, &potential);
+  calc_static_force(equations, 0.0, q_i, &potential, motion);
   for (int attempt = 0; attempt < 40; ++attempt) {
     Eigen::VectorXd step = modal.calc_step(damping);
     const double size = largest_natural(model, system.partition.independent, step);
     if (size > kLargestStep) step *= kLargestStep / size;
     double trial_potential = 0.0;
-    const Eigen::VectorXd trial_force = calc_static_force(equations, 0.0, q_i + step, &trial_potential);
+    const Eigen::VectorXd trial_force = calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
     const bool assembled = trial_force.size() == q_i.size();
     if (assembled && (trial_potential < potential || (modal.V.transpose() * trial_force).norm() < modal.force.norm())) {
       damping *= 0.1;
@@ -134,10 +143,11 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
 }  // namespace
 
 Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
-                             const std::function<void(int, double)>& on_iteration) {
+                             const std::function<void(int, double)>& on_iteration, const SteadyMotion& motion) {
   PartitionedEquations equations(model);
   Equilibrium equilibrium;
   equilibrium.q = q;
+  equilibrium.motion = motion;
   if (model.num_freedoms() == 0) {  // nothing is left to come to rest
     equations.choose_partition_at(0.0, q);
     equilibrium.linearised.partition = equations.partition();
@@ -145,7 +155,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
   }
   double damping = 0.0;
   for (int iteration = 0;; ++iteration) {
-    LinearisedSystem system = linearise(equations, 0.0, equilibrium.q);
+    LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
     const ModalForce modal(model, system);
     const double newton_step = largest_natural(model, system.partition.independent, modal.calc_step(0.0));
@@ -160,6 +170,8 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
           equilibrium.stable = false;
         }
       }
+      // What turns may stand on its Coriolis forces where its stiffness alone would not hold it.
+      if (motion.omega != 0.0) equilibrium.stable = is_stable(system);
       equilibrium.linearised = std::move(system);
       return equilibrium;
     }
@@ -168,7 +180,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     for (Eigen::Index k = 0; k < q_i.size(); ++k) {
       q_i[k] = equilibrium.q[system.partition.independent[static_cast<std::size_t>(k)]];
     }
-    equilibrium.q = step_downhill(model, equations, system, modal, q_i, damping);
+    equilibrium.q = step_downhill(model, equations, system, modal, q_i, motion, damping);
   }
 }
 

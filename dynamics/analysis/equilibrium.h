@@ -23,6 +23,7 @@ struct Equilibrium {
   double last_step = 0.0;                  ///< size of the last Newton step [natural sizes]
   int iterations = 0;
   bool stable = true;                      ///< no direction with negative stiffness
+  SteadyMotion motion;                     ///< in which it is one; rest in static balance
   LinearisedSystem linearised;             ///< about it
 };
 
@@ -31,8 +32,10 @@ struct Equilibrium {
 /// directions keep their start value.
 /// @param q  assembled positions
 /// @param on_iteration  told the number of the iteration and the Newton step's natural size; may be empty
+/// @param motion  for the balance of what is carried along by a steady motion
 /// @throws support::NumericalError naming the coordinate that keeps moving, when there is no equilibrium
 Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
-                             const std::function<void(int, double)>& on_iteration = {});
+                             const std::function<void(int, double)>& on_iteration = {},
+                             const SteadyMotion& motion = {});
 
 }  // namespace sprung::dynamics

@@ -1,17 +1,11 @@
 #include "dynamics/analysis/linearisation.h"
 
-#include <fmt/format.h>
-
+#include "dynamics/analysis/state_derivatives.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
-
-// Steps of the differences, of each coordinate's natural size. The error of the extrapolated difference is of the
-// order of step⁴, its rounding of 1e-16/step.
-constexpr double kPositionStep = 1e-4;
-constexpr double kVelocityStep = 1e-3;  // natural sizes per second
 
 std::vector<int> branches_at(const PartitionedEquations& equations) {
   std::vector<int> branches(static_cast<std::size_t>(equations.terms().model().num_branches));
@@ -19,26 +13,44 @@ std::vector<int> branches_at(const PartitionedEquations& equations) {
   return branches;
 }
 
+// DᵀM D ρ̈_i at the state evaluated last.
+Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const Eigen::MatrixXd& directions,
+                                    const SteadyMotion& motion) {
+  Eigen::VectorXd force = equations.calc_reduced_force(directions);
+  if (motion.is_rest()) return force;
+  const Eigen::VectorXd carried =
+      motion.calc_acceleration(equations.terms().model(), equations.q(), equations.v());
+  Eigen::VectorXd independent(force.size());
+  for (Eigen::Index k = 0; k < force.size(); ++k) {
+    independent[k] = carried[equations.partition().independent[static_cast<std::size_t>(k)]];
+  }
+  return force - equations.calc_reduced_mass(directions) * independent;
+}
+
 }  // namespace
 
 Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_independent,
-                                  double* potential) {
+                                  double* potential, const SteadyMotion& motion) {
   using Outcome = PartitionedEquations::Outcome;
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(equations.num_freedoms());
   const auto size = static_cast<std::size_t>(q_independent.size());
   if (equations.update_positions(time, {q_independent.data(), size}) != Outcome::kGood) return {};
+  const Eigen::VectorXd w = motion.calc_velocity(equations.terms().model(), equations.q());
+  Eigen::VectorXd rest(equations.num_freedoms());
+  for (Eigen::Index k = 0; k < rest.size(); ++k) {
+    rest[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
+  }
   equations.update_velocities({rest.data(), size});
   const std::vector<int> branches = branches_at(equations);
   if (equations.update_accelerations(branches) != Outcome::kGood) return {};
   if (potential) {
     const Energy energy = calc_energy(equations.terms(), branches);
-    *potential = energy.total() - energy.kinetic;
+    *potential = energy.total() - 2.0 * energy.kinetic;
   }
-  return equations.calc_reduced_force(equations.calc_directions());
+  return calc_relative_force(equations, equations.calc_directions(), motion);
 }
 
-LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q) {
-  const Model& model = equations.terms().model();
+LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
+                           const SteadyMotion& motion) {
   equations.choose_partition_at(time, q);
   LinearisedSystem system;
   system.partition = equations.partition();
@@ -46,47 +58,25 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   Eigen::VectorXd q_i(f);
   for (Eigen::Index k = 0; k < f; ++k) q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
 
-  system.force = calc_static_force(equations, time, q_i);
+  system.force = calc_static_force(equations, time, q_i, nullptr, motion);
   if (system.force.size() != f) {
     throw support::NumericalError("linearise: the constraints cannot be satisfied at the given positions");
   }
   system.directions = equations.calc_directions();
   system.mass = equations.calc_reduced_mass(system.directions);
 
-  // Damping: at fixed positions, the reduced force against the independents' velocities.
-  system.damping.resize(f, f);
-  const auto force_at_velocity = [&](Eigen::Index k, double value) {
-    Eigen::VectorXd v = Eigen::VectorXd::Zero(f);
-    v[k] = value;
-    equations.update_velocities({v.data(), static_cast<std::size_t>(f)});
-    equations.update_accelerations(branches_at(equations));
-    return equations.calc_reduced_force(system.directions);
-  };
-  for (Eigen::Index k = 0; k < f; ++k) {
-    const double step =
-        kVelocityStep * model.coordinate_scale(system.partition.independent[static_cast<std::size_t>(k)]);
-    system.damping.col(k) = -(force_at_velocity(k, step) - force_at_velocity(k, -step)) / (2.0 * step);
-  }
-
-  system.stiffness.resize(f, f);
-  const auto force_at_position = [&](Eigen::Index k, double shift) {
-    Eigen::VectorXd moved = q_i;
-    moved[k] += shift;
-    Eigen::VectorXd force = calc_static_force(equations, time, moved);
-    if (force.size() != f) {
-      throw support::NumericalError(fmt::format(
-          "linearise: the constraints cannot be satisfied at a distance of {} along {}", shift,
-          model.coordinate_name(system.partition.independent[static_cast<std::size_t>(k)])));
-    }
-    return force;
-  };
-  for (Eigen::Index k = 0; k < f; ++k) {
-    const double h = kPositionStep * model.coordinate_scale(system.partition.independent[static_cast<std::size_t>(k)]);
-    const Eigen::VectorXd wide = (force_at_position(k, 2.0 * h) - force_at_position(k, -2.0 * h)) / (4.0 * h);
-    const Eigen::VectorXd narrow = (force_at_position(k, h) - force_at_position(k, -h)) / (2.0 * h);
-    system.stiffness.col(k) = -(4.0 * narrow - wide) / 3.0;
-  }
-  calc_static_force(equations, time, q_i);
+  // At fixed positions the directions are the same; of moved ones they are their own.
+  system.damping = -differentiate_by_velocity(
+      equations,
+      [&](const PartitionedEquations& at, auto) { return calc_relative_force(at, system.directions, motion); },
+      motion);
+  system.stiffness = -differentiate_by_position(
+      equations, time, q_i,
+      [&](const PartitionedEquations& at, auto) {
+        return calc_relative_force(at, at.calc_directions(), motion);
+      },
+      motion);
+  calc_static_force(equations, time, q_i, nullptr, motion);
   return system;
 }
 

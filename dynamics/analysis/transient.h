@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/analysis/integrator.h"
+#include "dynamics/analysis/mode_adaptation.h"
 #include "dynamics/analysis/partitioned_ode.h"
 #include "dynamics/system/model.h"
 
@@ -21,7 +22,7 @@ struct EnergyBook {
 /// Something that happened during a run.
 struct Event {
   double time = 0.0;
-  std::string kind;    ///< "switch", "partition"
+  std::string kind;    ///< "switch", "partition", "modes"
   std::string object;  ///< name of the force element; "" for the whole system
   std::string text;    ///< "touches the ground"
 };
@@ -29,9 +30,12 @@ struct Event {
 /// Everything about the vehicle at one output time; valid during the call that gets it.
 struct Snapshot {
   double time = 0.0;
-  const PartitionedEquations& equations;  ///< positions, velocities, accelerations, multipliers up to date
+  const SystemTerms& terms;  ///< positions, velocities and forces up to date, all markers
+  const Eigen::VectorXd& q, &v, &v_dot;  ///< num_coordinates
+  const Eigen::VectorXd& multipliers;    ///< num_constraints
   std::span<const int> branches;
   EnergyBook energy;
+  const ModeAdaptation* modes;  ///< which modes are active, and what the others miss; null where nobody asked
 };
 
 struct TransientOptions {
@@ -39,6 +43,9 @@ struct TransientOptions {
   double output_step = 1e-3;   ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
   Integrator::Options integrator;
+  /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the run are
+  /// the full ones.
+  std::optional<AdaptivityOptions> adaptivity;
   std::function<void(const Snapshot&)> on_output;   ///< at 0, output_step, … to the end
   std::function<void(const Event&)> on_event;       ///< may be empty
   std::function<bool(double time)> on_step;         ///< after every step; false stops the run; may be empty
@@ -50,6 +57,9 @@ struct TransientStatistics {
   long output_evaluations = 0;  ///< for the outputs
   long repartitions = 0;
   long switches = 0;
+  long mode_changes = 0;
+  double mean_active_modes = 0.0;  ///< over time
+  WorstNeglect worst_neglect;      ///< where adaptivity was asked for
   bool completed = false;       ///< false: stopped by on_step
 };
 

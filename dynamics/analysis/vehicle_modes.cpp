@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <complex>
 #include <numbers>
-#include <numeric>
 
 #include "tools/support/numerical_error.h"
 
@@ -23,13 +22,13 @@ struct DampedModes {
   std::vector<Eigen::VectorXcd> shapes;
 };
 
-DampedModes calc_damped_modes(const LinearisedSystem& system) {
+DampedModes calc_damped_modes(const LinearisedSystem& system, const Eigen::MatrixXd& damping) {
   const Eigen::Index f = system.mass.rows();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * f, 2 * f);
   const Eigen::LLT<Eigen::MatrixXd> llt(system.mass);
   A.topRightCorner(f, f).setIdentity();
   A.bottomLeftCorner(f, f) = -llt.solve(system.stiffness);
-  A.bottomRightCorner(f, f) = -llt.solve(system.damping);
+  A.bottomRightCorner(f, f) = -llt.solve(damping);
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   DampedModes modes;
   for (Eigen::Index k = 0; k < 2 * f; ++k) {
@@ -41,10 +40,41 @@ DampedModes calc_damped_modes(const LinearisedSystem& system) {
 }
 
 // Modal assurance criterion in the mass metric.
-double likeness(const Eigen::MatrixXd& mass, const Eigen::VectorXd& a, const Eigen::VectorXcd& b) {
+double likeness(const Eigen::MatrixXd& mass, const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   const Eigen::VectorXcd mass_b = mass.cast<std::complex<double>>() * b;
-  const std::complex<double> product = a.cast<std::complex<double>>().dot(mass_b);
-  return std::norm(product) / (a.dot(mass * a) * b.dot(mass_b).real());
+  const double size_of_a = a.dot(mass.cast<std::complex<double>>() * a).real();
+  return std::norm(a.dot(mass_b)) / (size_of_a * b.dot(mass_b).real());
+}
+
+// A mode of the system without damping, its shape in the independent coordinates.
+struct UndampedMode {
+  double omega = 0.0;  // [rad/s]
+  Eigen::VectorXcd shape;
+};
+
+// By growing frequency; those that nothing holds have the smallest |ω²|.
+std::vector<UndampedMode> calc_undamped_modes(const LinearisedSystem& system) {
+  const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
+  std::vector<UndampedMode> modes;
+  for (Eigen::Index k = 0; k < system.mass.rows(); ++k) {
+    modes.push_back({std::sqrt(std::abs(solver.eigenvalues()[k])), solver.eigenvectors().col(k).cast<std::complex<double>>()});
+  }
+  return modes;
+}
+
+// With Coriolis forces, the skew part of Ĉ, shapes are complex: of each the phase with the most kinetic energy.
+std::vector<UndampedMode> calc_gyroscopic_modes(const LinearisedSystem& system) {
+  const DampedModes complex_modes =
+      calc_damped_modes(system, 0.5 * (system.damping - system.damping.transpose()));
+  std::vector<UndampedMode> modes;
+  for (std::size_t i = 0; i < complex_modes.shapes.size(); ++i) {
+    const Eigen::VectorXcd& u = complex_modes.shapes[i];
+    const Eigen::VectorXcd mass_u = system.mass.cast<std::complex<double>>() * u;
+    const std::complex<double> square = u.cwiseProduct(mass_u).sum();
+    modes.push_back({std::abs(complex_modes.eigenvalues[i]), u * std::polar(1.0, -0.5 * std::arg(square))});
+  }
+  return modes;
 }
 
 // Which bodies carry the kinetic energy of a shape, largest first; a body's own modes in brackets.
@@ -85,39 +115,37 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   }
   if (model.num_freedoms() == 0) return {};
   const LinearisedSystem& system = equilibrium.linearised;
-  const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
-  DampedModes damped = calc_damped_modes(system);
-  const Eigen::Index f = system.mass.rows();
-  const auto num_rigid = static_cast<Eigen::Index>(equilibrium.neutral.size());
+  std::vector<UndampedMode> undamped =
+      equilibrium.motion.omega != 0.0 ? calc_gyroscopic_modes(system) : calc_undamped_modes(system);
+  std::stable_sort(undamped.begin(), undamped.end(),
+                   [](const UndampedMode& a, const UndampedMode& b) { return a.omega < b.omega; });
+  DampedModes damped = calc_damped_modes(system, system.damping);
+  const std::size_t f = static_cast<std::size_t>(system.mass.rows()), num_rigid = equilibrium.neutral.size();
+  // Of a neutral direction s = 0 comes twice, as a pair or as two real values.
+  if (undamped.size() > f) {
+    undamped.erase(undamped.begin(), undamped.begin() + static_cast<std::ptrdiff_t>(undamped.size() - f));
+  }
 
   SystemTerms terms(model);
   terms.update_positions(0.0, equilibrium.q);
   terms.update_mass();
-  // Neutral directions have the smallest |ω²|.
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(f));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return std::abs(solver.eigenvalues()[a]) < std::abs(solver.eigenvalues()[b]);
-  });
 
   std::vector<VehicleMode> modes;
-  for (Eigen::Index position = 0; position < f; ++position) {
-    const Eigen::Index k = order[static_cast<std::size_t>(position)];
+  for (std::size_t k = 0; k < undamped.size(); ++k) {
     VehicleMode mode;
-    const Eigen::VectorXd reduced_shape = solver.eigenvectors().col(k);
-    mode.shape = system.directions * reduced_shape;
+    const Eigen::VectorXd reduced_shape = undamped[k].shape.real();
+    mode.shape = system.directions * reduced_shape / std::sqrt(reduced_shape.dot(system.mass * reduced_shape));
     mode.participants = describe_participants(model, terms, mode.shape);
-    mode.is_rigid_body = position < num_rigid;
+    mode.is_rigid_body = k < num_rigid;
     if (mode.is_rigid_body) {
       modes.push_back(std::move(mode));
       continue;
     }
-    mode.undamped_frequency_hz = std::sqrt(solver.eigenvalues()[k]) / (2.0 * pi);
+    mode.undamped_frequency_hz = undamped[k].omega / (2.0 * pi);
     std::size_t best = 0;
     double best_likeness = -1.0;
     for (std::size_t i = 0; i < damped.shapes.size(); ++i) {
-      const double value = likeness(system.mass, reduced_shape, damped.shapes[i]);
+      const double value = likeness(system.mass, undamped[k].shape, damped.shapes[i]);
       if (value > best_likeness) {
         best_likeness = value;
         best = i;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace sprung::dynamics {
@@ -12,7 +13,20 @@ Eigen::MatrixXd select(const Eigen::MatrixXd& matrix, const std::vector<int>& co
   return matrix(columns, columns);
 }
 
+void check_stiffening(const reduce::Superelement& superelement, int highest_mode) {
+  const int available = superelement.geometric_stiffness ? superelement.geometric_stiffness->num_modes() : 0;
+  if (highest_mode <= available) return;
+  throw std::invalid_argument(
+      fmt::format("make_flexible_body: superelement '{}' has the geometric stiffness of {} modes, got mode {}",
+                  superelement.name, available, highest_mode));
+}
+
 }  // namespace
+
+double FadingForce::value(double time) const {
+  const double s = (time - start) / duration;
+  return s >= 1.0 ? 0.0 : s <= 0.0 ? force : 0.5 * force * (1.0 + std::cos(std::acos(-1.0) * s));
+}
 
 Body make_rigid_body(const std::string& name, double mass, double inertia) {
   if (!(mass > 0.0)) throw std::invalid_argument(fmt::format("make_rigid_body: mass must be > 0 kg, got {}", mass));
@@ -28,7 +42,7 @@ Body make_rigid_body(const std::string& name, double mass, double inertia) {
 }
 
 Body make_flexible_body(const std::string& name, const reduce::Superelement& superelement,
-                        const std::vector<int>& mode_numbers) {
+                        const std::vector<int>& mode_numbers, Stiffening stiffening) {
   std::vector<int> columns;
   for (const int number : mode_numbers) {
     if (number < 1 || number > superelement.num_modes() || (!columns.empty() && number - 1 <= columns.back())) {
@@ -52,6 +66,10 @@ Body make_flexible_body(const std::string& name, const reduce::Superelement& sup
   body.B = select(inertia.B, columns);
   body.stiffness = select(superelement.stiffness, columns);
   body.damping = select(superelement.damping, columns);
+  if (stiffening == Stiffening::kOn && !columns.empty()) {
+    check_stiffening(superelement, mode_numbers.back());
+    body.stiffening = make_body_stiffening(superelement, columns);
+  }
   body.mode_scale.resize(static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) {
     double largest = 0.0;

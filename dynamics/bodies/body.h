@@ -1,12 +1,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/bodies/stiffening.h"
 #include "reduce/superelement.h"
 
 namespace sprung::dynamics {
+
+/// A force on a mode that is let go smoothly: F (1 + cos πs)/2, s = (t − start)/duration from 0 to 1, nothing behind.
+struct FadingForce {
+  int mode = 0;            ///< 0-based among the active ones
+  double force = 0.0;      ///< F, what it is at the start
+  double start = 0.0;      ///< [s]
+  double duration = 0.0;   ///< > 0 [s]
+
+  double value(double time) const;
+};
+
+/// Whether a body's axial forces stiffen or soften it against bending.
+enum class Stiffening { kOff, kOn };
 
 /// A planar floating-frame body with the modes that are active: r = R + A(θ)(u₀ + Φη), coordinates (R, θ, η).
 /// A rigid body has no modes. All in the body frame; n active modes.
@@ -26,7 +41,9 @@ struct Body {
   Eigen::MatrixXd B;                                       ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
   Eigen::MatrixXd stiffness;                               ///< n×n
   Eigen::MatrixXd damping;                                 ///< n×n
+  std::vector<FadingForce> fading;                         ///< of modes that have just joined
   Eigen::VectorXd mode_scale;  ///< n, largest displacement of any node per unit modal coordinate [m]
+  std::optional<BodyStiffening> stiffening;  ///< where it is switched on and there are modes
 
   int num_modes() const { return static_cast<int>(mode_numbers.size()); }
   int num_coordinates() const { return 3 + num_modes(); }
@@ -38,8 +55,9 @@ Body make_rigid_body(const std::string& name, double mass, double inertia);
 
 /// A body from a superelement with the given modes active; none of them: rigid with the same mass and inertia.
 /// @param mode_numbers   1-based, ascending, without repetition, at most superelement.num_modes()
-/// @throws std::invalid_argument for a mode the superelement lacks
+/// @throws std::invalid_argument for a mode the superelement lacks, or lacks the geometric stiffness of where the body
+///         is to stiffen
 Body make_flexible_body(const std::string& name, const reduce::Superelement& superelement,
-                        const std::vector<int>& mode_numbers);
+                        const std::vector<int>& mode_numbers, Stiffening stiffening = Stiffening::kOff);
 
 }  // namespace sprung::dynamics

@@ -141,6 +141,38 @@ double DistributedTyre::calc_longest_step(const Instant& instant) const {
   return speed * 1e9 > resolution ? resolution / speed : std::numeric_limits<double>::infinity();
 }
 
+std::optional<RoadPlace> DistributedTyre::find_road_place(const Instant& instant,
+                                                          std::span<const int> branches) const {
+  const MarkerState& center = instant.markers[static_cast<std::size_t>(parameters_.marker)];
+  return RoadPlace{.distance = road_.distance(center.r.x()), .is_pressed = branches[0] == kPressed};
+}
+
+void DistributedTyre::add_road_response(const Instant& instant, std::span<const int> /*branches*/,
+                                        const RoadWave& wave, std::span<WrenchGain> wrenches,
+                                        std::span<std::complex<double>> channels) const {
+  using namespace std::complex_literals;
+  const Wheel wheel = calc_wheel(instant);
+  const double half_width = 0.5 * wheel.level_width, angle = wave.wavenumber * half_width;
+  const double mean_height = angle > 0.0 ? std::sin(angle) / angle : 1.0;  // over what touches
+  // A higher edge moves outwards, by its height over the slope a/(R − δ) at which the circle leaves the ground.
+  const double lift = (std::cos(angle) - mean_height) * (parameters_.radius - wheel.penetration) /
+                      (half_width * half_width);
+  const std::complex<double> drag = 1i * std::sin(angle) / half_width;
+  const std::complex<double> rate = 1i * wave.frequency * mean_height;
+  const double standing = parameters_.multiplicity * wheel.elastic;
+  const std::complex<double> vertical =
+      standing * lift + parameters_.multiplicity * (parameters_.spring.slope(wheel.penetration) * mean_height +
+                                                    parameters_.damping * rate);
+  const std::complex<double> along = -road_.direction * standing * drag;
+  wrenches[static_cast<std::size_t>(parameters_.marker)].force += Eigen::Vector2cd(along, vertical);
+  channels[0] = vertical;
+  channels[1] = mean_height;
+  channels[2] = rate;
+  channels[3] = 0.0;
+  channels[4] = mean_height;
+  channels[5] = along;
+}
+
 std::span<const Channel> DistributedTyre::channels() const {
   static constexpr std::array<Channel, 6> kChannels{{{"force", "N"},
                                                      {"penetration", "m"},

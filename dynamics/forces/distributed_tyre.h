@@ -42,6 +42,13 @@ class DistributedTyre final : public ForceElement {
                               std::span<const int> new_branches) const override;
   double calc_longest_step(const Instant& instant) const override;
 
+  std::optional<RoadPlace> find_road_place(const Instant& instant,
+                                           std::span<const int> branches) const override;
+  /// Of the mean height over what touches, and of how its edges move (dynamics/README.md, eqs. 39 and 40).
+  void add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
+                         std::span<WrenchGain> wrenches,
+                         std::span<std::complex<double>> channels) const override;
+
   std::span<const Channel> channels() const override;
   void calc_channels(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const override;

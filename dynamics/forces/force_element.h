@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/forces/road_response.h"
 #include "dynamics/forces/time_function.h"
 
 namespace sprung::dynamics {
@@ -72,6 +74,19 @@ class ForceElement {
 
   /// How far the integrator may go in one step without missing something that the element knows is coming [s].
   virtual double calc_longest_step(const Instant& /*instant*/) const { return std::numeric_limits<double>::infinity(); }
+
+  /// Where it stands on the road; none for an element that does not see the road.
+  virtual std::optional<RoadPlace> find_road_place(const Instant& /*instant*/,
+                                                   std::span<const int> /*branches*/) const {
+    return std::nullopt;
+  }
+  /// What low waves of the road do to it while the vehicle keeps still about its place, on level ground: the linear
+  /// part of wrenches and channels, for an amplitude of 1 m. Called for elements that are pressed to the road only.
+  /// @param wrenches  one per marker of the model, added to
+  /// @param channels  one per channel [its unit/m], set
+  virtual void add_road_response(const Instant& /*instant*/, std::span<const int> /*branches*/,
+                                 const RoadWave& /*wave*/, std::span<WrenchGain> /*wrenches*/,
+                                 std::span<std::complex<double>> /*channels*/) const {}
 
   /// The functions of time in it, whose breaks the integrator has to step to.
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }

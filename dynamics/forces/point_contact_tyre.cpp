@@ -111,6 +111,28 @@ double PointContactTyre::calc_longest_step(const Instant& instant) const {
   return speed * 1e9 > resolution ? resolution / speed : std::numeric_limits<double>::infinity();
 }
 
+std::optional<RoadPlace> PointContactTyre::find_road_place(const Instant& instant,
+                                                           std::span<const int> branches) const {
+  const MarkerState& center = instant.markers[static_cast<std::size_t>(parameters_.marker)];
+  return RoadPlace{.distance = road_.distance(center.r.x()), .is_pressed = branches[0] == kPressed};
+}
+
+void PointContactTyre::add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
+                                         std::span<WrenchGain> wrenches,
+                                         std::span<std::complex<double>> channels) const {
+  using namespace std::complex_literals;
+  const Wheel wheel = calc_wheel(instant, branches);
+  const std::complex<double> rate = 1i * wave.frequency;
+  const std::complex<double> force =
+      parameters_.multiplicity * (parameters_.spring.slope(wheel.penetration) + parameters_.damping * rate);
+  wrenches[static_cast<std::size_t>(parameters_.marker)].force.y() += force;
+  channels[0] = force;
+  channels[1] = 1.0;
+  channels[2] = rate;
+  channels[3] = 0.0;
+  channels[4] = 1.0;
+}
+
 std::span<const Channel> PointContactTyre::channels() const {
   static constexpr std::array<Channel, 5> kChannels{
       {{"force", "N"}, {"penetration", "m"}, {"rate", "m/s"}, {"contact", "1"}, {"road_height", "m"}}};

@@ -37,6 +37,13 @@ class PointContactTyre final : public ForceElement {
   std::string describe_change(std::span<const int> old_branches, std::span<const int> new_branches) const override;
   double calc_longest_step(const Instant& instant) const override;
 
+  std::optional<RoadPlace> find_road_place(const Instant& instant,
+                                           std::span<const int> branches) const override;
+  /// Of the spring's slope and the damper: F = N (F_s′ + iωc) (dynamics/README.md, eq. 38).
+  void add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
+                         std::span<WrenchGain> wrenches,
+                         std::span<std::complex<double>> channels) const override;
+
   std::span<const Channel> channels() const override;
   void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
 

@@ -31,7 +31,7 @@ void replace_damping(Body& body, const std::vector<double>& ratios) {
 }
 
 Body make_body(const Vehicle& vehicle, const BodyDescription& description, const ModeSelection& selection,
-               const ModalDamping& damping) {
+               const ModalDamping& damping, const StiffenedBodies& stiffened) {
   const std::vector<int>& numbers = modes_of(selection, description.name);
   const reduce::Superelement* superelement = vehicle.superelement_of(description);
   if (superelement == nullptr) {
@@ -41,10 +41,24 @@ Body make_body(const Vehicle& vehicle, const BodyDescription& description, const
     }
     return make_rigid_body(description.name, description.mass, description.inertia);
   }
-  Body body = make_flexible_body(description.name, *superelement, numbers);
+  const bool stiffens = stiffened.contains(description.name);
+  Body body = make_flexible_body(description.name, *superelement, numbers,
+                                 stiffens ? Stiffening::kOn : Stiffening::kOff);
   const auto replaced = damping.find(description.name);
   if (replaced != damping.end() && !numbers.empty()) replace_damping(body, replaced->second);
   return body;
+}
+
+// Where a point's body stiffens, its displacement of second order.
+SecondOrder make_second_order(const reduce::Superelement& superelement, const VehiclePoint& point, const Body& body) {
+  if (point.kind == VehiclePoint::Kind::kCenterOfMass) return {};
+  if (point.kind == VehiclePoint::Kind::kFixed) return body.stiffening->origin;  // the only one on a superelement
+  std::vector<int> columns;
+  for (const int number : body.mode_numbers) columns.push_back(number - 1);
+  const auto named = std::find_if(superelement.points.begin(), superelement.points.end(),
+                                  [&](const reduce::NamedPoint& one) { return one.node == point.node; });
+  return calc_second_order(superelement, columns, *body.stiffening,
+                           static_cast<int>(named - superelement.points.begin()), point.offset);
 }
 
 Marker make_marker(const Vehicle& vehicle, const VehiclePoint& point, const std::vector<Body>& bodies) {
@@ -57,9 +71,11 @@ Marker make_marker(const Vehicle& vehicle, const VehiclePoint& point, const std:
   marker.Phi_rotation = Eigen::RowVectorXd::Zero(num_modes);
   if (num_modes == 0) return marker;
   const std::size_t b = static_cast<std::size_t>(point.body);
+  const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[b]);
+  if (bodies[b].stiffening) marker.K = make_second_order(superelement, point, bodies[b]);
   if (point.kind == VehiclePoint::Kind::kCenterOfMass) marker.Phi = bodies[b].P / bodies[b].mass;
   if (point.kind != VehiclePoint::Kind::kNode) return marker;
-  const Eigen::MatrixXd& shapes = vehicle.superelement_of(vehicle.bodies[b])->shapes;
+  const Eigen::MatrixXd& shapes = superelement.shapes;
   for (int k = 0; k < num_modes; ++k) {
     const int column = bodies[b].mode_numbers[static_cast<std::size_t>(k)] - 1;
     const Eigen::Vector3d shape = shapes.block<3, 1>(3 * point.node, column);
@@ -85,7 +101,7 @@ JointPlace place_joint(const Vehicle& vehicle, const Model& model, const PointRe
 }  // namespace
 
 Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
-                 const ModalDamping& damping, MotionUse motions) {
+                 const ModalDamping& damping, MotionUse motions, const StiffenedBodies& stiffened) {
   for (const auto& [body, numbers] : selection) {
     if (vehicle.find_body(body) == nullptr) {
       throw std::invalid_argument(fmt::format("make_model: modes selected of '{}', which is no body", body));
@@ -94,7 +110,7 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
   Model model;
   model.gravity = vehicle.gravity;
   for (const BodyDescription& body : vehicle.bodies) {
-    model.bodies.push_back(make_body(vehicle, body, selection, damping));
+    model.bodies.push_back(make_body(vehicle, body, selection, damping, stiffened));
   }
   for (const VehiclePoint& point : list_points(vehicle)) {
     model.markers.push_back(make_marker(vehicle, point, model.bodies));

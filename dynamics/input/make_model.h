@@ -4,6 +4,7 @@
 #include <span>
 
 #include "dynamics/input/mode_selection.h"
+#include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/road/road.h"
 #include "dynamics/system/model.h"
@@ -15,9 +16,12 @@ namespace sprung::dynamics {
 /// @param road     must outlive the model
 /// @param damping  ratios ζ that replace the superelement's damping by diag(2 ζ ω m)
 /// @param motions  whether prescribed motion goes on, or stands still as at t = 0
-/// @throws std::invalid_argument for modes that a superelement lacks; `resolve_modes` gives none
+/// @param stiffened  bodies that their axial forces stiffen
+/// @throws std::invalid_argument for modes that a superelement, or its geometric stiffness, lacks; `resolve_modes` and
+///         `resolve_stiffening` give none
 Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
-                 const ModalDamping& damping = {}, MotionUse motions = MotionUse::kMoving);
+                 const ModalDamping& damping = {}, MotionUse motions = MotionUse::kMoving,
+                 const StiffenedBodies& stiffened = {});
 
 /// Positions as the vehicle file gives them, all modes undeformed.
 /// @return q, model.num_coordinates

@@ -42,24 +42,6 @@ ModeRequest read_mode_request(const support::TomlValue& value) {
   throw support::InputError(location, fmt::format("'{}' {}", key, message));
 }
 
-// The superelement that a request is about.
-const reduce::Superelement& find_superelement(const std::string& body_name, const std::string& key,
-                                              const support::SourceLocation& location,
-                                              const Vehicle& vehicle) {
-  const BodyDescription* body = vehicle.find_body(body_name);
-  if (body == nullptr) {
-    refuse(location, key,
-           fmt::format("is about no body of the vehicle: there is no '{}'{}", body_name,
-                       support::nearest_name_hint(body_name, vehicle.body_names())));
-  }
-  const reduce::Superelement* superelement = vehicle.superelement_of(*body);
-  if (superelement == nullptr) {
-    refuse(location, key,
-           fmt::format("is about the modes of body '{}', which has no superelement", body_name));
-  }
-  return *superelement;
-}
-
 // The first and last mode, 1-based, that share the frequency of a mode.
 std::pair<int, int> find_cluster(const reduce::Superelement& superelement, int number) {
   const int cluster = superelement.cluster[number - 1];
@@ -105,6 +87,23 @@ std::vector<int> resolve_request(const ModeRequest& request, const reduce::Super
 }
 
 }  // namespace
+
+const reduce::Superelement& find_superelement(const std::string& body_name, const std::string& key,
+                                              const support::SourceLocation& location,
+                                              const Vehicle& vehicle) {
+  const BodyDescription* body = vehicle.find_body(body_name);
+  if (body == nullptr) {
+    refuse(location, key,
+           fmt::format("is about no body of the vehicle: there is no '{}'{}", body_name,
+                       support::nearest_name_hint(body_name, vehicle.body_names())));
+  }
+  const reduce::Superelement* superelement = vehicle.superelement_of(*body);
+  if (superelement == nullptr) {
+    refuse(location, key,
+           fmt::format("is about the modes of body '{}', which has no superelement", body_name));
+  }
+  return *superelement;
+}
 
 ModeRequests read_modes(const support::TomlTable& table) {
   ModeRequests requests;

@@ -39,6 +39,12 @@ ModeRequests read_modes(const support::TomlTable& table);
 /// Reads `[modal_damping]`: of each body a ratio or a list of them.
 DampingRequests read_modal_damping(const support::TomlTable& table);
 
+/// The superelement that a run file's request about a body is about.
+/// @throws support::InputError at the request's place: no such body, or a body without superelement
+const reduce::Superelement& find_superelement(const std::string& body_name, const std::string& key,
+                                              const support::SourceLocation& location,
+                                              const Vehicle& vehicle);
+
 /// The modes that the requests mean for this vehicle; bodies left rigid are left out.
 /// @throws support::InputError at the request's place: no such body, a body without superelement, more modes
 /// than its

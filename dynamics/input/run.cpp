@@ -67,6 +67,22 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   return settings;
 }
 
+AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
+  AdaptivitySettings settings;
+  settings.location = table.location();
+  if (const auto enabled = table.find("enabled")) settings.enabled = enabled->boolean();
+  if (const auto indicator = table.find("indicator")) settings.indicator = indicator->boolean();
+  settings.recall = table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
+  settings.drop = table.number_or("drop", std::min(settings.drop, 0.2 * settings.recall), support::non_negative(""));
+  settings.residence = table.number_or("residence", settings.residence, support::non_negative("s"));
+  if (const auto available = table.find_table("available")) settings.available = read_modes(*available);
+  table.reject_unknown_keys();
+  if (!(settings.drop < settings.recall)) {
+    throw table.error(fmt::format("must have 'drop' below 'recall', got {} and {}", settings.drop, settings.recall));
+  }
+  return settings;
+}
+
 std::map<std::string, InitialMotion> read_initial(const support::TomlTable& table) {
   std::map<std::string, InitialMotion> initial;
   for (const auto& [body, value] : table.entries()) {
@@ -98,6 +114,17 @@ std::vector<PointReference> read_output(const support::TomlTable& table) {
   }
   table.reject_unknown_keys();
   return points;
+}
+
+// Their names without repetition.
+std::vector<std::string> resolve_points(const std::vector<PointReference>& points, const Vehicle& vehicle) {
+  const std::vector<std::string> known = point_names(vehicle);
+  std::vector<std::string> names;
+  for (const PointReference& point : points) {
+    check_point(point, known);
+    if (std::find(names.begin(), names.end(), point.name) == names.end()) names.push_back(point.name);
+  }
+  return names;
 }
 
 const Body& find_moved_body(const Model& model, const std::string& name, const InitialMotion& motion) {
@@ -143,10 +170,14 @@ Run read_run(const support::TomlDocument& document) {
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
+  if (const auto table = root.find_table("stiffening")) run.stiffening = read_stiffening(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
+  if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
   if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
+  run.response.location = {.path = document.name()};
+  if (const auto table = root.find_table("response")) run.response = read_response(*table);
   root.reject_unknown_keys();
   return run;
 }
@@ -159,18 +190,39 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
   return resolve_modes(run.modes, vehicle);
 }
 
+ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle) {
+  if (!run.adaptivity.enabled) return selected;
+  ModeRequests requests = run.adaptivity.available;
+  for (const auto& [body, request] : run.modes) {
+    ModeRequest all = request;
+    all.kind = ModeRequest::Kind::kAll;
+    requests.emplace(body, all);  // unless it is named
+  }
+  ModeSelection available = resolve_modes(requests, vehicle);
+  for (const auto& [body, numbers] : selected) {
+    std::vector<int>& all = available[body];
+    all.insert(all.end(), numbers.begin(), numbers.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  return available;
+}
+
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
   return resolve_modal_damping(run.modal_damping, selection, vehicle);
 }
 
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle) {
+  return resolve_stiffening(run.stiffening, selection, vehicle);
+}
+
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {
-  const std::vector<std::string> known = point_names(vehicle);
-  std::vector<std::string> names;
-  for (const PointReference& point : run.output_points.empty() ? vehicle.monitor : run.output_points) {
-    check_point(point, known);
-    if (std::find(names.begin(), names.end(), point.name) == names.end()) names.push_back(point.name);
-  }
-  return names;
+  return resolve_points(run.output_points.empty() ? vehicle.monitor : run.output_points, vehicle);
+}
+
+std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle) {
+  if (run.response.points.empty()) return resolve_output_points(run, vehicle);
+  return resolve_points(run.response.points, vehicle);
 }
 
 void add_initial_amplitudes(const Run& run, const Model& model, Eigen::VectorXd& q) {

@@ -10,7 +10,9 @@
 
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
+#include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
+#include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/analysis/integrator.h"
 #include "dynamics/system/model.h"
@@ -34,11 +36,20 @@ struct IntegratorSettings {
   std::optional<double> largest_step;  ///< > 0 [s]
 };
 
+/// `[adaptivity]`: modes that join and leave during the run.
+struct AdaptivitySettings {
+  support::SourceLocation location;
+  bool enabled = false;
+  bool indicator = true;  ///< whether a run with a fixed set is told what it misses
+  double recall = 1e-2, drop = 2e-3, residence = 0.2;  ///< as in AdaptivityOptions
+  ModeRequests available;  ///< bodies that are not named have all modes of their file
+};
+
 /// What a run file says.
 struct Run {
   enum class Start {
     kEquilibrium,  ///< static balance, prescribed motion standing still
-    kSteady,       ///< balance of the bodies' modes while prescribed motion goes on at its rate
+    kSteady,       ///< balance of what prescribed motion carries along at its rate
     kAsGiven,
   };
 
@@ -54,10 +65,13 @@ struct Run {
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;
   DampingRequests modal_damping;
+  StiffeningRequests stiffening;
   RoadDescription road;
   IntegratorSettings integrator;
+  AdaptivitySettings adaptivity;
   std::map<std::string, InitialMotion> initial;  ///< by body
   std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
+  ResponseRequest response;
 };
 
 /// Reads a run file; the vehicle's own file is not opened.
@@ -67,11 +81,18 @@ Run read_run(const support::TomlDocument& document);
 
 std::unique_ptr<Road> make_road(const Run& run);
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
+/// The modes that may be active: those selected, and with adaptivity the ones available besides.
+/// @throws support::InputError as resolve_modes
+ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
+StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
 /// @throws support::InputError at the run's reference to a point that the vehicle lacks
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle);
+/// Names of the points whose frequency response is reported: those of `[response]`, else the above.
+/// @throws support::InputError likewise
+std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle);
 
 /// Adds the run's initial modal amplitudes to q.
 /// @throws support::InputError for a body the vehicle lacks, or amplitudes that are not as many as its active

@@ -18,6 +18,8 @@ std::string quoted(std::string_view text) {
   return result + "\"";
 }
 
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }
+
 template <class Range, class Format>
 std::string list(const Range& range, Format&& format) {
   std::string result = "[";
@@ -32,9 +34,7 @@ JsonObject& JsonObject::add_raw(std::string_view name, const std::string& value)
   return *this;
 }
 
-JsonObject& JsonObject::add(std::string_view name, double value) {
-  return add_raw(name, std::isfinite(value) ? fmt::format("{:.17g}", value) : "null");
-}
+JsonObject& JsonObject::add(std::string_view name, double value) { return add_raw(name, number(value)); }
 
 JsonObject& JsonObject::add(std::string_view name, std::string_view text) { return add_raw(name, quoted(text)); }
 
@@ -51,7 +51,11 @@ JsonObject& JsonObject::add(std::string_view name, const std::vector<std::string
 }
 
 JsonObject& JsonObject::add(std::string_view name, const std::vector<int>& numbers) {
-  return add_raw(name, list(numbers, [](int number) { return fmt::format("{}", number); }));
+  return add_raw(name, list(numbers, [](int value) { return fmt::format("{}", value); }));
+}
+
+JsonObject& JsonObject::add(std::string_view name, const std::vector<double>& numbers) {
+  return add_raw(name, list(numbers, number));
 }
 
 }  // namespace sprung::dynamics

@@ -17,6 +17,7 @@ class JsonObject {
   JsonObject& add(std::string_view name, const std::vector<JsonObject>& objects);
   JsonObject& add(std::string_view name, const std::vector<std::string>& texts);
   JsonObject& add(std::string_view name, const std::vector<int>& numbers);
+  JsonObject& add(std::string_view name, const std::vector<double>& numbers);  ///< each as a single one
   std::string str() const { return "{" + members_ + "}"; }
 
  private:

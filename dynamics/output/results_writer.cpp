@@ -28,12 +28,14 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   file_.attribute("/", "version", kResultsVersion);
   file_.attribute("/", "title", header.vehicle.name);
   file_.attribute("/", "units", "SI");
+  file_.attribute("/", "program_version", SPRUNG_VERSION);
   file_.attribute("/", "complete", std::int64_t{0});
   write_results_model(file_, header);
 
   add_series("/time", 0, "s", [](const Snapshot& now, std::vector<double>& row) { row[0] = now.time; });
   add_point_series();
   add_body_series();
+  if (header.full) add_neglected_series(*header.full);
   add_joint_series();
   add_force_series();
   add_recovery_series(header.vehicle);
@@ -63,17 +65,17 @@ void ResultsWriter::add_point_series() {
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
     add_series(group + "/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.terms().markers()[i].r);
+      put(row, now.terms.markers()[i].r);
     });
     add_series(group + "/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.terms().markers()[i].v);
+      put(row, now.terms.markers()[i].v);
     });
     add_series(group + "/acceleration", 2, "m/s^2", [i, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, calc_marker_acceleration(now.equations.terms().markers()[i], now.equations.v_dot().segment(first, size)));
+      put(row, calc_marker_acceleration(now.terms.markers()[i], now.v_dot.segment(first, size)));
     });
     if (body.num_modes() == 0) continue;
     add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, Eigen::Vector2d(marker.Phi * now.equations.q().segment(first + 3, size - 3)));
+      put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
     });
   }
 }
@@ -84,28 +86,28 @@ void ResultsWriter::add_body_series() {
     const int first = body.first_coordinate, n = body.num_modes();
     const std::string per_second = " 1/s", per_second_squared = " 1/s^2";
     add_series(group + "/position", 3, "m, m, rad", [first](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.q().segment<3>(first));
+      put(row, now.q.segment<3>(first));
     });
     add_series(group + "/velocity", 3, "m/s, m/s, rad/s", [first](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.v().segment<3>(first));
+      put(row, now.v.segment<3>(first));
     });
     add_series(group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
                [first](const Snapshot& now, std::vector<double>& row) {
-                 put(row, now.equations.v_dot().segment<3>(first));
+                 put(row, now.v_dot.segment<3>(first));
                });
     const int center = model_->find_marker(body.name + ".center_of_mass");
     if (center >= 0) {
       const auto i = static_cast<std::size_t>(center);
       add_series(group + "/center_of_mass/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.equations.terms().markers()[i].r);
+        put(row, now.terms.markers()[i].r);
       });
       add_series(group + "/center_of_mass/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.equations.terms().markers()[i].v);
+        put(row, now.terms.markers()[i].v);
       });
       add_series(group + "/center_of_mass/acceleration", 2, "m/s^2",
                  [i, first, n](const Snapshot& now, std::vector<double>& row) {
-                   put(row, calc_marker_acceleration(now.equations.terms().markers()[i],
-                                                     now.equations.v_dot().segment(first, 3 + n)));
+                   put(row, calc_marker_acceleration(now.terms.markers()[i],
+                                                     now.v_dot.segment(first, 3 + n)));
                  });
     }
     if (n == 0) continue;
@@ -113,18 +115,43 @@ void ResultsWriter::add_body_series() {
     const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
     file_.write(group + "/modal/mode_number", numbers);
     add_series(group + "/modal/amplitude", columns, "kg^0.5 m", [first, n](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.q().segment(first + 3, n));
+      put(row, now.q.segment(first + 3, n));
     });
     add_series(group + "/modal/rate", columns, "kg^0.5 m/s", [first, n](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.equations.v().segment(first + 3, n));
+      put(row, now.v.segment(first + 3, n));
     });
     add_series(group + "/modal/acceleration", columns, "kg^0.5 m/s^2",
                [first, n](const Snapshot& now, std::vector<double>& row) {
-                 put(row, now.equations.v_dot().segment(first + 3, n));
+                 put(row, now.v_dot.segment(first + 3, n));
                });
-    add_series(group + "/modal/active", columns, "1", [](const Snapshot&, std::vector<double>& row) {
-      std::fill(row.begin(), row.end(), 1.0);
+    add_series(group + "/modal/active", columns, "1", [first](const Snapshot& now, std::vector<double>& row) {
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto coordinate = static_cast<std::size_t>(first) + 3 + k;
+        row[k] = now.modes && now.modes->options().changes && !now.modes->active()[coordinate] ? 0.0 : 1.0;
+      }
     });
+  }
+}
+
+void ResultsWriter::add_neglected_series(const Model& full) {
+  for (const Body& body : full.bodies) {
+    if (body.num_modes() == 0) continue;
+    const int first = body.first_coordinate + 3, last = first + body.num_modes() - 1;
+    const std::vector<int> numbers = body.mode_numbers;
+    add_series("/bodies/" + body.name + "/modal/neglected", 3, "1",
+               [first, last, numbers](const Snapshot& now, std::vector<double>& row) {
+                 std::fill(row.begin(), row.end(), 0.0);
+                 const ModeIndicator& indicator = now.modes->indicator();
+                 double worst = 0.0;
+                 for (std::size_t j = 0; j < indicator.num_modes(); ++j) {
+                   const int coordinate = indicator.modal_coordinates()[j];
+                   const ModeShare& share = indicator.neglected()[j];
+                   if (coordinate < first || coordinate > last || share.worst() <= worst) continue;
+                   worst = share.worst();
+                   row = {share.deflection, share.acceleration,
+                          static_cast<double>(numbers[static_cast<std::size_t>(coordinate - first)])};
+                 }
+               });
   }
 }
 
@@ -136,11 +163,11 @@ void ResultsWriter::add_joint_series() {
     add_series("/joints/" + joint.name + "/reaction", 3, "N, N, N m",
                [&joint, row_of_joint](const Snapshot& now, std::vector<double>& row) {
                  JointJacobian Ga, Gb;
-                 const auto markers = now.equations.terms().markers();
+                 const auto markers = now.terms.markers();
                  joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
                                      markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
                  const Eigen::Vector3d reaction =
-                     -Ga.transpose() * now.equations.multipliers().segment(row_of_joint, joint.num_constraints());
+                     -Ga.transpose() * now.multipliers.segment(row_of_joint, joint.num_constraints());
                  put(row, reaction);
                });
     file_.attribute("/joints/" + joint.name, "kind", joint.kind());
@@ -154,18 +181,18 @@ void ResultsWriter::add_joint_coordinate(const Joint& joint, int row_of_joint) {
   const std::string group = "/joints/" + joint.name, unit = coordinate->is_angle() ? "rad" : "m";
   const auto a = static_cast<std::size_t>(joint.marker_a), b = static_cast<std::size_t>(joint.marker_b);
   add_series(group + "/coordinate", 0, unit, [=](const Snapshot& now, std::vector<double>& row) {
-    const auto markers = now.equations.terms().markers();
+    const auto markers = now.terms.markers();
     row[0] = coordinate->value(markers[a], markers[b]);
   });
   add_series(group + "/rate", 0, unit + "/s", [=](const Snapshot& now, std::vector<double>& row) {
-    const auto markers = now.equations.terms().markers();
+    const auto markers = now.terms.markers();
     row[0] = coordinate->rate(markers[a], markers[b]);
   });
   if (!joint.is_motion()) return;
   // Work of the constraint −λ δφ with φ = coordinate − f(t): what drives the coordinate is −λ.
   add_series(group + "/drive", 0, coordinate->is_angle() ? "N m" : "N",
              [row_of_joint](const Snapshot& now, std::vector<double>& row) {
-               row[0] = -now.equations.multipliers()[row_of_joint];
+               row[0] = -now.multipliers[row_of_joint];
              });
 }
 
@@ -179,7 +206,7 @@ void ResultsWriter::add_force_series() {
       add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
                  [&force, first, count, c](const Snapshot& now, std::vector<double>& row) {
                    std::vector<double> values(force.channels().size());
-                   force.calc_channels(now.equations.terms().instant(), now.branches.subspan(first, count), values);
+                   force.calc_channels(now.terms.instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
                  });
     }
@@ -201,7 +228,7 @@ void ResultsWriter::add_recovery_series(const Vehicle& vehicle) {
     const auto add = [&](const std::string& name, const std::string& unit, auto resultant) {
       add_series(group + "/" + name, stations, unit,
                  [recovery, first, n, resultant](const Snapshot& now, std::vector<double>& row) {
-                   put(row, (recovery->*resultant)(now.equations.q().segment(first, n)));
+                   put(row, (recovery->*resultant)(now.q.segment(first, n)));
                  });
     };
     add("axial", "N", &ResultantRecovery::axial);

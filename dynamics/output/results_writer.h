@@ -29,6 +29,7 @@ struct ResultsHeader {
   std::vector<std::string> overrides;      ///< assignments of the command line, as given
   const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
   std::vector<VehicleMode> modes;          ///< about the equilibrium
+  const Model* full = nullptr;             ///< with the modes whose neglect is told, null for none
 };
 
 /// Root attribute `format` of a results file.
@@ -64,6 +65,7 @@ class ResultsWriter {
   void add_joint_series();
   void add_joint_coordinate(const Joint& joint, int row_of_joint);
   void add_force_series();
+  void add_neglected_series(const Model& full);
   void add_recovery_series(const Vehicle& vehicle);
   void write_events();
 

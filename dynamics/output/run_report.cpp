@@ -10,6 +10,13 @@ namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kTooMuchLeftOut = 0.05;  // share above which the summary warns
+
+}  // namespace
+
+
+namespace {
+
 std::string describe_modes(const Model& model) {
   std::vector<std::string> flexible;
   for (const Body& body : model.bodies) {
@@ -74,12 +81,42 @@ std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
   run.add_row({"evaluations (and for output)",
                fmt::format("{} ({})", transient.evaluations, transient.output_evaluations)});
   run.add_row({"switches located", fmt::format("{}", transient.switches)});
+  std::string warning;
+  if (summary.adaptivity) {
+    const WorstNeglect& worst = transient.worst_neglect;
+    if (summary.adaptivity->changes) {
+      run.add_row({"active modes, mean over time", fmt::format("{:.1f}", transient.mean_active_modes)});
+      run.add_row({"changes of modes", fmt::format("{}", transient.mode_changes)});
+    }
+    if (worst.coordinate >= 0) {
+      const std::string name = summary.adaptivity->full->coordinate_name(worst.coordinate);
+      const std::string shares =
+          fmt::format("{:.2g} % of the largest deflection, {:.2g} % of the largest acceleration",
+                      100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
+      run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
+      if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
+        warning = fmt::format("\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
+                              "asked for (at t = {:.3g} s); take more modes, or [adaptivity] enabled = true\n",
+                              name, shares, worst.time);
+      }
+    }
+  }
   run.add_row({"time", fmt::format("{:.3f} s", summary.elapsed)});
   run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / summary.elapsed)});
-  return fmt::format("\nVertical, from the start's balance\n{}\n{}", points.str(), run.str());
+  return fmt::format("\nVertical, from the start's balance\n{}\n{}{}", points.str(), run.str(), warning);
 }
 
 std::string format_summary_json(const Model& model, const RunSummary& summary) {
+  JsonObject modes;
+  if (summary.adaptivity) {
+    const WorstNeglect& worst = summary.transient.worst_neglect;
+    modes.add("mean_active", summary.transient.mean_active_modes)
+        .add("changes", static_cast<double>(summary.transient.mode_changes))
+        .add("largest_left_out",
+             worst.coordinate >= 0 ? summary.adaptivity->full->coordinate_name(worst.coordinate) : std::string())
+        .add("left_out_of_deflection", worst.share.deflection)
+        .add("left_out_of_acceleration", worst.share.acceleration);
+  }
   JsonObject points;
   for (const PointStatistics& point : summary.statistics.point_statistics()) {
     const auto statistics = [](const SampleStatistics& sample) {
@@ -99,6 +136,7 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
              .add("evaluations", static_cast<double>(transient.evaluations))
              .add("output_evaluations", static_cast<double>(transient.output_evaluations))
              .add("switches", static_cast<double>(transient.switches))
+             .add("modes", modes)
              .add("repartitions", static_cast<double>(transient.repartitions))
              .add("elapsed", summary.elapsed)
              .add("real_time_factor", summary.duration / summary.elapsed)

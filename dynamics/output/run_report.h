@@ -20,6 +20,7 @@ struct RunSummary {
   const TransientStatistics& transient;
   double duration = 0.0;      ///< simulated [s]
   double elapsed = 0.0;       ///< wall clock [s]
+  const AdaptivityOptions* adaptivity = nullptr;  ///< null where nothing was left out
 };
 
 /// The summary as tables for people.

@@ -31,7 +31,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
 }
 
 void RunStatistics::add(const Snapshot& snapshot) {
-  const SystemTerms& terms = snapshot.equations.terms();
+  const SystemTerms& terms = snapshot.terms;
   if (model_->num_constraints > 0) {
     terms.calc_residual(phi_);
     constraint_violation_ = std::max(constraint_violation_, phi_.lpNorm<Eigen::Infinity>());
@@ -62,7 +62,7 @@ void RunStatistics::add(const Snapshot& snapshot) {
       continue;
     }
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
-    point.acceleration.add(calc_marker_acceleration(state, snapshot.equations.v_dot().segment(
+    point.acceleration.add(calc_marker_acceleration(state, snapshot.v_dot.segment(
                                                                body.first_coordinate, body.num_coordinates()))
                                .y());
   }

@@ -19,5 +19,7 @@ int run_command(const RunRequest& request, const RunOutput& output);
 int equilibrium_command(const RunRequest& request, bool json);
 /// Prints the vehicle's modes about its static equilibrium. @return exit code
 int modes_command(const RunRequest& request, bool json);
+/// Prints, and writes where asked to, the vehicle's linear response to the road. @return exit code
+int response_command(const RunRequest& request, const RunOutput& output);
 
 }  // namespace sprung::dynamics

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -29,20 +33,32 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
           .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
-// Steady motion is a balance in coordinates that stand still in it: modes do, places and angles of bodies
-// that are carried round do not.
-void check_steady(const PreparedRun& prepared) {
-  const Model& model = prepared.balance_model;
-  if (!model.has_motions) return;
-  for (const int i : prepared.equilibrium->linearised.partition.independent) {
-    const std::string name = model.coordinate_name(i);
-    if (name.find(".mode ") != std::string::npos) continue;
-    throw support::InputError(prepared.run.start_location,
-                              fmt::format("'start' can be \"steady\" only where prescribed motion leaves "
-                                          "nothing free but modes of flexible "
-                                          "bodies, clamped where they are held; '{}' is free",
-                                          name));
-  }
+bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  const std::vector<int>& free = equations.partition().independent;
+  return std::all_of(free.begin(), free.end(), [&](int i) {
+    return model.coordinate_name(i).find(".mode ") != std::string::npos;
+  });
+}
+
+// The motion that a run's start is in balance in.
+SteadyMotion find_motion(const Run& run, const Model& model, const Eigen::VectorXd& q) {
+  if (run.start != Run::Start::kSteady) return {};
+  if (const std::optional<SteadyMotion> motion = find_steady_motion(model, q)) return *motion;
+  // Modes stand still in their bodies, however these move.
+  if (only_modes_are_free(model, q)) return {};
+  throw support::InputError(run.start_location,
+                            "'start' can be \"steady\" only where prescribed motion carries the whole system "
+                            "round or along as if it were rigid, or leaves nothing free but modes");
+}
+
+void check_steady(const Run& run, const Model& model, const Equilibrium& equilibrium) {
+  if (is_steady(model, equilibrium.motion, equilibrium.q)) return;
+  throw support::InputError(run.start_location,
+                            "'start' can be \"steady\" only where what is carried along sees the same forces "
+                            "at all times: not with weight on what turns, springs to the ground, or a motion that "
+                            "changes its rate");
 }
 
 }  // namespace
@@ -63,19 +79,27 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
+  prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
   prepared.output_points = resolve_output_points(run, vehicle);
-  const ModalDamping damping = resolve_modal_damping(run, prepared.selection, vehicle);
+  const ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
+  const StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
+  if (run.adaptivity.enabled && !stiffened.empty()) {
+    throw support::InputError(run.adaptivity.location,
+                              "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
+                              "be stiffened; take a fixed set of modes, or leave stiffening out");
+  }
 
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.balance_model =
-      make_model(vehicle, prepared.selection, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
-                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld);
+      make_model(vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
+                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
-    prepared.equilibrium = find_equilibrium(prepared.balance_model, q);
+    prepared.equilibrium =
+        find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
     q = prepared.equilibrium->q;
-    if (run.start == Run::Start::kSteady) check_steady(prepared);
+    check_steady(run, prepared.balance_model, *prepared.equilibrium);
   }
 
   SystemTerms terms(prepared.balance_model);
@@ -83,7 +107,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.road = make_road(run);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.selection, prepared.placed_road, damping);
+  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping,
+                              MotionUse::kMoving, stiffened);
   std::optional<Integrator::Method>& method = prepared.run.integrator.method;
   if (!method) method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {
@@ -95,9 +120,56 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
     assemble_positions(prepared.model, q);
   }
   Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
+  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {  // carried along, in place of the speed
+    for (const Body& body : prepared.model.bodies) v[body.first_coordinate] -= vehicle.direction * run.speed;
+    v += prepared.equilibrium->motion.calc_velocity(prepared.model, q);
+  }
   prepared.initial_velocities = project_velocities(prepared.model, 0.0, q, v);
   prepared.start = make_state(prepared.model, q, v);
   return prepared;
+}
+
+std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, std::optional<Model>& full) {
+  const AdaptivitySettings& settings = prepared.run.adaptivity;
+  if (!settings.enabled && !settings.indicator) return std::nullopt;
+  AdaptivityOptions options;
+  options.changes = settings.enabled;
+  options.recall = settings.recall;
+  options.drop = settings.drop;
+  options.residence = settings.residence;
+  if (settings.enabled) {
+    options.full = &prepared.model;
+  } else {
+    ModeSelection all;
+    ModalDamping damping;
+    for (const BodyDescription& body : prepared.vehicle.bodies) {
+      const reduce::Superelement* superelement = prepared.vehicle.superelement_of(body);
+      if (!superelement) continue;
+      std::vector<int>& numbers = all[body.name];
+      numbers.resize(static_cast<std::size_t>(superelement->num_modes()));
+      std::iota(numbers.begin(), numbers.end(), 1);
+      // A ratio for all modes holds for those left out, too; a list names its own.
+      const auto request = prepared.run.modal_damping.find(body.name);
+      if (request != prepared.run.modal_damping.end() && request->second.ratios.size() == 1) {
+        damping[body.name] = request->second.ratios;
+      }
+    }
+    full = make_model(prepared.vehicle, all, prepared.placed_road, damping);
+    if (full->num_coordinates == prepared.model.num_coordinates) return std::nullopt;
+    options.full = &*full;
+  }
+  options.active.assign(static_cast<std::size_t>(options.full->num_coordinates), true);
+  for (const Body& body : options.full->bodies) {
+    const auto selected = prepared.selection.find(body.name);
+    for (int k = 0; k < body.num_modes(); ++k) {
+      const int number = body.mode_numbers[static_cast<std::size_t>(k)];
+      options.active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] =
+          selected != prepared.selection.end() &&
+          std::binary_search(selected->second.begin(), selected->second.end(), number);
+    }
+  }
+  for (const std::string& point : prepared.output_points) options.points.push_back(options.full->find_marker(point));
+  return options;
 }
 
 }  // namespace sprung::dynamics

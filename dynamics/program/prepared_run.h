@@ -8,6 +8,7 @@
 
 #include "dynamics/analysis/assembly.h"
 #include "dynamics/analysis/equilibrium.h"
+#include "dynamics/analysis/mode_adaptation.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/input/run.h"
 
@@ -25,7 +26,8 @@ struct RunRequest {
 struct PreparedRun {
   Run run;
   Vehicle vehicle;
-  ModeSelection selection;
+  ModeSelection selection;                 ///< at the start
+  ModeSelection available;                 ///< of the models below: more than `selection` where modes join and leave
   std::vector<std::string> output_points;
   AssemblyReport assembly;
   VelocityReport initial_velocities;
@@ -42,6 +44,10 @@ enum class Preparation {
   kBalance,  ///< up to the equilibrium, whatever the run's own start
   kRun,      ///< all of it
 };
+
+/// How modes join and leave in the run, or what is told of those left out; none where nothing is left out.
+/// @param[out] full  filled with the model that the options point to, where it is not prepared.model
+std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, std::optional<Model>& full);
 
 /// @throws support::InputError, support::NumericalError
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation);

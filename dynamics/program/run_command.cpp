@@ -59,17 +59,19 @@ int run_command(const RunRequest& request, const RunOutput& output) {
                                   prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
   }
 
+  TransientOptions options = make_options(run);
+  std::optional<Model> full_model;
+  options.adaptivity = make_adaptivity(prepared, full_model);
   std::unique_ptr<ResultsWriter> writer;
   if (!output.results.empty()) {
     writer = std::make_unique<ResultsWriter>(
         output.results, ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
                                       request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                                      std::move(modes)});
+                                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr});
   }
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from, run.statistics_to);
 
-  TransientOptions options = make_options(run);
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
   double time_reached = 0.0;
   options.on_output = [&](const Snapshot& snapshot) {
@@ -99,7 +101,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (writer) writer->finish(statistics, transient);
 
-  const RunSummary summary{statistics, transient, run.duration, elapsed};
+  const RunSummary summary{statistics, transient, run.duration, elapsed,
+                           options.adaptivity ? &*options.adaptivity : nullptr};
   if (statistics.energy_closure() > kAlarmingClosure) {
     fmt::print(stderr,
                "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "

@@ -18,8 +18,8 @@ namespace sprung::dynamics {
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
-  std::vector<std::unique_ptr<Joint>> joints;
-  std::vector<std::unique_ptr<ForceElement>> forces;
+  std::vector<std::shared_ptr<const Joint>> joints;
+  std::vector<std::shared_ptr<const ForceElement>> forces;  ///< shared with models that differ in their active modes
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
 
   int num_coordinates = 0;

@@ -11,7 +11,6 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       v_(Eigen::VectorXd::Zero(model.num_coordinates)),
       Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       rotations_(model.bodies.size()),
-      markers_(model.markers.size()),
       wrenches_(model.markers.size()),
       joint_jacobians_(model.joints.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
@@ -26,10 +25,7 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
     add_block(j, model.joints[j]->marker_a);
     add_block(j, model.joints[j]->marker_b);
   }
-  for (std::size_t i = 0; i < model.markers.size(); ++i) {
-    markers_[i].r = model.markers[i].p_BP;  // of ground markers, for good
-    markers_[i].r_eta.resize(2, model.markers[i].Phi.cols());
-  }
+  for (const Marker& marker : model.markers) markers_.push_back(make_marker_state(marker));
 }
 
 void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -62,8 +58,9 @@ void SystemTerms::place_marker(int index) {
 void SystemTerms::move_marker(int index) {
   const Marker& marker = model_->markers[static_cast<std::size_t>(index)];
   if (marker.body == kGround) return;
-  const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
-  calc_marker_velocity(marker, v_.segment(body.first_coordinate, body.num_coordinates()),
+  const auto b = static_cast<std::size_t>(marker.body);
+  const Body& body = model_->bodies[b];
+  calc_marker_velocity(marker, rotations_[b], v_.segment(body.first_coordinate, body.num_coordinates()),
                        markers_[static_cast<std::size_t>(index)]);
 }
 
@@ -96,8 +93,7 @@ void SystemTerms::add_block(std::size_t joint, int marker_index) {
 
 // The blocks come in the order in which the constructor added them.
 void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block) {
-  const Marker& point = model_->markers[static_cast<std::size_t>(marker_index)];
-  if (point.body == kGround) return;
+  if (model_->markers[static_cast<std::size_t>(marker_index)].body == kGround) return;
   const MarkerState& state = marker(marker_index);
   double* value = Phi_q_.values(next_block++);
   for (int k = 0; k < G.rows(); ++k) {
@@ -105,7 +101,7 @@ void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size
     *value++ = G(k, 1);
     *value++ = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
     for (Eigen::Index n = 0; n < state.r_eta.cols(); ++n) {
-      *value++ = G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * point.Phi_rotation[n];
+      *value++ = G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * state.angle_eta[n];
     }
   }
 }
@@ -156,7 +152,8 @@ void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
     joint.calc_drift(a, b, time_, drift);
     for (int k = 0; k < drift.size(); ++k) {
       gamma[model_->joint_rows[j] + k] = -drift[k] - G.a(k, 0) * a.a_bias.x() - G.a(k, 1) * a.a_bias.y() -
-                                         G.b(k, 0) * b.a_bias.x() - G.b(k, 1) * b.a_bias.y();
+                                         G.a(k, 2) * a.alpha_bias - G.b(k, 0) * b.a_bias.x() -
+                                         G.b(k, 1) * b.a_bias.y() - G.b(k, 2) * b.alpha_bias;
     }
   }
 }
@@ -171,7 +168,7 @@ void SystemTerms::add_wrench(int marker_index, const Wrench& wrench) {
   Q_[first + 1] += wrench.force.y();
   Q_[first + 2] += state.r_theta.dot(wrench.force) + wrench.torque;
   for (int n = 0; n < body.num_modes(); ++n) {
-    Q_[first + 3 + n] += state.r_eta.col(n).dot(wrench.force) + point.Phi_rotation[n] * wrench.torque;
+    Q_[first + 3 + n] += state.r_eta.col(n).dot(wrench.force) + state.angle_eta[n] * wrench.torque;
   }
 }
 
@@ -201,6 +198,7 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     auto Q = Q_.segment(first, 3 + n);
     add_gravity_forces(body, rotations_[b], model_->gravity, eta, Q);
     add_quadratic_velocity_forces(body, rotations_[b], v_[first + 2], eta, eta_dot, Q);
+    if (body.stiffening) add_stiffening_forces(*body.stiffening, v_[first + 2], eta, eta_dot, Q);
     for (Eigen::Index i = 0; i < n; ++i) {
       double damping_force = 0.0;
       for (Eigen::Index j = 0; j < n; ++j) {
@@ -209,6 +207,11 @@ void SystemTerms::update_forces(std::span<const int> branches) {
       }
       Q[3 + i] -= damping_force;
       power_.dissipated += damping_force * eta_dot[i];
+    }
+    for (const FadingForce& fading : body.fading) {
+      const double value = fading.value(time_);
+      Q[3 + fading.mode] += value;
+      power_.input += value * eta_dot[fading.mode];
     }
   }
 }

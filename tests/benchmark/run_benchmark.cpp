@@ -92,7 +92,7 @@ Cost run_once(const dynamics::PreparedRun& prepared, const Request& request, dou
   options.integrator = {.method = prepared.run.integrator.method.value(), .relative_tolerance = tolerance};
   if (series) {
     options.on_output = [&](const dynamics::Snapshot& snapshot) {
-      series->push_back(chassis.row(snapshot.time, snapshot.equations.q(), snapshot.equations.v_dot()));
+      series->push_back(chassis.row(snapshot.time, snapshot.q, snapshot.v_dot));
     };
   }
   const dynamics::TransientStatistics statistics = run_transient(prepared.model, prepared.start, options);

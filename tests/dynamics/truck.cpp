@@ -153,11 +153,11 @@ BumpResult drive_over_bump(const BumpRun& run) {
   options.integrator = {.method = run.method, .relative_tolerance = run.relative_tolerance};
   options.on_event = [&](const Event& event) { result.events.push_back(event); };
   options.on_output = [&](const Snapshot& snapshot) {
-    const VectorXd& q = snapshot.equations.q();
+    const VectorXd& q = snapshot.q;
     const double mirror = run.mirrored ? -1.0 : 1.0;
     rows.emplace_back(start.direction * (q[chassis] - balance[0]), q[chassis + 1] - balance[1],
                       mirror * q[chassis + 2]);
-    snapshot.equations.terms().calc_residual(phi);
+    snapshot.terms.calc_residual(phi);
     result.largest_violation = std::max(result.largest_violation, phi.cwiseAbs().maxCoeff());
     closure.add(snapshot.energy);
   };

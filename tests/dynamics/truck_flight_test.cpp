@@ -87,7 +87,7 @@ TEST_CASE("Without gravity and dampers the thrown truck keeps momentum, angular 
     options.output_step = 0.01;
     options.integrator.relative_tolerance = 1e-10;
     options.on_output = [&](const dynamics::Snapshot& snapshot) {
-      const Totals now = sum_up(model, snapshot.equations.q(), snapshot.equations.v());
+      const Totals now = sum_up(model, snapshot.q, snapshot.v);
       const double total = snapshot.energy.stored.total();
       if (snapshot.time == 0.0) energy = total;
       momentum_change = std::max(momentum_change, (now.momentum - first.momentum).norm());
@@ -118,7 +118,7 @@ TEST_CASE("In free flight the truck's centre of mass follows the parabola", "[tr
     const double t = snapshot.time;
     const Vector2d expected =
         first.center + first.momentum / first.mass * t + 0.5 * t * t * Vector2d(0.0, -9.80665);
-    const Totals now = sum_up(model, snapshot.equations.q(), snapshot.equations.v());
+    const Totals now = sum_up(model, snapshot.q, snapshot.v);
     error = std::max(error, (now.center - expected).norm());
   };
   dynamics::run_transient(model, start, options);

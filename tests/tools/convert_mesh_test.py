@@ -9,12 +9,8 @@ import unittest
 import h5py
 import meshio
 import numpy as np
+from small_decks import ABAQUS, NASTRAN
 from tool_test_case import ROOT, ToolTestCase
-
-from abaqus_deck import read_abaqus
-from line_mesh import make_plane_frame
-from meshio_source import read_with_meshio
-from nastran_deck import read_nastran
 
 DATA = ROOT / "tests/tools/data"
 FEM_DATA = ROOT / "tests/fem/data"
@@ -186,69 +182,6 @@ class Portal(ConvertCase):
                 self.assert_same_body(self.reduce(text, f"converted_{name}"), self.expected)
 
 
-class Reading(ToolTestCase):
-    """Small things about decks."""
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return str(self.folder / name)
-
-    def test_our_readers_agree_with_meshio_where_that_is_right(self):
-        for reader, path in ((read_abaqus, TRUCK / "chassis.inp"), (read_nastran, TRUCK / "chassis.bdf"),
-                             (read_abaqus, DATA / "gmsh_portal.inp")):  # fmt: skip
-            with self.subTest(path.name):
-                ours, theirs = reader(str(path)), read_with_meshio(str(path))
-                np.testing.assert_array_equal(ours.positions, theirs.positions)
-                np.testing.assert_array_equal(ours.lines, theirs.lines)
-
-    def test_nodes_in_two_blocks_and_an_included_file_are_all_there(self):
-        self.write("more.inp", "*NODE\n3, 2.0, 0.5\n")
-        path = self.write("a.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n*INCLUDE, INPUT=more.inp\n"
-                          "*ELEMENT, TYPE=b23\n1, 1, 2\n*Element, elset=A, type=B23\n2, 2, 3\n")  # fmt: skip
-        mesh = read_abaqus(path)
-        np.testing.assert_array_equal(mesh.positions[2], (2.0, 0.5, 0.0))
-        self.assertEqual({name: list(lines) for name, lines in mesh.element_sets.items()}, {"A": [1]})
-        self.assertEqual(list(make_plane_frame(mesh).curves), ["A", "lines"])
-
-    def test_the_vtk_of_gmsh_keeps_its_entities_as_groups_and_its_lines_directions(self):
-        frame = make_plane_frame(read_with_meshio(str(DATA / "gmsh_portal.vtk")))
-        sizes = {name: len(lines) for name, lines in frame.curves.items()}
-        self.assertEqual(sizes, {"CellEntityIds_-2": 2, "CellEntityIds_1": 3, "CellEntityIds_2": 4})
-
-    def test_a_group_that_turns_a_curve_round_turns_its_lines(self):
-        mesh = read_with_meshio(str(FEM_DATA / "portal_41.msh"))
-        turned = mesh.positions[mesh.lines[mesh.element_sets["post"][-1]]]
-        np.testing.assert_allclose(turned[:, :2], [(1.2, -0.8), (0.75, -0.35)], atol=1e-11)  # Line 3 runs 1 → 3
-
-    def test_lengths_are_scaled_and_numbers_keep_their_last_digit(self):
-        self.write("a.inp", "*NODE\n1, 0.1, 0.3\n2, 1234.5678901234567, 0.3\n*ELEMENT, TYPE=B23, ELSET=A\n1, 1, 2\n")
-        self.run_tool("convert_mesh", "a.inp", "a.msh")
-        points = meshio.read(self.folder / "a.msh").points
-        self.assertEqual(points[1, 0], 1234.5678901234567)
-        self.run_tool("convert_mesh", "a.inp", "a.msh", "--scale", "1e-3")
-        self.assertEqual(meshio.read(self.folder / "a.msh").points[1, 0], 1e-3 * 1234.5678901234567)
-
-    def test_overlapping_sets_are_told_apart_by_name(self):
-        refused = self.run_tool("convert_mesh", DATA / "gmsh_portal.inp", "a.msh")
-        self.assert_refuses(refused, "element 3 is in the sets 'Line1' and 'rail'", "--sections")
-        chosen = self.run_tool("convert_mesh", DATA / "gmsh_portal.inp", "a.msh", "--sections", "rail", "post")
-        self.assertEqual(chosen.returncode, 0, chosen.stderr)
-        self.assertIn("element set 'Line1' (3 lines): not asked for", chosen.stdout)
-        self.assertEqual(sorted(meshio.read(self.folder / "a.msh").field_data), ["post", "rail"])
-
-    def test_nastran_sections_that_are_hinged_are_told(self):
-        path = self.write("a.bdf", "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.5-1,0.,0.\n"
-                          "CBAR,1,,1,2,0.,1.,0.\n,6,\nENDDATA\n")  # fmt: skip
-        mesh = read_nastran(path)
-        self.assertIn("hinges (pin flags) of elements 1", mesh.left_behind)
-        self.assertEqual(mesh.positions[1, 0], 0.15)
-        self.assertEqual(list(mesh.element_sets), ["property_1"])  # a bar's property is its own number if none is given
-
-
-ABAQUS = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n*ELEMENT, TYPE=B21, ELSET=A\n1, 1, 2\n2, 2, 3\n"
-NASTRAN = "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,1,1,2,0.,1.,0.\nENDDATA\n"
-
-
 class Refusing(ToolTestCase):
     """What cannot be used gets its error and leaves no file."""
 
@@ -310,6 +243,8 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.inp", ABAQUS.replace("B21", "B22"), "B22 is a line with a middle node")
         moved = "*INSTANCE, NAME=I, PART=P\n1., 0., 0.\n*END INSTANCE\n"
         self.assert_refused("a.inp", ABAQUS + moved, "*INSTANCE: moves its part")
+        common = NASTRAN.replace("CBAR", "BAROR,,7\nCBAR")
+        self.assert_refused("a.bdf", common, "a.bdf:4: ", "BAROR: gives a property to bars")
         self.assert_refused("a.bdf", NASTRAN.replace("GRID,2,,", "GRID,2,5,"), "node 2 is in coordinate system 5")
         self.assert_refused("a.bdf", NASTRAN.replace("GRID,2,,1.", "GRID,2,,1x"), "'1x' is no coordinate")
         self.assert_refused("a.inp", ABAQUS.replace("2, 1., 0.", "2, nan, 0."), "'nan' is not a number")
@@ -319,14 +254,28 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.inp", "", "not an Abaqus deck, or truncated")
         self.assert_refused("a.xyz", "1 2 3\n", "meshio", "Could not deduce file format")
         self.assert_refused("a.msh", "", "the file is empty")
+        self.assert_refused("a.inp", "*INCLUDE, INPUT=a.inp\n", "a.inp:1: ", "'a.inp' includes itself")
+        self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, INPUT=b.txt\n", "a.inp:8: ", "in another file (INPUT=…)")
+        self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, ELSET=C\n", "a.inp:8: ", "the set 'C', which is not there")
+        twice = NASTRAN.replace("ENDDATA", "SET1,4,1\nSET1,4,2\nENDDATA")
+        self.assert_refused("a.bdf", twice, "a.bdf:6: ", "set 4 is defined twice")
         self.assert_refused("a.inp", ABAQUS, "no element set 'B' of lines; the file has A", arguments=("--sections", "B"))
         missing = self.run_tool("convert_mesh", "none.inp", "out.msh")
         self.assert_refuses(missing, "none.inp: error: no such file")
         (self.folder / "a.inp").write_text(ABAQUS, encoding="utf-8")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.vtk"), "must end in .msh")
-        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the mesh")
+        self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "none/out.msh"), "cannot write the file")
         self.assert_refuses(self.run_tool("convert_mesh", "a.inp", "out.msh", "--scale", "0"), "expected a length > 0")
         self.assertEqual(os.listdir(self.folder), ["a.inp"])
+
+    def test_the_source_and_an_earlier_mesh_stay_as_they_were(self):
+        source = (FEM_DATA / "portal_41.msh").read_bytes()
+        (self.folder / "a.msh").write_bytes(source)
+        self.assert_refuses(self.run_tool("convert_mesh", "a.msh", "a.msh"), "a.msh: error: is one of the input files")
+        (self.folder / "bad.inp").write_text(ABAQUS + "*ELGEN\n1, 5\n", encoding="utf-8")
+        self.assert_refuses(self.run_tool("convert_mesh", "bad.inp", "a.msh"), "*ELGEN")
+        self.assertEqual((self.folder / "a.msh").read_bytes(), source)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.msh", "bad.inp"])
 
 
 if __name__ == "__main__":

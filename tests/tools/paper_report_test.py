@@ -22,6 +22,7 @@ from paper_report.paper_runs import (
     build_superelements,
     call,
     list_convergence_runs,
+    list_adams_runs,
     list_finer_runs,
     list_main_runs,
     list_sensitivity_runs,
@@ -44,7 +45,7 @@ COUNTS_RUN_AGAIN = (0, 2, 4, 6)
 OTHER_TERRAIN = "road_1_seed2"
 OTHER_SPEED = "speed8.5"
 TIMED = ("cost",)
-EVALUATIONS = ("evaluations", "effort")
+EVALUATIONS = ("evaluations", "effort", "effort of Adams")
 
 
 def rows_of_evaluations(name, row):
@@ -69,6 +70,7 @@ class Report(unittest.TestCase):
         runs = [
             *list_main_runs(),
             *list_convergence_runs(COUNTS_RUN_AGAIN),
+            *list_adams_runs(),
             *list_finer_runs(),
             *others,
             *list_tyre_runs(),

@@ -73,7 +73,7 @@ class PlotResults(ToolTestCase):
         )
         self.assert_refuses(
             self.run_tool("plot_results", "-o", "none/out.png", "a.h5", "--show", DISPLACEMENT),
-            "none/out.png: error: cannot write the picture",
+            "none/out.png: error: cannot write the file",
         )
         self.assert_refuses(
             self.run_tool("plot_results", "-o", "out.xyz", "a.h5", "--show", DISPLACEMENT),

@@ -1,13 +1,15 @@
 """tools/results_file.py: what it reads, and each of its errors."""
 
+import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
-from tool_test_case import ToolTestCase
+from tool_test_case import TOOLS, ToolTestCase
 
-from results_file import ResultsError, open_results, parse_quantity
+from results_file import ResultsError, open_results, parse_quantity, read_attribute, read_texts
 
 
 class Reading(ToolTestCase):
@@ -180,6 +182,28 @@ class Refusing(ToolTestCase):
         content[content.index(values.tobytes()) + 100] ^= 1
         (self.folder / "run.h5").write_bytes(content)
         self.assert_error(path, "dataset 'bodies/chassis/position' is damaged")
+
+
+class Parts(ToolTestCase):
+    """Texts and attributes, and how a tool ends."""
+
+    def test_texts_and_attributes_are_read_and_their_lack_is_named(self):
+        path = write_results(self.folder / "run.h5", overrides=("speed=5", "Ü=1"))
+        with open_results(path) as results:
+            self.assertEqual(read_texts(results.file, "model/overrides"), ["speed=5", "Ü=1"])
+            self.assertEqual(read_attribute(results.file, "model/bodies/chassis", "mass"), 1e4)
+            for name in ("model/none", "model", "time"):
+                with self.assertRaisesRegex(ResultsError, f"run.h5: error: no dataset '{name}' of strings"):
+                    read_texts(results.file, name)
+            with self.assertRaisesRegex(ResultsError, "run.h5: error: no group 'model/bodies/cab'"):
+                read_attribute(results.file, "model/bodies/cab", "mass")
+            with self.assertRaisesRegex(ResultsError, "run.h5: error: no attribute 'colour' of 'model/bodies/chassis'"):
+                read_attribute(results.file, "model/bodies/chassis", "colour")
+
+    def test_an_interrupted_tool_says_so_without_a_traceback(self):
+        script = "import results_file\ndef main():\n    raise KeyboardInterrupt\nresults_file.run_tool(main)\n"
+        process = subprocess.run([sys.executable, "-c", script], cwd=TOOLS, capture_output=True, text=True, check=False)
+        self.assertEqual((process.returncode, process.stderr), (130, "interrupted\n"))
 
 
 if __name__ == "__main__":

@@ -28,9 +28,7 @@ class RunTruck(ToolTestCase):
     def setUp(self):
         super().setUp()
         self.root = self.folder / "a project"  # a blank, as in many a home folder
-        shutil.copytree(
-            TOOLS, self.root / "tools", ignore=shutil.ignore_patterns("support", "cmake", "__pycache__")
-        )
+        shutil.copytree(TOOLS, self.root / "tools", ignore=shutil.ignore_patterns("support", "cmake", "__pycache__"))
         for folder in ("meshes/truck", "dynamics/models/truck", "elsewhere"):
             (self.root / folder).mkdir(parents=True)
         for name in (
@@ -64,7 +62,7 @@ class RunTruck(ToolTestCase):
             check=False,
         )
 
-    def test_it_reduces_runs_the_bump_three_times_and_leaves_tables_and_pictures(self):
+    def test_it_reduces_runs_the_bump_three_times_and_leaves_tables_pictures_and_a_page(self):
         process = self.run_truck("--output-dir", "my results")
         self.assertEqual((process.returncode, process.stderr), (0, ""))
         out = self.root / "elsewhere/my results"
@@ -83,11 +81,24 @@ class RunTruck(ToolTestCase):
         for name in ("bump_displacement.png", "bump_acceleration.png", "bump_front_end.png"):
             self.assertGreater((out / name).stat().st_size, 10000)
             self.assertIn(str(out / name), process.stdout)
+        page = (out / "report.html").read_text(encoding="utf-8")
+        for label in ("rigid", "2 modes", "4 modes"):
+            self.assertIn(f'"label":"{label}"', page)
+        self.assertIn("residual of the modes", page)  # the superelements' checks
+        last = process.stdout.strip().splitlines()[-1]
+        self.assertEqual(last, f"Open it in a browser: {(out / 'report.html').as_uri()}")
         rows = [line.split() for line in process.stdout.splitlines()]
         self.assertIn(["chassis", "1", "6.11200", "6.11", "+0.00200", "+0.0327", "yes"], rows)
         self.assertIn(["2", "88.93040", "88.92", "+0.01040", "+0.0117", "NO"], rows)
         for label, peak in (("rigid", "0.05"), ("2 modes", "0.1"), ("4 modes", "0.15")):
             self.assertRegex(process.stdout, rf"(?m)\b{label} +-{peak} .* {peak} .* m$")
+
+    def test_the_example_of_its_help_runs(self):
+        words = self.run_truck("--help").stdout.splitlines()[-1].split()
+        self.assertEqual(words[:2], ["tools/run-truck", "--output-dir"])
+        process = self.run_truck(words[1], str(self.folder / "given"))
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertTrue((self.folder / "given/report.html").exists())
 
     def test_it_can_be_run_again_and_writes_into_the_build_folder_unless_told_otherwise(self):
         for _ in range(2):
@@ -95,9 +106,7 @@ class RunTruck(ToolTestCase):
         self.assertTrue((self.root / "build/truck/bump_displacement.png").exists())
 
     def test_it_stops_at_the_first_failure_and_names_the_step(self):
-        self.program(
-            "build/release/dynamics/sprung-dynamics", "sys.exit(3 if sys.argv[-1].endswith('=2') else 0)"
-        )
+        self.program("build/release/dynamics/sprung-dynamics", "sys.exit(3 if sys.argv[-1].endswith('=2') else 0)")
         process = self.run_truck()
         self.assertEqual(process.returncode, 3)
         self.assertIn("tools/run-truck: stopped (exit 3): bump, chassis with 2 modes failed", process.stderr)

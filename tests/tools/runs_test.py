@@ -35,6 +35,11 @@ class Labels(ToolTestCase):
             [run.label for run in self.open(*paths)], ["chassis 2 modes (a.h5)", "chassis 2 modes (b.h5)"]
         )
 
+    def test_one_file_twice_is_told_apart_by_number(self):
+        path = write_results(self.folder / "a.h5")
+        labels = [run.label for run in self.open(f"x={path}", f"x={path}")]
+        self.assertEqual(labels, ["x (a.h5) (no. 1)", "x (a.h5) (no. 2)"])
+
     def test_a_quantity_is_its_own_label(self):
         self.assertEqual(shown_quantities(["time", "t=time"]), [Shown("time", "time"), Shown("t", "time")])
 

@@ -35,8 +35,8 @@ class Setup(ToolTestCase):
         self.stand_in("apt-get", f'echo "${{DEBIAN_FRONTEND-}} apt-get $*" >>"{self.log}"')
         self.stand_in("id", f"echo {user}")
 
-    def setup_tool(self):
-        return self.run_tool("setup", PATH=str(self.programs), DEBIAN_FRONTEND="")
+    def setup_tool(self, *arguments):
+        return self.run_tool("setup", *arguments, PATH=str(self.programs), DEBIAN_FRONTEND="")
 
     def calls(self):
         return self.log.read_text(encoding="utf-8").splitlines()
@@ -57,6 +57,22 @@ class Setup(ToolTestCase):
         self.assertRegex(
             install, r"^noninteractive apt-get .*\binstall -y --no-install-recommends libgmsh-dev catch2$"
         )
+
+    def test_a_browser_is_installed_for_the_tests_alone_and_only_where_there_is_none(self):
+        self.make_debian(missing=("chromium",))
+        self.assertIn("all packages are installed", self.setup_tool().stdout)
+        self.assertEqual(self.calls(), [])
+        process = self.setup_tool("--for-tests")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(self.calls()[-1], r"install -y --no-install-recommends chromium$")
+        self.stand_in("google-chrome", "")
+        self.assertIn("all packages are installed", self.setup_tool("--for-tests").stdout)
+
+    def test_other_arguments_are_refused(self):
+        for arguments in (("--tests",), ("--for-tests", "twice")):
+            process = self.setup_tool(*arguments)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn(f"unknown argument '{arguments[-1]}'", process.stderr)
 
     def test_a_removed_package_of_which_only_settings_are_left_is_missing(self):
         self.make_debian()

@@ -189,13 +189,13 @@ def deflection_frequency(run):
     return judge
 
 
-def cost(count, calc):
-    """calc: (numbers, run name) → cost of a run."""
+def cost(count, calc, suffix):
+    """calc: (numbers, run name) → cost of a run; suffix: of the runs' names."""
 
     def judge(numbers):
         found, holds = [], {}
         for road in ("bump", "terrain"):
-            ratio = calc(numbers, f"{road}_{count}modes") / calc(numbers, f"{road}_rigid")
+            ratio = calc(numbers, f"{road}_{count}modes{suffix}") / calc(numbers, f"{road}_rigid{suffix}")
             found.append(f"{road} {ratio:.2f}")
             holds[road] = bool(abs(ratio / PRINTED_COSTS[count] - 1.0) <= COST_MARGIN)
         return Finding(", ".join(found), holds)
@@ -286,11 +286,16 @@ def list_claims():
                   f"{name}: highest peak of the deflection's spectrum between 5.5 and 6.5 Hz",
                   (run,), deflection_frequency(run))
         )  # fmt: skip
-    for unit, calc, timed in (("evaluations", evaluations, False), ("processor time", processor_time, True)):
+    # Evaluations by a method that sees one rate of change at a time, as the paper's did; time by the one that is used.
+    costs = (
+        ("evaluations by Adams' method", evaluations, "_adams", False),
+        ("processor time by the default method", processor_time, "", True),
+    )
+    for unit, calc, suffix, timed in costs:
         for count, printed in PRINTED_COSTS.items():
             number += 1
             claims.append(
                 Claim(f"{number}", "section 4.1", f"{count} modes cost {printed} times the rigid model",
-                      f"{unit}: within {100 * COST_MARGIN:g} % of that", (*both, *terrain), cost(count, calc), timed)
+                      f"{unit}: within {100 * COST_MARGIN:g} % of that", tuple(name + suffix for name in (*both, *terrain)), cost(count, calc, suffix), timed)
             )  # fmt: skip
     return claims

@@ -24,6 +24,7 @@ EXPENSIVE_MODES = 24  # from this many on a run takes minutes rather than second
 LINKS = ("modes.front_long_arm=2", "modes.rear_long_arm=2")
 UNDAMPED = ("modal_damping.chassis=0",)
 DISTRIBUTED = tuple(f"vehicle.forces.{axle}_tyre.contact=distributed" for axle in ("front", "rear"))
+ADAMS = ("integrator.method=adams",)
 FINER = ("integrator.relative_tolerance=1e-8",)
 SEEDS = (1, 2, 3)
 SPEEDS = (6.5, 7.0, 7.5, 8.0, 8.5)  # m/s over the terrain
@@ -104,6 +105,15 @@ def list_finer_runs():
     return [
         PaperRun(f"{run}_4modes_finer", f"{run}.toml", chassis_modes(4) + FINER)
         for run in ("bump", "terrain")
+    ]
+
+
+def list_adams_runs():
+    """Rigid, 2 and 4 modes by an integrator that knows nothing of vibrations beforehand, as the paper's did not."""
+    return [
+        PaperRun(f"{run}_{name_modes(n)}_adams", f"{run}.toml", chassis_modes(n) + ADAMS)
+        for run in ("bump", "terrain")
+        for n in (0, 2, 4)
     ]
 
 

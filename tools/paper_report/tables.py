@@ -141,6 +141,20 @@ def make_effort_table(numbers):
     return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
 
 
+def make_adams_table(numbers):
+    """The same by Adams' method."""
+    rows = []
+    for count in (0, 2, 4):
+        cells = []
+        for road in ROADS:
+            evaluations, rigid = (
+                numbers.run(f"{road}_{name_modes(n)}_adams").evaluations for n in (count, 0)
+            )
+            cells += [f"{evaluations}", f"{evaluations / rigid:.2f}"]
+        rows.append((str(count), *cells))
+    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
+
+
 def make_cost_table(numbers):
     """Measured processor times of the whole program, no results file; no rows without measured ones."""
     rows = []
@@ -259,6 +273,7 @@ def list_tables():
         "terrain bands": make_bands_table,
         "convergence": make_convergence_table,
         "effort": make_effort_table,
+        "effort of Adams": make_adams_table,
         "sensitivity": make_sensitivity_table,
         "speed": make_speed_table,
         "ride": make_ride_table,

@@ -2,14 +2,17 @@
 // The vehicle on its road, drawn on a canvas from the runs' frames.
 
 const ROOM = 1.55;  // width of the view in vehicle lengths, on a wide screen
+const THUMB = 8;    // half the width of the scrubber's handle, px
+const EDGE = 12;    // between the view's edge and the vehicle, px
 const COILS = 5;    // of a spring
+const COIL = 0.02, BLOCK = 0.02;  // of the vehicle's size: half a coil's width at most, half the side of a body that is a point
 
 /** A run's numbers unpacked for drawing. */
 function prepareRun(run, index) {
   const unpackAll = (columns) => columns.map(decode);
   const map = (object, convert) => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, convert(value)]));
   const frames = run.frames;
-  const tyres = map(frames.tyres, (one) => ({contact: decode(one.contact), force: decode(one.force)}));
+  const tyres = map(frames.tyres, (one) => ({contact: decode(one.contact), force: decode(one.force), off: decode(one.off)}));
   const largest = Math.max(1, ...Object.values(tyres).map((one) => one.force.reduce((a, b) => Math.max(a, b), 0)));
   return {
     index, run, frames, vehicle: run.vehicle, tyres, largest, places: map(frames.places, unpackAll),
@@ -55,17 +58,35 @@ function heightOfRoad(road, x) {
   return road.h[low] + (x - road.x[low]) / (road.x[high] - road.x[low]) * (road.h[high] - road.h[low]);
 }
 
-/** Where the view is and how large: world metres → pixels. */
+/** The height of a vehicle's highest point, m. */
+function findTop(prepared, at) {
+  let top = -Infinity;
+  for (const body of prepared.vehicle.bodies) {
+    const nodes = nodesOf(prepared, body, at, 1);
+    for (const [, y] of nodes) top = Math.max(top, y);
+    for (const wheel of prepared.vehicle.wheels) if (wheel.body === body.name) top = Math.max(top, nodes[wheel.node][1] + wheel.radius);
+  }
+  return top;
+}
+
+/** Where the view is and how large: world metres → pixels. A mechanism is seen whole from one place, a vehicle followed. */
 function makeView(prepared, at, width, height) {
   const [x0, y0, x1, y1] = prepared.vehicle.box;
+  if (!prepared.vehicle.wheels.length) {
+    const scale = 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6));
+    return {
+      scale, width, height, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
+      X: (wx) => 0.5 * width + scale * (wx - 0.5 * (x0 + x1)), Y: (wy) => 0.5 * height - scale * (wy - 0.5 * (y0 + y1)),
+    };
+  }
   const length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
   const scale = Math.min(width / ((width < 560 ? 1.15 : ROOM) * length), height / (2.1 * tall));
-  const [bx, , ] = prepared.places[prepared.vehicle.main].map((column) => between(column, at));
-  const [startX] = prepared.places[prepared.vehicle.main].map((column) => column[0]);
+  const bx = between(prepared.places[prepared.vehicle.main][0], at), startX = prepared.places[prepared.vehicle.main][0][0];
   const x = bx + 0.5 * (x0 + x1) - startX;
   let ground = 0;
   for (let k = -4; k <= 4; ++k) ground += heightOfRoad(prepared.road, x + k * length / 4) / 9;
-  const base = height * 0.8;
+  const top = 0.8 * height - scale * (findTop(prepared, at) - ground);  // of the vehicle, px
+  const base = 0.8 * height + Math.max(0, EDGE - top);  // a vehicle that flies high takes the view along
   return {
     scale, width, height, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
     X: (wx) => 0.5 * width + scale * (wx - x), Y: (wy) => base - scale * (wy - ground),
@@ -102,11 +123,12 @@ function drawDistances(context, view, road) {
   context.textAlign = "center";
   for (let k = Math.ceil(from / step); k * step <= to; ++k) {
     const x = view.X((k * step + road.origin) / road.direction);
+    if (x < 20 || x > view.width - 20) continue;
     context.beginPath();
     context.moveTo(x, view.height - 20);
     context.lineTo(x, view.height - 15);
     context.stroke();
-    context.fillText(`${format(k * step, 3)} m`, x, view.height - 4);
+    context.fillText(`${formatTick(k * step)} m`, x, view.height - 4);
   }
 }
 
@@ -133,8 +155,8 @@ function drawWheel(context, view, wheel, centre, colour, contact, share, alpha) 
   }
 }
 
-function drawSpring(context, view, [ax, ay], [bx, by]) {
-  const length = Math.hypot(bx - ax, by - ay) || 1, across = 0.06;
+function drawSpring(context, view, [ax, ay], [bx, by], size) {
+  const length = Math.hypot(bx - ax, by - ay) || 1, across = Math.min(COIL * size, 0.12 * length);
   const nx = -(by - ay) / length * across, ny = (bx - ax) / length * across;
   context.beginPath();
   context.moveTo(view.X(ax), view.Y(ay));
@@ -146,13 +168,26 @@ function drawSpring(context, view, [ax, ay], [bx, by]) {
   context.stroke();
 }
 
+function drawLine(context, view, [ax, ay], [bx, by]) {
+  context.beginPath();
+  context.moveTo(view.X(ax), view.Y(ay));
+  context.lineTo(view.X(bx), view.Y(by));
+  context.stroke();
+}
+
+/** A body all of whose points are one. */
+function drawBlock(context, view, [x, y], half, colour) {
+  context.fillStyle = colour;
+  context.fillRect(view.X(x - half), view.Y(y + half), 2 * half * view.scale, 2 * half * view.scale);
+}
+
 /** One vehicle. Returns what its tyres do, for the text below. */
 function drawVehicle(context, view, prepared, time, magnification, alpha) {
   const at = frameAt(prepared, time), colour = colourOf(prepared.index), vehicle = prepared.vehicle;
   const nodes = Object.fromEntries(vehicle.bodies.map((body) => [body.name, nodesOf(prepared, body, at, magnification)]));
   const end = ([name, place]) => (name === null ? place : nodes[name][place]);
   context.lineCap = context.lineJoin = "round";
-  const told = [];
+  const told = [], [x0, y0, x1, y1] = vehicle.box, size = Math.max(x1 - x0, y1 - y0);
   for (const wheel of vehicle.wheels) {
     const tyre = prepared.tyres[wheel.name];
     const contact = tyre.contact[Math.round(at)] > 0.5, force = between(tyre.force, at);
@@ -162,19 +197,18 @@ function drawVehicle(context, view, prepared, time, magnification, alpha) {
   context.globalAlpha = alpha;
   context.strokeStyle = colour;
   context.lineWidth = 1.5;
-  for (const link of vehicle.links) if (link.kind !== "joint") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]));
+  for (const link of vehicle.links) if (link.kind === "spring") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]), size);
   for (const body of vehicle.bodies) {
+    if (!body.lines.length) drawBlock(context, view, nodes[body.name][0], BLOCK * size, colour);
     body.lines.forEach(([a, b], number) => {
       const hanging = body.elements && number >= body.elements;
       context.lineWidth = hanging ? 2 : body.elements ? 6 : 4;
-      context.beginPath();
-      context.moveTo(view.X(nodes[body.name][a][0]), view.Y(nodes[body.name][a][1]));
-      context.lineTo(view.X(nodes[body.name][b][0]), view.Y(nodes[body.name][b][1]));
-      context.stroke();
+      drawLine(context, view, nodes[body.name][a], nodes[body.name][b]);
     });
   }
   context.fillStyle = style("--card");
   context.lineWidth = 1.5;
+  for (const link of vehicle.links) if (link.kind === "rod") drawLine(context, view, end(link.ends[0]), end(link.ends[1]));
   for (const link of vehicle.links) {
     if (link.kind !== "joint") continue;
     const [x, y] = end(link.ends[0]);
@@ -202,8 +236,10 @@ function drawScene() {
   const main = player.runs[player.main];
   const view = makeView(main, frameAt(main, clock.time), width, height);
   player.view = view;
-  drawRoad(context, view, main.road);
-  drawDistances(context, view, main.road);
+  if (main.vehicle.wheels.length) {
+    drawRoad(context, view, main.road);
+    drawDistances(context, view, main.road);
+  }
   if (player.other >= 0) drawVehicle(context, view, player.runs[player.other], clock.time, player.magnification, 0.6);
   const told = drawVehicle(context, view, main, clock.time, player.magnification, 1);
   byId("state").textContent = told.join(" · ");
@@ -219,24 +255,21 @@ function drawContacts() {
   const canvas = byId("contact-strip"), main = player.runs[player.main], names = Object.keys(main.tyres);
   canvas.hidden = names.length === 0;
   if (canvas.hidden) return;
-  const {context, width} = prepareCanvas(canvas, 15 * names.length + 2);
-  const left = Math.min(110, width / 4), at = (time) => left + (width - left - 2) * (time - clock.first) / (clock.last - clock.first);
-  const toTime = (k) => main.frames.first + (main.frames.last - main.frames.first) * k / (main.frames.count - 1);
+  const {context} = prepareCanvas(canvas, 15 * names.length + 2);
+  // Below the scrubber's track, which its thumb's middle runs along.
+  const edge = canvas.getBoundingClientRect().left, track = byId("scrubber").getBoundingClientRect();
+  const left = track.left - edge + THUMB, right = track.right - edge - THUMB;
+  const at = (time) => left + (right - left) * (time - clock.first) / (clock.last - clock.first);
   context.font = "11px system-ui, sans-serif";
   context.textBaseline = "middle";
   names.forEach((name, row) => {
-    const y = 15 * row + 8, contact = main.tyres[name].contact;
+    const y = 15 * row + 8, off = main.tyres[name].off;
     context.fillStyle = style("--soft");
-    context.fillText(name, 2, y, left - 8);
+    context.fillText(name, 0, y, left - 8);
     context.fillStyle = style("--grid");
-    context.fillRect(left, y - 1, width - left - 2, 2);
+    context.fillRect(left, y - 1, right - left, 2);
     context.fillStyle = style("--bad");
-    for (let k = 0; k < contact.length; ++k) {
-      if (contact[k] > 0.5) continue;
-      const begin = k;
-      while (k + 1 < contact.length && contact[k + 1] < 0.5) ++k;
-      context.fillRect(at(toTime(begin)), y - 4, Math.max(1.5, at(toTime(k)) - at(toTime(begin))), 8);
-    }
+    for (let k = 0; k + 1 < off.length; k += 2) context.fillRect(at(off[k]), y - 4, Math.max(1.5, at(off[k + 1]) - at(off[k])), 8);
   });
   context.fillStyle = style("--accent");
   context.fillRect(at(clock.time) - 1, 0, 2, 15 * names.length + 2);
@@ -265,7 +298,7 @@ function makePlayer() {
   const options = data.runs.map((run, index) => ({value: String(index), label: run.label}));
   fillSelect(byId("main-run"), options);
   fillSelect(byId("other-run"), [{value: "-1", label: "no other run"}, ...options]);
-  // The most flexible run in front, the first behind it: what bending changes is what one wants to see.
+  // The second run in front of the first: what differs from the first is what one wants to see.
   player.main = data.runs.length > 1 ? 1 : 0;
   player.other = data.runs.length > 1 ? 0 : -1;
   byId("main-run").value = String(player.main);

@@ -1,7 +1,8 @@
 "use strict";
-// Diagrams over time with a common zoom, spectra with the vehicle's frequencies, modal amplitudes. Drawn by dygraphs.
+// Diagrams over time with a common zoom: histories and modal amplitudes. Drawn by dygraphs.
 
 const NUM_HISTORIES = 4;
+const PIXELS_PER_LABEL = 50;  // of time: two marks on the smallest telephone, room for 59.995
 const linked = [];  // diagrams over time: {graph, cursor}
 const charts = [];  // functions that draw everything anew, for another colour scheme
 let zoomed = null;  // [from, to] s, null for the whole run
@@ -80,8 +81,8 @@ function drawLinked(chart, rows, labels, colours, unit, name) {
     ...commonOptions(chart.legend), labels: ["time", ...labels], colors: colours, ylabel: unit, xlabel: "time, s",
     dateWindow: zoomed, includeZero: false,
     axes: {
-      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: (value) => format(value, 3)},
-      y: {axisLabelWidth: 54, axisLabelFormatter: (value) => format(value, 3), valueFormatter: (value) => format(value)},
+      x: {valueFormatter: (value) => `${value.toFixed(3)} s`, axisLabelFormatter: formatTick, pixelsPerLabel: PIXELS_PER_LABEL},
+      y: {axisLabelWidth: 54, axisLabelFormatter: formatTick, valueFormatter: (value) => format(value)},
     },
     drawCallback: (graph, isFirst) => { if (!isFirst) follow(graph); placeCursor(chart); },
     clickCallback: (event, time) => clock.set(time),
@@ -176,75 +177,6 @@ function makeHistories() {
   });
 }
 
-/** Dashed lines at the vehicle's frequencies, named where there is room. */
-function markFrequencies(context, area, graph) {
-  context.save();
-  context.font = "11px system-ui, sans-serif";
-  context.textAlign = "left";
-  data.runs.forEach((run, index) => {
-    let free = -Infinity;
-    const [from, to] = graph.xAxisRange();
-    context.strokeStyle = context.fillStyle = colourOf(index);
-    context.setLineDash([4, 3]);
-    for (const {f} of run.frequencies) {
-      if (f < from || f > to) continue;
-      const x = graph.toDomXCoord(f);
-      context.globalAlpha = 0.55;
-      context.beginPath();
-      context.moveTo(x, area.y + 13 * data.runs.length);
-      context.lineTo(x, area.y + area.h);
-      context.stroke();
-      context.globalAlpha = 1;
-      if (x < free) continue;
-      const text = format(f, 3);
-      context.fillText(text, x + 2, area.y + 10 + 13 * index);
-      free = x + context.measureText(text).width + 6;
-    }
-  });
-  context.restore();
-}
-
-function makeSpectra() {
-  const points = [...new Set(data.runs.flatMap((run) => run.spectra.map((one) => one.name)))];
-  const chart = makeFigure(byId("spectrum-chart"), true);
-  const select = byId("spectrum-point");
-  if (!points.length) {
-    byId("spectra").hidden = true;
-    return;
-  }
-  fillSelect(select, points.map((value) => ({value, label: value})));
-  const draw = () => {
-    const series = [], labels = [], colours = [];
-    data.runs.forEach((run, index) => {
-      const packed = run.spectra.find((one) => one.name === select.value);
-      if (!packed) return;
-      series.push({t: decode(packed.f), v: decode(packed.p).map((value) => Math.max(value, 1e-30))});
-      labels.push(run.label);
-      colours.push(colourOf(index));
-    });
-    if (chart.graph) chart.graph.destroy();
-    chart.plot.setAttribute("aria-label", `Spectrum of the vertical acceleration of ${select.value}, ${labels.join(" and ")}`);
-    chart.graph = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
-      ...commonOptions(chart.legend), labels: ["frequency", ...labels], colors: colours, xlabel: "frequency, Hz",
-      ylabel: "(m/s²)²/Hz", underlayCallback: markFrequencies,
-      axes: {
-        x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, axisLabelFormatter: (value) => format(value, 2)},
-        y: {logscale: true, axisLabelWidth: 54, axisLabelFormatter: (value) => powerOfTen(value), valueFormatter: (value) => format(value)},
-      },
-    });
-  };
-  select.addEventListener("change", draw);
-  charts.push(draw);
-  draw();
-}
-
-/** 0.01 → "10⁻²"; other values with two digits. */
-function powerOfTen(value) {
-  const exponent = Math.log10(value);
-  if (Math.abs(exponent - Math.round(exponent)) > 1e-6) return "";
-  return `10${String(Math.round(exponent)).replace(/[-\d]/g, (sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)])}`;
-}
-
 function drawActive(found) {
   const canvas = byId("active-strip");
   const switching = found.modes.filter((mode) => decode(mode.switches).length > 0 || !mode.active);
@@ -319,6 +251,6 @@ function makeCharts() {
   setZoom(null);
   const samples = [...new Set(data.runs.map((run) => run.samples))].join(", ");
   byId("history-note").textContent = `Drag in a diagram to zoom all of them, shift-drag to move, double click for the whole run, click to set ` +
-    `the animation's time. Histories of ${samples} samples are drawn by at most ${data.most}, with the least and greatest of each ` +
+    `the animation's time; on a touch screen two fingers move and stretch. Histories of ${samples} samples are drawn by at most ${data.most}, with the least and greatest of each ` +
     `span of time; all numbers on this page are of all samples.`;
 }

@@ -21,10 +21,8 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 
 /** A unit as it is printed, and what a number is multiplied by, so that its size is readable. */
 function readable(unit, peak) {
-  if (unit === "m" && peak < 0.5) return {unit: "mm", factor: 1e3};
-  if (unit === "N") return {unit: "kN", factor: 1e-3};
-  if (unit === "N m") return {unit: "kN m", factor: 1e-3};
-  if (unit === "J") return {unit: "kJ", factor: 1e-3};
+  if (unit === "m" && peak < 1) return {unit: "mm", factor: 1e3};
+  if (["N", "N m", "J"].includes(unit) && peak >= 1e3) return {unit: `k${unit}`, factor: 1e-3};
   if (unit === "rad") return {unit: "°", factor: 180 / Math.PI};
   return {unit: unit.replace("^2", "²").replace("^3", "³"), factor: 1};
 }
@@ -37,6 +35,9 @@ function format(value, digits = 4) {
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   return value.toFixed(Number.isInteger(value) ? 0 : Math.min(decimals, 6)).replace("-", "−");
 }
+
+/** The values that an axis is marked at, without needless zeros. */
+const formatTick = (value) => String(Number(value.toPrecision(6))).replaceAll("-", "−");
 
 /** An element with text or children. */
 function element(tag, attributes = {}, ...children) {

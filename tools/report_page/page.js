@@ -12,8 +12,12 @@ function fillHead() {
   byId("run-keys").replaceChildren(...data.runs.map((run, index) => element("li", {}, element("span", {class: "key",
     style: `--c:${colourOf(index)}`}), run.label)));
   byId("summary-note").textContent = (data.runs.length > 1 ? `Differences are to ${data.runs[0].label}. ` : "") +
-    "Displacements are vertical, from the static balance of the run; accelerations are vertical. The statistics of the points are over " +
-    "the run's own statistics window.";
+    `Displacements are vertical, from ${data.runs.every((run) => run.balanced) ? "the run's static balance" :
+      "static balance or, where none was sought, from the start"}; accelerations are vertical. The statistics of the points are ` +
+    "over the run's own statistics window.";
+  byId("animation-heading").textContent = data.runs.some((run) => run.vehicle.wheels.length) ? "On the road" : "Motion";
+  byId("tyre-note").hidden = !data.runs.some((run) => run.vehicle.wheels.length);
+  byId("joint-note").hidden = !data.runs.some((run) => run.modes.length);
 }
 
 const errors = [];
@@ -40,6 +44,8 @@ window.addEventListener("resize", () => {
   });
 });
 
+const findBody = (name) => player.runs[player.main].vehicle.bodies.find((one) => one.name === name);
+
 /** For tests: where the shown run's main body is at the clock's time, and what went wrong. */
 window.sprungReport = {
   errors,
@@ -49,9 +55,10 @@ window.sprungReport = {
     const [x, y, angle] = main.places[main.vehicle.main].map((column) => between(column, at));
     return {x, y, angle};
   },
-  tip: (body, node) => {
+  node: (body, point) => findBody(body).points[point],
+  place: (body, node, magnification) => {
     const main = player.runs[player.main];
-    return nodesOf(main, main.vehicle.bodies.find((one) => one.name === body), frameAt(main, clock.time), player.magnification)[node];
+    return nodesOf(main, findBody(body), frameAt(main, clock.time), magnification)[node];
   },
 };
 document.documentElement.dataset.ready = "true";

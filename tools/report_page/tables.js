@@ -28,7 +28,7 @@ function difference(value, first) {
 }
 
 function fillStatistics(table, rows) {
-  const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), ...runHeadings(), element("th", {scope: "col"}, "unit"));
+  const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), element("th", {scope: "col"}, "unit"), ...runHeadings());
   table.replaceChildren(element("thead", {}, head));
   let body = null, of = null;
   for (const row of rows) {
@@ -45,12 +45,12 @@ function fillStatistics(table, rows) {
       if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" ? difference(value, row.values[0]) : ""));
       return cell;
     });
-    body.append(element("tr", {}, element("th", {scope: "row"}, row.name), ...cells, element("td", {}, unit)));
+    body.append(element("tr", {}, element("th", {scope: "row"}, row.name), element("td", {class: "unit"}, unit), ...cells));
   }
 }
 
 /** What stands in the summary: the rest is under "All numbers". */
-const inSummary = (row) => row.of !== "computation" && !/displacement, r\.m\.s\.|acceleration, lowest|axial/.test(row.name);
+const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|acceleration, lowest|axial/.test(row.name);
 
 function fillFrequencies(table) {
   const most = Math.max(...data.runs.map((run) => run.frequencies.length));
@@ -66,7 +66,7 @@ function fillFrequencies(table) {
     for (const run of data.runs) {
       const found = run.frequencies[mode];
       row.append(element("td", {class: "number"}, found ? format(found.f) : ""),
-        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {}, found ? found.who : ""));
+        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {class: "who"}, found ? found.who : ""));
     }
     body.append(row);
   }
@@ -84,7 +84,7 @@ function fillChecks(place) {
       continue;
     }
     const frequencies = found.frequencies.map((value) => format(value)).join(", ");
-    place.append(element("p", {class: "note"}, `Clamped frequencies: ${frequencies} Hz${found.frequencies.length === 12 ? " …" : ""}`));
+    place.append(element("p", {class: "note"}, `Clamped frequencies: ${frequencies} Hz${found.more ? " …" : ""}`));
     const table = element("table", {}, element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "check"),
       element("th", {class: "number", scope: "col"}, "value"), element("th", {class: "number", scope: "col"}, "allowed"),
       element("th", {scope: "col"}, "result"))));

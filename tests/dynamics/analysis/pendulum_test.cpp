@@ -38,13 +38,13 @@ Motion run(const Model& model, const VectorXd& q, const VectorXd& v, double end_
   options.integrator = {.method = method, .relative_tolerance = tolerance};
   options.on_output = [&](const dynamics::Snapshot& snapshot) {
     motion.time.push_back(snapshot.time);
-    motion.q.push_back(snapshot.equations.q());
-    motion.v.push_back(snapshot.equations.v());
+    motion.q.push_back(snapshot.q);
+    motion.v.push_back(snapshot.v);
     const double total = snapshot.energy.stored.total();
     if (motion.time.size() == 1) energy = total;
     motion.largest_energy_change = std::max(motion.largest_energy_change, std::abs(total - energy));
     VectorXd phi(model.num_constraints);
-    snapshot.equations.terms().calc_residual(phi);
+    snapshot.terms.calc_residual(phi);
     motion.largest_violation = std::max(motion.largest_violation, phi.cwiseAbs().maxCoeff());
   };
   motion.statistics = dynamics::run_transient(model, test::make_state(model, q, v), options);

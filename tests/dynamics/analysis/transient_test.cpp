@@ -101,7 +101,7 @@ TEST_CASE("A wheel dropped on the ground touches and leaves it at the instants t
   options.integrator.relative_tolerance = 1e-10;
   options.on_event = [&](const dynamics::Event& event) { events.push_back(event); };
   options.on_output = [&](const dynamics::Snapshot& snapshot) {
-    highest = snapshot.equations.q()[1] - kRadius;
+    highest = snapshot.q[1] - kRadius;
   };
   options.output_step = options.end_time;
   dynamics::run_transient(model, drop(model, height, 3.0), options);
@@ -150,7 +150,7 @@ TEST_CASE("A step never passes over a bump, however loose the tolerance", "[anal
   options.end_time = 10.0;
   options.integrator.relative_tolerance = 1e-2;
   options.on_output = [&](const dynamics::Snapshot& snapshot) {
-    if (snapshot.time > 5.0) highest = std::max(highest, snapshot.equations.q()[1]);
+    if (snapshot.time > 5.0) highest = std::max(highest, snapshot.q[1]);
   };
   dynamics::run_transient(model, drop(model, -kMass * kGravity / kStiffness, 10.0), options);
   CHECK(highest > kRadius + 0.03);

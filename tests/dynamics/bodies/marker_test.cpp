@@ -25,7 +25,7 @@ struct Case {
   Vector2d offset{0.2, -0.35};
   test::BeamSuperelement frame = test::make_beam_superelement(test::make_crooked_frame(), 4);
 
-  Case() {
+  explicit Case(bool second_order = false) {
     const int body =
         test::add_body(model, dynamics::make_flexible_body("frame", frame.superelement, {1, 2, 4}));
     test::add_node_marker(model, body, frame.superelement, 2, offset);
@@ -33,13 +33,19 @@ struct Case {
     q = random.vector(6, 1.0);
     v = random.vector(6, 2.0);
     a = random.vector(6, 4.0);
+    if (!second_order) return;
+    for (Eigen::MatrixXd& K : model.markers[0].K) {
+      K.resize(3, 3);
+      for (Index k = 0; k < 3; ++k) K.col(k) = random.vector(3, 0.7);
+      K = (K + K.transpose()).eval();
+    }
   }
   const dynamics::Marker& marker() const { return model.markers[0]; }
   MarkerState state(const VectorXd& at, const VectorXd& rate) const {
-    MarkerState result;
-    result.r_eta.resize(2, 3);
-    dynamics::calc_marker_position(marker(), FrameRotation::from_angle(at[2]), at, result);
-    dynamics::calc_marker_velocity(marker(), rate, result);
+    MarkerState result = dynamics::make_marker_state(marker());
+    const FrameRotation rotation = FrameRotation::from_angle(at[2]);
+    dynamics::calc_marker_position(marker(), rotation, at, result);
+    dynamics::calc_marker_velocity(marker(), rotation, rate, result);
     return result;
   }
   // Along q(t) = q + v t + ½ a t².
@@ -68,25 +74,43 @@ TEST_CASE("A marker on a node follows the node's motion and rotation", "[bodies]
 }
 
 TEST_CASE("Velocity and acceleration of a marker are derivatives of its position", "[bodies]") {
-  const Case general;
-  const MarkerState now = general.state_at(0.0), before = general.state_at(-kStep),
-                    after = general.state_at(kStep);
-  CHECK((now.v - (after.r - before.r) / (2.0 * kStep)).norm() < kTolerance * now.v.norm());
-  CHECK(std::abs(now.omega - (after.angle - before.angle) / (2.0 * kStep)) <
-        kTolerance * std::abs(now.omega));
-  const Vector2d acceleration = dynamics::calc_marker_acceleration(now, general.a);
-  CHECK((acceleration - (after.v - before.v) / (2.0 * kStep)).norm() < kTolerance * acceleration.norm());
+  for (const bool second_order : {false, true}) {
+    const Case general(second_order);
+    const MarkerState now = general.state_at(0.0), before = general.state_at(-kStep),
+                      after = general.state_at(kStep);
+    CHECK((now.v - (after.r - before.r) / (2.0 * kStep)).norm() < kTolerance * now.v.norm());
+    CHECK(std::abs(now.omega - (after.angle - before.angle) / (2.0 * kStep)) <
+          kTolerance * std::abs(now.omega));
+    const Vector2d acceleration = dynamics::calc_marker_acceleration(now, general.a);
+    CHECK((acceleration - (after.v - before.v) / (2.0 * kStep)).norm() < kTolerance * acceleration.norm());
+    const double angular = now.alpha_bias + general.a[2] + now.angle_eta.dot(general.a.tail(3));
+    CHECK(std::abs(angular - (after.omega - before.omega) / (2.0 * kStep)) < kTolerance * std::abs(angular));
+  }
 }
 
-TEST_CASE("Gradients of a marker's position by angle and modes", "[bodies]") {
-  const Case general;
-  const MarkerState now = general.state_at(0.0);
-  for (Index i = 2; i < 6; ++i) {
-    const VectorXd e = kStep * VectorXd::Unit(6, i);
-    const Vector2d difference =
-        (general.state(general.q + e, general.v).r - general.state(general.q - e, general.v).r) /
-        (2.0 * kStep);
-    const Vector2d gradient = i == 2 ? now.r_theta : Vector2d(now.r_eta.col(i - 3));
-    CHECK((gradient - difference).norm() < kTolerance * (gradient.norm() + 0.01));
+TEST_CASE("Gradients of a marker's position and angle by angle and modes", "[bodies]") {
+  for (const bool second_order : {false, true}) {
+    const Case general(second_order);
+    const MarkerState now = general.state_at(0.0);
+    for (Index i = 2; i < 6; ++i) {
+      const VectorXd e = kStep * VectorXd::Unit(6, i);
+      const MarkerState above = general.state(general.q + e, general.v),
+                        below = general.state(general.q - e, general.v);
+      const Vector2d difference = (above.r - below.r) / (2.0 * kStep);
+      const Vector2d gradient = i == 2 ? now.r_theta : Vector2d(now.r_eta.col(i - 3));
+      CHECK((gradient - difference).norm() < kTolerance * (gradient.norm() + 0.01));
+      const double turn = i == 2 ? 1.0 : now.angle_eta[i - 3];
+      CHECK(std::abs(turn - (above.angle - below.angle) / (2.0 * kStep)) < kTolerance * (std::abs(turn) + 0.01));
+    }
+  }
+}
+
+TEST_CASE("The deflection of a marker is where it is in its body, less where it was", "[bodies]") {
+  for (const bool second_order : {false, true}) {
+    const Case general(second_order);
+    const MarkerState now = general.state_at(0.0);
+    const Vector2d u = FrameRotation::from_angle(general.q[2]).transposed_times(now.r - general.q.head<2>());
+    const Vector2d expected = u - general.marker().p_BP;
+    CHECK((dynamics::calc_marker_deflection(general.marker(), general.q.tail(3)) - expected).norm() < 1e-14);
   }
 }

@@ -140,7 +140,7 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
         "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a string "
         "\"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
-        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"adams\", \"bdf\"; got a string "
+        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", \"adams\", \"bdf\"; got a string "
         "\"bfd\" (did you mean 'bdf'?)");
   CHECK(error_of("from = 0.5", "form = 0.5") ==
         "runs/first.toml:14:1: error: unknown key 'form' in 'statistics' (did you mean 'from'?)");

@@ -106,7 +106,7 @@ class SpoiltSuperelement(DynamicsTestCase):
     def test_overwritten_in_the_middle(self):
         content = bytearray(self.chassis.read_bytes())
         middle = len(content) // 2
-        content[middle : middle + 64] = bytes(64)
+        content[middle : middle + 64] = bytes(byte ^ 0x5A for byte in content[middle : middle + 64])
         self.chassis.write_bytes(bytes(content))
         self.check()
 

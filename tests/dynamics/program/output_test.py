@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 
-from dynamics_test_case import SHORT, DynamicsTestCase
+from dynamics_test_case import PROGRAM, SHORT, DynamicsTestCase
 
 
 class Results(DynamicsTestCase):
@@ -28,6 +28,8 @@ class Results(DynamicsTestCase):
         with h5py.File(self.results, "r") as file:
             self.assertEqual(file.attrs["complete"], 1)
             self.assertEqual(file.attrs["format"], b"sprung-results")
+            version = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+            self.assertEqual(file.attrs["program_version"].decode(), version)
             n = file["time"].shape[0]
             self.assertEqual(n, 51)  # 0 to 0.05 s, every millisecond
             self.assertEqual(file["bodies/chassis/modal/amplitude"].shape, (n, 2))

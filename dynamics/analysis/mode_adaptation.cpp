@@ -1,0 +1,122 @@
+#include "dynamics/analysis/mode_adaptation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kJoinsToo = 0.25;     // of the recall threshold: what joins when another has passed it
+constexpr double kPeriodsToStay = 3.0;
+
+}  // namespace
+
+struct ModeAdaptation::Memory {
+  ModeIndicator::Memory indicator;
+  std::vector<std::optional<Window>> windows;
+  WorstNeglect worst;
+};
+
+ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& start)
+    : options_(options),
+      indicator_(*options.full, start.time, start.q, options.points),
+      active_(options.active),
+      windows_(indicator_.num_modes()),
+      last_leaving_(start.time) {
+  if (active_.size() != static_cast<std::size_t>(options.full->num_coordinates)) {
+    throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
+  }
+  indicator_.set_active(active_);
+}
+
+int ModeAdaptation::num_active_modes() const {
+  const std::vector<int>& modal = indicator_.modal_coordinates();
+  return static_cast<int>(std::count_if(modal.begin(), modal.end(),
+                                        [this](int i) { return active_[static_cast<std::size_t>(i)]; }));
+}
+
+void ModeAdaptation::update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                            const Eigen::VectorXd& v_dot, const Eigen::VectorXd& multipliers,
+                            std::span<const int> branches) {
+  indicator_.update(time, q, v, v_dot, multipliers, branches);
+  const std::vector<int>& modal = indicator_.modal_coordinates();
+  for (std::size_t j = 0; j < modal.size(); ++j) {
+    const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
+    if (!indicator_.is_active(j)) {
+      const ModeShare& share = indicator_.neglected()[j];
+      if (share.worst() > worst_.share.worst() || worst_.coordinate < 0) worst_ = {share, modal[j], time};
+      continue;
+    }
+    std::optional<Window>& window = windows_[j];
+    if (!window) window = {time, eta, eta, acceleration};
+    window->low = std::min(window->low, eta);
+    window->high = std::max(window->high, eta);
+    window->largest_acceleration = std::max(window->largest_acceleration, acceleration);
+    if (indicator_.share(j, window->high - window->low, window->largest_acceleration).worst() > options_.drop) {
+      window = {time, eta, eta, acceleration};
+    }
+  }
+}
+
+std::vector<int> ModeAdaptation::find_missed() const {
+  std::vector<int> missed;
+  bool any = false;
+  for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
+    if (indicator_.is_active(j)) continue;
+    const double share = indicator_.neglected()[j].worst();
+    any |= share > options_.recall;
+    if (share > kJoinsToo * options_.recall) missed.push_back(indicator_.modal_coordinates()[j]);
+  }
+  return any ? missed : std::vector<int>{};
+}
+
+std::vector<int> ModeAdaptation::find_idle() const {
+  std::vector<int> idle;
+  if (indicator_.time() - last_leaving_ < options_.residence) return idle;
+  for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
+    if (!indicator_.is_active(j) || !windows_[j]) continue;
+    const double frequency = indicator_.frequency(j);
+    const double stay = std::max(options_.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
+    if (indicator_.time() - windows_[j]->since >= stay) idle.push_back(indicator_.modal_coordinates()[j]);
+  }
+  return idle;
+}
+
+std::size_t ModeAdaptation::mode_of(int coordinate) const {
+  const std::vector<int>& modal = indicator_.modal_coordinates();
+  return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
+}
+
+ModeShare ModeAdaptation::share_of(int coordinate) const { return indicator_.neglected()[mode_of(coordinate)]; }
+double ModeAdaptation::unbalanced_force_of(int coordinate) const {
+  return indicator_.unbalanced_force(mode_of(coordinate));
+}
+double ModeAdaptation::frequency_of(int coordinate) const { return indicator_.frequency(mode_of(coordinate)); }
+
+void ModeAdaptation::activate(const std::vector<int>& coordinates) {
+  for (const int i : coordinates) active_[static_cast<std::size_t>(i)] = true;
+  indicator_.set_active(active_);
+}
+
+void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
+  last_leaving_ = indicator_.time();
+  for (const int i : coordinates) {
+    active_[static_cast<std::size_t>(i)] = false;
+    windows_[mode_of(i)].reset();
+  }
+  indicator_.set_active(active_);
+}
+
+std::shared_ptr<const ModeAdaptation::Memory> ModeAdaptation::remember() const {
+  return std::make_shared<const Memory>(Memory{indicator_.remember(), windows_, worst_});
+}
+
+void ModeAdaptation::go_back(const Memory& memory) {
+  indicator_.go_back(memory.indicator);
+  windows_ = memory.windows;
+  worst_ = memory.worst;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/analysis/mode_indicator.h"
+#include "dynamics/system/held_modes.h"
+
+namespace sprung::dynamics {
+
+/// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked points.
+struct AdaptivityOptions {
+  const Model* full = nullptr;          ///< with every mode that is available; has to outlive the run
+  std::vector<bool> active;             ///< at the start, for each coordinate of `full`
+  std::vector<int> points;              ///< markers whose motion is asked for
+  bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
+  double recall = 1e-2;                 ///< share at which a mode joins
+  double drop = 2e-3;                   ///< share below which it may leave, < recall
+  double residence = 0.2;               ///< shortest time below before it leaves, and between leavings [s]
+};
+
+/// The largest share that a mode left out has had in a run.
+struct WorstNeglect {
+  ModeShare share;
+  int coordinate = -1;  ///< of the full model, −1: none was left out
+  double time = 0.0;    ///< [s]
+};
+
+/// Decides which modes are active: those left out join when the indicator passes the recall threshold, active ones may
+/// leave when what they do stays below the drop threshold (dynamics/README.md, eqs. 71–75).
+class ModeAdaptation {
+ public:
+  /// @param start  in coordinates of `options.full`; what is not active is held at its values
+  ModeAdaptation(const AdaptivityOptions& options, const State& start);
+
+  const AdaptivityOptions& options() const { return options_; }
+  const ModeIndicator& indicator() const { return indicator_; }
+  const std::vector<bool>& active() const { return active_; }  ///< for each coordinate of the full model
+  int num_active_modes() const;
+
+  /// Goes on to the next instant. All in coordinates of the full model.
+  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
+              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+
+  /// Modal coordinates that have to join by the last update: none, or all that are at half the threshold or above.
+  std::vector<int> find_missed() const;
+  /// Modal coordinates that may leave, once their rate is zero.
+  std::vector<int> find_idle() const;
+  ModeShare share_of(int coordinate) const;  ///< of a mode left out, at the last update
+
+  double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
+  double unbalanced_force_of(int coordinate) const;
+  void activate(const std::vector<int>& coordinates);
+  void deactivate(const std::vector<int>& coordinates);
+
+  struct Memory;
+  /// What is needed to take a step back. The time of the last update is where one gets.
+  std::shared_ptr<const Memory> remember() const;
+  void go_back(const Memory& memory);
+  const WorstNeglect& worst() const { return worst_; }
+
+ private:
+  // What an active mode has done since it was quiet last.
+  struct Window {
+    double since, low, high, largest_acceleration;
+  };
+
+  std::size_t mode_of(int coordinate) const;
+
+  AdaptivityOptions options_;
+  ModeIndicator indicator_;
+  std::vector<bool> active_;
+  std::vector<std::optional<Window>> windows_;  // by mode
+  double last_leaving_;
+  WorstNeglect worst_;
+};
+
+}  // namespace sprung::dynamics

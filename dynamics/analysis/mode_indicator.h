@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dynamics/system/partitioned_equations.h"
+
+namespace sprung::dynamics {
+
+/// What a modal coordinate does, as a share of the largest that there has been so far.
+struct ModeShare {
+  double deflection = 0.0;    ///< of any named point of a flexible body
+  double acceleration = 0.0;  ///< of the points asked for
+  double worst() const { return deflection > acceleration ? deflection : acceleration; }
+};
+
+/// Error indicator of modes that a run leaves out. Each is followed as an oscillator under the force that the run
+/// leaves unbalanced on it,
+///     m_j ξ̈ + c_j ξ̇ + k_j ξ = r_j(t),   r = Q − M q̈ − φ_qᵀ λ in its row,
+/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is what the mode
+/// would add to first order, resonance included (dynamics/README.md, eqs. 72–74).
+class ModeIndicator {
+ public:
+  /// @param full    the model with every mode that could be active; has to outlive this
+  /// @param time, q  of the start, in coordinates of `full`: masses and stiffnesses are taken there
+  /// @param points  markers whose motion is asked for
+  ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points);
+
+  /// Modal coordinates of `full`, ascending; all arrays below are in this order.
+  const std::vector<int>& modal_coordinates() const { return modal_; }
+  std::size_t num_modes() const { return modal_.size(); }
+
+  /// Says which modes are active from `time` on; those that stop being so begin at rest where they are held.
+  void set_active(const std::vector<bool>& is_active_coordinate);
+  bool is_active(std::size_t mode) const { return active_[mode]; }
+
+  /// Goes on to the next instant of the run. @param q, v, v_dot  in coordinates of `full`, held ones at rest
+  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
+              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+
+  /// Of the modes left out, at the last update: what they miss. Zero for active ones.
+  const std::vector<ModeShare>& neglected() const { return neglected_; }
+  /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
+  ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
+  /// The force that the run leaves unbalanced on a mode left out, at the last update.
+  double unbalanced_force(std::size_t mode) const { return effective_[mode][0] * oscillators_[mode][2]; }
+  /// Frequency with everything else giving way [Hz].
+  double frequency(std::size_t mode) const;
+  double time() const { return time_; }  ///< of the last update
+
+  /// What has to be kept to go back to an instant.
+  struct Memory {
+    double time = 0.0;
+    bool has_begun = false;
+    std::vector<Eigen::Vector3d> oscillators;  // ξ, ξ̇, r
+    double largest_deflection = 0.0, largest_acceleration = 0.0;
+  };
+  Memory remember() const;
+  void go_back(const Memory& memory);
+
+ private:
+  void calc_effective(std::size_t mode);
+
+  const Model* full_;
+  SystemTerms terms_;
+  std::vector<int> points_;
+  std::vector<int> modal_;
+  std::vector<bool> active_;
+
+  // About the start: small motion in the independents.
+  std::vector<int> independent_;
+  Eigen::MatrixXd mass_, damping_, stiffness_, directions_;
+  std::vector<Eigen::Matrix2Xd> point_motion_;  // of each point, per coordinate of `full`
+
+  std::vector<Eigen::Vector3d> effective_;  // mass, damping, stiffness
+  std::vector<double> bending_;             // largest deflection of a named point per unit of the mode
+  std::vector<double> reach_;               // largest displacement of an asked point, with what gives way
+  std::vector<Eigen::Vector3d> oscillators_;  // ξ, ξ̇, r/m
+  std::vector<ModeShare> neglected_;
+  double time_ = 0.0;
+  bool has_begun_ = false;
+  double largest_deflection_ = 0.0, largest_acceleration_ = 0.0;
+  Eigen::VectorXd residual_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,76 @@
+#include "dynamics/output/response_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "dynamics/output/json.h"
+#include "tools/support/text_table.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+bool is_shown(const std::string& name) {
+  static constexpr std::array<std::string_view, 7> kEndings{
+      "/displacement.y", "/velocity.y", "/acceleration.y", "/force",
+      "/torque",         "/deflection", "/penetration"};
+  return (name.starts_with("points/") || name.starts_with("forces/")) &&
+         std::any_of(kEndings.begin(), kEndings.end(),
+                     [&](std::string_view end) { return name.ends_with(end); });
+}
+
+std::vector<double> row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) {
+  const Eigen::VectorXd values = matrix.row(row);
+  return {values.begin(), values.end()};
+}
+
+}  // namespace
+
+std::string format_response(const ResponseResult& result) {
+  const std::vector<double>& f = result.frequency_hz;
+  std::string text = fmt::format(
+      "{}: response to the road at {:g} m/s, linearised about static equilibrium; {} frequencies from {:g} "
+      "to {:g} Hz\n",
+      result.vehicle.name, result.run.speed, f.size(), f.front(), f.back());
+  for (const std::string& remark : result.remarks) text += remark + "\n";
+  if (result.has_road()) text += fmt::format("Road: r.m.s. height {:.4g} m in this range\n", result.road_rms);
+
+  std::vector<std::string> header{"quantity", "unit", fmt::format("per m of road: at {:g} Hz", f.front()),
+                                  "largest", "at Hz"};
+  if (result.has_road()) header.emplace_back("r.m.s.");
+  support::TextTable table(header);
+  for (std::size_t i = 0; i < result.names.size(); ++i) {
+    if (!is_shown(result.names[i])) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    Eigen::Index peak = 0;
+    const double largest = result.response.row(row).cwiseAbs().maxCoeff(&peak);
+    std::vector<std::string> cells{
+        result.names[i], result.units[i], fmt::format("{:.4g}", std::abs(result.response(row, 0))),
+        fmt::format("{:.4g}", largest), fmt::format("{:.3f}", f[static_cast<std::size_t>(peak)])};
+    if (result.has_road()) cells.push_back(fmt::format("{:.5g}", result.rms[row]));
+    table.add_row(cells);
+  }
+  return fmt::format("{}\n{}", text, table.str());
+}
+
+std::string format_response_json(const ResponseResult& result) {
+  JsonObject outputs;
+  for (std::size_t i = 0; i < result.names.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    JsonObject output;
+    output.add("unit", result.units[i])
+        .add("real", row_of(result.response.real(), row))
+        .add("imaginary", row_of(result.response.imag(), row));
+    if (result.has_road()) output.add("spectrum", row_of(result.spectrum, row)).add("rms", result.rms[row]);
+    outputs.add(result.names[i], output);
+  }
+  JsonObject report;
+  report.add("speed", result.run.speed).add("remarks", result.remarks).add("frequency", result.frequency_hz);
+  if (result.has_road()) report.add("road_rms", result.road_rms);
+  return report.add("outputs", outputs).str() + "\n";
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "dynamics/output/response_result.h"
+
+namespace sprung::dynamics {
+
+/// Root attribute `format` of a response file.
+inline constexpr std::string_view kResponseFormat = "sprung-response";
+
+/// Writes a response file (dynamics/output/response.md), whole or not at all.
+/// @throws support::InputError if it cannot be written
+void write_response(const std::filesystem::path& path, const ResponseResult& result);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/analysis/linear_outputs.h"
+#include "dynamics/output/response_report.h"
+#include "dynamics/output/response_writer.h"
+#include "dynamics/program/commands.h"
+#include "tools/support/foreign_file.h"
+#include "tools/support/numerical_error.h"
+#include "tools/support/program.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kGrowth = 1e-7;  // real part of an eigenvalue that is no rounding, of the largest
+constexpr double kSameSpeed = 1e-6;
+
+void check_request(const Run& run) {
+  if (run.start == Run::Start::kSteady) {
+    throw support::InputError(run.start_location,
+                              "'start' must not be \"steady\" for a response: it is about static balance");
+  }
+  if (!(run.speed > 0.0)) {
+    throw support::InputError(
+        run.response.location,
+        fmt::format("a response to the road needs a 'speed' above 0 m/s, got {}", run.speed));
+  }
+}
+
+void check_stability(const PreparedRun& prepared, const LinearVehicle& vehicle) {
+  const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
+  const double growth = eigenvalues.real().maxCoeff();
+  if (!prepared.equilibrium->stable || growth > kGrowth * eigenvalues.cwiseAbs().maxCoeff()) {
+    throw support::NumericalError(fmt::format(
+        "response: the equilibrium is unstable (growth {:.3g} 1/s): a linear response means nothing there",
+        growth));
+  }
+}
+
+void check_inputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
+  const std::vector<RoadInput>& inputs = vehicle.inputs();
+  if (inputs.empty()) {
+    throw support::InputError(
+        prepared.run.vehicle_location,
+        "the vehicle has no force element on the road, of type \"tyre\": nothing to respond to");
+  }
+  if (std::none_of(inputs.begin(), inputs.end(), [](const RoadInput& input) { return input.is_pressed; })) {
+    throw support::NumericalError("response: no wheel is on the ground in static balance");
+  }
+}
+
+// How fast the wheels roll at the start of a run, where prescribed motion has its say too.
+void remark_on_speed(const PreparedRun& prepared, const LinearVehicle& vehicle,
+                     std::vector<std::string>& warnings) {
+  const Model& model = prepared.model;
+  Eigen::VectorXd v = make_start_velocities(prepared.run, prepared.vehicle, model);
+  project_velocities(model, 0.0, prepared.start.q, v);
+  SystemTerms terms(model);
+  terms.update_positions(0.0, prepared.start.q);
+  terms.update_velocities(v);
+  for (const RoadInput& input : vehicle.inputs()) {
+    const int marker = model.forces[static_cast<std::size_t>(input.force)]->markers().front();
+    const double speed = prepared.vehicle.direction * terms.markers()[static_cast<std::size_t>(marker)].v.x();
+    if (std::abs(speed - prepared.run.speed) <= kSameSpeed * prepared.run.speed) continue;
+    warnings.push_back(
+        fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
+                    input.name, speed, prepared.run.speed));
+  }
+}
+
+std::vector<std::string> list_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle) {
+  std::vector<std::string> warnings;
+  for (const RoadInput& input : vehicle.inputs()) {
+    if (input.is_pressed) continue;
+    warnings.push_back(
+        fmt::format("'{}' is off the ground in static balance: no road comes in there", input.name));
+  }
+  for (const Kink& kink : vehicle.kinks()) {
+    if (!kink.in_position) continue;
+    warnings.push_back(fmt::format(
+        "'{}' changes its law at, or within a hair of, static balance: a mean slope is taken", kink.element));
+  }
+  remark_on_speed(prepared, vehicle, warnings);
+  return warnings;
+}
+
+std::string describe_mean_slopes(const LinearVehicle& vehicle) {
+  std::vector<std::string> names;
+  for (const Kink& kink : vehicle.kinks()) {
+    if (!kink.in_position) names.push_back(kink.element);
+  }
+  return names.empty()
+             ? ""
+             : fmt::format("The mean of its two slopes at rest is taken of: {}", fmt::join(names, ", "));
+}
+
+LinearOutputs make_outputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
+  LinearOutputs outputs = make_force_outputs(vehicle);
+  for (const std::string& point : resolve_response_points(prepared.run, prepared.vehicle)) {
+    outputs.append(make_point_outputs(vehicle, vehicle.model().find_marker(point)));
+  }
+  outputs.append(make_modal_outputs(vehicle));
+  outputs.append(make_reaction_outputs(vehicle));
+  return outputs;
+}
+
+}  // namespace
+
+int response_command(const RunRequest& request, const RunOutput& output) {
+  if (support::is_foreign_file(output.results, kResponseFormat)) {
+    throw support::InputError(
+        {.path = output.results.string()},
+        "is in the way and is left alone: it is no response file; move it or name another with -o");
+  }
+  const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
+  check_request(prepared.run);
+  if (prepared.balance_model.num_freedoms() == 0) {
+    throw support::InputError(prepared.run.vehicle_location, "the vehicle has no freedom to respond with");
+  }
+  const LinearVehicle vehicle(prepared.balance_model, prepared.equilibrium->q);
+  check_inputs(prepared, vehicle);
+  check_stability(prepared, vehicle);
+  ResponseResult result =
+      calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
+  result.overrides = request.overrides;
+  for (const std::string& warning : list_warnings(prepared, vehicle)) {
+    fmt::print(stderr, "warning: {}\n", warning);
+    result.remarks.push_back("Warning: " + warning);
+  }
+  if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
+    result.remarks.push_back(means);
+
+  if (!output.results.empty()) write_response(output.results, result);
+  fmt::print("{}", output.json ? format_response_json(result) : format_response(result));
+  if (!output.results.empty() && !output.json) fmt::print("Response: {}\n", output.results.string());
+  return support::kGood;
+}
+
+}  // namespace sprung::dynamics

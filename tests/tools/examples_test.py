@@ -1,0 +1,143 @@
+"""The examples in every tool's --help: that each runs as it stands there, in a folder that holds the files it names.
+Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); run-truck's example is in run_truck_test.py."""
+
+import os
+import shlex
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from tool_test_case import ROOT, TOOLS, ToolTestCase
+
+TRUCK = ROOT / "dynamics/models/truck"
+# What the examples read, and what each leaves behind.
+RUNS = {
+    "bump_rigid": ("bump", 0),
+    "bump_2modes": ("bump", 2),
+    "terrain_rigid": ("terrain", 0),
+    "terrain_2modes": ("terrain", 2),
+}
+RESPONSES = {"rigid": 0, "modes": 4}
+WRITTEN = {
+    "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
+    "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
+    "export_paraview": ("modes.pvd", "bump.pvd"), "plot_response": ("response.png",),
+}  # fmt: skip
+SCRIPTS = ("setup", "build", "test")
+CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
+
+
+def read_examples(text):
+    """The commands under "Example:" at the end of a --help text, as lists of words."""
+    _, _, examples = text.replace("Examples:", "Example:").rpartition("Example:\n")
+    return [shlex.split(line, comments=True) for line in examples.replace("\\\n", " ").splitlines() if line.strip()]
+
+
+class Examples(ToolTestCase):
+    def examples_of(self, tool):
+        examples = read_examples(self.run_tool(tool, "--help").stdout)
+        self.assertGreater(len(examples), 0)
+        for words in examples:
+            self.assertEqual(words[0], f"tools/{tool}")
+        return examples
+
+
+class PythonTools(Examples):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.made = Path(temporary.name)
+        superelements = cls.made / "build/truck"
+        reduce = [
+            os.environ["SPRUNG_REDUCE"],
+            "build",
+            *sorted((ROOT / "meshes/truck").glob("*.toml")),
+            "--output-dir",
+            superelements,
+        ]
+        subprocess.run([*map(str, reduce)], check=True, stdout=subprocess.PIPE)
+        for name, (run, modes) in RUNS.items():
+            command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / f"{run}.toml", "--superelements", superelements, "--quiet",
+                       "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
+            subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
+        for name, modes in RESPONSES.items():
+            command = [os.environ["SPRUNG_DYNAMICS"], "response", TRUCK / "terrain.toml", "--superelements", superelements,
+                       "--quiet", "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
+            subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
+        shutil.copy(superelements / "chassis.h5", cls.made)
+        shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
+        shutil.copy(ROOT / "tests/tools/data/portal.bdf", cls.made / "frame.bdf")
+
+    def test_each_runs_and_leaves_its_files(self):
+        for tool, files in WRITTEN.items():
+            with self.subTest(tool):
+                folder = self.folder / tool
+                folder.mkdir()
+                for path in self.made.iterdir():
+                    (folder / path.name).symlink_to(path)
+                for words in self.examples_of(tool):
+                    process = subprocess.run(
+                        [TOOLS / tool, *words[1:]], cwd=folder, capture_output=True, text=True, check=False
+                    )
+                    self.assertEqual((process.returncode, process.stderr), (0, ""), words)
+                for name in files:
+                    self.assertGreater((folder / name).stat().st_size, 100)
+
+    def test_the_report_of_the_paper_is_asked_for_as_its_example_says(self):
+        """Its runs take minutes: here with a program that fails, so that the arguments alone are taken."""
+        (words,) = self.examples_of("paper_figures")
+        stand_in = self.folder / "programs"
+        for name in ("reduce/sprung-reduce", "dynamics/sprung-dynamics"):
+            (stand_in / name).parent.mkdir(parents=True, exist_ok=True)
+            (stand_in / name).write_text("#!/bin/sh\necho told to stop >&2\nexit 3\n", encoding="utf-8")
+            (stand_in / name).chmod(0o755)
+        arguments = [str(self.folder / "paper") if word == "/tmp/paper" else word for word in words[1:]]
+        process = self.run_tool("paper_figures", *arguments, "--programs", stand_in)
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("told to stop", process.stderr)
+
+
+class BashTools(Examples):
+    """With stand-ins for the package manager, cmake and ctest, which write down how they were called."""
+
+    def test_each_runs(self):
+        shutil.copytree(TOOLS, self.folder / "tools", ignore=shutil.ignore_patterns("__pycache__", "support"))
+        programs, log = self.folder / "bin", self.folder / "log"
+        programs.mkdir()
+        answers = {
+            "dpkg-query": "echo -n installed",
+            "apt-get": "exit 1",
+            "chromium": "true",
+            "cmake": "true",
+            "ctest": "true",
+        }
+        for name, answer in answers.items():
+            call = "" if name == "dpkg-query" else f'echo "{name} $*" >>"{log}"\n'
+            (programs / name).write_text(f"#!/bin/bash\n{call}{answer}\n", encoding="utf-8")
+            (programs / name).chmod(0o755)
+        environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}"}
+        for tool in SCRIPTS:
+            for words in self.examples_of(tool):
+                with self.subTest(" ".join(words)):
+                    log.write_text("", encoding="utf-8")
+                    process = subprocess.run(
+                        words, cwd=self.folder, env=environment, capture_output=True, text=True, check=False
+                    )
+                    self.assertEqual((process.returncode, process.stderr), (0, ""))
+                    calls = log.read_text(encoding="utf-8").splitlines()
+                    self.assertEqual([call.split()[0] for call in calls], CALLED[tool])
+                    if tool != "setup":
+                        self.assertTrue(calls[-1].endswith(" ".join(words[1:])), calls[-1])
+
+
+class Completeness(ToolTestCase):
+    def test_every_program_in_the_folder_is_here(self):
+        programs = {path.name for path in TOOLS.iterdir() if path.is_file() and os.access(path, os.X_OK)}
+        self.assertEqual(programs, {*WRITTEN, *SCRIPTS, "paper_figures", "run-truck", "benchmark"})
+
+
+if __name__ == "__main__":
+    unittest.main()

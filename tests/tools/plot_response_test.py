@@ -1,0 +1,76 @@
+"""tools/plot_response: that what it should draw is in the picture, and that what is not there is refused."""
+
+import re
+import unittest
+
+import h5py
+import numpy as np
+from tool_test_case import ToolTestCase
+
+SEAT = "points/chassis.seat/acceleration.y"
+
+
+def write_response(path, *, gain=1.0, with_road=True):
+    """A response file in the layout of dynamics/output/response.md: |H| = gain · f."""
+    frequency = np.linspace(0.1, 20.0, 60)
+    with h5py.File(path, "w") as file:
+        file.attrs.update(format="sprung-response", version=1, title="synthetic", speed=7.5)
+        file["frequency"] = frequency
+        group = file.create_group(f"outputs/{SEAT}")
+        group.attrs["unit"] = "m/s^2"
+        group["response"] = gain * np.column_stack([0.6 * frequency, -0.8 * frequency])
+        group["response"].attrs["unit"] = "m/s^2/m"
+        if with_road:
+            group["spectrum"] = (gain * frequency) ** 2
+            group["spectrum"].attrs["unit"] = "(m/s^2)^2/Hz"
+            group.attrs["rms"] = 0.125
+
+
+class PlotResponse(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        write_response(self.folder / "a.h5")
+        write_response(self.folder / "b.h5", gain=3.0, with_road=False)
+
+    def draw_svg(self, *arguments):
+        """Texts and curves (lists of points, y downwards) of the picture that these arguments give."""
+        process = self.run_tool("plot_response", "-o", "out.svg", *arguments)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        svg = (self.folder / "out.svg").read_text(encoding="utf-8")
+        curves = {}
+        for path, colour in re.findall(r'<path d="([^"]*)" clip-path="[^"]*" style="fill: none; stroke: (#\w+)', svg):
+            points = np.array(re.findall(r"[ML] (\S+) (\S+)", path), dtype=float)
+            if len(points) == 60:
+                curves[colour] = points
+        return re.findall(r"<!-- (.*?) -->", svg), curves
+
+    def test_magnitudes_of_all_files_over_frequency(self):
+        texts, curves = self.draw_svg("soft=a.h5", "stiff=b.h5", "--show", f"seat={SEAT}", "--title", "A truck")
+        for text in ("A truck", "soft", "stiff", "seat, m/s²/m", "frequency, Hz"):
+            self.assertIn(text, texts)
+        self.assertIn("speed 7.5 m/s", " ".join(texts))
+        soft, stiff = curves["#000000"], curves["#0072b2"]
+        # Both axes logarithmic: straight lines, the stiffer one higher by the same everywhere.
+        np.testing.assert_allclose(soft[:, 1] - stiff[:, 1], (soft - stiff)[0, 1], atol=1e-3)
+        self.assertGreater(soft[0, 1] - stiff[0, 1], 10.0)
+        slope = np.diff(soft[:, 1]) / np.diff(soft[:, 0])
+        np.testing.assert_allclose(slope, slope[0], rtol=1e-3)
+
+    def test_spectra_with_their_rms(self):
+        texts, curves = self.draw_svg("a.h5", "--show", SEAT, "--spectrum")
+        self.assertIn("a.h5: r.m.s. 0.125 m/s²", texts)
+        self.assertIn(f"{SEAT}, (m/s²)²/Hz", texts)
+        self.assertEqual(len(curves), 1)
+
+    def test_what_is_not_there_is_refused(self):
+        for arguments, fragment in (
+            (("a.h5", "--show", "points/nobody/velocity.y"), f"no output 'points/nobody/velocity.y'; there are: {SEAT}"),
+            (("b.h5", "--show", SEAT, "--spectrum"), "has no spectra"),
+            (("c.h5", "--show", SEAT), "c.h5: error: no such file"),
+        ):
+            self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", *arguments), fragment)
+        self.assertFalse((self.folder / "out.png").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,206 @@
+"""tools/report without a browser: what stands on the page against the results, and what is refused. What the page draws
+is looked at in report_page_test.py. One case is of a whole run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
+
+import base64
+import json
+import os
+import re
+import subprocess
+import unittest
+
+import h5py
+import numpy as np
+from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement, write_texts
+from tool_test_case import ROOT, ToolTestCase
+
+from report_page.packing import find_kept
+from report_page.page import make_small_page
+from report_page.scene import find_spans
+from report_page.summary import shorten_numbers
+from runs import open_runs
+
+
+def decode(text):
+    return np.frombuffer(base64.b64decode(text), dtype="<f4")
+
+
+def find_data(text):
+    """The data in a page's text."""
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)[1])
+
+
+def read_page(path):
+    """The page's text and its data."""
+    text = path.read_text(encoding="utf-8")
+    return text, find_data(text)
+
+
+class Report(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder / "rigid.h5", num_modes=0)
+        write_results(self.folder / "soft.h5", scale=2.0, overrides=("modes.chassis=2",))
+
+    def report(self, *arguments):
+        process = self.run_tool("report", *arguments, "-o", "page.html")
+        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assertIn(f"Open it in a browser: {(self.folder / 'page.html').resolve().as_uri()}", process.stdout)
+        return read_page(self.folder / "page.html")
+
+    def test_it_stands_alone(self):
+        text, _ = self.report("rigid.h5")
+        self.assertNotRegex(text, r'(?i)<(script|link|img|iframe)[^>]*\b(src|href)="(?!data:)')
+        self.assertNotRegex(text, r"(?i)@import|url\((?!['\"]?data:)")
+        self.assertNotIn("sourceMappingURL", text)
+
+    def test_histories_are_the_results_with_the_units_of_the_file(self):
+        _, data = self.report("a=rigid.h5", "b=soft.h5", "--show", "chosen=points/chassis.seat/position.x")
+        self.assertEqual([run["label"] for run in data["runs"]], ["a", "b"])
+        channels = {one["name"]: one for one in data["runs"][1]["channels"]}
+        force = channels["front_tyre, force"]
+        self.assertEqual((force["unit"], float(decode(force["v"]).max())), ("N", STATIC_LOAD))
+        deflection = decode(channels["chassis.front_end, in the body frame"]["v"])
+        self.assertAlmostEqual(float(deflection.max()), 0.2 * HEAVE, places=7)
+        self.assertEqual(channels["chosen"]["group"], "Asked for")
+        self.assertEqual(decode(channels["chosen"]["t"]).size, NUM_SAMPLES)
+
+    def test_the_summary_is_of_all_samples(self):
+        _, data = self.report("soft.h5")
+        rows = {(row["of"], row["name"]): row["value"] for row in data["runs"][0]["statistics"]}
+        self.assertEqual(rows["front_tyre", "force, largest"], STATIC_LOAD)
+        with h5py.File(self.folder / "soft.h5") as file:
+            off = np.count_nonzero(file["forces/front_tyre/contact"][:] < 0.5)
+        self.assertGreater(off, 0)
+        self.assertAlmostEqual(rows["front_tyre", "time off the road"], off * 1.0 / (NUM_SAMPLES - 1))
+        spans = decode(data["runs"][0]["frames"]["tyres"]["front_tyre"]["off"])
+        self.assertAlmostEqual(float(np.sum(spans[1::2] - spans[::2])), off * 1.0 / (NUM_SAMPLES - 1), places=5)
+
+    def test_what_was_run_is_told_with_versions_and_hashes(self):
+        with h5py.File(self.folder / "soft.h5", "a") as file:
+            file.attrs["program_version"] = np.bytes_("7.8.9")
+        facts = dict(self.report("soft.h5")[1]["runs"][0]["facts"])
+        self.assertEqual(facts["road"], "half-sine, height 0.2 m, length 0.4 m")
+        self.assertEqual((facts["initial speed"], facts["changed by --set"]), ("3 m/s", "modes.chassis=2"))
+        self.assertEqual(facts["flexible bodies"], "chassis: modes 1–2")
+        self.assertEqual(
+            (facts["sprung-dynamics"], facts["superelement chassis"]), ("7.8.9", "sprung-reduce 1.2, content 0123")
+        )
+        self.assertRegex(facts["results file, SHA-256"], r"^[0-9a-f]{64}$")
+
+    def test_checks_are_shown_of_the_superelement_that_was_run_and_of_no_other(self):
+        write_superelement(self.folder / "chassis.h5", "chassis", [6.11])
+        (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]
+        self.assertEqual((found["problem"], found["checks"][0]["value"], found["frequencies"]), ("", 1e-13, [6.11]))
+        with h5py.File(self.folder / "chassis.h5", "a") as file:
+            file.attrs["content_hash"] = np.bytes_("4567")
+        (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]
+        self.assertIn("is another superelement than the one that was run", found["problem"])
+        self.assertEqual(found["checks"], [])
+        (self.folder / "empty").mkdir()
+        (found,) = self.report("soft.h5", "--superelements", "empty")[1]["superelements"]
+        self.assertIn("there is no", found["problem"])
+        mistaken = self.run_tool("report", "soft.h5", "-o", "other.html", "--superelements", "none")
+        self.assert_refuses(mistaken, "none: error: no such folder")
+        self.assertFalse((self.folder / "other.html").exists())
+
+    def test_names_cannot_break_out_of_the_page(self):
+        label = "</script><script>alert(1)</script> <!-- \"'&Ü @DATA@"
+        path = self.folder / "ein Übler \"name' &.h5"
+        os.rename(self.folder / "rigid.h5", path)
+        text, data = self.report(f"{label}={path.name}", "--title", label)
+        self.assertEqual((data["title"], data["runs"][0]["label"]), (label, label))
+        self.assertEqual(text.count("</script>"), text.count("<script"))
+        self.assertNotIn("<script>alert", text)
+
+    def test_the_same_runs_give_the_same_bytes(self):
+        texts = [self.report("rigid.h5", "soft.h5")[0] for _ in range(2)]
+        self.assertEqual(*texts)
+
+    def test_one_file_twice_has_two_names(self):
+        _, data = self.report("rigid.h5", "rigid.h5")
+        self.assertEqual(len({run["label"] for run in data["runs"]}), 2)
+
+    def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/quarter_car_run.toml"]
+        settings = ("--set", "duration=8", "-o", "car.h5", "--quiet")
+        subprocess.run([*map(str, command), *settings], cwd=self.folder, check=True, stdout=subprocess.PIPE)
+        runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples
+        self.addCleanup(runs[0].results.file.close)
+        pages = [make_small_page("", runs, [], [], largest) for largest in (15e6, 700e3, 1.0)]
+        self.assertLess(len(pages[1]), 700e3)
+        runs = [find_data(page)["runs"][0] for page in pages]
+        self.assertEqual([run["frames"]["count"] for run in runs], [6000, 1500, 750])
+        self.assertEqual([run["statistics"] for run in runs[1:]], [runs[0]["statistics"]] * 2)
+        peaks = [decode(run["channels"][1]["v"]).max() for run in runs]
+        self.assertEqual(peaks, [peaks[0]] * 3)
+
+    def test_thinning_keeps_ends_and_peaks(self):
+        values = np.sin(np.arange(60001) * 0.37)
+        values[12345] = 7.0
+        for most in (4000, 500):
+            kept = find_kept(values, most)
+            self.assertLessEqual(kept.size, most + 2)
+            self.assertTrue({0, 12345, 60000} <= set(kept.tolist()))
+            self.assertTrue(np.all(np.diff(kept) > 0))
+
+    def test_spans_end_with_the_sample_after(self):
+        time = np.arange(6.0)
+        np.testing.assert_array_equal(find_spans(np.array([1, 0, 0, 1, 1, 0], bool), time), [0, 1, 3, 5])
+        np.testing.assert_array_equal(find_spans(np.array([0, 0, 0, 0, 0, 1], bool), time), [5, 5])
+        self.assertEqual(shorten_numbers(np.array([1, 2, 3, 7, 9, 10])), "1–3, 7, 9–10")
+
+
+class Refusing(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        write_results(self.folder / "run.h5")
+
+    def refuse(self, *arguments, fragment):
+        before = sorted(os.listdir(self.folder))
+        process = self.run_tool("report", *arguments)
+        self.assert_refuses(process, fragment)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_files_that_are_missing_stopped_early_cut_short_or_something_else(self):
+        self.refuse("none.h5", "-o", "a.html", fragment="none.h5: error: no such file")
+        write_superelement(self.folder / "chassis.h5", "chassis", [6.11])
+        self.refuse("chassis.h5", "-o", "a.html", fragment="chassis.h5: error: format is 'sprung-superelement'")
+        content = (self.folder / "run.h5").read_bytes()
+        (self.folder / "cut.h5").write_bytes(content[: len(content) // 2])
+        self.refuse("run.h5", "cut.h5", "-o", "a.html", fragment="cut.h5: error: not a readable HDF5 file")
+        with h5py.File(self.folder / "run.h5", "a") as file:
+            file.attrs["complete"] = 0
+        self.refuse("run.h5", "-o", "a.html", fragment="did not finish (complete = 0)")
+
+    def test_what_a_file_lacks_is_named(self):
+        for lacking in ("bodies/chassis/position", "model/bodies", "model/bodies/chassis/point_positions", "forces/front_tyre/force",
+                        "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
+            with self.subTest(lacking):
+                write_results(self.folder / "run.h5")
+                with h5py.File(self.folder / "run.h5", "a") as file:
+                    del file[lacking]
+                self.refuse("run.h5", "-o", "a.html", fragment=lacking.rpartition("/")[2])
+
+    def test_values_that_are_not_finite_and_texts_that_are_not_toml(self):
+        with h5py.File(self.folder / "run.h5", "a") as file:
+            file["bodies/chassis/position"][3, 1] = np.nan
+        self.refuse("run.h5", "-o", "a.html", fragment="'bodies/chassis/position' holds values that are not finite")
+        write_results(self.folder / "run.h5")
+        with h5py.File(self.folder / "run.h5", "a") as file:
+            del file["model/vehicle_text"]
+            write_texts(file, "model/vehicle_text", ["name = = 1"])
+        self.refuse("run.h5", "-o", "a.html", fragment="'model/vehicle_text' is not TOML")
+
+    def test_places_that_cannot_be_written_and_quantities_that_are_not_there(self):
+        (self.folder / "folder").mkdir()
+        self.refuse("run.h5", "-o", "folder", fragment="folder: error: cannot write the file")
+        self.refuse("run.h5", "-o", "none/a.html", fragment="none/a.html: error: cannot write the file")
+        self.refuse("run.h5", "-o", "", fragment="cannot write the file")
+        self.refuse("run.h5", "-o", "run.h5", fragment="run.h5: error: is one of the input files")
+        self.refuse(
+            "run.h5", "-o", "a.html", "--show", "bodies/cab/position.x", fragment="no quantity 'bodies/cab/position.x'"
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""Modes about steady motion of a whole system: what turns with a shaft, and what is carried along a way."""
+
+import math
+import os
+import subprocess
+import unittest
+
+import numpy as np
+
+from verification_case import VerificationCase
+
+HUB = """
+name = "turning"
+gravity = [0.0, 0.0]
+[ground.points]
+axis = [0.4, -0.3]
+[bodies.hub]
+mass = 2.0
+inertia = 0.5
+position = [0.4, -0.3]
+points = {{ arm = [0.5, 0.0], left = [-1.0, 0.0], right = [1.0, 0.0], low = [0.0, -1.0], high = [0.0, 1.0] }}
+[[joints]]
+name = "bearing"
+type = "revolute"
+a = "ground.axis"
+b = "hub.origin"
+[[motions]]
+name = "speed"
+joint = "bearing"
+function = {{ polynomial = [0.2, {speed}] }}
+{rest}
+"""
+# A bar hinged at the arm: 0.5 m from the axis, its centre 0.3 m from the hinge.
+PENDULUM = """
+[bodies.bar]
+mass = 3.0
+inertia = 0.2
+position = [1.19, -0.12]
+angle = 0.3
+points = { eye = [-0.3, 0.0] }
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "hub.arm"
+b = "bar.eye"
+"""
+# A disc held to the hub's middle by 2 k in every direction: four ropes without length of their own, k/2 each.
+ROTOR = """
+[bodies.disc]
+mass = 5.0
+inertia = 0.1
+position = [0.4, -0.3]
+""" + "".join(f"""
+[[forces]]
+name = "to_{end}"
+type = "spring-damper"
+a = "hub.{end}"
+b = "disc.origin"
+free_length = 1e-12
+spring = {{ polynomial = [0.0, 500.0] }}
+""" for end in ("left", "right", "low", "high"))
+
+
+class Steady(VerificationCase):
+    def modes_of(self, rest, speed, *arguments):
+        self.write(HUB.format(speed=speed, rest=rest))
+        return self.modes(self.folder / "run.toml", *arguments)
+
+    def write(self, vehicle):
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\nduration = 1.0\nstart = "steady"\n',
+                                              encoding="utf-8")
+
+    def test_pendulum_on_a_turning_arm(self):
+        # It points outwards and swings in the centrifugal field: (J + m l²) ω² = m a l Ω².
+        for speed in (4.0, -11.0):
+            omega, num_rigid = self.modes_of(PENDULUM, speed)
+            self.assertEqual(num_rigid, 0)
+            self.assert_close(omega, [abs(speed) * math.sqrt(3.0 * 0.5 * 0.3 / (0.2 + 3.0 * 0.3**2))], relative=1e-7)
+
+    def test_a_run_goes_on_as_steadily_as_it_begins(self):
+        self.write(HUB.format(speed=4.0, rest=PENDULUM))
+        results = self.run_to_results(self.folder / "run.toml")
+        self.assert_close(results["bodies/bar/velocity"][:, 2], 4.0, absolute=1e-6)
+        self.assert_close(results["joints/hinge/coordinate"], 0.0, absolute=1e-6)
+
+    def test_whirl_of_a_disc_seen_from_its_shaft(self):
+        # 20 rad/s at rest; forward and backward whirl turn against the shaft's own Ω: |20 − Ω| and 20 + Ω, also above
+        # 20 rad/s, where the Coriolis force alone holds the disc. Nothing holds its angle.
+        for speed in (0.5, 7.0, 33.0):
+            omega, num_rigid = self.modes_of(ROTOR, speed)
+            self.assertEqual(num_rigid, 1)
+            self.assert_close(omega, sorted([abs(20.0 - speed), 20.0 + speed]), relative=1e-6)
+
+    def test_internal_damping_makes_a_fast_shaft_unstable(self):
+        # Damping that turns with the shaft drives the whirl above its critical speed.
+        spring = "spring = { polynomial = [0.0, 500.0] }"
+        self.assertIn(spring, ROTOR)
+        damped = ROTOR.replace(spring, spring + "\ndamper = { coefficient = 3.0 }")
+        self.modes_of(damped, 15.0)
+        self.write(HUB.format(speed=25.0, rest=damped))
+        self.assert_fails(3, "unstable")
+
+    def test_what_is_not_steady_is_refused(self):
+        spring = ('[[forces]]\nname = "rope"\ntype = "spring-damper"\na = "ground.origin"\nb = "bar.origin"\n'
+                  "free_length = 0.5\nspring = { polynomial = [0.0, 100.0] }\n")
+        turning = HUB.format(speed=9.0, rest=PENDULUM)
+        for vehicle in (
+            turning + spring,
+            turning.replace("gravity = [0.0, 0.0]", "gravity = [0.0, -1.0]"),
+            turning.replace("polynomial = [0.2, 9.0]", "polynomial = [0.2, 9.0, 1.0]"),
+        ):
+            self.write(vehicle)
+            self.assert_fails(2, "run.toml:3:9: error: 'start' can be \"steady\" only where what is carried along")
+
+    def assert_fails(self, code, words):
+        process = subprocess.run([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder,
+                                 capture_output=True, text=True, check=False)
+        self.assertEqual(process.returncode, code, process.stdout + process.stderr)
+        self.assertIn(words, process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
