@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -18,6 +20,7 @@ namespace {
 
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-12;  // of the length scale
+constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
   Eigen::VectorXd inverse(terms.model().num_coordinates);
@@ -77,12 +80,14 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   for (int iteration = 0; size > kTolerance * model.length_scale; ++iteration) {
     if (iteration == kMaxIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
-    const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
-    const Eigen::MatrixXd weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
-    const Eigen::MatrixXd normal = Phi_q * weighted;
-    Eigen::JacobiSVD<Eigen::MatrixXd> svd(normal, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(1e-12);
-    Eigen::VectorXd step = -weighted * svd.solve(phi);
+    const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
+    const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
+    Eigen::SparseMatrix<double> normal = Phi_q * weighted;
+    // Redundant joints are told of below; until then they must not be in the way.
+    const double shift = kRegularisation * normal.diagonal().maxCoeff();
+    for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+    Eigen::VectorXd step = -(weighted * factor.solve(phi));
     double largest = 0.0;
     for (int i = 0; i < model.num_coordinates; ++i) {
       largest = std::max(largest, std::abs(step[i]) / model.coordinate_scale(i));
@@ -131,9 +136,9 @@ VelocityReport project_velocities(const Model& model, double time, const Eigen::
   }
   v = equations.v();
   for (int i = 0; i < model.num_coordinates; ++i) {
-    const double change = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
-    if (change <= report.largest_change) continue;
-    report = {change, model.coordinate_name(i)};
+    const double relative = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
+    if (relative <= report.largest_change) continue;
+    report = {relative, model.coordinate_name(i)};
   }
   return report;
 }

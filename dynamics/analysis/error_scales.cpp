@@ -15,18 +15,19 @@ constexpr double kStepShare = 1.0 / 300.0;
 
 // A natural velocity: what gravity gives over a length scale, at least one natural size per second.
 ErrorScales::ErrorScales(const Model& model)
-    : model_(&model), velocity_scale_(std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale))) {
+    : velocity_scale_(std::max(1.0, std::sqrt(model.gravity.norm() / model.length_scale))) {
+  for (int i = 0; i < model.num_coordinates; ++i) natural_.push_back(model.coordinate_scale(i));
   double mass = 0.0;
   for (const Body& body : model.bodies) mass += body.mass;
   energy_scale_ = 0.5 * mass * std::pow(velocity_scale_ * model.length_scale, 2);
 }
 
 double ErrorScales::position(int coordinate) const {
-  return kStepShare * model_->coordinate_scale(coordinate);
+  return kStepShare * natural_[static_cast<std::size_t>(coordinate)];
 }
 
 double ErrorScales::velocity(int coordinate, double velocity) const {
-  return kStepShare * (velocity_scale_ * model_->coordinate_scale(coordinate) + std::abs(velocity));
+  return kStepShare * (velocity_scale_ * natural_[static_cast<std::size_t>(coordinate)] + std::abs(velocity));
 }
 
 double ErrorScales::energy() const {

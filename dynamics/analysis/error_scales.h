@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
@@ -8,7 +10,6 @@ namespace sprung::dynamics {
 /// scale here (dynamics/README.md, "Error control"). None depends on where the origin is.
 class ErrorScales {
  public:
-  /// @param model has to outlive this
   explicit ErrorScales(const Model& model);
 
   double position(int coordinate) const;                   ///< in the coordinate's unit
@@ -16,7 +17,7 @@ class ErrorScales {
   double energy() const;                                   ///< [J]
 
  private:
-  const Model* model_;
+  std::vector<double> natural_;  // of each coordinate
   double velocity_scale_;  // [natural sizes/s]
   double energy_scale_;    // [J]
 };

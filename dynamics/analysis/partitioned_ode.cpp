@@ -22,6 +22,8 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
   piece_.set_branches(state.branches);
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
+  natural_sizes_.clear();
+  for (const int i : independent) natural_sizes_.push_back(model_->coordinate_scale(i));
   for (std::size_t k = 0; k < f; ++k) {
     y_[k] = state.q[independent[k]];
     y_[f + k] = state.v[independent[k]];
@@ -64,8 +66,7 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
   Eigen::MatrixXd gradient(f, 2 * f);
   for (Eigen::Index k = 0; k < 2 * f; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const double shift = kShift * model_->coordinate_scale(
-                                      equations_.partition().independent[static_cast<std::size_t>(k % f)]);
+    const double shift = kShift * natural_sizes_[static_cast<std::size_t>(k % f)];
     moved[i] = y[i] + shift;
     const bool good = calc_derivative(time, moved, y_dot);
     moved[i] = y[i];

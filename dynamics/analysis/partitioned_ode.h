@@ -56,6 +56,7 @@ class PartitionedOde final : public OdeSystem {
   long num_derivatives_ = 0;
   std::vector<double> y_;
   int coordinate_version_ = 0;
+  std::vector<double> natural_sizes_;  // of the independents
   // The arguments at which the motion of the equations was evaluated last.
   double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> evaluated_y_;

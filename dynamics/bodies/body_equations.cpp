@@ -6,6 +6,20 @@ namespace sprung::dynamics {
 
 FrameRotation FrameRotation::from_angle(double theta) { return {std::cos(theta), std::sin(theta)}; }
 
+void FrameRotation::turn_to(double theta, double before) {
+  const double turn = theta - before, square = turn * turn;
+  constexpr double kSmall = 2e-3;  // rad: terms left out are below 1e-18
+  if (!(std::abs(turn) < kSmall)) {
+    *this = from_angle(theta);
+    return;
+  }
+  const double turn_sine = turn * (1.0 - square / 6.0 * (1.0 - square / 20.0));
+  const double versine = 0.5 * square * (1.0 - square / 12.0);  // 1 − cos
+  const double last_cosine = cosine;
+  cosine -= versine * cosine + turn_sine * sine;
+  sine += turn_sine * last_cosine - versine * sine;
+}
+
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   Eigen::Vector2d moment = body.first_moment;
   for (int k = 0; k < body.num_modes(); ++k) moment += body.P.col(k) * eta[k];

@@ -12,6 +12,9 @@ struct FrameRotation {
   double sine = 0.0;
 
   static FrameRotation from_angle(double theta);
+  /// From angle `before` to `theta`; a small way by the series of sine and cosine, exact to rounding. Rounding adds
+  /// up over many such turns: for a few in a row, as in an iteration.
+  void turn_to(double theta, double before);
   Eigen::Vector2d operator*(const Eigen::Vector2d& p_B) const {  ///< A p
     return {cosine * p_B.x() - sine * p_B.y(), sine * p_B.x() + cosine * p_B.y()};
   }

@@ -22,17 +22,26 @@ bool is_diagonal(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-BodyMass::BodyMass(const Body& body) : body_(&body), diagonal_(is_diagonal(body.M_ff)) {
+BodyMass::BodyMass(const Body& body)
+    : body_(&body),
+      constant_(body.num_modes() == 0 && body.first_moment.isZero(0.0)),
+      diagonal_(is_diagonal(body.M_ff)) {
   const Eigen::Index n = body.num_modes();
   diagonal_inverse_ = body.M_ff.diagonal().cwiseInverse();
   if (!diagonal_) M_ff_inverse_ = body.M_ff.llt().solve(Eigen::MatrixXd::Identity(n, n));
   M_ = Eigen::MatrixXd::Zero(3 + n, 3 + n);
   W_ = Eigen::Matrix3Xd::Zero(3, n);
   modal_work_ = Eigen::VectorXd::Zero(n);
-  C_inverse_.setZero();
+  if (constant_) {
+    M_.diagonal() << body.mass, body.mass, body.second_moment;
+    C_inverse_ = M_.diagonal().cwiseInverse().asDiagonal();
+  } else {
+    C_inverse_.setZero();
+  }
 }
 
 void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta) {
+  if (constant_) return;
   calc_mass_matrix(*body_, rotation, eta, M_);
   const Eigen::Index n = body_->num_modes();
   Eigen::Matrix3d C = M_.topLeftCorner<3, 3>();
@@ -64,15 +73,13 @@ void BodyMass::solve(double* x) const {
   }
 }
 
-void BodyMass::reduce_row(const double* G, double* Y, double* Z) const {
+void BodyMass::reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const {
   const Eigen::Index n = body_->num_modes();
-  Eigen::Map<Eigen::Vector3d> rigid(Y);
-  rigid = Eigen::Map<const Eigen::Vector3d>(G);
-  for (Eigen::Index k = 0; k < n; ++k) rigid -= W_.col(k) * G[3 + k];
+  for (Eigen::Index k = 0; k < n; ++k) Y -= W_.col(k) * G_f[k];
   if (diagonal_) {
-    for (Eigen::Index k = 0; k < n; ++k) Z[k] = G[3 + k] * diagonal_inverse_[k];
+    for (Eigen::Index k = 0; k < n; ++k) Z[k] = G_f[k] * diagonal_inverse_[k];
   } else {
-    Eigen::Map<Eigen::VectorXd>(Z, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G + 3, n));
+    Eigen::Map<Eigen::VectorXd>(Z, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G_f, n));
   }
 }
 

@@ -23,15 +23,20 @@ class BodyMass {
   void solve(double* x) const;
 
   /// The rows G of a Jacobian that belong to this body, made ready for G₁ M⁻¹ G₂ᵀ = Y₁ C⁻¹ Y₂ᵀ + G_f₁ M_ff⁻¹ G_f₂ᵀ.
-  /// @param G  (3+n) values   @param[out] Y  3 values, G_r − G_f M_ff⁻¹ Hᵀ   @param[out] Z  n values, G_f M_ff⁻¹
-  void reduce_row(const double* G, double* Y, double* Z) const;
-  /// C⁻¹ y, 3 values.
+  /// @param G  (3+n) values   @param[out] Y  G_r − G_f M_ff⁻¹ Hᵀ   @param[out] Z  n values, G_f M_ff⁻¹
+  void reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const {
+    Y = Eigen::Map<const Eigen::Vector3d>(G);
+    if (W_.cols() > 0) reduce_modal_part(G + 3, Y, Z);
+  }
+  /// C⁻¹ y.
   Eigen::Vector3d solve_rigid(const Eigen::Vector3d& y) const { return C_inverse_ * y; }
-  const Eigen::Matrix3d& rigid_inverse() const { return C_inverse_; }
 
  private:
+  void reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const;
+
   const Body* body_;
-  bool diagonal_;              // M_ff is diagonal to rounding
+  bool constant_;  // the mass matrix: of a rigid body about its centre of mass
+  bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
   Eigen::MatrixXd M_ff_inverse_;  // used where it is not
   Eigen::MatrixXd M_;

@@ -44,16 +44,47 @@ MarkerState make_marker_state(const Marker& marker);
 /// @param eta  n
 Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
+/// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and their
+/// gradients; to the acceleration while q̈ = 0.
+void add_second_order_position(const Marker& marker, const FrameRotation& rotation,
+                               const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Vector2d& u, MarkerState& state);
+void add_second_order_bias(const Marker& marker, const FrameRotation& rotation,
+                           const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state);
+
 /// Position-level part of a marker's state.                                       (dynamics/README.md, eqs. 1, 41)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
-void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
-                          const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state);
+inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
+                                 const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state) {
+  Eigen::Vector2d u = marker.p_BP;
+  state.angle = q[2] + marker.alpha_BP;
+  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
+    const Eigen::Vector2d shape = marker.Phi.col(k);
+    u += shape * q[3 + k];
+    state.angle += marker.Phi_rotation[k] * q[3 + k];
+    state.angle_eta[k] = marker.Phi_rotation[k];
+    state.r_eta.col(k) = rotation * shape;
+  }
+  if (marker.has_second_order()) add_second_order_position(marker, rotation, q.tail(marker.Phi.cols()), u, state);
+  const Eigen::Vector2d arm = rotation * u;
+  state.r = q.head<2>() + arm;
+  state.r_theta = turned(arm);
+}
 
 /// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)
 /// @param v  the body's 3+n velocities
-void calc_marker_velocity(const Marker& marker, const FrameRotation& rotation,
-                          const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state);
+inline void calc_marker_velocity(const Marker& marker, const FrameRotation& rotation,
+                                 const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state) {
+  Eigen::Vector2d bending = Eigen::Vector2d::Zero();  // A u̇
+  state.omega = v[2];
+  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
+    bending += state.r_eta.col(k) * v[3 + k];
+    state.omega += state.angle_eta[k] * v[3 + k];
+  }
+  state.v = v.head<2>() + state.r_theta * v[2] + bending;
+  state.a_bias = v[2] * turned(state.r_theta * v[2] + 2.0 * bending);
+  if (marker.has_second_order()) add_second_order_bias(marker, rotation, v.tail(marker.Phi.cols()), state);
+}
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
 /// @param v_dot  the body's 3+n accelerations

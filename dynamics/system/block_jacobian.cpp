@@ -14,8 +14,9 @@ void BlockJacobian::add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) co
     const double* value = values_.data() + block.offset;
     const double* part = v.data() + block.column;
     for (int i = 0; i < block.num_rows; ++i) {
-      double sum = 0.0;
-      for (int j = 0; j < block.num_columns; ++j) sum += *value++ * part[j];
+      double sum = value[0] * part[0] + value[1] * part[1] + value[2] * part[2];
+      for (int j = 3; j < block.num_columns; ++j) sum += value[j] * part[j];
+      value += block.num_columns;
       r[block.row + i] += sum;
     }
   }
@@ -27,19 +28,25 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
     double* part = Q.data() + block.column;
     for (int i = 0; i < block.num_rows; ++i) {
       const double factor = lambda[block.row + i];
-      for (int j = 0; j < block.num_columns; ++j) part[j] += *value++ * factor;
+      for (int j = 0; j < 3; ++j) part[j] += value[j] * factor;
+      for (int j = 3; j < block.num_columns; ++j) part[j] += value[j] * factor;
+      value += block.num_columns;
     }
   }
 }
 
-Eigen::MatrixXd BlockJacobian::dense() const {
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(num_rows_, num_columns_);
+Eigen::MatrixXd BlockJacobian::dense() const { return sparse().toDense(); }
+
+Eigen::SparseMatrix<double> BlockJacobian::sparse() const {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const Block& block : blocks_) {
     const double* value = values_.data() + block.offset;
     for (int i = 0; i < block.num_rows; ++i) {
-      for (int j = 0; j < block.num_columns; ++j) matrix(block.row + i, block.column + j) += *value++;
+      for (int j = 0; j < block.num_columns; ++j) entries.emplace_back(block.row + i, block.column + j, *value++);
     }
   }
+  Eigen::SparseMatrix<double> matrix(num_rows_, num_columns_);
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
-
 
 namespace sprung::dynamics {
 
@@ -12,7 +12,7 @@ class BlockJacobian {
   /// Rows of one joint, columns of one body; stored row by row.
   struct Block {
     int row = 0, num_rows = 0;        ///< constraints
-    int column = 0, num_columns = 0;  ///< coordinates
+    int column = 0, num_columns = 0;  ///< coordinates, at least a body's 3
     int body = 0;
     std::size_t offset = 0;  ///< of its values
   };
@@ -31,8 +31,9 @@ class BlockJacobian {
   void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;
   /// Q += φ_qᵀ λ.  @param lambda num_rows  @param Q num_columns
   void add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const;
-  /// The dense matrix, num_rows×num_columns: for what is done once.
+  /// The same num_rows×num_columns, for what is done once.
   Eigen::MatrixXd dense() const;
+  Eigen::SparseMatrix<double> sparse() const;
 
  private:
   int num_rows_ = 0, num_columns_ = 0;

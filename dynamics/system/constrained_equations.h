@@ -25,6 +25,8 @@ class ConstrainedEquations {
   /// Accelerations and multipliers. Positions, Jacobian and velocities of the terms have to be up to date.
   /// @return false where NaN or infinity came out, or constraints have become dependent
   bool update_accelerations(std::span<const int> branches);
+  /// Entries of the factor for the multipliers.
+  int num_factor_entries() const { return multipliers_.num_factor_entries(); }
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (eq. 29).
   double calc_motion_power();
 

@@ -37,11 +37,8 @@ std::vector<std::vector<PatternEntry>> list_entries(const BlockJacobian& jacobia
 class Matching {
  public:
   explicit Matching(const std::vector<std::vector<PatternEntry>>& rows)
-      : rows_(rows), row_of_column_(rows.size(), -1), column_of_row_(rows.size(), -1) {
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      visited_.assign(rows.size(), false);
-      augment(static_cast<int>(row));
-    }
+      : rows_(rows), row_of_column_(rows.size(), -1), column_of_row_(rows.size(), -1), tried_for_(rows.size(), -1) {
+    for (int row = 0; row < static_cast<int>(rows.size()); ++row) augment(row, row);
     for (std::size_t column = 0; column < rows.size(); ++column) {
       if (row_of_column_[column] >= 0) column_of_row_[static_cast<std::size_t>(row_of_column_[column])] = static_cast<int>(column);
     }
@@ -50,12 +47,13 @@ class Matching {
   const std::vector<int>& row_of_column() const { return row_of_column_; }
 
  private:
-  bool augment(int row) {
+  // @param origin  the row that looks for a column: no column is tried twice for it
+  bool augment(int row, int origin) {
     for (const PatternEntry& entry : rows_[static_cast<std::size_t>(row)]) {
       const auto column = static_cast<std::size_t>(entry.column);
-      if (visited_[column]) continue;
-      visited_[column] = true;
-      if (row_of_column_[column] < 0 || augment(row_of_column_[column])) {
+      if (tried_for_[column] == origin) continue;
+      tried_for_[column] = origin;
+      if (row_of_column_[column] < 0 || augment(row_of_column_[column], origin)) {
         row_of_column_[column] = row;
         return true;
       }
@@ -64,7 +62,7 @@ class Matching {
   }
   const std::vector<std::vector<PatternEntry>>& rows_;
   std::vector<int> row_of_column_, column_of_row_;
-  std::vector<bool> visited_;
+  std::vector<int> tried_for_;
 };
 
 // Strongly connected groups of rows, where a row needs the rows whose columns it contains; in an order in which each
@@ -119,37 +117,39 @@ class Groups {
 DependentSolver::DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
   const std::vector<std::vector<PatternEntry>> rows = list_entries(jacobian, partition, num_coordinates);
   const Matching matching(rows);
-  std::size_t largest = 0;
+  std::size_t largest = 0, most_entries = 0;
   for (const std::vector<int>& group : Groups(rows, matching).take()) {
     DiagonalBlock block;
     block.rows = group;
     for (const int row : group) block.columns.push_back(matching.column_of_row()[static_cast<std::size_t>(row)]);
     std::sort(block.columns.begin(), block.columns.end());
     const int size = static_cast<int>(group.size());
+    std::vector<SparseLu::Position> positions;
     for (int i = 0; i < size; ++i) {
       for (const PatternEntry& entry : rows[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])]) {
         const auto found = std::lower_bound(block.columns.begin(), block.columns.end(), entry.column);
         if (found != block.columns.end() && *found == entry.column) {
-          block.inside.push_back({i * size + static_cast<int>(found - block.columns.begin()), 0, entry.source});
+          positions.push_back({i, static_cast<int>(found - block.columns.begin())});
+          block.inside.push_back(entry.source);
         } else {
           block.outside.push_back({i, entry.column, entry.source});
         }
       }
     }
-    block.lu = SmallLu(size);
+    block.lu = SparseLu(size, std::move(positions));
     largest = std::max(largest, group.size());
+    most_entries = std::max(most_entries, block.inside.size());
     blocks_.push_back(std::move(block));
   }
   work_.resize(largest);
+  entries_.resize(most_entries);
 }
 
 void DependentSolver::factorise(const BlockJacobian& jacobian) {
   values_ = jacobian.data();
   for (DiagonalBlock& block : blocks_) {
-    const std::span<double> matrix = block.lu.matrix();
-    std::fill(matrix.begin(), matrix.end(), 0.0);
-    for (const Entry& entry : block.inside) matrix[static_cast<std::size_t>(entry.target)] += values_[entry.source];
-    block.lu.factorise();
+    for (std::size_t k = 0; k < block.inside.size(); ++k) entries_[k] = values_[block.inside[k]];
+    block.lu.factorise({entries_.data(), block.inside.size()});
   }
 }
 
@@ -157,11 +157,17 @@ void DependentSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const 
   for (const DiagonalBlock& block : blocks_) {
     for (std::size_t i = 0; i < block.rows.size(); ++i) work_[i] = r[block.rows[i]];
     for (const Entry& entry : block.outside) {
-      work_[static_cast<std::size_t>(entry.target)] -= values_[entry.source] * x[entry.column];
+      work_[static_cast<std::size_t>(entry.row)] -= values_[entry.source] * x[entry.column];
     }
     block.lu.solve(work_.data());
     for (std::size_t i = 0; i < block.columns.size(); ++i) x[block.columns[i]] = work_[i];
   }
+}
+
+int DependentSolver::num_factor_entries() const {
+  int count = 0;
+  for (const DiagonalBlock& block : blocks_) count += block.lu.num_factor_entries() + static_cast<int>(block.outside.size());
+  return count;
 }
 
 void DependentSolver::set_reference() {

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "dynamics/system/block_jacobian.h"
 #include "dynamics/system/partition.h"
-#include "dynamics/system/small_lu.h"
+#include "dynamics/system/sparse_lu.h"
 
 namespace sprung::dynamics {
 
@@ -20,7 +19,7 @@ class DependentSolver {
   DependentSolver() = default;
   DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
 
-  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing.
+  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing but where pivots are chosen, see SparseLu.
   void factorise(const BlockJacobian& jacobian);
   /// x = φ_d⁻¹ r.  @param r, x  num_constraints; x in the order of Partition::dependent
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
@@ -31,24 +30,27 @@ class DependentSolver {
   /// Whether the determinant of a block has changed sign since `set_reference`. It cannot while the motion is followed:
   /// a mechanism goes through det φ_d = 0 only where its independents turn round, and there another partition is due.
   bool is_mirrored() const;
+  int num_factor_entries() const;
   int num_blocks() const { return static_cast<int>(blocks_.size()); }
 
  private:
   struct Entry {
-    int target;          // in the block's matrix, or row of the block for an entry outside it
-    int column;          // dependent coordinate (position in the partition), for an entry outside the block
+    int row;             // of the block
+    int column;          // dependent coordinate (position in the partition)
     std::size_t source;  // in the Jacobian's values
   };
   struct DiagonalBlock {
     std::vector<int> rows, columns;  // constraints; positions in Partition::dependent
-    std::vector<Entry> inside, outside;
-    SmallLu lu{0};
+    std::vector<std::size_t> inside;  // sources of the block's own entries
+    std::vector<Entry> outside;       // in its rows, in columns of the blocks before
+    SparseLu lu{0, {}};
     double reference_determinant = 0.0;
   };
 
   std::vector<DiagonalBlock> blocks_;
   const double* values_ = nullptr;  // of the Jacobian that was factorised
-  mutable std::vector<double> work_;
+  std::vector<double> entries_;       // of one block
+  mutable std::vector<double> work_;  // of the largest block
 };
 
 }  // namespace sprung::dynamics

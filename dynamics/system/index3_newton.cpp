@@ -21,8 +21,12 @@ Index3Newton::Index3Newton(const Model& model)
       coordinate_scale_(base_force_),
       constraint_scale_(Eigen::VectorXd::Zero(model.num_constraints)),
       unknowns_(Eigen::VectorXd::Zero(model.num_coordinates + model.num_constraints)),
-      is_dense_(unknowns_.size() <= kMostDense),
-      dense_(is_dense_ ? static_cast<int>(unknowns_.size()) : 0) {
+      is_dense_(unknowns_.size() <= kMostDense) {
+  solution_ = unknowns_;
+  if (is_dense_) {
+    dense_ = Eigen::MatrixXd::Identity(unknowns_.size(), unknowns_.size());
+    dense_factor_.compute(dense_);
+  }
   find_couplings();
   colour_bodies();
 }
@@ -181,26 +185,21 @@ bool Index3Newton::factorise(const SystemTerms& terms, const Weights& weights) {
     sparse_factor_.factorize(sparse_);
     return sparse_factor_.info() == Eigen::Success;
   }
-  const std::span<double> matrix = dense_.matrix();
-  std::fill(matrix.begin(), matrix.end(), 0.0);
-  for (const Entry& entry : entries_) {
-    matrix[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(unknowns_.size()) +
-           static_cast<std::size_t>(entry.column)] += entry.value;
-  }
-  dense_.factorise();
-  return std::isfinite(dense_.determinant()) && dense_.determinant() != 0.0;
+  dense_.setZero();
+  for (const Entry& entry : entries_) dense_(entry.row, entry.column) += entry.value;
+  dense_factor_.compute(dense_);
+  const auto pivots = dense_factor_.matrixLU().diagonal();
+  return pivots.allFinite() && (pivots.array() != 0.0).all();
 }
 
 void Index3Newton::solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, Eigen::VectorXd& delta,
                          Eigen::VectorXd& delta_lambda) {
   unknowns_.head(num_coordinates_) = -r.cwiseProduct(coordinate_scale_);
   unknowns_.tail(num_constraints_) = -phi.cwiseProduct(constraint_scale_);
-  if (is_dense_)
-    dense_.solve(unknowns_.data());
-  else
-    unknowns_ = sparse_factor_.solve(unknowns_).eval();
-  delta = unknowns_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
-  delta_lambda = unknowns_.tail(num_constraints_).cwiseProduct(constraint_scale_);
+  if (is_dense_) solution_ = dense_factor_.solve(unknowns_);
+  else solution_ = sparse_factor_.solve(unknowns_);
+  delta = solution_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
+  delta_lambda = solution_.tail(num_constraints_).cwiseProduct(constraint_scale_);
 }
 
 Eigen::MatrixXd Index3Newton::dense() const {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <vector>
 
 #include "dynamics/system/index3_residual.h"
-#include "dynamics/system/small_lu.h"
 
 namespace sprung::dynamics {
 
@@ -70,9 +70,10 @@ class Index3Newton {
   ConstrainedMotion moved_;
 
   std::vector<Entry> entries_;  // of the scaled matrix
-  Eigen::VectorXd coordinate_scale_, constraint_scale_, unknowns_;
+  Eigen::VectorXd coordinate_scale_, constraint_scale_, unknowns_, solution_;
   bool is_dense_;
-  SmallLu dense_;
+  Eigen::MatrixXd dense_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> dense_factor_;
   Eigen::SparseMatrix<double> sparse_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_factor_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -12,10 +13,11 @@ namespace sprung::dynamics {
 namespace {
 
 const Body& body_of_coordinate(const Model& model, int coordinate) {
-  for (const Body& body : model.bodies) {
-    if (coordinate < body.first_coordinate + body.num_coordinates()) return body;
+  if (coordinate < 0 || coordinate >= model.num_coordinates) {
+    throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, model.num_coordinates));
   }
-  throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, model.num_coordinates));
+  return *std::prev(std::upper_bound(model.bodies.begin(), model.bodies.end(), coordinate,
+                                     [](int i, const Body& body) { return i < body.first_coordinate; }));
 }
 
 void collect_time_functions(Model& model) {

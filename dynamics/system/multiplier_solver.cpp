@@ -1,80 +1,83 @@
 #include "dynamics/system/multiplier_solver.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kDenseLimit = 64;  // constraints up to which the dense factorisation is the quicker one
-
 using Block = BlockJacobian::Block;
 
-Eigen::SparseMatrix<double> make_pattern(const std::vector<Block>& blocks, int size) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const Block& p : blocks) {
-    for (const Block& q : blocks) {
-      if (p.body != q.body || p.row < q.row) continue;
-      for (int i = 0; i < p.num_rows; ++i) {
-        for (int j = 0; j < q.num_rows; ++j) entries.emplace_back(p.row + i, q.row + j, 0.0);
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> pattern(size, size);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  pattern.makeCompressed();
-  return pattern;
-}
-
-}  // namespace
-
-MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constraints)
-    : num_constraints_(num_constraints), is_dense_(num_constraints <= kDenseLimit) {
-  const std::vector<Block>& blocks = jacobian.blocks();
-  if (is_dense_) {
-    dense_ = Eigen::MatrixXd::Zero(num_constraints, num_constraints);
-    // By computing: a factor of a size alone would be copied with its outcome not set.
-    dense_factor_.compute(Eigen::MatrixXd::Identity(num_constraints, num_constraints));
-  } else {
-    sparse_ = make_pattern(blocks, num_constraints);
-    sparse_factor_.analyzePattern(sparse_);
-  }
-  std::size_t rows = 0, modal = 0;
-  for (const Block& block : blocks) {
-    row_offsets_.push_back(3 * rows);
-    modal_offsets_.push_back(modal);
-    rows += static_cast<std::size_t>(block.num_rows);
-    modal += static_cast<std::size_t>(block.num_rows * (block.num_columns - 3));
-  }
-  Y_.resize(3 * rows);
-  CY_.resize(3 * rows);
-  Z_.resize(modal);
-
-  // Only the lower triangle: a pair's first block is the one with the later rows.
+// Pairs of blocks on one body, the one with the later rows first.
+std::vector<std::pair<std::size_t, std::size_t>> list_pairs(const std::vector<Block>& blocks) {
   std::vector<std::vector<std::size_t>> blocks_of_body;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const auto body = static_cast<std::size_t>(blocks[k].body);
     if (blocks_of_body.size() <= body) blocks_of_body.resize(body + 1);
     blocks_of_body[body].push_back(k);
   }
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const std::vector<std::size_t>& members : blocks_of_body) {
     for (const std::size_t p : members) {
       for (const std::size_t q : members) {
-        if (blocks[p].row < blocks[q].row) continue;
-        Pair pair{p, q, {}};
-        for (int j = 0; j < blocks[q].num_rows; ++j) {
-          const int row = blocks[p].row, column = blocks[q].row + j;
-          std::size_t target = static_cast<std::size_t>(column) * static_cast<std::size_t>(num_constraints) +
-                               static_cast<std::size_t>(row);
-          if (!is_dense_) {
-            const int* begin = sparse_.innerIndexPtr() + sparse_.outerIndexPtr()[column];
-            const int* end = sparse_.innerIndexPtr() + sparse_.outerIndexPtr()[column + 1];
-            target = static_cast<std::size_t>(std::lower_bound(begin, end, row) - sparse_.innerIndexPtr());
-          }
-          pair.column_targets.push_back(target);
-        }
-        pairs_.push_back(std::move(pair));
+        if (blocks[p].row >= blocks[q].row) pairs.emplace_back(p, q);
       }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constraints) {
+  const std::vector<Block>& blocks = jacobian.blocks();
+  std::size_t rows = 0, modal = 0;
+  for (const Block& block : blocks) {
+    row_offsets_.push_back(rows);
+    modal_offsets_.push_back(modal);
+    rows += static_cast<std::size_t>(block.num_rows);
+    modal += static_cast<std::size_t>(block.num_rows * (block.num_columns - 3));
+  }
+  Y_.resize(rows);
+  CY_.resize(rows);
+  Z_.resize(modal);
+
+  std::vector<std::pair<int, int>> entries;
+  for (const auto& [p, q] : list_pairs(blocks)) {
+    pairs_.push_back({.num_rows_p = blocks[p].num_rows,
+                      .num_rows_q = blocks[q].num_rows,
+                      .num_modes = blocks[p].num_columns - 3,
+                      .row_p = row_offsets_[p],
+                      .row_q = row_offsets_[q],
+                      .modal_p = blocks[p].offset + 3,
+                      .modal_q = modal_offsets_[q],
+                      .first_place = entries.size()});
+    for (int i = 0; i < blocks[p].num_rows; ++i) {
+      for (int j = 0; j < blocks[q].num_rows; ++j) entries.emplace_back(blocks[p].row + i, blocks[q].row + j);
+    }
+  }
+  factor_ = SparseCholesky(num_constraints, entries);
+  for (const auto& [i, j] : entries) places_.push_back(i >= j ? factor_.place(i, j) : factor_.unused_place());
+}
+
+// Yᵢ·C⁻¹Yⱼ + G_fᵢ·Zⱼ for the rows i of p and j of q.
+// @tparam num_rows, num_modes  of both blocks and of the body, where they are known beforehand; −1: any
+template <int num_rows, int num_modes>
+void MultiplierSolver::add_products(const Pair& pair, const double* jacobian_values) {
+  const int rows_p = num_rows >= 0 ? num_rows : pair.num_rows_p;
+  const int rows_q = num_rows >= 0 ? num_rows : pair.num_rows_q;
+  const int modes = num_modes >= 0 ? num_modes : pair.num_modes;
+  const Eigen::Vector3d* Y = Y_.data() + pair.row_p;
+  const Eigen::Vector3d* CY = CY_.data() + pair.row_q;
+  const int* place = places_.data() + pair.first_place;
+  double* values = factor_.values().data();
+  for (int i = 0; i < rows_p; ++i) {
+    const double* G = jacobian_values + pair.modal_p + i * (3 + modes);
+    for (int j = 0; j < rows_q; ++j) {
+      const double* Z = Z_.data() + pair.modal_q + j * modes;
+      double sum = Y[i][0] * CY[j][0] + Y[i][1] * CY[j][1] + Y[i][2] * CY[j][2];
+      for (int m = 0; m < modes; ++m) sum += G[m] * Z[m];
+      values[*place++] += sum;
     }
   }
 }
@@ -86,45 +89,28 @@ bool MultiplierSolver::factorise(const BlockJacobian& jacobian, const std::vecto
     const BodyMass& mass = masses[static_cast<std::size_t>(block.body)];
     const auto modes = static_cast<std::size_t>(block.num_columns - 3);
     for (std::size_t i = 0; i < static_cast<std::size_t>(block.num_rows); ++i) {
-      double* Y = Y_.data() + row_offsets_[k] + 3 * i;
+      Eigen::Vector3d& Y = Y_[row_offsets_[k] + i];
       mass.reduce_row(jacobian.values(k) + i * static_cast<std::size_t>(block.num_columns), Y,
                       Z_.data() + modal_offsets_[k] + modes * i);
-      Eigen::Map<Eigen::Vector3d>(CY_.data() + row_offsets_[k] + 3 * i).noalias() =
-          mass.rigid_inverse() * Eigen::Map<const Eigen::Vector3d>(Y);
+      CY_[row_offsets_[k] + i] = mass.solve_rigid(Y);
     }
   }
-  double* values = is_dense_ ? dense_.data() : sparse_.valuePtr();
-  std::fill(values, values + (is_dense_ ? dense_.size() : sparse_.nonZeros()), 0.0);
+  std::fill(factor_.values().begin(), factor_.values().end(), 0.0);
   for (const Pair& pair : pairs_) {
-    const Block& p = blocks[pair.p];
-    const Block& q = blocks[pair.q];
-    const auto modes = static_cast<std::size_t>(p.num_columns - 3);
-    const auto stride = static_cast<std::size_t>(p.num_columns);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(q.num_rows); ++j) {
-      const double* CY = CY_.data() + row_offsets_[pair.q] + 3 * j;
-      const double* Z = Z_.data() + modal_offsets_[pair.q] + modes * j;
-      double* column = values + pair.column_targets[j];
-      for (std::size_t i = 0; i < static_cast<std::size_t>(p.num_rows); ++i) {
-        const double* Y = Y_.data() + row_offsets_[pair.p] + 3 * i;
-        const double* G = jacobian.values(pair.p) + i * stride + 3;
-        double sum = Y[0] * CY[0] + Y[1] * CY[1] + Y[2] * CY[2];
-        for (std::size_t m = 0; m < modes; ++m) sum += G[m] * Z[m];
-        column[i] += sum;
-      }
-    }
+    const bool revolute = pair.num_rows_p == 2 && pair.num_rows_q == 2;  // what most joints are
+    if (revolute && pair.num_modes == 0)
+      add_products<2, 0>(pair, jacobian.data());
+    else if (revolute)
+      add_products<2, -1>(pair, jacobian.data());
+    else
+      add_products<-1, -1>(pair, jacobian.data());
   }
-  if (is_dense_) {
-    dense_factor_.compute(dense_);
-    return dense_factor_.info() == Eigen::Success;
-  }
-  sparse_factor_.factorize(sparse_);
-  return sparse_factor_.info() == Eigen::Success;
+  return factor_.factorise();
 }
 
 void MultiplierSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& lambda) const {
   lambda = r;
-  if (is_dense_) dense_factor_.solveInPlace(lambda);
-  else lambda = sparse_factor_.solve(r);
+  factor_.solve(lambda.data());
 }
 
 }  // namespace sprung::dynamics

@@ -1,24 +1,29 @@
 #include "dynamics/system/partition.h"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "dynamics/system/column_pivoting.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kRankTolerance = 1e-9;  // of unit rows; assembled positions are good to 1e-12
+// A smallest pivot above this share of the largest leaves no singular value below kRankTolerance.
+constexpr double kSafePivot = 1e-6;
+
 // φ_q with columns scaled by 1/√M_ii: the constraints as the masses feel them.
-Eigen::MatrixXd scaled_jacobian(const SystemTerms& terms) {
-  Eigen::MatrixXd scaled = terms.jacobian().dense();
+Eigen::SparseMatrix<double> scaled_jacobian(const SystemTerms& terms) {
   const Model& model = terms.model();
+  Eigen::VectorXd scales(model.num_coordinates);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (int k = 0; k < model.bodies[b].num_coordinates(); ++k) {
-      scaled.col(model.bodies[b].first_coordinate + k) /= std::sqrt(terms.mass(b)(k, k));
-    }
+    const Body& body = model.bodies[b];
+    scales.segment(body.first_coordinate, body.num_coordinates()) =
+        terms.mass(b).diagonal().cwiseSqrt().cwiseInverse();
   }
-  return scaled;
+  return terms.jacobian().sparse() * scales.asDiagonal();
 }
 
 }  // namespace
@@ -27,11 +32,8 @@ Partition choose_partition(const SystemTerms& terms) {
   const Model& model = terms.model();
   Partition partition;
   std::vector<bool> is_dependent(static_cast<std::size_t>(model.num_coordinates), false);
-  if (model.num_constraints > 0) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled_jacobian(terms));
-    for (int k = 0; k < model.num_constraints; ++k) {
-      is_dependent[static_cast<std::size_t>(qr.colsPermutation().indices()[k])] = true;
-    }
+  for (const int column : choose_columns(scaled_jacobian(terms)).columns) {
+    is_dependent[static_cast<std::size_t>(column)] = true;
   }
   for (int i = 0; i < model.num_coordinates; ++i) {
     (is_dependent[static_cast<std::size_t>(i)] ? partition.dependent : partition.independent).push_back(i);
@@ -40,14 +42,21 @@ Partition choose_partition(const SystemTerms& terms) {
 }
 
 std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
-  if (terms.model().num_constraints == 0) return {};
-  Eigen::MatrixXd rows = scaled_jacobian(terms);
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const double norm = rows.row(i).norm();
-    if (norm > 0.0) rows.row(i) /= norm;
+  const int num_constraints = terms.model().num_constraints;
+  if (num_constraints == 0) return {};
+  const Eigen::SparseMatrix<double> scaled = scaled_jacobian(terms);
+  Eigen::VectorXd row_scales = Eigen::VectorXd::Zero(num_constraints);
+  for (int j = 0; j < scaled.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(scaled, j); entry; ++entry) {
+      row_scales[entry.row()] += entry.value() * entry.value();
+    }
   }
-  constexpr double kRankTolerance = 1e-9;  // of unit rows; assembled positions are good to 1e-12
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
+  for (double& scale : row_scales) scale = scale > 0.0 ? 1.0 / std::sqrt(scale) : 1.0;
+  const Eigen::SparseMatrix<double> rows = row_scales.asDiagonal() * scaled;
+  const ColumnPivots pivots = choose_columns(rows);
+  if (pivots.norms.back() > kSafePivot * pivots.norms.front()) return {};
+  // Which ones take part is a question for those who made a mistake: it may take its time.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.toDense(), Eigen::ComputeFullU);
   std::vector<int> found;
   const auto singular = svd.singularValues();
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {

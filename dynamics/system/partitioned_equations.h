@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 
 #include "dynamics/system/constrained_equations.h"
@@ -13,8 +12,8 @@ namespace sprung::dynamics {
 
 /// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i and v_i,
 /// finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost grows with the
-/// number of joints and, for each body, with its modes; no allocation in the evaluating functions (but see
-/// MultiplierSolver for large systems). f freedoms, m constraints, nq coordinates.
+/// number of joints and, for each body, with its modes; no allocation in the evaluating functions, but where pivots of
+/// φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
@@ -60,6 +59,9 @@ class PartitionedEquations {
   Eigen::MatrixXd calc_reduced_mass(const Eigen::MatrixXd& directions) const;
   /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
   Eigen::VectorXd calc_reduced_force(const Eigen::MatrixXd& directions) const;
+
+  /// Entries of the factors that an evaluation computes: its work grows with them.
+  int num_factor_entries() const { return dependents_.num_factor_entries() + full_.num_factor_entries(); }
 
   /// How much worse the dependents follow the independents than when the partition was chosen, at least 1.
   double partition_decay() const { return dependents_.decay(); }

@@ -12,6 +12,7 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       rotations_(model.bodies.size()),
       wrenches_(model.markers.size()),
+      joint_jacobians_(model.joints.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
   if (scope == Markers::kActing) {
     kept_markers_ = model.acting_markers;
@@ -33,6 +34,15 @@ void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::Ve
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
   }
+  for (const int i : kept_markers_) place_marker(i);
+}
+
+void SystemTerms::adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q) {
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const int angle = model_->bodies[b].first_coordinate + 2;
+    rotations_[b].turn_to(q[angle], q_[angle]);
+  }
+  q_ = q;
   for (const int i : kept_markers_) place_marker(i);
 }
 
@@ -97,16 +107,21 @@ void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size
 }
 
 void SystemTerms::update_jacobian() {
-  JointJacobian Ga, Gb;
   std::size_t next_block = 0;
-  for (const auto& joint : model_->joints) {
-    joint->calc_jacobian(marker(joint->marker_a), marker(joint->marker_b), Ga, Gb);
-    fill_block(Ga, joint->marker_a, next_block);
-    fill_block(Gb, joint->marker_b, next_block);
+  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
+    const Joint& joint = *model_->joints[j];
+    JointJacobians& G = joint_jacobians_[j];
+    joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), G.a, G.b);
+    fill_block(G.a, joint.marker_a, next_block);
+    fill_block(G.b, joint.marker_b, next_block);
   }
 }
 
 void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
+  if (!model_->has_motions) {
+    phi_t.setZero();
+    return;
+  }
   JointVector rate;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     const Joint& joint = *model_->joints[j];
@@ -128,18 +143,17 @@ void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) 
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
-  JointJacobian Ga, Gb;
   JointVector drift;
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     const Joint& joint = *model_->joints[j];
+    const JointJacobians& G = joint_jacobians_[j];
     const MarkerState& a = marker(joint.marker_a);
     const MarkerState& b = marker(joint.marker_b);
-    joint.calc_jacobian(a, b, Ga, Gb);
     joint.calc_drift(a, b, time_, drift);
     for (int k = 0; k < drift.size(); ++k) {
-      gamma[model_->joint_rows[j] + k] = -drift[k] - Ga(k, 0) * a.a_bias.x() - Ga(k, 1) * a.a_bias.y() -
-                                         Ga(k, 2) * a.alpha_bias - Gb(k, 0) * b.a_bias.x() -
-                                         Gb(k, 1) * b.a_bias.y() - Gb(k, 2) * b.alpha_bias;
+      gamma[model_->joint_rows[j] + k] = -drift[k] - G.a(k, 0) * a.a_bias.x() - G.a(k, 1) * a.a_bias.y() -
+                                         G.a(k, 2) * a.alpha_bias - G.b(k, 0) * b.a_bias.x() -
+                                         G.b(k, 1) * b.a_bias.y() - G.b(k, 2) * b.alpha_bias;
     }
   }
 }

@@ -24,6 +24,8 @@ class SystemTerms {
 
   /// Positions of the markers.
   void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
+  /// The same nearby, after `update_positions`: bodies that turned little are turned on instead of placed anew.
+  void adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q);
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
   void update_jacobian();
   const BlockJacobian& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
@@ -69,6 +71,10 @@ class SystemTerms {
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_;
+  struct JointJacobians {
+    JointJacobian a, b;
+  };
+  std::vector<JointJacobians> joint_jacobians_;
   BlockJacobian Phi_q_;
   Power power_;
 };

@@ -10,7 +10,7 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase
 BASH = ("setup", "build", "test", "run-truck")
 PYTHON = (
     "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride", "paper_figures",
-    "convert_mesh", "export_csv", "export_paraview", "report",
+    "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
 )  # fmt: skip
 
 

@@ -1,0 +1,99 @@
+"""tools/benchmark: what it judges runs by, and that all of it runs. Nothing about times, which are for people."""
+
+import csv
+import os
+import unittest
+
+import numpy as np
+from tool_test_case import ToolTestCase
+
+import benchmark_report
+import benchmark_runs
+from benchmark_runs import Case, Errors, Rung, Series
+
+
+def series_of(acceleration, height=0.0, deflection=0.0):
+    time = np.arange(len(acceleration)) * 1e-3
+    return Series(time, time * 0.0 + height, acceleration, time * 0.0 + deflection)
+
+
+class Judging(unittest.TestCase):
+    def test_rms_above_counts_what_lies_above_alone(self):
+        time = np.arange(2000) * 1e-3  # 2 s: whole periods of both
+        values = 3.0 * np.sin(2 * np.pi * 4.0 * time) + 0.5 * np.sin(2 * np.pi * 40.0 * time)
+        self.assertAlmostEqual(benchmark_runs.rms_above(values, 1e-3, 16.0), 0.5 / np.sqrt(2.0), places=12)
+
+    def test_each_error_is_told_from_the_converged_run(self):
+        time = np.arange(1000) * 1e-3
+        true = series_of(np.sin(2 * np.pi * 20.0 * time), height=1.0, deflection=0.02)
+        off = series_of(1.005 * np.sin(2 * np.pi * 20.0 * time), height=1.0 - 3e-5, deflection=0.0201)
+        errors = benchmark_runs.calc_errors(off, true)
+        np.testing.assert_allclose(errors, (3e-5, 0.005, 0.005, 0.005), rtol=1e-9)
+        self.assertTrue(errors.allowed())
+
+    def test_a_rigid_chassis_has_no_error_of_its_deflection(self):
+        flat = series_of(np.sin(np.arange(1000.0)))
+        self.assertEqual(benchmark_runs.calc_errors(flat, flat), (0.0, 0.0, 0.0, 0.0))
+
+    def test_one_condition_missed_is_enough(self):
+        good = Errors(1e-4, 0.01, 0.01, 0.01)
+        self.assertTrue(good.allowed())
+        for name, value in (("height", 1.1e-4), ("peak", 0.011), ("rms", 0.011), ("deflection", 0.011)):
+            self.assertFalse(good._replace(**{name: value}).allowed())
+
+    def test_the_climb_ends_at_the_loosest_tolerance_that_is_good_enough(self):
+        case = Case.__new__(Case)  # without programs: errors in proportion to the tolerance
+        case.measure = lambda method, tolerance, repetitions: Rung(
+            tolerance, 10, 5, 1.0, Errors(tolerance, 0.0, 0.0, 0.0)
+        )
+        rungs, good = case.climb("adams", 1, ladder=(1e-2, 1e-3, 1e-4, 1e-5))
+        self.assertEqual([rung.tolerance for rung in rungs], [1e-2, 1e-3, 1e-4])
+        self.assertEqual(good.tolerance, 1e-4)
+        rungs, good = case.climb("adams", 1, ladder=(1e-2, 1e-4, 1e-5), whole=True)
+        self.assertEqual((len(rungs), good.tolerance), (3, 1e-4))
+        self.assertIsNone(case.climb("adams", 1, ladder=(1e-2,))[1])
+
+    def test_ratios_are_to_the_fastest_rigid_run_and_of_the_baseline(self):
+        def rung(seconds):
+            return Rung(1e-4, 100, 20, seconds, None)
+
+        results = {
+            ("bump", 0, "exponential"): rung(0.004),
+            ("bump", 0, "adams"): rung(0.002),
+            ("bump", 0, "baseline"): rung(0.05),
+            ("bump", 2, "exponential"): rung(0.003),
+            ("bump", 2, "adams"): None,
+        }
+        targets = {
+            what: (value, met)
+            for what, _, value, met in benchmark_report.check_targets({}, results, {"bump": 5.0}, [])
+        }
+        self.assertEqual(targets["bump, 2 modes to fastest rigid"], (1.5, True))
+        self.assertEqual(targets["bump, 0 modes: baseline/fastest"], (25.0, True))
+        table = benchmark_report.format_runs(results, {"bump": 5.0})
+        self.assertIn("–", table.splitlines()[-1])
+
+
+class Tool(ToolTestCase):
+    def test_a_quick_measurement_writes_tables_data_and_picture(self):
+        process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        for heading in ("One evaluation", "Whole runs", "Growth", "Targets"):
+            self.assertRegex(process.stdout, rf"(?m)^{heading}")
+        self.assertEqual((self.folder / "out/benchmark.txt").read_text(encoding="utf-8"), process.stdout)
+        with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["method"] for row in rows}, {*benchmark_runs.METHODS, benchmark_runs.BASELINE})
+        for row in rows:
+            # The converged run is by one method alone: that the others come to it says that all four agree.
+            if float(row["tolerance"]) <= 1e-6:
+                self.assertLess(float(row["height_error_m"]), 1e-4, row)
+        self.assertEqual((self.folder / "out/work_precision.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_programs_that_are_not_built_are_named(self):
+        process = self.run_tool("benchmark", "--programs", "nowhere", "--output-dir", "out")
+        self.assert_refuses(process, "nowhere/reduce/sprung-reduce: error: ", "tools/build")
+
+
+if __name__ == "__main__":
+    unittest.main()
