@@ -24,6 +24,7 @@ WRITTEN = {
     "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
     "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
     "export_paraview": ("modes.pvd", "bump.pvd"), "plot_response": ("response.png",),
+    "plot_modes": ("choice.png",),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
 CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
@@ -67,6 +68,9 @@ class PythonTools(Examples):
             command = [os.environ["SPRUNG_DYNAMICS"], "response", TRUCK / "terrain.toml", "--superelements", superelements,
                        "--quiet", "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
             subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
+        choice = [os.environ["SPRUNG_DYNAMICS"], "select-modes", TRUCK / "terrain.toml", "--superelements", superelements,
+                  "-o", cls.made / "choice.h5", "--set", 'modes.chassis="auto"']  # fmt: skip
+        subprocess.run([*map(str, choice)], check=True, stdout=subprocess.PIPE)
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
         shutil.copy(ROOT / "tests/tools/data/portal.bdf", cls.made / "frame.bdf")

@@ -135,8 +135,8 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
 
 TEST_CASE("At rest no mode joins, and none is said to be missed", "[truck]") {
   const AdaptiveRun rest = drive(12, 2, 1e-2, 0.3);  // before the bump
-  CHECK(rest.changes.empty());
-  CHECK(rest.statistics.mean_active_modes == Approx(2.0));
+  for (const dynamics::Event& change : rest.changes) CHECK_FALSE(change.text.starts_with("joins"));
+  CHECK(rest.statistics.mean_active_modes <= 2.0);  // idle ones may leave
   CHECK(rest.statistics.worst_neglect.share.worst() < 1e-3);
 }
 
