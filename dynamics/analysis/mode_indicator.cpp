@@ -116,8 +116,9 @@ double ModeIndicator::frequency(std::size_t mode) const {
 }
 
 ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
-  return {bending_[mode] * std::abs(amplitude) / largest_deflection_,
-          reach_[mode] * std::abs(acceleration) / largest_acceleration_};
+  // Never more than all: where the run bends less than the mode would, the mode is the deflection.
+  const double deflection = bending_[mode] * std::abs(amplitude), change = reach_[mode] * std::abs(acceleration);
+  return {deflection / std::max(largest_deflection_, deflection), change / std::max(largest_acceleration_, change)};
 }
 
 void ModeIndicator::update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
