@@ -197,7 +197,7 @@ class TransientRun {
       for (const int coordinate : missed) {
         const ModeShare share = modes_->adaptation().share_of(coordinate);
         tell_mode(begin, coordinate,
-                  fmt::format("joins: {:.2g} % of the deflection, {:.2g} % of the acceleration",
+                  fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
                               100.0 * share.deflection, 100.0 * share.acceleration));
       }
       modes_->join(*step_start_.memory, begin, missed);

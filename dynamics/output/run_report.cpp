@@ -94,7 +94,7 @@ std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
     if (worst.coordinate >= 0) {
       const std::string name = summary.adaptivity->full->coordinate_name(worst.coordinate);
       const std::string shares =
-          fmt::format("{:.2g} % of the largest deflection, {:.2g} % of the largest acceleration",
+          fmt::format("{:.3g} % of the largest deflection, {:.3g} % of the largest acceleration",
                       100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
       if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
