@@ -13,6 +13,7 @@ namespace sprung::dynamics {
 
 namespace {
 
+using lobatto::combine;
 using lobatto::cubic_weights;
 using lobatto::node_polynomial;
 
@@ -37,13 +38,6 @@ constexpr double kMemory =
 constexpr double kWorthwhile = 1.15;
 constexpr double kTruncationOfFirst =
     0.3;  // part of fourth degree, of that of third, where no step was before
-
-// out = Σ_j weight_j values_j
-template <class Out>
-void combine(const lobatto::NodeValues& values, const lobatto::NodeWeights& weights, Out&& out) {
-  out = weights[0] * values.col(0) + weights[1] * values.col(1) + weights[2] * values.col(2) +
-        weights[3] * values.col(3);
-}
 
 std::span<double> span_of(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};

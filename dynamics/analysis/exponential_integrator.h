@@ -14,7 +14,7 @@ namespace sprung::dynamics {
 /// the step through its values at the four Lobatto points, found by iteration. So the step follows what
 /// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a
 /// switch is needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck &
-/// Ostermann 2010] (dynamics/README.md, eqs. 51–56).
+/// Ostermann 2010] (dynamics/README.md, eqs. 51–55).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this

@@ -22,6 +22,13 @@ double node_polynomial(double theta);
 /// Weights for the coefficient of θ³.
 NodeWeights third_degree_weights();
 
+/// out = Σ_j weight_j values_j, without a temporary.
+template <class Out>
+void combine(const NodeValues& values, const NodeWeights& weights, Out&& out) {
+  out = weights[0] * values.col(0) + weights[1] * values.col(1) + weights[2] * values.col(2) +
+        weights[3] * values.col(3);
+}
+
 }  // namespace lobatto
 
 /// What pairs and plain integrals do from the start of a step up to one instant of it, exactly, under a drive

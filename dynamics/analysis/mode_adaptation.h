@@ -29,7 +29,7 @@ struct WorstNeglect {
 };
 
 /// Decides which modes are active: those left out join when the indicator passes the recall threshold, active ones may
-/// leave when what they do stays below the drop threshold (dynamics/README.md, eqs. 71–75).
+/// leave when what they do stays below the drop threshold (dynamics/README.md, eq. 74).
 class ModeAdaptation {
  public:
   /// @param start  in coordinates of `options.full`; what is not active is held at its values

@@ -14,7 +14,7 @@ namespace sprung::dynamics {
 
 /// The models that a run with changing modes goes through, and what is carried over from one to the next. Positions and
 /// velocities in coordinates of the full model are kept beside those of the model that is stepped.
-/// Source: dynamics/README.md, eqs. 71–77.
+/// Source: dynamics/README.md, eqs. 71, 75 and 76.
 class ModeChanges {
  public:
   /// @param model  that the run was given: the full one where modes change

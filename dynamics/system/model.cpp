@@ -98,27 +98,4 @@ void number_model(Model& model) {
   model.length_scale = extent > 0.0 ? extent : 1.0;
 }
 
-State carry_over(const Model& from, const State& state, const Model& to) {
-  State carried;
-  carried.time = state.time;
-  carried.branches = state.branches;
-  carried.q = Eigen::VectorXd::Zero(to.num_coordinates);
-  carried.v = Eigen::VectorXd::Zero(to.num_coordinates);
-  for (std::size_t b = 0; b < from.bodies.size(); ++b) {
-    const Body& old_body = from.bodies[b];
-    const Body& new_body = to.bodies[b];
-    carried.q.segment<3>(new_body.first_coordinate) = state.q.segment<3>(old_body.first_coordinate);
-    carried.v.segment<3>(new_body.first_coordinate) = state.v.segment<3>(old_body.first_coordinate);
-    for (int k = 0; k < old_body.num_modes(); ++k) {
-      const int number = old_body.mode_numbers[static_cast<std::size_t>(k)];
-      const auto found = std::find(new_body.mode_numbers.begin(), new_body.mode_numbers.end(), number);
-      if (found == new_body.mode_numbers.end()) continue;
-      const int target = new_body.first_coordinate + 3 + static_cast<int>(found - new_body.mode_numbers.begin());
-      carried.q[target] = state.q[old_body.first_coordinate + 3 + k];
-      carried.v[target] = state.v[old_body.first_coordinate + 3 + k];
-    }
-  }
-  return carried;
-}
-
 }  // namespace sprung::dynamics

@@ -14,7 +14,7 @@
 namespace sprung::dynamics {
 
 /// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes another
-/// model with the same markers, joints and forces, to which a state is carried over by `carry_over`.
+/// model with the same joints and forces, as `hold_modes` does.
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
@@ -54,9 +54,5 @@ struct State {
   Eigen::VectorXd v;          ///< num_coordinates
   std::vector<int> branches;  ///< num_branches
 };
-
-/// The state in a model that differs in its active modes alone: modes that join start undeformed and at rest, modes
-/// that leave are dropped. Constraints have to be satisfied anew by the caller.
-State carry_over(const Model& from, const State& state, const Model& to);
 
 }  // namespace sprung::dynamics

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <random>
+
+#include "reduce/reduction.h"
 
 namespace sprung::reduce::testing {
 
@@ -156,6 +160,26 @@ double calc_difference(const Superelement& a, const Superelement& b) {
 
 std::string source_path(const std::string& path) {
   return std::string(SPRUNG_SOURCE_DIR) + "/" + path;
+}
+
+Superelement make_two_armed_body() {
+  fem::BeamModel model = make_model({make_section(true), make_section()});
+  add_line(model, {0.3, -0.2}, {1.5, 0.4}, 3, 0);
+  add_line(model, {1.5, 0.4}, {1.1, 1.7}, 2, 1);
+  model.mesh.named_nodes = {{.name = "foot", .node = 0}, {.name = "tip", .node = 5}};
+  Design design = make_design(model, {0.3, -0.2}, {.wanted = ModeCount{7}});
+  design.provenance = {.design_text = "# Träger\nname = \"body\"\n",
+                       .design_hash = std::string(64, 'a'),
+                       .input_names = {"frame.geo"},
+                       .input_hashes = {std::string(64, 'b')},
+                       .program_version = "9.8.7",
+                       .algorithm_revision = 3};
+  return make_superelement(design);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace sprung::reduce::testing

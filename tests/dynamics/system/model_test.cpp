@@ -8,7 +8,6 @@
 
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
-#include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
@@ -74,35 +73,4 @@ TEST_CASE("Bodies and markers are found by name", "[system]") {
   CHECK(model.find_marker("bob.eye") == 1);
   CHECK(model.find_marker("ground.post") == 2);
   CHECK(model.find_marker("eye") == -1);
-}
-
-TEST_CASE("A state is carried over to other active modes: common modes keep theirs, new ones are at rest",
-          "[system]") {
-  const Model from = make_model({1, 3, 4}), to = make_model({2, 3, 4, 6});
-  test::RandomNumbers random(5);
-  dynamics::State state = test::make_state(from, random.vector(from.num_coordinates, 1.0),
-                                           random.vector(from.num_coordinates, 1.0));
-  state.time = 2.5;
-  state.branches = {0, 1, 2, 3};
-  const dynamics::State carried = dynamics::carry_over(from, state, to);
-  CHECK(carried.time == 2.5);
-  CHECK(carried.branches == state.branches);
-  for (const auto& [before, after] : {std::pair{state.q, carried.q}, {state.v, carried.v}}) {
-    REQUIRE(after.size() == to.num_coordinates);
-    CHECK(after.head(6) == before.head(6));              // cart and the frame's frame
-    CHECK(after[6] == 0.0);                              // mode 2 is new
-    CHECK(after.segment(7, 2) == before.segment(7, 2));  // modes 3 and 4
-    CHECK(after[9] == 0.0);                              // mode 6 is new
-    CHECK(after.tail(3) == before.tail(3));              // bob
-  }
-}
-
-TEST_CASE("Carrying a state over and back changes nothing where all modes are kept", "[system]") {
-  const Model few = make_model({2}), many = make_model({1, 2, 5});
-  test::RandomNumbers random(6);
-  const dynamics::State state =
-      test::make_state(few, random.vector(few.num_coordinates, 1.0), random.vector(few.num_coordinates, 1.0));
-  const dynamics::State back = dynamics::carry_over(many, dynamics::carry_over(few, state, many), few);
-  CHECK(back.q == state.q);
-  CHECK(back.v == state.v);
 }
