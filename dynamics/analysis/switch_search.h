@@ -9,7 +9,7 @@
 namespace sprung::dynamics {
 
 /// Finds the first zero of several functions of one variable, by cubics through four places around it.
-/// Allocates nothing. Source: interpolation after Newton; every third time halving, as in [Brent 1973].
+/// Allocates nothing. Source: interpolation after Newton; halving where that is slow.
 class SwitchSearch {
  public:
   explicit SwitchSearch(Eigen::Index num_switches) : values_(num_switches, kMaxPlaces), new_(num_switches) {}
