@@ -11,7 +11,9 @@ from results_file import ResultsError
 BASELINE = "baseline"  # dense equations under Dormand–Prince 5(4)
 METHODS = ("exponential", "adams", "bdf")  # as in run files
 REFERENCE_METHOD, REFERENCE_TOLERANCE = "exponential", 1e-9
-LADDER = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7)
+LADDER = (
+    3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 3e-7, 1e-7,
+)  # fmt: skip
 HIGH_PASS = 16.0  # Hz
 ALLOWED_HEIGHT = 1e-4  # m
 ALLOWED_SHARE = 0.01  # of peak and r.m.s. of the acceleration, and of the deflection
