@@ -56,25 +56,35 @@ class SystemTerms {
   const Eigen::VectorXd& v() const { return v_; }
 
  private:
-  void place_marker(int index);
-  void move_marker(int index);
+  // A marker that moves, and where its body's coordinates are.
+  struct MovingMarker {
+    std::size_t marker, body;
+    int first_coordinate, num_coordinates;
+  };
+  struct JointTerms {
+    const Joint* joint;
+    int row, num_rows;
+    bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
+    JointJacobian G_a, G_b;
+  };
+  MovingMarker find_body(int marker_index) const;
+  void place_marker(const MovingMarker& moving);
+  void move_marker(const MovingMarker& moving);
   const MarkerState& marker(int index) const { return markers_[static_cast<std::size_t>(index)]; }
-  void add_block(std::size_t joint, int marker_index);
+  void add_joint(std::size_t joint);
+  void add_block(const JointTerms& terms, const JointJacobian& G, int marker_index);
   void fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block);
-  void add_wrench(int marker_index, const Wrench& wrench);
+  void add_wrench(const MovingMarker& moving, const Wrench& wrench);
 
   const Model* model_;
-  std::vector<int> kept_markers_;
+  std::vector<MovingMarker> kept_markers_, acting_markers_;
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_;
-  struct JointJacobians {
-    JointJacobian a, b;
-  };
-  std::vector<JointJacobians> joint_jacobians_;
+  std::vector<JointTerms> joints_;
   BlockJacobian Phi_q_;
   Power power_;
 };
