@@ -31,12 +31,17 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
   for (const Block& block : blocks_) {
     const double* value = values_.data() + block.offset;
     double* part = Q.data() + block.column;
-    for (int i = 0; i < block.num_rows; ++i) {
+    double x = part[0], y = part[1], theta = part[2];
+    for (int i = 0; i < block.num_rows; ++i, value += block.num_columns) {
       const double factor = lambda[block.row + i];
-      for (int j = 0; j < 3; ++j) part[j] += value[j] * factor;
+      x += value[0] * factor;
+      y += value[1] * factor;
+      theta += value[2] * factor;
       for (int j = 3; j < block.num_columns; ++j) part[j] += value[j] * factor;
-      value += block.num_columns;
     }
+    part[0] = x;
+    part[1] = y;
+    part[2] = theta;
   }
 }
 

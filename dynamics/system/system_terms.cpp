@@ -72,8 +72,7 @@ void SystemTerms::update_all_markers() {
 void SystemTerms::calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const {
   JointVector residual;
   for (const JointTerms& terms : joints_) {
-    const Joint& joint = *terms.joint;
-    joint.calc_residual(marker(joint.marker_a), marker(joint.marker_b), time_, residual);
+    terms.joint->calc_residual(markers_[terms.a.marker], markers_[terms.b.marker], time_, residual);
     for (int k = 0; k < terms.num_rows; ++k) phi[terms.row + k] = residual[k];
   }
 }
@@ -86,16 +85,16 @@ void SystemTerms::add_joint(std::size_t index) {
                    .num_rows = joint.num_constraints(),
                    .is_constant = is_constant,
                    .drifts = !is_constant || !joint.time_functions().empty(),
-                   .G_a = {},
-                   .G_b = {}};
-  if (is_constant) joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), terms.G_a, terms.G_b);
-  add_block(terms, terms.G_a, joint.marker_a);
-  add_block(terms, terms.G_b, joint.marker_b);
+                   .a = {static_cast<std::size_t>(joint.marker_a), {}, -1},
+                   .b = {static_cast<std::size_t>(joint.marker_b), {}, -1}};
+  if (is_constant) joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
+  add_block(terms, terms.a);
+  add_block(terms, terms.b);
   joints_.push_back(terms);
 }
 
-void SystemTerms::add_block(const JointTerms& terms, const JointJacobian& G, int marker_index) {
-  const int index = model_->markers[static_cast<std::size_t>(marker_index)].body;
+void SystemTerms::add_block(const JointTerms& terms, JointSide& side) {
+  const int index = model_->markers[side.marker].body;
   if (index == kGround) return;
   const Body& body = model_->bodies[static_cast<std::size_t>(index)];
   const std::size_t block = Phi_q_.add_block({.row = terms.row,
@@ -103,38 +102,39 @@ void SystemTerms::add_block(const JointTerms& terms, const JointJacobian& G, int
                                               .column = body.first_coordinate,
                                               .num_columns = body.num_coordinates(),
                                               .body = index});
+  side.block = static_cast<std::ptrdiff_t>(block);
   if (!terms.is_constant) return;
   for (int k = 0; k < terms.num_rows; ++k) {
     for (int j = 0; j < 2; ++j) {  // what moves along with the frame's x and y
-      if (G(k, j) == 0.0) Phi_q_.mark_zero(block, k, j);
+      if (side.G(k, j) == 0.0) Phi_q_.mark_zero(block, k, j);
     }
   }
 }
 
-// The blocks come in the order in which the constructor added them.
-void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block) {
-  if (model_->markers[static_cast<std::size_t>(marker_index)].body == kGround) return;
-  const MarkerState& state = marker(marker_index);
-  double* value = Phi_q_.values(next_block++);
-  for (int k = 0; k < G.rows(); ++k) {
-    *value++ = G(k, 0);
-    *value++ = G(k, 1);
-    *value++ = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
-    for (Eigen::Index n = 0; n < state.r_eta.cols(); ++n) {
-      *value++ = G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * state.angle_eta[n];
+void SystemTerms::fill_block(const JointSide& side) {
+  if (side.block < 0) return;
+  const MarkerState& state = markers_[side.marker];
+  const Eigen::Vector2d r_theta = state.r_theta;
+  const Eigen::Index num_modes = state.r_eta.cols();
+  double* value = Phi_q_.values(static_cast<std::size_t>(side.block));
+  for (Eigen::Index k = 0; k < side.G.rows(); ++k) {
+    const double along_x = side.G(k, 0), along_y = side.G(k, 1), about = side.G(k, 2);
+    *value++ = along_x;
+    *value++ = along_y;
+    *value++ = along_x * r_theta.x() + along_y * r_theta.y() + about;
+    for (Eigen::Index n = 0; n < num_modes; ++n) {
+      *value++ = along_x * state.r_eta(0, n) + along_y * state.r_eta(1, n) + about * state.angle_eta[n];
     }
   }
 }
 
 void SystemTerms::update_jacobian() {
-  std::size_t next_block = 0;
   for (JointTerms& terms : joints_) {
-    const Joint& joint = *terms.joint;
     if (!terms.is_constant) {
-      joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), terms.G_a, terms.G_b);
+      terms.joint->calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
     }
-    fill_block(terms.G_a, joint.marker_a, next_block);
-    fill_block(terms.G_b, joint.marker_b, next_block);
+    fill_block(terms.a);
+    fill_block(terms.b);
   }
 }
 
@@ -145,14 +145,14 @@ void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
   }
   JointVector rate;
   for (const JointTerms& terms : joints_) {
-    const Joint& joint = *terms.joint;
-    joint.calc_time_rate(marker(joint.marker_a), marker(joint.marker_b), time_, rate);
+    terms.joint->calc_time_rate(markers_[terms.a.marker], markers_[terms.b.marker], time_, rate);
     for (int k = 0; k < terms.num_rows; ++k) phi_t[terms.row + k] = rate[k];
   }
 }
 
 void SystemTerms::update_mass() {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    if (masses_[b].is_constant()) continue;
     const Body& body = model_->bodies[b];
     masses_[b].update(rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()));
   }
@@ -166,12 +166,12 @@ void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
   JointVector drift;
   for (const JointTerms& terms : joints_) {
-    const MarkerState& a = marker(terms.joint->marker_a);
-    const MarkerState& b = marker(terms.joint->marker_b);
+    const MarkerState& a = markers_[terms.a.marker];
+    const MarkerState& b = markers_[terms.b.marker];
     for (int k = 0; k < terms.num_rows; ++k) {
-      gamma[terms.row + k] = -terms.G_a(k, 0) * a.a_bias.x() - terms.G_a(k, 1) * a.a_bias.y() -
-                             terms.G_a(k, 2) * a.alpha_bias - terms.G_b(k, 0) * b.a_bias.x() -
-                             terms.G_b(k, 1) * b.a_bias.y() - terms.G_b(k, 2) * b.alpha_bias;
+      gamma[terms.row + k] = -(terms.a.G(k, 0) * a.a_bias.x() + terms.a.G(k, 1) * a.a_bias.y() +
+                               terms.a.G(k, 2) * a.alpha_bias + terms.b.G(k, 0) * b.a_bias.x() +
+                               terms.b.G(k, 1) * b.a_bias.y() + terms.b.G(k, 2) * b.alpha_bias);
     }
     if (!terms.drifts) continue;
     terms.joint->calc_drift(a, b, time_, drift);
@@ -210,6 +210,11 @@ void SystemTerms::update_forces(std::span<const int> branches) {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     const int first = body.first_coordinate;
+    if (masses_[b].is_constant()) {
+      Q_[first] += body.mass * model_->gravity.x();
+      Q_[first + 1] += body.mass * model_->gravity.y();
+      continue;
+    }
     const Eigen::Index n = body.num_modes();
     const auto eta = q_.segment(first + 3, n);
     const auto eta_dot = v_.segment(first + 3, n);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -61,19 +62,24 @@ class SystemTerms {
     std::size_t marker, body;
     int first_coordinate, num_coordinates;
   };
+  // A joint's Jacobian by one of its markers, and the block of φ_q that is made of it.
+  struct JointSide {
+    std::size_t marker;
+    JointJacobian G;
+    std::ptrdiff_t block;  // −1 for a marker on the ground
+  };
   struct JointTerms {
     const Joint* joint;
     int row, num_rows;
     bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
-    JointJacobian G_a, G_b;
+    JointSide a, b;
   };
   MovingMarker find_body(int marker_index) const;
   void place_marker(const MovingMarker& moving);
   void move_marker(const MovingMarker& moving);
-  const MarkerState& marker(int index) const { return markers_[static_cast<std::size_t>(index)]; }
   void add_joint(std::size_t joint);
-  void add_block(const JointTerms& terms, const JointJacobian& G, int marker_index);
-  void fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block);
+  void add_block(const JointTerms& terms, JointSide& side);
+  void fill_block(const JointSide& side);
   void add_wrench(const MovingMarker& moving, const Wrench& wrench);
 
   const Model* model_;
