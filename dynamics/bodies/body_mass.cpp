@@ -56,7 +56,7 @@ void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eige
   C_inverse_ = C.inverse();
 }
 
-void BodyMass::solve(double* x) const {
+void BodyMass::solve_coupled(double* x) const {
   const Eigen::Index n = body_->num_modes();
   Eigen::Map<Eigen::Vector3d> rigid(x);
   Eigen::Map<Eigen::VectorXd> modal(x + 3, n);
@@ -73,13 +73,17 @@ void BodyMass::solve(double* x) const {
   }
 }
 
-void BodyMass::reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const {
-  const Eigen::Index n = body_->num_modes();
-  for (Eigen::Index k = 0; k < n; ++k) Y -= W_.col(k) * G_f[k];
+void BodyMass::reduce_modal_part(const double* G_f, double* y, double* U, double* V) const {
+  using EveryOther = Eigen::Map<Eigen::VectorXd, Eigen::Unaligned, Eigen::InnerStride<2>>;
+  const Eigen::Index n = W_.cols();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (int i = 0; i < 3; ++i) y[i] -= W_(i, k) * G_f[k];
+    U[2 * k] = G_f[k];
+  }
   if (diagonal_) {
-    for (Eigen::Index k = 0; k < n; ++k) Z[k] = G_f[k] * diagonal_inverse_[k];
+    for (Eigen::Index k = 0; k < n; ++k) V[2 * k] = G_f[k] * diagonal_inverse_[k];
   } else {
-    Eigen::Map<Eigen::VectorXd>(Z, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G_f, n));
+    EveryOther(V, n).noalias() = M_ff_inverse_.lazyProduct(Eigen::Map<const Eigen::VectorXd>(G_f, n));
   }
 }
 

@@ -19,23 +19,40 @@ class BodyMass {
   void update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta);
   const Eigen::MatrixXd& matrix() const { return M_; }  ///< (3+n)×(3+n)
 
-  /// x ← M⁻¹ x.  @param x  3+n values
-  void solve(double* x) const;
+  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither its weight
+  /// nor its turning make a torque.
+  bool is_constant() const { return constant_; }
 
-  /// The rows G of a Jacobian that belong to this body, made ready for G₁ M⁻¹ G₂ᵀ = Y₁ C⁻¹ Y₂ᵀ + G_f₁ M_ff⁻¹ G_f₂ᵀ.
-  /// @param G  (3+n) values   @param[out] Y  G_r − G_f M_ff⁻¹ Hᵀ   @param[out] Z  n values, G_f M_ff⁻¹
-  void reduce_row(const double* G, Eigen::Vector3d& Y, double* Z) const {
-    Y = Eigen::Map<const Eigen::Vector3d>(G);
-    if (W_.cols() > 0) reduce_modal_part(G + 3, Y, Z);
+  /// x ← M⁻¹ x.  @param x  3+n values
+  void solve(double* x) const {
+    if (constant_) {
+      for (int i = 0; i < 3; ++i) x[i] *= C_inverse_(i, i);
+    } else {
+      solve_coupled(x);
+    }
   }
-  /// C⁻¹ y.
-  Eigen::Vector3d solve_rigid(const Eigen::Vector3d& y) const { return C_inverse_ * y; }
+
+  /// A row G of a Jacobian made ready for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
+  ///
+  ///     U = (Y, G_f),   V = (Y C⁻¹, G_f M_ff⁻¹)
+  ///
+  /// @param G     3+n values
+  /// @param U, V  3+n values each at every other place, written
+  void reduce_row(const double* G, double* U, double* V) const {
+    double y[3] = {G[0], G[1], G[2]};
+    if (W_.cols() > 0) reduce_modal_part(G + 3, y, U + 6, V + 6);
+    for (int i = 0; i < 3; ++i) {
+      U[2 * i] = y[i];
+      V[2 * i] = C_inverse_(i, 0) * y[0] + C_inverse_(i, 1) * y[1] + C_inverse_(i, 2) * y[2];
+    }
+  }
 
  private:
-  void reduce_modal_part(const double* G_f, Eigen::Vector3d& Y, double* Z) const;
+  void solve_coupled(double* x) const;
+  void reduce_modal_part(const double* G_f, double* y, double* U, double* V) const;
 
   const Body* body_;
-  bool constant_;  // the mass matrix: of a rigid body about its centre of mass
+  bool constant_;
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
   Eigen::MatrixXd M_ff_inverse_;  // used where it is not

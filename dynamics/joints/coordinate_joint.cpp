@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -43,6 +44,11 @@ void CoordinateJoint::calc_jacobian(const MarkerState& a, const MarkerState& b, 
     Ga.row(k) = G.a;
     Gb.row(k) = G.b;
   }
+}
+
+bool CoordinateJoint::has_constant_jacobian() const {
+  return std::all_of(parts_.held.begin(), parts_.held.end(),
+                     [](const Held& one) { return one.coordinate.has_constant_gradient(); });
 }
 
 void CoordinateJoint::calc_time_rate(const MarkerState& /*a*/, const MarkerState& /*b*/, double time,

@@ -42,6 +42,7 @@ class CoordinateJoint final : public Joint {
                      JointVector& phi) const override;
   void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
                      JointJacobian& Gb) const override;
+  bool has_constant_jacobian() const override;
   void calc_time_rate(const MarkerState& a, const MarkerState& b, double time,
                       JointVector& phi_t) const override;
   void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const override;

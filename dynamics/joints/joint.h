@@ -19,7 +19,7 @@ inline constexpr int kMaxJointConstraints = 3;
 
 /// k×3 Jacobian of a joint's constraints with respect to the motion (δx, δy, δangle) of one of its markers.
 using JointJacobian =
-    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMaxJointConstraints, 3>;
+    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, kMaxJointConstraints, 3>;
 /// k values, one for each constraint.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJointConstraints, 1>;
 
@@ -48,6 +48,9 @@ class Joint {
   /// @param[out] Ga, Gb  ∂φ/∂(motion of a), ∂φ/∂(motion of b), k×3; φ̇ = Ga (v_a, ω_a) + Gb (v_b, ω_b) + φ_t
   virtual void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
                              JointJacobian& Gb) const = 0;
+  /// Whether Ga and Gb are the same at all positions. They are then asked for once, and where they are zero nothing is
+  /// eliminated.
+  virtual bool has_constant_jacobian() const { return false; }
 
   /// @param[out] phi_t  k partial time derivatives of φ [m/s, rad/s]; zero unless the joint moves by itself
   virtual void calc_time_rate(const MarkerState& a, const MarkerState& b, double time, JointVector& phi_t) const;

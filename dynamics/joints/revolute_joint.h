@@ -16,6 +16,7 @@ class RevoluteJoint final : public Joint {
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
   void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const override;
   void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga, JointJacobian& Gb) const override;
+  bool has_constant_jacobian() const override { return true; }
   void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const override;
 };
 

@@ -6,7 +6,12 @@ std::size_t BlockJacobian::add_block(const Block& block) {
   blocks_.push_back(block);
   blocks_.back().offset = values_.size();
   values_.resize(values_.size() + static_cast<std::size_t>(block.num_rows * block.num_columns), 0.0);
+  always_zero_.resize(values_.size(), false);
   return blocks_.size() - 1;
+}
+
+void BlockJacobian::mark_zero(std::size_t block, int row, int column) {
+  always_zero_[blocks_[block].offset + static_cast<std::size_t>(row * blocks_[block].num_columns + column)] = true;
 }
 
 void BlockJacobian::add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const {
@@ -26,12 +31,17 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
   for (const Block& block : blocks_) {
     const double* value = values_.data() + block.offset;
     double* part = Q.data() + block.column;
-    for (int i = 0; i < block.num_rows; ++i) {
+    double x = part[0], y = part[1], theta = part[2];
+    for (int i = 0; i < block.num_rows; ++i, value += block.num_columns) {
       const double factor = lambda[block.row + i];
-      for (int j = 0; j < 3; ++j) part[j] += value[j] * factor;
+      x += value[0] * factor;
+      y += value[1] * factor;
+      theta += value[2] * factor;
       for (int j = 3; j < block.num_columns; ++j) part[j] += value[j] * factor;
-      value += block.num_columns;
     }
+    part[0] = x;
+    part[1] = y;
+    part[2] = theta;
   }
 }
 
@@ -40,9 +50,11 @@ Eigen::MatrixXd BlockJacobian::dense() const { return sparse().toDense(); }
 Eigen::SparseMatrix<double> BlockJacobian::sparse() const {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Block& block : blocks_) {
-    const double* value = values_.data() + block.offset;
+    std::size_t place = block.offset;
     for (int i = 0; i < block.num_rows; ++i) {
-      for (int j = 0; j < block.num_columns; ++j) entries.emplace_back(block.row + i, block.column + j, *value++);
+      for (int j = 0; j < block.num_columns; ++j, ++place) {
+        if (!always_zero_[place]) entries.emplace_back(block.row + i, block.column + j, values_[place]);
+      }
     }
   }
   Eigen::SparseMatrix<double> matrix(num_rows_, num_columns_);

@@ -21,6 +21,10 @@ class BlockJacobian {
   BlockJacobian(int num_rows, int num_columns) : num_rows_(num_rows), num_columns_(num_columns) {}
   /// Adds a block of zeros. @return its number
   std::size_t add_block(const Block& block);
+  /// Says that a value (row and column of the block) is zero at all positions.
+  void mark_zero(std::size_t block, int row, int column);
+  /// @param value  its place in data()
+  bool is_always_zero(std::size_t value) const { return always_zero_[value]; }
 
   const std::vector<Block>& blocks() const { return blocks_; }
   const double* values(std::size_t block) const { return values_.data() + blocks_[block].offset; }
@@ -31,7 +35,7 @@ class BlockJacobian {
   void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;
   /// Q += φ_qᵀ λ.  @param lambda num_rows  @param Q num_columns
   void add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const;
-  /// The same num_rows×num_columns, for what is done once.
+  /// The same num_rows×num_columns, for what is done once; without what is always zero.
   Eigen::MatrixXd dense() const;
   Eigen::SparseMatrix<double> sparse() const;
 
@@ -39,6 +43,7 @@ class BlockJacobian {
   int num_rows_ = 0, num_columns_ = 0;
   std::vector<Block> blocks_;
   std::vector<double> values_;
+  std::vector<bool> always_zero_;  // beside values_
 };
 
 }  // namespace sprung::dynamics

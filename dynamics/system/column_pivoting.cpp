@@ -1,7 +1,9 @@
 #include "dynamics/system/column_pivoting.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <compare>
 #include <map>
 #include <set>
 #include <utility>
@@ -12,50 +14,81 @@ namespace {
 
 constexpr double kEqual = 1e-9;        // share by which norms differ that differ by more than rounding
 constexpr double kLeastPivot = 1e-12;  // of AᵀA: squares
+constexpr int kFewRows = 150;          // up to which the longest column is taken
+const double kAlike = std::log(4.0);   // of a matrix with more: of norms that count as equal
 
 // What is left of AᵀA while pivots are taken.
 class Remainder {
  public:
   explicit Remainder(const Eigen::SparseMatrix<double>& matrix)
-      : rows_(static_cast<std::size_t>(matrix.cols())) {
+      : has_few_rows_(matrix.rows() <= kFewRows), rows_(static_cast<std::size_t>(matrix.cols())) {
     const Eigen::SparseMatrix<double> products = matrix.transpose() * matrix;
     for (int j = 0; j < products.outerSize(); ++j) {
       for (Eigen::SparseMatrix<double>::InnerIterator entry(products, j); entry; ++entry) {
         row(j)[static_cast<int>(entry.row())] = entry.value();
+        if (entry.row() == j) largest_pivot_ = std::max(largest_pivot_, entry.value());
       }
-      if (row(j).count(j) > 0) by_size_.emplace(key(j), j);
+    }
+    for (int j = 0; j < products.outerSize(); ++j) {
+      if (row(j).count(j) > 0) by_size_.insert(key(j));
     }
   }
 
-  int largest() const { return by_size_.empty() ? -1 : by_size_.begin()->second; }
+  // Of columns that count as equal the first; −1 where nothing is left.
+  int largest() const { return by_size_.empty() ? -1 : by_size_.begin()->column; }
   double pivot(int column) { return row(column).at(column); }
 
   void take(int pivot_column) {
-    by_size_.erase({key(pivot_column), pivot_column});
+    by_size_.erase(key(pivot_column));
     const std::map<int, double> pivot_row = std::move(row(pivot_column));
     const double inverse = 1.0 / pivot_row.at(pivot_column);
+    std::vector<int> spent;
     for (const auto& [i, value] : pivot_row) {
       if (i == pivot_column) continue;
-      by_size_.erase({key(i), i});
+      by_size_.erase(key(i));
       row(i).erase(pivot_column);
       const double factor = value * inverse;
       for (const auto& [j, other] : pivot_row) {
         if (j != pivot_column) row(i)[j] -= factor * other;
       }
-      by_size_.emplace(key(i), i);
+      if (!(pivot(i) > kLeastPivot * largest_pivot_)) spent.push_back(i);
+      by_size_.insert(key(i));
     }
+    for (const int i : spent) drop(i);
   }
 
  private:
+  struct Key {
+    double size;         // ascending where pivots descend; the same for all that count as equal
+    std::size_t degree;  // how many columns it is coupled with, where that counts
+    int column;
+    auto operator<=>(const Key&) const = default;
+  };
+
   std::map<int, double>& row(int i) { return rows_[static_cast<std::size_t>(i)]; }
-  // Ascending where pivots descend; the same for all that differ by rounding.
-  double key(int column) {
-    const double size = pivot(column);
-    return size > 0.0 ? -std::round(0.5 * std::log(size) / kEqual) : 1e300;
+  Key key(int column) {
+    const double size = pivot(column) / largest_pivot_;
+    const double equal = has_few_rows_ ? kEqual : kAlike;
+    return {size > 0.0 ? -std::round(0.5 * std::log(size) / equal) : 1e300,
+            has_few_rows_ ? 0 : row(column).size(), column};
   }
 
+  // A column of which nothing is left is never taken: what is coupled with it need not know.
+  void drop(int column) {
+    by_size_.erase(key(column));
+    for (const auto& [j, value] : row(column)) {
+      if (j == column) continue;
+      by_size_.erase(key(j));
+      row(j).erase(column);
+      by_size_.insert(key(j));
+    }
+    row(column).clear();
+  }
+
+  bool has_few_rows_;
+  double largest_pivot_ = 0.0;
   std::vector<std::map<int, double>> rows_;
-  std::set<std::pair<double, int>> by_size_;
+  std::set<Key> by_size_;
 };
 
 ColumnPivots choose_densely(const Eigen::SparseMatrix<double>& matrix) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprung::dynamics {
 
@@ -12,21 +13,25 @@ struct PatternEntry {
   std::size_t source;
 };
 
+// For each coordinate its position among those chosen, −1 where it is not one of them.
+std::vector<int> list_positions(const std::vector<int>& chosen, int num_coordinates) {
+  std::vector<int> position(static_cast<std::size_t>(num_coordinates), -1);
+  for (std::size_t k = 0; k < chosen.size(); ++k) position[static_cast<std::size_t>(chosen[k])] = static_cast<int>(k);
+  return position;
+}
+
 // φ_d's entries, row by row.
 std::vector<std::vector<PatternEntry>> list_entries(const BlockJacobian& jacobian, const Partition& partition,
                                                     int num_coordinates) {
-  std::vector<int> position(static_cast<std::size_t>(num_coordinates), -1);
-  for (std::size_t k = 0; k < partition.dependent.size(); ++k) {
-    position[static_cast<std::size_t>(partition.dependent[k])] = static_cast<int>(k);
-  }
+  const std::vector<int> position = list_positions(partition.dependent, num_coordinates);
   std::vector<std::vector<PatternEntry>> rows(partition.dependent.size());
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
     for (int i = 0; i < block.num_rows; ++i) {
       for (int j = 0; j < block.num_columns; ++j) {
         const int column = position[static_cast<std::size_t>(block.column + j)];
-        if (column < 0) continue;
-        rows[static_cast<std::size_t>(block.row + i)].push_back(
-            {block.row + i, column, block.offset + static_cast<std::size_t>(i * block.num_columns + j)});
+        const std::size_t source = block.offset + static_cast<std::size_t>(i * block.num_columns + j);
+        if (column < 0 || jacobian.is_always_zero(source)) continue;
+        rows[static_cast<std::size_t>(block.row + i)].push_back({block.row + i, column, source});
       }
     }
   }
@@ -42,6 +47,9 @@ class Matching {
     for (std::size_t column = 0; column < rows.size(); ++column) {
       if (row_of_column_[column] >= 0) column_of_row_[static_cast<std::size_t>(row_of_column_[column])] = static_cast<int>(column);
     }
+  }
+  bool is_complete() const {
+    return std::find(row_of_column_.begin(), row_of_column_.end(), -1) == row_of_column_.end();
   }
   const std::vector<int>& column_of_row() const { return column_of_row_; }
   const std::vector<int>& row_of_column() const { return row_of_column_; }
@@ -117,6 +125,9 @@ class Groups {
 DependentSolver::DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
   const std::vector<std::vector<PatternEntry>> rows = list_entries(jacobian, partition, num_coordinates);
   const Matching matching(rows);
+  collect_strips(jacobian, partition, num_coordinates);
+  is_regular_ = matching.is_complete();
+  if (!is_regular_) return;
   std::size_t largest = 0, most_entries = 0;
   for (const std::vector<int>& group : Groups(rows, matching).take()) {
     DiagonalBlock block;
@@ -145,6 +156,38 @@ DependentSolver::DependentSolver(const BlockJacobian& jacobian, const Partition&
   entries_.resize(most_entries);
 }
 
+void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
+  const std::vector<int> position = list_positions(partition.independent, num_coordinates);
+  for (const BlockJacobian::Block& block : jacobian.blocks()) {
+    for (int j = 0; j < block.num_columns;) {
+      const int first = position[static_cast<std::size_t>(block.column + j)];
+      int count = 0;  // both ascend: a run of independent coordinates is one of positions
+      while (j + count < block.num_columns && position[static_cast<std::size_t>(block.column + j + count)] >= 0) ++count;
+      if (count > 0) {
+        strips_.push_back({.offset = block.offset + static_cast<std::size_t>(j),
+                           .row = block.row,
+                           .num_rows = block.num_rows,
+                           .stride = block.num_columns,
+                           .first = first,
+                           .num_columns = count});
+      }
+      j += std::max(count, 1);
+    }
+  }
+}
+
+void DependentSolver::add_independent_product(std::span<const double> x_independent, Eigen::VectorXd& r) const {
+  for (const Strip& strip : strips_) {
+    const double* value = values_ + strip.offset;
+    const double* x = x_independent.data() + strip.first;
+    for (int i = 0; i < strip.num_rows; ++i, value += strip.stride) {
+      double sum = 0.0;
+      for (int j = 0; j < strip.num_columns; ++j) sum += value[j] * x[j];
+      r[strip.row + i] += sum;
+    }
+  }
+}
+
 void DependentSolver::factorise(const BlockJacobian& jacobian) {
   values_ = jacobian.data();
   for (DiagonalBlock& block : blocks_) {
@@ -154,6 +197,10 @@ void DependentSolver::factorise(const BlockJacobian& jacobian) {
 }
 
 void DependentSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const {
+  if (!is_regular_) {
+    x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   for (const DiagonalBlock& block : blocks_) {
     for (std::size_t i = 0; i < block.rows.size(); ++i) work_[i] = r[block.rows[i]];
     for (const Entry& entry : block.outside) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "dynamics/system/block_jacobian.h"
@@ -21,7 +22,11 @@ class DependentSolver {
 
   /// Factors of φ_d at the present values of the Jacobian. Allocates nothing but where pivots are chosen, see SparseLu.
   void factorise(const BlockJacobian& jacobian);
-  /// x = φ_d⁻¹ r.  @param r, x  num_constraints; x in the order of Partition::dependent
+  /// r += φ_i x_i, at the present values of the Jacobian that was factorised last.
+  /// @param x_independent  in the order of Partition::independent   @param r  num_constraints
+  void add_independent_product(std::span<const double> x_independent, Eigen::VectorXd& r) const;
+  /// x = φ_d⁻¹ r; NaN where φ_d has no inverse whatever its values.
+  /// @param r, x  num_constraints; x in the order of Partition::dependent
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
   /// Marks the present factors as those of a good partition.
   void set_reference();
@@ -47,7 +52,18 @@ class DependentSolver {
     double reference_determinant = 0.0;
   };
 
+  // Columns of a block of the Jacobian that lie side by side and belong to independent coordinates.
+  struct Strip {
+    std::size_t offset;      // of its first value
+    int row, num_rows;       // constraints
+    int stride;              // from row to row
+    int first, num_columns;  // positions in Partition::independent
+  };
+  void collect_strips(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
+
+  std::vector<Strip> strips_;
   std::vector<DiagonalBlock> blocks_;
+  bool is_regular_ = true;  // its pattern
   const double* values_ = nullptr;  // of the Jacobian that was factorised
   std::vector<double> entries_;       // of one block
   mutable std::vector<double> work_;  // of the largest block

@@ -1,16 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "dynamics/bodies/body_mass.h"
+#include "dynamics/system/block_cholesky.h"
 #include "dynamics/system/block_jacobian.h"
-#include "dynamics/system/sparse_cholesky.h"
 
 namespace sprung::dynamics {
 
 /// Solves (φ_q M⁻¹ φ_qᵀ) λ = r. The matrix couples only constraints that share a body: the cost grows with
 /// the number of such pairs and of what elimination adds to them. No allocation once made.
+///
+/// Constraints are taken two at a time, as nodes; of a joint with an odd number the last one has beside it a
+/// row that is coupled with nothing.
 class MultiplierSolver {
  public:
   MultiplierSolver(const BlockJacobian& jacobian, int num_constraints);
@@ -22,23 +26,35 @@ class MultiplierSolver {
   int num_factor_entries() const { return factor_.num_factor_entries(); }
 
  private:
-  // Blocks p and q of the Jacobian on one body: rows of p times rows of q.
-  struct Pair {
-    int num_rows_p, num_rows_q, num_modes;
-    std::size_t row_p, row_q;      // in Y_ and CY_
-    std::size_t modal_p, modal_q;  // in the Jacobian's values and in Z_
-    std::size_t first_place;       // of the products in places_, q's rows running faster
+  // A row of the Jacobian on one body, made ready for products (BodyMass::reduce_row).
+  struct Row {
+    std::size_t source;  // in the Jacobian's values
+    std::size_t value;   // in U_ and V_, where the two rows of a node alternate
   };
-  template <int num_rows, int num_modes>
-  void add_products(const Pair& pair, const double* jacobian_values);
+  // Rows and products of nodes on one body.
+  struct BodyPart {
+    std::size_t body;
+    int num_columns;  // 3 + modes
+    std::size_t first_row, last_row = 0;
+    std::size_t first_product = 0, last_product = 0;
+  };
+  struct Product {
+    std::size_t u, v;  // in U_ and V_
+    int place;         // of the block U Vᵀ in the matrix
+  };
+  struct Member;
+  void list_products(const std::vector<Member>& members, BodyPart& part);
+  template <int num_columns>
+  void add_products(const BodyPart& part);
 
-  std::vector<Pair> pairs_;
-  std::vector<int> places_;               // in the matrix; of what stands above the diagonal: beside it
-  std::vector<std::size_t> row_offsets_;  // of each block's rows in Y_, and of its modal parts in Z_
-  std::vector<std::size_t> modal_offsets_;
-  std::vector<Eigen::Vector3d> Y_, CY_;  // of each row: reduced, and times C⁻¹
-  std::vector<double> Z_;
-  SparseCholesky factor_;
+  std::vector<BodyPart> parts_;
+  std::vector<Row> rows_;
+  std::vector<Product> products_;
+  std::vector<double> U_, V_;
+  std::vector<int> lone_;            // diagonal blocks of nodes with one constraint
+  std::vector<std::size_t> places_;  // of each constraint in work_
+  BlockCholesky factor_;
+  mutable std::vector<double> work_;
 };
 
 }  // namespace sprung::dynamics

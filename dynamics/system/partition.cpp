@@ -54,7 +54,8 @@ std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
   for (double& scale : row_scales) scale = scale > 0.0 ? 1.0 / std::sqrt(scale) : 1.0;
   const Eigen::SparseMatrix<double> rows = row_scales.asDiagonal() * scaled;
   const ColumnPivots pivots = choose_columns(rows);
-  if (pivots.norms.back() > kSafePivot * pivots.norms.front()) return {};
+  const auto [smallest, largest] = std::minmax_element(pivots.norms.begin(), pivots.norms.end());
+  if (*smallest > kSafePivot * *largest) return {};
   // Which ones take part is a question for those who made a mistake: it may take its time.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.toDense(), Eigen::ComputeFullU);
   std::vector<int> found;

@@ -18,8 +18,9 @@ PartitionedEquations::PartitionedEquations(const Model& model)
       full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  q_ = v_ = last_good_q_ = step_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  q_ = v_ = last_good_q_ = Eigen::VectorXd::Zero(model.num_coordinates);
   residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
+  step_.resize(static_cast<std::size_t>(num_freedoms_));
 }
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
@@ -66,16 +67,15 @@ bool PartitionedEquations::solve_dependents(double time) {
 PartitionedEquations::Outcome PartitionedEquations::update_positions(double time,
                                                                      std::span<const double> q_independent) {
   // The dependents go along with the independents by the last factors, then Newton closes the joints.
-  step_.setZero();
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     const int i = partition_.independent[k];
     if (!std::isfinite(q_independent[k])) return Outcome::kNotFinite;
-    step_[i] = q_independent[k] - q_[i];
+    step_[k] = q_independent[k] - q_[i];
     q_[i] = q_independent[k];
   }
   if (num_constraints_ > 0) {
     residual_.setZero();
-    terms().jacobian().add_product(step_, residual_);
+    dependents_.add_independent_product(step_, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
@@ -97,11 +97,10 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
 }
 
 void PartitionedEquations::update_velocities(std::span<const double> v_independent) {
-  v_.setZero();
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) v_[partition_.independent[k]] = v_independent[k];
   if (num_constraints_ > 0) {
     terms().calc_time_rate(residual_);
-    terms().jacobian().add_product(v_, residual_);
+    dependents_.add_independent_product(v_independent, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       v_[partition_.dependent[k]] = -correction_[static_cast<Eigen::Index>(k)];
@@ -116,17 +115,19 @@ PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::sp
 
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(model_->num_coordinates, num_freedoms_);
-  Eigen::VectorXd column(model_->num_coordinates), r(num_constraints_), x(num_constraints_);
+  Eigen::VectorXd r(num_constraints_), x(num_constraints_);
+  std::vector<double> unit(static_cast<std::size_t>(num_freedoms_), 0.0);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    column.setZero();
-    column[partition_.independent[k]] = 1.0;
+    unit[k] = 1.0;
     r.setZero();
-    terms().jacobian().add_product(column, r);
+    dependents_.add_independent_product(unit, r);
+    unit[k] = 0.0;
     dependents_.solve(r, x);
+    const auto column = static_cast<Eigen::Index>(k);
+    directions(partition_.independent[k], column) = 1.0;
     for (std::size_t d = 0; d < partition_.dependent.size(); ++d) {
-      column[partition_.dependent[d]] = -x[static_cast<Eigen::Index>(d)];
+      directions(partition_.dependent[d], column) = -x[static_cast<Eigen::Index>(d)];
     }
-    directions.col(static_cast<Eigen::Index>(k)) = column;
   }
   return directions;
 }

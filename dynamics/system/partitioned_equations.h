@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/dependent_solver.h"
@@ -79,7 +80,7 @@ class PartitionedEquations {
 
   Eigen::VectorXd q_, v_, last_good_q_;
   Eigen::VectorXd residual_, correction_;  // m
-  Eigen::VectorXd step_;                   // nq
+  std::vector<double> step_;               // of the independents, f
 };
 
 }  // namespace sprung::dynamics

@@ -1,8 +1,5 @@
 #include "dynamics/system/system_terms.h"
 
-#include <algorithm>
-#include <numeric>
-
 namespace sprung::dynamics {
 
 SystemTerms::SystemTerms(const Model& model, Markers scope)
@@ -12,20 +9,27 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       rotations_(model.bodies.size()),
       wrenches_(model.markers.size()),
-      joint_jacobians_(model.joints.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
-  if (scope == Markers::kActing) {
-    kept_markers_ = model.acting_markers;
-  } else {
-    kept_markers_.resize(model.markers.size());
-    std::iota(kept_markers_.begin(), kept_markers_.end(), 0);
-  }
   for (const Body& body : model.bodies) masses_.emplace_back(body);
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    add_block(j, model.joints[j]->marker_a);
-    add_block(j, model.joints[j]->marker_b);
-  }
   for (const Marker& marker : model.markers) markers_.push_back(make_marker_state(marker));
+  for (const int i : model.acting_markers) {
+    if (model.markers[static_cast<std::size_t>(i)].body != kGround) acting_markers_.push_back(find_body(i));
+  }
+  if (scope == Markers::kActing) {
+    kept_markers_ = acting_markers_;
+  } else {
+    for (int i = 0; i < static_cast<int>(model.markers.size()); ++i) {
+      if (model.markers[static_cast<std::size_t>(i)].body != kGround) kept_markers_.push_back(find_body(i));
+    }
+  }
+  for (std::size_t j = 0; j < model.joints.size(); ++j) add_joint(j);
+}
+
+SystemTerms::MovingMarker SystemTerms::find_body(int marker_index) const {
+  const auto marker = static_cast<std::size_t>(marker_index);
+  const auto b = static_cast<std::size_t>(model_->markers[marker].body);
+  const Body& body = model_->bodies[b];
+  return {marker, b, body.first_coordinate, body.num_coordinates()};
 }
 
 void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -34,7 +38,7 @@ void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::Ve
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
   }
-  for (const int i : kept_markers_) place_marker(i);
+  for (const MovingMarker& moving : kept_markers_) place_marker(moving);
 }
 
 void SystemTerms::adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -43,77 +47,94 @@ void SystemTerms::adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q) {
     rotations_[b].turn_to(q[angle], q_[angle]);
   }
   q_ = q;
-  for (const int i : kept_markers_) place_marker(i);
+  for (const MovingMarker& moving : kept_markers_) place_marker(moving);
 }
 
-void SystemTerms::place_marker(int index) {
-  const Marker& marker = model_->markers[static_cast<std::size_t>(index)];
-  if (marker.body == kGround) return;
-  const auto b = static_cast<std::size_t>(marker.body);
-  const Body& body = model_->bodies[b];
-  calc_marker_position(marker, rotations_[b], q_.segment(body.first_coordinate, body.num_coordinates()),
-                       markers_[static_cast<std::size_t>(index)]);
+void SystemTerms::place_marker(const MovingMarker& moving) {
+  calc_marker_position(model_->markers[moving.marker], rotations_[moving.body],
+                       q_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
 }
 
-void SystemTerms::move_marker(int index) {
-  const Marker& marker = model_->markers[static_cast<std::size_t>(index)];
-  if (marker.body == kGround) return;
-  const auto b = static_cast<std::size_t>(marker.body);
-  const Body& body = model_->bodies[b];
-  calc_marker_velocity(marker, rotations_[b], v_.segment(body.first_coordinate, body.num_coordinates()),
-                       markers_[static_cast<std::size_t>(index)]);
+void SystemTerms::move_marker(const MovingMarker& moving) {
+  calc_marker_velocity(model_->markers[moving.marker], rotations_[moving.body],
+                       v_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
 }
 
 void SystemTerms::update_all_markers() {
   for (int i = 0; i < static_cast<int>(markers_.size()); ++i) {
-    place_marker(i);
-    move_marker(i);
+    if (model_->markers[static_cast<std::size_t>(i)].body == kGround) continue;
+    const MovingMarker moving = find_body(i);
+    place_marker(moving);
+    move_marker(moving);
   }
 }
 
 void SystemTerms::calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const {
   JointVector residual;
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    joint.calc_residual(marker(joint.marker_a), marker(joint.marker_b), time_, residual);
-    phi.segment(model_->joint_rows[j], residual.size()) = residual;
+  for (const JointTerms& terms : joints_) {
+    terms.joint->calc_residual(markers_[terms.a.marker], markers_[terms.b.marker], time_, residual);
+    for (int k = 0; k < terms.num_rows; ++k) phi[terms.row + k] = residual[k];
   }
 }
 
-void SystemTerms::add_block(std::size_t joint, int marker_index) {
-  const int index = model_->markers[static_cast<std::size_t>(marker_index)].body;
-  if (index == kGround) return;
-  const Body& body = model_->bodies[static_cast<std::size_t>(index)];
-  Phi_q_.add_block({.row = model_->joint_rows[joint],
-                    .num_rows = model_->joints[joint]->num_constraints(),
-                    .column = body.first_coordinate,
-                    .num_columns = body.num_coordinates(),
-                    .body = index});
+void SystemTerms::add_joint(std::size_t index) {
+  const Joint& joint = *model_->joints[index];
+  const bool is_constant = joint.has_constant_jacobian();
+  JointTerms terms{.joint = &joint,
+                   .row = model_->joint_rows[index],
+                   .num_rows = joint.num_constraints(),
+                   .is_constant = is_constant,
+                   .drifts = !is_constant || !joint.time_functions().empty(),
+                   .a = {static_cast<std::size_t>(joint.marker_a), {}, -1},
+                   .b = {static_cast<std::size_t>(joint.marker_b), {}, -1}};
+  if (is_constant) joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
+  add_block(terms, terms.a);
+  add_block(terms, terms.b);
+  joints_.push_back(terms);
 }
 
-// The blocks come in the order in which the constructor added them.
-void SystemTerms::fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block) {
-  if (model_->markers[static_cast<std::size_t>(marker_index)].body == kGround) return;
-  const MarkerState& state = marker(marker_index);
-  double* value = Phi_q_.values(next_block++);
-  for (int k = 0; k < G.rows(); ++k) {
-    *value++ = G(k, 0);
-    *value++ = G(k, 1);
-    *value++ = G(k, 0) * state.r_theta.x() + G(k, 1) * state.r_theta.y() + G(k, 2);
-    for (Eigen::Index n = 0; n < state.r_eta.cols(); ++n) {
-      *value++ = G(k, 0) * state.r_eta(0, n) + G(k, 1) * state.r_eta(1, n) + G(k, 2) * state.angle_eta[n];
+void SystemTerms::add_block(const JointTerms& terms, JointSide& side) {
+  const int index = model_->markers[side.marker].body;
+  if (index == kGround) return;
+  const Body& body = model_->bodies[static_cast<std::size_t>(index)];
+  const std::size_t block = Phi_q_.add_block({.row = terms.row,
+                                              .num_rows = terms.num_rows,
+                                              .column = body.first_coordinate,
+                                              .num_columns = body.num_coordinates(),
+                                              .body = index});
+  side.block = static_cast<std::ptrdiff_t>(block);
+  if (!terms.is_constant) return;
+  for (int k = 0; k < terms.num_rows; ++k) {
+    for (int j = 0; j < 2; ++j) {  // what moves along with the frame's x and y
+      if (side.G(k, j) == 0.0) Phi_q_.mark_zero(block, k, j);
+    }
+  }
+}
+
+void SystemTerms::fill_block(const JointSide& side) {
+  if (side.block < 0) return;
+  const MarkerState& state = markers_[side.marker];
+  const Eigen::Vector2d r_theta = state.r_theta;
+  const Eigen::Index num_modes = state.r_eta.cols();
+  double* value = Phi_q_.values(static_cast<std::size_t>(side.block));
+  for (Eigen::Index k = 0; k < side.G.rows(); ++k) {
+    const double along_x = side.G(k, 0), along_y = side.G(k, 1), about = side.G(k, 2);
+    *value++ = along_x;
+    *value++ = along_y;
+    *value++ = along_x * r_theta.x() + along_y * r_theta.y() + about;
+    for (Eigen::Index n = 0; n < num_modes; ++n) {
+      *value++ = along_x * state.r_eta(0, n) + along_y * state.r_eta(1, n) + about * state.angle_eta[n];
     }
   }
 }
 
 void SystemTerms::update_jacobian() {
-  std::size_t next_block = 0;
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    JointJacobians& G = joint_jacobians_[j];
-    joint.calc_jacobian(marker(joint.marker_a), marker(joint.marker_b), G.a, G.b);
-    fill_block(G.a, joint.marker_a, next_block);
-    fill_block(G.b, joint.marker_b, next_block);
+  for (JointTerms& terms : joints_) {
+    if (!terms.is_constant) {
+      terms.joint->calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
+    }
+    fill_block(terms.a);
+    fill_block(terms.b);
   }
 }
 
@@ -123,15 +144,15 @@ void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
     return;
   }
   JointVector rate;
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    joint.calc_time_rate(marker(joint.marker_a), marker(joint.marker_b), time_, rate);
-    phi_t.segment(model_->joint_rows[j], rate.size()) = rate;
+  for (const JointTerms& terms : joints_) {
+    terms.joint->calc_time_rate(markers_[terms.a.marker], markers_[terms.b.marker], time_, rate);
+    for (int k = 0; k < terms.num_rows; ++k) phi_t[terms.row + k] = rate[k];
   }
 }
 
 void SystemTerms::update_mass() {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    if (masses_[b].is_constant()) continue;
     const Body& body = model_->bodies[b];
     masses_[b].update(rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()));
   }
@@ -139,36 +160,33 @@ void SystemTerms::update_mass() {
 
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
   v_ = v;
-  for (const int i : kept_markers_) move_marker(i);
+  for (const MovingMarker& moving : kept_markers_) move_marker(moving);
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
   JointVector drift;
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    const JointJacobians& G = joint_jacobians_[j];
-    const MarkerState& a = marker(joint.marker_a);
-    const MarkerState& b = marker(joint.marker_b);
-    joint.calc_drift(a, b, time_, drift);
-    for (int k = 0; k < drift.size(); ++k) {
-      gamma[model_->joint_rows[j] + k] = -drift[k] - G.a(k, 0) * a.a_bias.x() - G.a(k, 1) * a.a_bias.y() -
-                                         G.a(k, 2) * a.alpha_bias - G.b(k, 0) * b.a_bias.x() -
-                                         G.b(k, 1) * b.a_bias.y() - G.b(k, 2) * b.alpha_bias;
+  for (const JointTerms& terms : joints_) {
+    const MarkerState& a = markers_[terms.a.marker];
+    const MarkerState& b = markers_[terms.b.marker];
+    for (int k = 0; k < terms.num_rows; ++k) {
+      gamma[terms.row + k] = -(terms.a.G(k, 0) * a.a_bias.x() + terms.a.G(k, 1) * a.a_bias.y() +
+                               terms.a.G(k, 2) * a.alpha_bias + terms.b.G(k, 0) * b.a_bias.x() +
+                               terms.b.G(k, 1) * b.a_bias.y() + terms.b.G(k, 2) * b.alpha_bias);
     }
+    if (!terms.drifts) continue;
+    terms.joint->calc_drift(a, b, time_, drift);
+    for (int k = 0; k < terms.num_rows; ++k) gamma[terms.row + k] -= drift[k];
   }
 }
 
-void SystemTerms::add_wrench(int marker_index, const Wrench& wrench) {
-  const Marker& point = model_->markers[static_cast<std::size_t>(marker_index)];
-  if (point.body == kGround) return;
-  const Body& body = model_->bodies[static_cast<std::size_t>(point.body)];
-  const MarkerState& state = marker(marker_index);
-  const int first = body.first_coordinate;
-  Q_[first] += wrench.force.x();
-  Q_[first + 1] += wrench.force.y();
-  Q_[first + 2] += state.r_theta.dot(wrench.force) + wrench.torque;
-  for (int n = 0; n < body.num_modes(); ++n) {
-    Q_[first + 3 + n] += state.r_eta.col(n).dot(wrench.force) + state.angle_eta[n] * wrench.torque;
+void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench) {
+  const MarkerState& state = markers_[moving.marker];
+  double* Q = Q_.data() + moving.first_coordinate;
+  Q[0] += wrench.force.x();
+  Q[1] += wrench.force.y();
+  Q[2] += state.r_theta.dot(wrench.force) + wrench.torque;
+  for (int n = 0; n < moving.num_coordinates - 3; ++n) {
+    Q[3 + n] += state.r_eta.col(n).dot(wrench.force) + state.angle_eta[n] * wrench.torque;
   }
 }
 
@@ -185,13 +203,18 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     power_.input += power.input;
   }
   Q_.setZero();
-  for (const int i : model_->acting_markers) {
-    const Wrench& wrench = wrenches_[static_cast<std::size_t>(i)];
-    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(i, wrench);
+  for (const MovingMarker& moving : acting_markers_) {
+    const Wrench& wrench = wrenches_[moving.marker];
+    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(moving, wrench);
   }
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     const int first = body.first_coordinate;
+    if (masses_[b].is_constant()) {
+      Q_[first] += body.mass * model_->gravity.x();
+      Q_[first + 1] += body.mass * model_->gravity.y();
+      continue;
+    }
     const Eigen::Index n = body.num_modes();
     const auto eta = q_.segment(first + 3, n);
     const auto eta_dot = v_.segment(first + 3, n);

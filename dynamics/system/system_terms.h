@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -56,25 +57,40 @@ class SystemTerms {
   const Eigen::VectorXd& v() const { return v_; }
 
  private:
-  void place_marker(int index);
-  void move_marker(int index);
-  const MarkerState& marker(int index) const { return markers_[static_cast<std::size_t>(index)]; }
-  void add_block(std::size_t joint, int marker_index);
-  void fill_block(const JointJacobian& G, int marker_index, std::size_t& next_block);
-  void add_wrench(int marker_index, const Wrench& wrench);
+  // A marker that moves, and where its body's coordinates are.
+  struct MovingMarker {
+    std::size_t marker, body;
+    int first_coordinate, num_coordinates;
+  };
+  // A joint's Jacobian by one of its markers, and the block of φ_q that is made of it.
+  struct JointSide {
+    std::size_t marker;
+    JointJacobian G;
+    std::ptrdiff_t block;  // −1 for a marker on the ground
+  };
+  struct JointTerms {
+    const Joint* joint;
+    int row, num_rows;
+    bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
+    JointSide a, b;
+  };
+  MovingMarker find_body(int marker_index) const;
+  void place_marker(const MovingMarker& moving);
+  void move_marker(const MovingMarker& moving);
+  void add_joint(std::size_t joint);
+  void add_block(const JointTerms& terms, JointSide& side);
+  void fill_block(const JointSide& side);
+  void add_wrench(const MovingMarker& moving, const Wrench& wrench);
 
   const Model* model_;
-  std::vector<int> kept_markers_;
+  std::vector<MovingMarker> kept_markers_, acting_markers_;
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_;
-  struct JointJacobians {
-    JointJacobian a, b;
-  };
-  std::vector<JointJacobians> joint_jacobians_;
+  std::vector<JointTerms> joints_;
   BlockJacobian Phi_q_;
   Power power_;
 };

@@ -255,9 +255,10 @@ TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]"
     }
     Eigen::VectorXcd x = Eigen::VectorXcd::Zero(Z.rows());
     const Eigen::VectorXcd right = system.directions.transpose() * force;
-    const Eigen::MatrixXcd Z_free = Z(free, free);
-    const Eigen::VectorXcd right_free = right(free), x_free = Z_free.partialPivLu().solve(right_free);
-    x(free) = x_free;
+    const Eigen::Map<const Eigen::VectorX<Eigen::Index>> places(free.data(), static_cast<Eigen::Index>(free.size()));
+    const Eigen::MatrixXcd Z_free = Z(places, places);
+    const Eigen::VectorXcd right_free = right(places), x_free = Z_free.partialPivLu().solve(right_free);
+    x(places) = x_free;
     const Eigen::VectorXcd change = dynamics::sum_outputs(outputs, s.imag(), x, force, channels) - response.outputs;
     CHECK(change.norm() > 1e-3 * response.outputs.norm());
     CHECK((dynamics::calc_change(response, held) - change).norm() < 1e-10 * change.norm());

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/system/block_cholesky.h"
 #include "dynamics/system/column_pivoting.h"
 #include "dynamics/system/partitioned_equations.h"
-#include "dynamics/system/sparse_cholesky.h"
 #include "dynamics/system/sparse_lu.h"
 #include "tests/catch.h"
 #include "tests/dynamics/chains.h"
@@ -71,34 +71,50 @@ TEST_CASE("Sparse LU chooses other pivots where the first have become small", "[
   CHECK(lu.determinant() == Approx(-1.0));
 }
 
-TEST_CASE("Sparse Cholesky solves, and tells an indefinite matrix", "[system]") {
-  constexpr int kSize = 24;
-  std::vector<std::pair<int, int>> pattern;
-  for (const auto& [i, j] : scattered_pattern(kSize)) pattern.emplace_back(i, j);
-  dynamics::SparseCholesky factor(kSize, pattern);
+TEST_CASE("Block Cholesky solves, and tells an indefinite matrix", "[system]") {
+  constexpr int kNumNodes = 24;
+  std::vector<std::pair<int, int>> couplings;
+  for (const auto& [i, j] : scattered_pattern(kNumNodes)) couplings.emplace_back(i, j);
+  dynamics::BlockCholesky factor(kNumNodes, couplings);
   test::RandomNumbers random(8);
-  MatrixXd dense = 8.0 * MatrixXd::Identity(kSize, kSize);
+  // In the order of elimination, in which the factors have it.
+  MatrixXd dense = 8.0 * MatrixXd::Identity(2 * kNumNodes, 2 * kNumNodes);
+  const auto block = [&](int node, int other) {
+    return dense.block<2, 2>(2 * factor.step(node), 2 * factor.step(other));
+  };
   const auto load = [&] {
-    std::fill(factor.values().begin(), factor.values().end(), 0.0);
-    for (int i = 0; i < kSize; ++i)
-      factor.values()[static_cast<std::size_t>(factor.place(i, i))] = dense(i, i);
-    for (const auto& [i, j] : pattern) {
-      if (i == j) continue;
-      factor.values()[static_cast<std::size_t>(factor.place(i, j))] = dense(i, j);
+    const auto at = [&](int i, int j) -> Eigen::Matrix2d& {
+      return factor.blocks()[static_cast<std::size_t>(factor.place(i, j))];
+    };
+    std::fill(factor.blocks().begin(), factor.blocks().end(), Eigen::Matrix2d::Zero());
+    for (int i = 0; i < kNumNodes; ++i) at(i, i) = block(i, i);
+    for (const auto& [i, j] : couplings) {
+      if (factor.step(i) > factor.step(j)) at(i, j) = block(i, j);
+      if (factor.step(i) < factor.step(j)) at(i, j) = block(j, i);
     }
   };
-  for (const auto& [i, j] : pattern) {
-    if (i != j) dense(i, j) = dense(j, i) = random.size_up_to(1.0);
+  for (const auto& [i, j] : couplings) {
+    for (int k = 0; k < 4; ++k) block(i, j)(k / 2, k % 2) = random.size_up_to(1.0);
+    if (i == j) {
+      block(i, i)(0, 0) = block(i, i)(1, 1) = 8.0;
+      block(i, i)(0, 1) = block(i, i)(1, 0);
+    } else {
+      block(j, i) = block(i, j).transpose();
+    }
   }
   load();
   REQUIRE(factor.factorise());
-  const VectorXd r = random.vector(kSize, 1.0);
+  const VectorXd r = random.vector(2 * kNumNodes, 1.0);
   VectorXd x = r;
   factor.solve(x.data());
   CHECK((dense * x - r).norm() < 1e-13 * x.norm() * dense.norm());
-  dense(5, 5) = -1.0;
-  load();
-  CHECK_FALSE(factor.factorise());
+  for (const int row : {0, 1}) {
+    const double before = block(5, 5)(row, row);
+    block(5, 5)(row, row) = -1.0;
+    load();
+    CHECK_FALSE(factor.factorise());
+    block(5, 5)(row, row) = before;
+  }
 }
 
 TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
