@@ -17,6 +17,17 @@ constexpr double kSeriesLimit = 1.5;
 // and below which the recurrence divides by no small number.
 constexpr double kOverdamped = 1.2;
 
+// 1/m and 1/(m(m−1)).
+constexpr int kMaxTerms = 60;
+constexpr auto kSeriesDivisors = [] {
+  std::array<std::array<double, 2>, kMaxTerms> divisors{};
+  for (std::size_t m = 2; m < kMaxTerms; ++m) {
+    const auto value = static_cast<double>(m);
+    divisors[m] = {1.0 / value, 1.0 / (value * (value - 1.0))};
+  }
+  return divisors;
+}();
+
 double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
 }
@@ -36,9 +47,10 @@ OscillatorResponse by_series(double stiffness, double decay, double time) {
   // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
   double before = 0.0, term = power_term(kTop + 2, time);
   double value = term, rate = (kTop + 2) * term;
-  for (int m = kTop + 3; m < 60; ++m) {
-    const double next = -(2.0 * decay * time * (m - 1) * term + stiffness * time * time * before) /
-                        (static_cast<double>(m) * (m - 1));
+  const double damping = -2.0 * decay * time, spring = -stiffness * time * time;
+  for (int m = kTop + 3; m < kMaxTerms; ++m) {
+    const auto& [once, twice] = kSeriesDivisors[static_cast<std::size_t>(m)];
+    const double next = damping * once * term + spring * twice * before;
     before = term;
     term = next;
     value += term;

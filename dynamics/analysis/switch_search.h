@@ -34,7 +34,7 @@ class SwitchSearch {
     begin(places, values, after);
     double width = high() - low();
     for (int iteration = 1; iteration <= kMaxIterations && high() - low() > tolerance; ++iteration) {
-      const double zero = predict();
+      const double zero = predict(0.01 * tolerance);
       if (iteration > 1 && high() - zero <= tolerance) break;
       double theta = zero + 0.5 * tolerance;  // so that it comes to lie behind
       if (iteration % 3 == 0) {
@@ -83,15 +83,15 @@ class SwitchSearch {
   }
 
   // First zero of the polynomials through all places, of those functions that cross between low and high.
-  double predict() const {
+  double predict(double tolerance) const {
     double first = high();
     for (Eigen::Index i = 0; i < values_.rows(); ++i) {
-      if (crosses(values_(i, 0), values_(i, 1))) first = std::min(first, predict(i));
+      if (crosses(values_(i, 0), values_(i, 1))) first = std::min(first, predict(i, tolerance));
     }
     return first;
   }
 
-  double predict(Eigen::Index i) const {
+  double predict(Eigen::Index i, double tolerance) const {
     std::array<double, kMaxPlaces> c{};  // divided differences
     const auto n = static_cast<std::size_t>(num_places_);
     for (std::size_t k = 0; k < n; ++k) c[k] = values_(i, static_cast<Eigen::Index>(k));
@@ -104,15 +104,15 @@ class SwitchSearch {
       for (std::size_t k = n; k-- > 0;) sum = sum * (theta - places_[k]) + c[k];
       return sum;
     };
-    return find_zero(value, values_(i, 0), values_(i, 1));
+    return find_zero(value, values_(i, 0), values_(i, 1), tolerance);
   }
 
   // By the Illinois rule [Dowell & Jarratt 1971]. The value at high may be 0.
   template <class Function>
-  double find_zero(const Function& value, double at_low, double at_high) const {
+  double find_zero(const Function& value, double at_low, double at_high, double tolerance) const {
     double a = low(), b = high(), f_a = at_low, f_b = at_high;
     for (int iteration = 0; iteration < kMaxIterations && f_b != 0.0; ++iteration) {
-      if (std::abs(b - a) <= kZeroShare * (high() - low())) break;
+      if (std::abs(b - a) <= tolerance) break;
       const double x = b - f_b * (b - a) / (f_b - f_a);
       const double f = value(x);
       if (f * f_b < 0.0) {
@@ -126,7 +126,6 @@ class SwitchSearch {
     }
     return b;
   }
-  static constexpr double kZeroShare = 1e-13;
 
   int num_places_ = 0;
   std::array<double, kMaxPlaces> places_{};  // low, high, and others in the order in which they are forgotten
