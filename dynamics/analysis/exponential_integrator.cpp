@@ -103,6 +103,8 @@ void ExponentialIntegrator::begin() {
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there");
+  // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
+  switches_.col(0) = switches_.col(0).cwiseMax(0.0);
   has_begun_ = true;
 }
 

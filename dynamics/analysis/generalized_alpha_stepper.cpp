@@ -100,6 +100,8 @@ void GeneralizedAlphaStepper::resume(double end_time) {
   step_.residual().update(motion, piece_.branches());
   piece_.calc_switches(step_.residual().terms(), {step_.begin().switches.data(),
                                                   static_cast<std::size_t>(step_.begin().switches.size())});
+  // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
+  step_.begin().switches = step_.begin().switches.cwiseMax(0.0);
 }
 
 // The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61).

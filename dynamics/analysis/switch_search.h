@@ -8,13 +8,13 @@
 
 namespace sprung::dynamics {
 
-/// Finds the first zero of several functions of one variable, by cubics through four places around it.
-/// Allocates nothing. Source: interpolation after Newton; halving where that is slow.
+/// Finds where the first of several functions of one variable becomes negative, by cubics through four places
+/// around it. Allocates nothing. Source: interpolation after Newton; halving where that is slow.
 class SwitchSearch {
  public:
   explicit SwitchSearch(Eigen::Index num_switches) : values_(num_switches, kMaxPlaces), new_(num_switches) {}
 
-  /// Whether one of the values changes its sign, or becomes zero.
+  /// Whether one of the values becomes negative.
   template <class Before, class After>
   static bool any_crosses(const Before& before, const After& after) {
     for (Eigen::Index i = 0; i < before.size(); ++i) {
@@ -51,9 +51,7 @@ class SwitchSearch {
  private:
   static constexpr int kMaxPlaces = 4, kMaxIterations = 100;
 
-  static bool crosses(double before, double after) {
-    return before * after < 0.0 || (after == 0.0 && before != 0.0);
-  }
+  static bool crosses(double before, double after) { return before >= 0.0 && after < 0.0; }
   double low() const { return places_[0]; }
   double high() const { return places_[1]; }
 

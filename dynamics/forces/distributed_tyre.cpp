@@ -114,9 +114,9 @@ void DistributedTyre::calc_switches(const Instant& instant, std::span<const int>
                                     std::span<double> values) const {
   const Wheel wheel = calc_wheel(instant);
   const int segment = branches[1];
-  values[0] = wheel.overlap.depth;
-  const double dead_band = branches[0] == kTouching ? -dead_band_ : dead_band_;
-  values[1] = branches[0] != kInAir ? wheel.elastic + wheel.viscous + dead_band : 1.0;
+  const double force = wheel.elastic + wheel.viscous;
+  values[0] = branches[0] == kInAir ? -wheel.overlap.depth : wheel.overlap.depth;
+  values[1] = branches[0] == kInAir ? 1.0 : dead_band_ + (branches[0] == kPressed ? force : -force);
   values[2] = segment > 0 ? front(instant) - road_.road->segment_end(segment - 1) : 1.0;
   values[3] =
       segment < road_.road->num_segments() - 1 ? road_.road->segment_end(segment) - front(instant) : 1.0;

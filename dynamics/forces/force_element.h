@@ -64,7 +64,7 @@ class ForceElement {
   virtual int num_branches() const { return 0; }
   virtual void choose_branches(const Instant& /*instant*/, std::span<int> /*branches*/) const {}
   virtual int num_switches() const { return 0; }
-  /// @param[out] values  zero where a branch ends; smooth in time
+  /// @param[out] values  positive while the branches hold, negative beyond; smooth in time
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
   /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth telling.

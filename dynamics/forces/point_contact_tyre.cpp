@@ -88,9 +88,12 @@ void PointContactTyre::calc_switches(const Instant& instant, std::span<const int
                                      std::span<double> values) const {
   const Wheel wheel = calc_wheel(instant, branches);
   const int segment = branches[1];
-  values[0] = parameters_.one_sided ? wheel.penetration : 1.0;
-  const double dead_band = branches[0] == kTouching ? -dead_band_ : dead_band_;
-  values[1] = parameters_.one_sided && branches[0] != kInAir ? wheel.elastic + wheel.viscous + dead_band : 1.0;
+  values[0] = values[1] = 1.0;
+  if (parameters_.one_sided) {
+    const double force = wheel.elastic + wheel.viscous;
+    values[0] = branches[0] == kInAir ? -wheel.penetration : wheel.penetration;
+    if (branches[0] != kInAir) values[1] = dead_band_ + (branches[0] == kPressed ? force : -force);
+  }
   values[2] = segment > 0 ? wheel.distance - road_.road->segment_end(segment - 1) : 1.0;
   values[3] = segment < road_.road->num_segments() - 1 ? road_.road->segment_end(segment) - wheel.distance : 1.0;
 }

