@@ -66,9 +66,11 @@ inline void calc_marker_position(const Marker& marker, const FrameRotation& rota
     state.r_eta.col(k) = rotation * shape;
   }
   if (marker.has_second_order()) add_second_order_position(marker, rotation, q.tail(marker.Phi.cols()), u, state);
-  const Eigen::Vector2d arm = rotation * u;
-  state.r = q.head<2>() + arm;
-  state.r_theta = turned(arm);
+  // One number at a time: pairs that were just written by their halves are slow to read.
+  const double arm_x = rotation.cosine * u.x() - rotation.sine * u.y();
+  const double arm_y = rotation.sine * u.x() + rotation.cosine * u.y();
+  state.r = {q[0] + arm_x, q[1] + arm_y};
+  state.r_theta = {-arm_y, arm_x};
 }
 
 /// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/dynamics/chains.h"
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
@@ -86,6 +87,21 @@ TEST_CASE("Light bodies follow heavy ones", "[system]") {
   q << 0.5, 0.7, 0.0, 1.0, 0.4, 0.0;
   const dynamics::Partition partition = dynamics::choose_partition(terms_at(model, q));
   CHECK(partition.dependent == std::vector<int>{0, 1});
+}
+
+TEST_CASE("The dependents of a long chain follow the independents as closely as those of a short one", "[system]") {
+  // 70 and 80 links have 142 and 162 constraints, on both sides of where the rule of the choice changes.
+  const auto smallest_share = [](int num_links) {
+    const test::Chain chain = test::make_closed_chain(num_links);
+    const dynamics::SystemTerms terms = terms_at(chain.model, chain.state.q);
+    const dynamics::Partition partition = dynamics::choose_partition(terms);
+    const Eigen::MatrixXd Phi_d = terms.jacobian().dense()(Eigen::all, partition.dependent);
+    const VectorXd singular = Phi_d.jacobiSvd().singularValues();
+    return singular.minCoeff() / singular.maxCoeff();
+  };
+  const double of_short = smallest_share(70);
+  CHECK(of_short > 1e-4);
+  CHECK(smallest_share(80) > 0.25 * of_short);
 }
 
 TEST_CASE("A model without joints has no dependents", "[system]") {
