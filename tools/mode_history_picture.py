@@ -11,11 +11,11 @@ from mode_history import (
     read_mode_histories,
     read_neglected,
 )
-from picture_file import COLOURS, MARGIN_HEIGHT, PANEL_HEIGHT, SETTINGS, WIDTH
+from picture_file import COLOURS, MARGIN_HEIGHT, SETTINGS, WIDTH
 from run_caption import make_caption, read_run_file
 from runs import samples_between
 
-INDICATOR_HEIGHT = 1.9  # inches
+INDICATOR_HEIGHT, QUANTITY_HEIGHT = 1.9, 2.8  # inches
 LEAST_HEIGHT, HEIGHT_PER_MODE, MOST_HEIGHT = 1.3, 0.12, 4.2  # inches, of a panel with modes
 LABELLED_FREQUENCIES = 9  # at most, beside the modes of a panel
 LEAST_PERCENT = 1e-3  # of the panel with shares
@@ -83,25 +83,26 @@ def draw_neglected(axes, results):
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.0, frameon=False, fontsize=9.5)
 
 
-def make_mode_history_figure(runs, shown, span, title=""):
-    """Modes of the first run over time, shares left out, and a quantity of all runs.
+def make_mode_history_figure(runs, quantities, span, title=""):
+    """Modes of the first run over time, shares left out, and quantities of all runs.
 
-    runs: list of Run, the first with modes (ResultsError if it has none); shown: Shown; span: (from, to) [s].
+    runs: list of Run, the first with modes (ResultsError if it has none); quantities: list of Shown; span: (from, to) [s].
     """
     results = runs[0].results
     histories = read_mode_histories(results)
     has_neglected = bool(read_neglected(results))
     heights = [np.clip(HEIGHT_PER_MODE * one.number.size, LEAST_HEIGHT, MOST_HEIGHT) for one in histories]
-    heights += [INDICATOR_HEIGHT] * has_neglected + [PANEL_HEIGHT]
+    heights += [INDICATOR_HEIGHT] * has_neglected + [QUANTITY_HEIGHT] * len(quantities)
     matplotlib.rcParams.update(SETTINGS)
     figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
     panels = figure.subplots(len(heights), sharex=True, height_ratios=heights)
     for axes, history in zip(panels, histories):
         draw_modes(axes, results, history)
     if has_neglected:
-        draw_neglected(panels[-2], results)
-    draw_panel(panels[-1], runs, shown, span)
-    panels[-1].legend(loc="best", frameon=False)
+        draw_neglected(panels[len(histories)], results)
+    for axes, shown in zip(panels[-len(quantities) :], quantities):
+        draw_panel(axes, runs, shown, span)
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderpad=0.0, frameon=False, fontsize=9.5, ncols=3)
     inside = results.time[samples_between(results, *span)]
     panels[-1].set_xlim(inside[0], inside[-1])
     panels[-1].set_xlabel("time, s")

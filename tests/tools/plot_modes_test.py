@@ -91,11 +91,12 @@ class PlotModes(ToolTestCase):
         # The first mode takes part throughout, the second in two spans, the third never.
         self.assertEqual(svg.count('style="fill: #0072b2"'), 3)
 
-    def test_over_time_another_quantity_and_a_part_of_the_run(self):
+    def test_over_time_other_quantities_and_a_part_of_the_run(self):
         write_adaptive_run(self.folder / "adaptive.h5")
         texts = read_texts(self.draw_svg("adaptive.h5", "--over-time", "--show", "driver=points/chassis.seat/acceleration.y",
-                                         "--from", "0.25", "--to", "0.5"))  # fmt: skip
+                                         "--show", "heave=bodies/chassis/displacement.y", "--from", "0.25", "--to", "0.5"))  # fmt: skip
         self.assertIn("driver, m/s²", texts)
+        self.assertIn("heave, mm", texts)
         self.assertIn("0.50", texts)
         self.assertNotIn("1.0", texts)
 
@@ -111,9 +112,13 @@ class PlotModes(ToolTestCase):
             self.run_tool("plot_modes", "-o", "out.png", "--over-time", "rigid.h5"),
             "rigid.h5: error: no body of this run has modes",
         )
-        process = self.run_tool("plot_modes", "-o", "out.png", "one.h5", "two.h5")
-        self.assertEqual(process.returncode, 2)
-        self.assertIn("several files, --show, --from and --to go with --over-time", process.stderr)
+
+    def test_what_goes_with_over_time_alone_is_refused_without_it(self):
+        write_choice(self.folder / "choice.h5")
+        for arguments in (("two.h5",), ("--show", "heave=bodies/chassis/displacement.y"), ("--from", "0"), ("--to", "1")):
+            process = self.run_tool("plot_modes", "-o", "out.png", "choice.h5", *arguments)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("several files, --show, --from and --to go with --over-time", process.stderr)
 
 
 if __name__ == "__main__":
