@@ -183,7 +183,7 @@ class Report(unittest.TestCase):
         self.assertEqual(cells["terrain: chosen beforehand"][2:], ("–", "–"))
         self.assertEqual(make_mode_cost_table(Numbers(self.folder))[1], [])
         # The claims on cost are judged by the same times, on both sides of their limits.
-        cost, few = (one for one in list_mode_claims() if one.timed)
+        cost, few, _ = (one for one in list_mode_claims() if one.timed)
         for value, holds in ((0.5, True), (0.51, False)):
             half = {**times, "bump_adaptive": value * times["bump_36modes"]}
             self.assertEqual(cost.judge(Numbers(self.folder, half)).holds["exponential"], holds)

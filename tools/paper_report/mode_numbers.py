@@ -22,7 +22,12 @@ class Comparison:
         return relative(self.run.peak_deflection(), self.full.peak_deflection())
 
     def peak(self, point):
+        """Of the vertical acceleration's peak."""
         return relative(self.run.peak_acceleration(point), self.full.peak_acceleration(point))
+
+    def horizontal_peak(self, point):
+        one, full = (float(np.max(np.abs(each.series(f"{point}/acceleration.x")))) for each in (self.run, self.full))
+        return relative(one, full)
 
     def rms(self, point):
         return relative(self.run.rms_acceleration(point), self.full.rms_acceleration(point))
@@ -84,7 +89,3 @@ def format_ranges(values):
     """`1–8, 11` from ascending whole numbers."""
     spans = np.split(values, 1 + np.flatnonzero(np.diff(values) > 1))
     return ", ".join(f"{span[0]}" if len(span) == 1 else f"{span[0]}–{span[-1]}" for span in spans)
-
-
-def percent(share, digits=1):
-    return f"{100.0 * share:+.{digits}f} %"

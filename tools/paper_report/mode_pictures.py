@@ -14,14 +14,18 @@ SHOWN = [Shown(f"{name}'s acceleration", f"{p}/acceleration.y") for name, p in (
 def draw_choice(numbers):
     """How the modes for the terrain were chosen."""
     choice = open_choice(numbers.run(name_chosen("terrain", TOLERANCES[0])).path)
-    return make_choice_figure(choice, "The choice of modes for the terrain: road, linearised truck, shares of the modes")
+    return make_choice_figure(
+        choice, "The choice of modes for the terrain: road, linearised truck, shares of the modes"
+    )
 
 
 def draw_modes_over_time(numbers, road, span=(None, None)):
     """Which modes took part in an adaptive run, above its acceleration and that with all modes."""
     names = {"adaptive": f"{road}_adaptive", f"all {ALL} modes": f"{road}_{name_modes(ALL)}"}
     runs = [Run(label, numbers.run(name).results) for label, name in names.items()]
-    return make_mode_history_figure(runs, SHOWN, span, f"Modes that take part over {TITLES[road]}, from 2 with {ALL} available")
+    return make_mode_history_figure(
+        runs, SHOWN, span, f"Modes that take part over {TITLES[road]}, from 2 with {ALL} available"
+    )
 
 
 def draw_mode_pictures(numbers):

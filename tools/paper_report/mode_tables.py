@@ -2,7 +2,8 @@
 they leave out rows of runs that are not there."""
 
 from mode_history import find_worst_neglect
-from paper_report.mode_numbers import Choice, can_compare, compare, format_ranges, percent
+from paper_report.claims import percent
+from paper_report.mode_numbers import Choice, can_compare, compare, format_ranges
 from paper_report.mode_runs import (
     ALL,
     DROP_OF_RECALL,
