@@ -267,6 +267,22 @@ class Report(unittest.TestCase):
             run_all(self.programs, [bad], self.folder, report=lambda _: None)
         self.assertIn("modes.chassis=3", make_command(self.programs, bad, self.folder))
 
+    def test_a_run_that_its_program_does_not_trust_is_refused(self):
+        folder = self.folder / "warned"
+        folder.mkdir()
+        program = folder / "program"
+        for warning, is_refused in (("modes are missing: one", False), ("the energy balance does not close", True)):
+            program.write_text(f"#!/bin/sh\necho 'warning: {warning}'\n", encoding="utf-8")
+            program.chmod(0o755)
+            run = PaperRun("untrusted", "bump.toml", ())
+            arguments = (Programs(program, program), [run], folder, lambda _: None)
+            if is_refused:
+                with self.assertRaisesRegex(ResultsError, "untrusted.h5: error: no run for a report: .* energy balance"):
+                    run_all(*arguments)
+            else:
+                run_all(*arguments)
+                self.assertTrue((folder / "untrusted.txt").exists())
+
     def test_a_file_left_by_an_earlier_work_is_no_run_of_this_one(self):
         numbers = Numbers(self.folder, made=["bump_rigid", "bump_7modes"])
         self.assertEqual(

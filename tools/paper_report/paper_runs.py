@@ -31,6 +31,7 @@ NOT_WATCHED = ("adaptivity.indicator=false",)
 FINER = ("integrator.relative_tolerance=1e-8",)
 SEEDS = (1, 2, 3)
 SPEEDS = (6.5, 7.0, 7.5, 8.0, 8.5)  # m/s over the terrain
+MODES_MISSING = "warning: modes are missing: "
 REPEATS = 9  # timed runs of each model
 
 
@@ -230,11 +231,17 @@ def make_command(programs, run, folder, output=None):
     return command + (["-o", output.resolve()] if output else [])
 
 
+def list_warnings(said):
+    """Of what a program says at the end of a run, the lines that warn."""
+    return [line for line in said.splitlines() if line.startswith("warning: ")]
+
+
 def run_all(programs, runs, folder, report=print):
     """Runs all into FOLDER/NAME.h5, and what each says at its end into FOLDER/NAME.txt; as many at a time as there are
     processors; report(text) is called as each ends.
 
-    ResultsError at the first that fails; what has begun is waited for.
+    ResultsError at the first that fails, or that the program itself warns of, unless for modes that are missing, which is
+    what some of these runs are there to show; what has begun is waited for.
     """
     began = time.monotonic()
     # The longest first, so that none of them is left alone at the end.
@@ -243,6 +250,9 @@ def run_all(programs, runs, folder, report=print):
     def run_one(run):
         said = call(make_command(programs, run, folder, folder / f"{run.name}.h5"))
         (folder / f"{run.name}.txt").write_text(said, encoding="utf-8")
+        for warning in list_warnings(said):
+            if not warning.startswith(MODES_MISSING):
+                raise ResultsError(f"{folder / run.name}.h5: error: no run for a report: {warning}")
         return run.name
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from paper_report.paper_runs import name_modes
+from paper_report.paper_runs import list_warnings, name_modes
 from results_file import ResultsError, open_results, read_numbers, text_of
 from ride_measures import read_window, sampling_step
 from runs import samples_between
@@ -95,7 +95,7 @@ class RunNumbers:
         said = self.path.with_suffix(".txt")
         if not said.exists():
             raise ResultsError(f"{said}: error: no such file")
-        return [line for line in said.read_text(encoding="utf-8").splitlines() if line.startswith("warning: ")]
+        return list_warnings(said.read_text(encoding="utf-8"))
 
     @property
     def frequencies(self):
