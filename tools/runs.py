@@ -32,6 +32,11 @@ def add_run_arguments(parser):
         "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
         help="a quantity such as bodies/chassis/displacement.y, and its name; may be given several times",
     )  # fmt: skip
+    add_span_arguments(parser)
+
+
+def add_span_arguments(parser):
+    """The span of time that is looked at."""
     parser.add_argument(
         "--from", dest="start", type=float, metavar="S", help="look at the run from this time, s"
     )

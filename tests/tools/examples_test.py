@@ -19,12 +19,13 @@ RUNS = {
     "terrain_rigid": ("terrain", 0),
     "terrain_2modes": ("terrain", 2),
 }
+ADAPTIVE = "bump_adaptive"  # from 2 modes over the bump
 RESPONSES = {"rigid": 0, "modes": 4}
 WRITTEN = {
     "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
     "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
     "export_paraview": ("modes.pvd", "bump.pvd"), "plot_response": ("response.png",),
-    "plot_modes": ("choice.png",),
+    "plot_modes": ("choice.png", "bump_modes.png"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
 CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
@@ -60,9 +61,10 @@ class PythonTools(Examples):
             superelements,
         ]
         subprocess.run([*map(str, reduce)], check=True, stdout=subprocess.PIPE)
-        for name, (run, modes) in RUNS.items():
+        for name, (run, modes) in {**RUNS, ADAPTIVE: ("bump", 2)}.items():
             command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / f"{run}.toml", "--superelements", superelements, "--quiet",
-                       "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
+                       "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}",
+                       "--set", f"adaptivity.enabled={str(name == ADAPTIVE).lower()}"]  # fmt: skip
             subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
         for name, modes in RESPONSES.items():
             command = [os.environ["SPRUNG_DYNAMICS"], "response", TRUCK / "terrain.toml", "--superelements", superelements,

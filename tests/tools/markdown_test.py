@@ -8,6 +8,7 @@ from paper_report.markdown import (
     cells_agree,
     find_differences,
     format_markdown,
+    format_words,
     parse_markdown,
     read_part,
     replace_part,
@@ -35,6 +36,10 @@ class Parts(unittest.TestCase):
             parse_markdown(format_markdown(*TABLE)), ([*TABLE[0]], [list(row) for row in TABLE[1]])
         )
         self.assertEqual(parse_markdown("no table"), ([], []))
+
+    def test_words_are_quoted_line_by_line(self):
+        self.assertEqual(format_words("warning: one\nand two"), "> warning: one\n> and two")
+        self.assertEqual(format_words(""), "")
 
 
 class Differences(unittest.TestCase):

@@ -1,10 +1,13 @@
-"""tools/plot_modes: that modes, curves and shares are in the picture, and that what holds no choice is refused."""
+"""tools/plot_modes: that modes, curves and shares are in the picture, what modes did over time in that of --over-time, and
+that what holds neither is refused."""
 
 import re
 import unittest
 
 import h5py
 import numpy as np
+from mode_runs import write_adaptive_run
+from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
 SHARES = ("displacement_rms", "displacement_peak", "acceleration_rms", "acceleration_peak", "force_rms", "force_peak", "static")
@@ -34,14 +37,22 @@ def write_choice(path, *, kind="sprung-mode-choice", with_forcing=True, with_cho
         group["transfer/chassis.seat"].attrs["unit"] = "m/s^2/m"
 
 
+def read_texts(svg):
+    """Matplotlib draws letters as paths and leaves each text in a comment."""
+    return re.findall(r"<!-- (.*?) -->", svg)
+
+
 class PlotModes(ToolTestCase):
+    def draw_svg(self, *arguments):
+        process = self.run_tool("plot_modes", "-o", "out.svg", *arguments)
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        return (self.folder / "out.svg").read_text(encoding="utf-8")
+
     def test_forcing_transfer_modes_and_shares(self):
         for kind in ("sprung-mode-choice", "sprung-results"):
             write_choice(self.folder / "choice.h5", kind=kind)
-            process = self.run_tool("plot_modes", "-o", "out.svg", "choice.h5", "--title", "A truck")
-            self.assertEqual((process.returncode, process.stderr), (0, ""))
-            svg = (self.folder / "out.svg").read_text(encoding="utf-8")
-            texts = re.findall(r"<!-- (.*?) -->", svg)
+            svg = self.draw_svg("choice.h5", "--title", "A truck")
+            texts = read_texts(svg)
             for text in ("A truck", "chassis.seat", "mode kept", "mode left out", "frequency, Hz", "acceleration",
                          "road under the front wheel, m/Hz", "acceleration per road, m/s²/m"):  # fmt: skip
                 self.assertIn(text, texts)
@@ -56,13 +67,58 @@ class PlotModes(ToolTestCase):
         write_choice(self.folder / "blind.h5", with_forcing=False)
         write_choice(self.folder / "foreign.h5", kind="something")
         for name, fragment in (
-            ("fixed.h5", 'no modes were chosen in this run: its [modes] has none "auto"'),
+            ("fixed.h5", 'no modes were chosen in this run: its [modes] has none "auto"; what they did over time: --over-time'),
             ("blind.h5", "the forcing was not looked at: all modes are kept, as nobody knows"),
             ("foreign.h5", "format is 'something'"),
             ("missing.h5", "missing.h5: error: no such file"),
         ):
             self.assert_refuses(self.run_tool("plot_modes", "-o", "out.png", name), fragment)
         self.assertFalse((self.folder / "out.png").exists())
+
+    def test_modes_over_time_above_what_the_run_did(self):
+        write_adaptive_run(self.folder / "adaptive.h5")
+        write_results(self.folder / "rigid.h5", num_modes=0)
+        svg = self.draw_svg("--over-time", "adaptive=adaptive.h5", "rigid chassis=rigid.h5")
+        texts = read_texts(svg)
+        for text in (
+            "chassis: 1.5 of 3 modes take part on the run's average, 2 at most; changes at 2 instants",
+            "of the largest deflection so far: 3 % at most, chassis mode 3 at 0.5 s",
+            "of the largest acceleration so far: 0.8 % at most, chassis mode 2 at 0.2 s",
+            "recall, 1 %", "left out, %", "mode", "acceleration of chassis, m/s²", "time, s", "adaptive", "rigid chassis",
+            "6.11", "38.3", "107",
+        ):  # fmt: skip
+            self.assertIn(text, texts)
+        # The first mode takes part throughout, the second in two spans, the third never.
+        self.assertEqual(svg.count('style="fill: #0072b2"'), 3)
+
+    def test_over_time_other_quantities_and_a_part_of_the_run(self):
+        write_adaptive_run(self.folder / "adaptive.h5")
+        texts = read_texts(self.draw_svg("adaptive.h5", "--over-time", "--show", "driver=points/chassis.seat/acceleration.y",
+                                         "--show", "heave=bodies/chassis/displacement.y", "--from", "0.25", "--to", "0.5"))  # fmt: skip
+        self.assertIn("driver, m/s²", texts)
+        self.assertIn("heave, mm", texts)
+        self.assertIn("0.50", texts)
+        self.assertNotIn("1.0", texts)
+
+    def test_over_time_a_fixed_set_that_was_not_watched(self):
+        write_adaptive_run(self.folder / "fixed.h5", is_adaptive=False)
+        texts = read_texts(self.draw_svg("fixed.h5", "--over-time"))
+        self.assertIn("chassis: all 3 modes of the run take part throughout", texts)
+        self.assertNotIn("left out, %", texts)
+
+    def test_over_time_a_run_without_modes_is_refused(self):
+        write_results(self.folder / "rigid.h5", num_modes=0)
+        self.assert_refuses(
+            self.run_tool("plot_modes", "-o", "out.png", "--over-time", "rigid.h5"),
+            "rigid.h5: error: no body of this run has modes",
+        )
+
+    def test_what_goes_with_over_time_alone_is_refused_without_it(self):
+        write_choice(self.folder / "choice.h5")
+        for arguments in (("two.h5",), ("--show", "heave=bodies/chassis/displacement.y"), ("--from", "0"), ("--to", "1")):
+            process = self.run_tool("plot_modes", "-o", "out.png", "choice.h5", *arguments)
+            self.assertEqual(process.returncode, 2)
+            self.assertIn("several files, --show, --from and --to go with --over-time", process.stderr)
 
 
 if __name__ == "__main__":

@@ -59,8 +59,10 @@ def format_holds(holds):
     return ", ".join(f"{name}: {word}" for name, word in words.items())
 
 
-def percent(share):
-    return f"{100.0 * share:+.1f} %"
+def percent(share, digits=1):
+    """A share with its sign, `+1.5 %`; what rounds to nothing has none."""
+    text = f"{100.0 * share:+.{digits}f}"
+    return f"{text if float(text) else text[1:]} %"
 
 
 def at_both_points(judge_point):

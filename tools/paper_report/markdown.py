@@ -13,6 +13,11 @@ def format_markdown(headings, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
+def format_words(text):
+    """A text as a quotation: lines run on, words stand as they are."""
+    return "\n".join(f"> {line}" for line in text.splitlines())
+
+
 def parse_markdown(text):
     """Headings and rows of the first table in a text; ([], []) if there is none."""
     lines = [line.strip() for line in text.splitlines() if line.strip().startswith("|")]

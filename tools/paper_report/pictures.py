@@ -1,4 +1,5 @@
-"""The report's figures: the paper's Figures 9 to 14, and the spectra of the chassis' acceleration."""
+"""The report's figures: the paper's Figures 9 to 14, the spectra of the chassis' acceleration, and those of modes that come
+and go."""
 
 import io
 
@@ -7,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
+from paper_report.mode_pictures import draw_mode_pictures
 from paper_report.run_numbers import CENTRE, FRONT_END, MIDDLE, chassis_frequencies
 from results_file import read_numbers
 from run_caption import make_caption, read_run_file
@@ -243,6 +245,7 @@ def draw_all(numbers):
         "terrain_front_end.png": draw_front_end(numbers),
         "spectra.png": draw_spectra(numbers),
         "terrain_profile.png": draw_terrain(numbers),
+        **draw_mode_pictures(numbers),
     }
 
 

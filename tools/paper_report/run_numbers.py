@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from paper_report.paper_runs import name_modes
+from paper_report.paper_runs import list_warnings, name_modes
 from results_file import ResultsError, open_results, read_numbers, text_of
 from ride_measures import read_window, sampling_step
 from runs import samples_between
@@ -44,6 +44,7 @@ class RunNumbers:
     """One run's numbers over its statistics window."""
 
     def __init__(self, path):
+        self.path = path
         self.results = open_results(path)
         self.window = read_window(self.results)
         self.inside = samples_between(self.results, *self.window)
@@ -69,6 +70,10 @@ class RunNumbers:
         """R.m.s. acceleration in the BANDS, m/s² [4]."""
         return calc_band_rms(self.acceleration(point), self.step, BANDS)
 
+    def peak_deflection(self):
+        """The front end's largest deflection in the body frame, static included [m]."""
+        return float(np.max(np.abs(self.series(FRONT_END))))
+
     def rms_between(self, point, start, end):
         """R.m.s. acceleration of a span of time [s], m/s²."""
         span = samples_between(self.results, start, end)
@@ -78,6 +83,19 @@ class RunNumbers:
     def evaluations(self):
         """Of the equations of motion, by the integrator; those for output not counted."""
         return int(self.results.file["summary"].attrs["evaluations"])
+
+    @property
+    def closure(self):
+        """Of the energy book, relative."""
+        return float(self.results.file["summary"].attrs["energy_closure"])
+
+    @property
+    def warnings(self):
+        """What the program warned of at the end of the run, a line each. ResultsError if it was not kept."""
+        said = self.path.with_suffix(".txt")
+        if not said.exists():
+            raise ResultsError(f"{said}: error: no such file")
+        return list_warnings(said.read_text(encoding="utf-8"))
 
     @property
     def frequencies(self):

@@ -4,7 +4,9 @@ left out, so that a test can make those that are cheap."""
 import numpy as np
 
 from paper_report.claims import format_holds, list_claims
-from paper_report.paper_runs import MODE_COUNTS, name_modes
+from paper_report.mode_claims import list_mode_claims
+from paper_report.mode_tables import list_mode_tables
+from paper_report.paper_runs import MODE_COUNTS, ROADS, name_modes
 from paper_report.run_numbers import CENTRE, MIDDLE, SEAT, chassis_frequencies
 from paper_report.sensitivity_tables import make_sensitivity_table, make_speed_table
 from ride_measures import (
@@ -20,7 +22,6 @@ from spectra import calc_rms
 
 PLACES = {"middle": MIDDLE, "centre of mass": CENTRE, "seat": SEAT}
 MODELS = {0: "rigid", 2: "2 modes", 4: "4 modes", 36: "36 modes"}
-ROADS = ("bump", "terrain")
 
 
 def has_modes(numbers, road, count):
@@ -29,22 +30,24 @@ def has_modes(numbers, road, count):
 
 def make_claims_table(numbers):
     """What the paper says, criterion, what we find, whether it holds."""
+    return ("", "paper", "paper says", "criterion", "we find", "holds?"), list_judged(numbers, list_claims())
+
+
+def make_mode_claims_table(numbers):
+    """What is asked of modes that the program chooses, criterion, what we find, whether it holds."""
+    return ("", "run", "what", "criterion", "we find", "holds?"), list_judged(numbers, list_mode_claims())
+
+
+def list_judged(numbers, claims):
+    """A row for each claim whose runs are there."""
     rows = []
-    for claim in list_claims():
+    for claim in claims:
         if not all(map(numbers.has, claim.needs)) or (claim.timed and numbers.costs is None):
             continue
         finding = claim.judge(numbers)
-        rows.append(
-            (
-                claim.number,
-                claim.source,
-                claim.says,
-                claim.criterion,
-                finding.found,
-                format_holds(finding.holds),
-            )
-        )
-    return ("", "paper", "paper says", "criterion", "we find", "holds?"), rows
+        holds = format_holds(finding.holds)
+        rows.append((claim.number, claim.source, claim.says, claim.criterion, finding.found, holds))
+    return rows
 
 
 def make_peaks_table(numbers):
@@ -280,4 +283,11 @@ def list_tables():
         "tyres": make_tyres_table,
         "accuracy": make_accuracy_table,
         "cost": make_cost_table,
+        "mode claims": make_mode_claims_table,
+        **list_mode_tables(),
     }
+
+
+def list_texts():
+    """Parts of the report in a program's own words, by the names of their markers: dict of name → function of Numbers."""
+    return {"warning": lambda numbers: "\n".join(numbers.run("bump_2modes").warnings)}

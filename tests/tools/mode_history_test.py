@@ -1,0 +1,73 @@
+"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known answers."""
+
+import unittest
+
+import numpy as np
+from mode_runs import write_adaptive_run
+from synthetic_results import NUM_SAMPLES, write_results
+from tool_test_case import ToolTestCase
+
+from mode_history import (
+    Neglect,
+    count_active,
+    find_change_times,
+    find_worst_neglect,
+    read_mode_histories,
+    read_neglected,
+)
+from mode_history_picture import find_spans
+from results_file import ResultsError, open_results
+
+
+class ModeHistories(ToolTestCase):
+    def open_run(self, **options):
+        results = open_results(write_adaptive_run(self.folder / "run.h5", **options))
+        self.addCleanup(results.file.close)
+        return results
+
+    def test_modes_are_told_by_their_numbers_and_frequencies_in_the_superelement(self):
+        (history,) = read_mode_histories(self.open_run())
+        self.assertEqual(history.body, "chassis")
+        np.testing.assert_array_equal(history.number, [1, 3, 4])
+        np.testing.assert_array_equal(history.frequency, [6.11, 38.3, 107.4])
+
+    def test_active_modes_are_counted_at_each_sample(self):
+        results = self.open_run()
+        counts = count_active(results)
+        # Samples 5 ms apart: the second mode is there from 0.25 s up to 0.5 s, and from 0.75 s to the end.
+        self.assertEqual(counts[results.time < 0.25].tolist(), [1] * 50)
+        self.assertEqual(np.count_nonzero(counts == 2), NUM_SAMPLES - 50 - 50)
+
+    def test_an_instant_of_several_changes_counts_once_and_other_events_do_not(self):
+        np.testing.assert_allclose(find_change_times(self.open_run()), [0.25, 0.5])
+
+    def test_the_mode_that_misses_most_is_found_for_deflection_and_acceleration(self):
+        results = self.open_run()
+        self.assertEqual(find_worst_neglect(results, 0), Neglect(0.03, "chassis", 3, 0.5))
+        self.assertEqual(find_worst_neglect(results, 1), Neglect(0.008, "chassis", 2, 0.2))
+
+    def test_a_run_that_did_not_look_tells_nothing(self):
+        results = self.open_run(is_adaptive=False)
+        self.assertEqual(read_neglected(results), {})
+        self.assertIsNone(find_worst_neglect(results, 0))
+
+    def test_a_run_without_modes_is_refused(self):
+        with open_results(write_results(self.folder / "rigid.h5", num_modes=0)) as results:
+            with self.assertRaisesRegex(ResultsError, "rigid.h5: error: no body of this run has modes"):
+                count_active(results)
+
+
+class Spans(unittest.TestCase):
+    time = np.array([0.0, 1.0, 2.0, 3.0])
+
+    def test_a_sample_stands_for_the_time_up_to_the_next(self):
+        self.assertEqual(find_spans(np.array([True, False, True, True]), self.time), [(0.0, 1.0), (2.0, 1.0)])
+        self.assertEqual(find_spans(np.array([False, True, False, False]), self.time), [(1.0, 1.0)])
+
+    def test_always_and_never(self):
+        self.assertEqual(find_spans(np.full(4, True), self.time), [(0.0, 3.0)])
+        self.assertEqual(find_spans(np.full(4, False), self.time), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
