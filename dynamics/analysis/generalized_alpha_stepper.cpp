@@ -205,7 +205,12 @@ void GeneralizedAlphaStepper::evaluate(double time) {
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
   statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
+}
+
+SystemStepper::Observation GeneralizedAlphaStepper::observe(double time) {
+  evaluate(time);
   equations_.terms().update_all_markers();
+  return {equations_.terms(), equations_.q(), equations_.v(), equations_.v_dot(), equations_.multipliers()};
 }
 
 SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace sprung::dynamics {
 
@@ -13,18 +14,12 @@ constexpr double kPeriodsToStay = 3.0;
 
 }  // namespace
 
-struct ModeAdaptation::Memory {
-  ModeIndicator::Memory indicator;
-  std::vector<std::optional<Window>> windows;
-  WorstNeglect worst;
-};
-
 ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& start)
     : options_(options),
       indicator_(*options.full, start.time, start.q, options.points),
       active_(options.active),
       windows_(indicator_.num_modes()),
-      last_leaving_(start.time) {
+      last_change_(start.time) {
   if (active_.size() != static_cast<std::size_t>(options.full->num_coordinates)) {
     throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
   }
@@ -37,10 +32,9 @@ int ModeAdaptation::num_active_modes() const {
                                         [this](int i) { return active_[static_cast<std::size_t>(i)]; }));
 }
 
-void ModeAdaptation::update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                            const Eigen::VectorXd& v_dot, const Eigen::VectorXd& multipliers,
-                            std::span<const int> branches) {
-  indicator_.update(time, q, v, v_dot, multipliers, branches);
+void ModeAdaptation::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+  indicator_.update(time, run, q, v, v_dot);
   const std::vector<int>& modal = indicator_.modal_coordinates();
   for (std::size_t j = 0; j < modal.size(); ++j) {
     const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
@@ -50,37 +44,48 @@ void ModeAdaptation::update(double time, const Eigen::VectorXd& q, const Eigen::
       continue;
     }
     std::optional<Window>& window = windows_[j];
-    if (!window) window = {time, eta, eta, acceleration};
+    if (!window) window = {time, eta, eta, acceleration, 0.0};
     window->low = std::min(window->low, eta);
     window->high = std::max(window->high, eta);
     window->largest_acceleration = std::max(window->largest_acceleration, acceleration);
-    if (indicator_.share(j, window->high - window->low, window->largest_acceleration).worst() > options_.drop) {
-      window = {time, eta, eta, acceleration};
-    }
+    window->share = indicator_.share(j, window->high - window->low, window->largest_acceleration).worst();
+    if (window->share > options_.drop) window = {time, eta, eta, acceleration, window->share};
   }
 }
 
 std::vector<int> ModeAdaptation::find_missed() const {
+  const std::vector<ModeShare>& neglected = indicator_.neglected();
+  const bool any = std::any_of(neglected.begin(), neglected.end(),
+                               [this](const ModeShare& share) { return share.worst() > options_.recall; });
   std::vector<int> missed;
-  bool any = false;
-  for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
-    if (indicator_.is_active(j)) continue;
-    const double share = indicator_.neglected()[j].worst();
-    any |= share > options_.recall;
-    if (share > kJoinsToo * options_.recall) missed.push_back(indicator_.modal_coordinates()[j]);
+  if (!any) return missed;
+  for (std::size_t j = 0; j < neglected.size(); ++j) {
+    if (neglected[j].worst() > kJoinsToo * options_.recall) missed.push_back(indicator_.modal_coordinates()[j]);
   }
-  return any ? missed : std::vector<int>{};
+  return missed;
 }
 
 std::vector<int> ModeAdaptation::find_idle() const {
   std::vector<int> idle;
-  if (indicator_.time() - last_leaving_ < options_.residence) return idle;
+  if (indicator_.time() - last_change_ < options_.residence) return idle;
+  std::vector<std::pair<double, int>> candidates;
   for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
     if (!indicator_.is_active(j) || !windows_[j]) continue;
     const double frequency = indicator_.frequency(j);
     const double stay = std::max(options_.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
-    if (indicator_.time() - windows_[j]->since >= stay) idle.push_back(indicator_.modal_coordinates()[j]);
+    if (indicator_.time() - windows_[j]->since >= stay) {
+      candidates.emplace_back(windows_[j]->share, indicator_.modal_coordinates()[j]);
+    }
   }
+  // Together they stop no more than the threshold allows to one.
+  std::sort(candidates.begin(), candidates.end());
+  double sum = 0.0;
+  for (const auto& [share, coordinate] : candidates) {
+    sum += share;
+    if (sum > options_.drop) break;
+    idle.push_back(coordinate);
+  }
+  std::sort(idle.begin(), idle.end());
   return idle;
 }
 
@@ -96,12 +101,13 @@ double ModeAdaptation::unbalanced_force_of(int coordinate) const {
 double ModeAdaptation::frequency_of(int coordinate) const { return indicator_.frequency(mode_of(coordinate)); }
 
 void ModeAdaptation::activate(const std::vector<int>& coordinates) {
+  last_change_ = indicator_.time();
   for (const int i : coordinates) active_[static_cast<std::size_t>(i)] = true;
   indicator_.set_active(active_);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
-  last_leaving_ = indicator_.time();
+  last_change_ = indicator_.time();
   for (const int i : coordinates) {
     active_[static_cast<std::size_t>(i)] = false;
     windows_[mode_of(i)].reset();
@@ -109,8 +115,10 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
   indicator_.set_active(active_);
 }
 
-std::shared_ptr<const ModeAdaptation::Memory> ModeAdaptation::remember() const {
-  return std::make_shared<const Memory>(Memory{indicator_.remember(), windows_, worst_});
+void ModeAdaptation::remember(Memory& memory) const {
+  indicator_.remember(memory.indicator);
+  memory.windows = windows_;
+  memory.worst = worst_;
 }
 
 void ModeAdaptation::go_back(const Memory& memory) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,9 +39,9 @@ class ModeAdaptation {
   const std::vector<bool>& active() const { return active_; }  ///< for each coordinate of the full model
   int num_active_modes() const;
 
-  /// Goes on to the next instant. All in coordinates of the full model.
-  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
-              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+  /// Goes on to the next instant, as ModeIndicator::update.
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
 
   /// Modal coordinates that have to join by the last update: none, or all that are at half the threshold or above.
   std::vector<int> find_missed() const;
@@ -55,17 +54,23 @@ class ModeAdaptation {
   void activate(const std::vector<int>& coordinates);
   void deactivate(const std::vector<int>& coordinates);
 
-  struct Memory;
-  /// What is needed to take a step back. The time of the last update is where one gets.
-  std::shared_ptr<const Memory> remember() const;
+  /// What an active mode has done since it was not quiet last.
+  struct Window {
+    double since = 0.0;  ///< [s]
+    double low = 0.0, high = 0.0, largest_acceleration = 0.0;
+    double share = 0.0;  ///< of range and acceleration
+  };
+  /// What has to be kept to take a step back to the last update.
+  struct Memory {
+    ModeIndicator::Memory indicator;
+    std::vector<std::optional<Window>> windows;
+    WorstNeglect worst;
+  };
+  void remember(Memory& memory) const;
   void go_back(const Memory& memory);
   const WorstNeglect& worst() const { return worst_; }
 
  private:
-  // What an active mode has done since it was quiet last.
-  struct Window {
-    double since, low, high, largest_acceleration;
-  };
 
   std::size_t mode_of(int coordinate) const;
 
@@ -73,7 +78,7 @@ class ModeAdaptation {
   ModeIndicator indicator_;
   std::vector<bool> active_;
   std::vector<std::optional<Window>> windows_;  // by mode
-  double last_leaving_;
+  double last_change_;
   WorstNeglect worst_;
 };
 

@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/system/partitioned_equations.h"
+#include "dynamics/analysis/unbalanced_force.h"
+#include "dynamics/system/constrained_equations.h"
 
 namespace sprung::dynamics {
 
@@ -32,40 +33,56 @@ class ModeIndicator {
   const std::vector<int>& modal_coordinates() const { return modal_; }
   std::size_t num_modes() const { return modal_.size(); }
 
-  /// Says which modes are active from `time` on; those that stop being so begin at rest where they are held.
+  /// Says which modes are active from the last update on; those that stop being so begin at rest where they are held.
+  /// What gives way to the others is another then: their vibration about where the force would hold them stays.
   void set_active(const std::vector<bool>& is_active_coordinate);
   bool is_active(std::size_t mode) const { return active_[mode]; }
 
-  /// Goes on to the next instant of the run. @param q, v, v_dot  in coordinates of `full`, held ones at rest
-  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
-              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+  /// Goes on to the next instant of the run; at the same instant again, where forces have jumped.
+  /// @param run          equations of the model that is run, accelerations up to date
+  /// @param q, v, v_dot  in coordinates of `full`, held ones at rest
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
 
   /// Of the modes left out, at the last update: what they miss. Zero for active ones.
   const std::vector<ModeShare>& neglected() const { return neglected_; }
   /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
   /// The force that the run leaves unbalanced on a mode left out, at the last update.
-  double unbalanced_force(std::size_t mode) const { return effective_[mode][0] * oscillators_[mode][2]; }
+  double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
 
+  /// What a mode left out would do.
+  struct Oscillator {
+    double place = 0.0, rate = 0.0;  ///< ξ, ξ̇
+    double force = 0.0;              ///< r at the last update
+  };
   /// What has to be kept to go back to an instant.
   struct Memory {
     double time = 0.0;
     bool has_begun = false;
-    std::vector<Eigen::Vector3d> oscillators;  // ξ, ξ̇, r
+    std::vector<Oscillator> oscillators;
     double largest_deflection = 0.0, largest_acceleration = 0.0;
   };
-  Memory remember() const;
+  void remember(Memory& memory) const;
   void go_back(const Memory& memory);
 
  private:
-  void calc_effective(std::size_t mode);
+  // The mode with what gives way to it.
+  struct Effective {
+    double mass = 0.0, damping = 0.0, stiffness = 0.0;
+    double reach = 0.0;  // largest displacement of an asked point
+  };
+  Effective calc_effective(std::size_t mode) const;
+  void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
+  void follow(std::size_t mode, double step);
 
   const Model* full_;
-  SystemTerms terms_;
+  UnbalancedForce unbalanced_;
   std::vector<int> points_;
+  std::vector<MarkerState> point_states_;
   std::vector<int> modal_;
   std::vector<bool> active_;
 
@@ -74,15 +91,13 @@ class ModeIndicator {
   Eigen::MatrixXd mass_, damping_, stiffness_, directions_;
   std::vector<Eigen::Matrix2Xd> point_motion_;  // of each point, per coordinate of `full`
 
-  std::vector<Eigen::Vector3d> effective_;  // mass, damping, stiffness
-  std::vector<double> bending_;             // largest deflection of a named point per unit of the mode
-  std::vector<double> reach_;               // largest displacement of an asked point, with what gives way
-  std::vector<Eigen::Vector3d> oscillators_;  // ξ, ξ̇, r/m
+  std::vector<Effective> effective_;
+  std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
+  std::vector<Oscillator> oscillators_;
   std::vector<ModeShare> neglected_;
   double time_ = 0.0;
   bool has_begun_ = false;
   double largest_deflection_ = 0.0, largest_acceleration_ = 0.0;
-  Eigen::VectorXd residual_;
 };
 
 }  // namespace sprung::dynamics

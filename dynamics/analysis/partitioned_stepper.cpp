@@ -63,7 +63,17 @@ void PartitionedStepper::evaluate(double time) {
   }
   evaluated_time_ = time;
   ode_.make_state(time, y_);
+}
+
+void PartitionedStepper::look() {
+  if (!ode_.has_accelerations(time())) evaluate(time());
+}
+
+SystemStepper::Observation PartitionedStepper::observe(double time) {
+  evaluate(time);
   ode_.equations().update_all_markers();
+  const ConstrainedEquations& now = equations();
+  return {now.terms(), now.q(), now.v(), now.v_dot(), now.multipliers()};
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

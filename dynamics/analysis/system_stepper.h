@@ -22,6 +22,16 @@ class SystemStepper {
     long evaluations = 0;  ///< of the equations, by the integrator
     long repartitions = 0;
     double velocity_violation = 0.0;  ///< largest |φ_q v + φ_t| of a step's end that was closed for output
+
+    Statistics& operator+=(const Statistics& later);  ///< of steppers one after the other
+  };
+
+  /// All there is to see at one instant, in coordinates of the model that the run was given; until the next call of
+  /// anything else.
+  struct Observation {
+    const SystemTerms& terms;  ///< positions, mass and velocities up to date, all markers
+    const Eigen::VectorXd &q, &v, &v_dot;
+    const Eigen::VectorXd& multipliers;
   };
 
   virtual ~SystemStepper() = default;
@@ -38,10 +48,15 @@ class SystemStepper {
   /// Longest step that the piece would not regret, at the state evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
-  /// Brings equations() and energy_flow() to a time within the last step: joints closed, all markers,
-  /// accelerations and multipliers those of the equations.
+  /// Brings equations() and energy_flow() to a time within the last step: joints closed, accelerations and multipliers
+  /// those of the equations; markers that joints and forces see.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
+  /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that the
+  /// integrator tried there: for who watches, not for who goes on from it.
+  virtual void look() { evaluate(time()); }
+  /// `evaluate`, and what it has come to with all markers.
+  virtual Observation observe(double time) = 0;
   virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
   virtual EnergyFlow energy_flow() const = 0;
 
