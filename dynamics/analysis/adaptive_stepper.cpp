@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/support/numerical_error.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -95,9 +97,11 @@ Integrator::StepResult AdaptiveStepper::step(double longest_step) {
   while (true) {
     step_start_ = time();
     modes_->remember(memory_);
+    largest_.clear();
     const Integrator::StepResult result = leg_->stepper->step(longest_step);
     is_plain_ = result == Integrator::StepResult::kStepped;
-    if (follow_step()) return result;
+    if (!follow_step()) return result;
+    take_back(result);
   }
 }
 
@@ -105,17 +109,17 @@ Integrator::StepResult AdaptiveStepper::step(double longest_step) {
 void AdaptiveStepper::watch(double time) {
   motion_->take(leg_->held, equations());
   modes_->update(time, equations(), motion_->q(), motion_->v(), motion_->v_dot());
+  watched_time_ = time;
 }
 
-// Brings the indicator through the step just made. @return false if modes were missed in it: then the step was taken
-// back, and the run goes on from its start with them
+// Brings the indicator through the step just made. @return true if modes were missed in it
 bool AdaptiveStepper::follow_step() {
-  const double end = time(), length = end - step_start_;
-  if (!(length > 0.0)) return true;
+  const double begin = watched_time_, end = time(), length = end - begin;
+  if (!(length > 0.0)) return false;
   const int parts = static_cast<int>(std::clamp(std::ceil(length / kLongestUnseen), 1.0, kMostParts));
-  std::vector<int> missed;
+  bool misses = false;
   for (int i = 1; i <= parts; ++i) {
-    const double time = i == parts ? end : step_start_ + length * i / parts;
+    const double time = i == parts ? end : begin + length * i / parts;
     if (i == parts) {
       leg_->stepper->look();
     } else {
@@ -123,42 +127,63 @@ bool AdaptiveStepper::follow_step() {
     }
     watch(time);
     if (!options_.changes) continue;
-    for (const int coordinate : modes_->find_missed()) {
-      if (std::find(missed.begin(), missed.end(), coordinate) != missed.end()) continue;
-      missed.push_back(coordinate);
-      const ModeShare share = modes_->share_of(coordinate);
-      listener_.on_change(step_start_, coordinate,
-                          fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
-                                      100.0 * share.deflection, 100.0 * share.acceleration));
-    }
+    modes_->raise(largest_);
+    misses |= modes_->misses_any();
   }
-  if (missed.empty()) return true;
-  take_back(missed);
-  return false;
+  return misses;
 }
 
-// Modes start from where they are held, at rest; the force that held them fades.
-void AdaptiveStepper::take_back(const std::vector<int>& missed) {
+// Before modes join, the run goes on without them for as long as they would stay: so all that will be wanted are found at
+// once, and none that only seems large because what is to come has not come yet. Then they start where the step
+// did, from where they are held, at rest, and the force that held them fades.
+void AdaptiveStepper::take_back(Integrator::StepResult result) {
   evaluate(step_start_);
-  modes_->go_back(memory_);
   motion_->take(leg_->held, equations());
+  const Eigen::VectorXd q = motion_->q(), v = motion_->v();
+  const EnergyFlow flow = energy_flow();
+  const std::vector<int> branches = piece().branches();
+  look_ahead(result, step_start_ + options_.residence);
+  motion_->go_to(q, v);
+  modes_->go_back(memory_);
+  const std::vector<int> missed = modes_->find_missed(largest_);
   for (const int coordinate : missed) {
+    const ModeShare share = modes_->share_of(coordinate, largest_);
+    listener_.on_change(step_start_, coordinate, fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
+                                                             100.0 * share.deflection, 100.0 * share.acceleration));
     const double frequency = modes_->frequency_of(coordinate);
     if (!(frequency > 0.0)) continue;
     motion_->let_go(coordinate, -modes_->unbalanced_force_of(coordinate), step_start_, kPeriodsOfRelease / frequency);
   }
-  const EnergyFlow flow = energy_flow();
-  modes_->activate(missed);
-  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow);
+  if (!missed.empty()) {
+    modes_->activate(missed);
+    ++num_changes_;
+  }
+  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
 }
 
-// From where the motion is, at the branches that hold there.
-void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow) {
-  const std::vector<int> branches = piece().branches();
+// Steps on from the end of the step that was made, through switches, up to the next break of a function of time.
+void AdaptiveStepper::look_ahead(Integrator::StepResult result, double until) {
+  SystemStepper& stepper = *leg_->stepper;
+  try {
+    while (result != Integrator::StepResult::kEnded && time() < until) {
+      if (result == Integrator::StepResult::kSwitched) {
+        stepper.evaluate(time());
+        stepper.piece().update_branches(stepper.equations().terms());
+        stepper.resume(end_time_);
+      }
+      result = stepper.step(stepper.calc_longest_step());
+      follow_step();
+    }
+  } catch (const support::NumericalError&) {
+    // It need not be possible without the modes.
+  }
+}
+
+// From where the motion is.
+void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow, const std::vector<int>& branches) {
   active_time_ += leg_->num_modes * (time - leg_->start);
   work_before_ += leg_->stepper->statistics();
   flow_before_ = flow;
-  ++num_changes_;
   leg_ = make_leg(std::move(held), time, branches);
   piece().update_next_break(time);
   evaluate(time);
@@ -188,7 +213,9 @@ bool AdaptiveStepper::let_modes_go() {
     listener_.on_change(rest, coordinate, fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
                                                       100.0 * options_.drop, lost));
   }
-  go_on(std::move(held), rest, flow);
+  ++num_changes_;
+  const std::vector<int> branches = piece().branches();
+  go_on(std::move(held), rest, flow, branches);
   return true;
 }
 

@@ -52,10 +52,11 @@ class AdaptiveStepper final : public SystemStepper {
   };
 
   std::unique_ptr<Leg> make_leg(HeldModes held, double time, const std::vector<int>& branches) const;
-  void go_on(HeldModes held, double time, const EnergyFlow& flow);
+  void go_on(HeldModes held, double time, const EnergyFlow& flow, const std::vector<int>& branches);
   void watch(double time);
   bool follow_step();
-  void take_back(const std::vector<int>& missed);
+  void take_back(Integrator::StepResult result);
+  void look_ahead(Integrator::StepResult result, double until);
   bool let_modes_go();
   double find_rest(int coordinate);
   double rate_of(int coordinate) const;
@@ -70,11 +71,12 @@ class AdaptiveStepper final : public SystemStepper {
   std::unique_ptr<Leg> leg_;
   EnergyFlow flow_before_;  // of the legs before
   Statistics work_before_;
-  double end_time_ = 0.0, evaluated_time_ = 0.0;
+  double end_time_ = 0.0, evaluated_time_ = 0.0, watched_time_ = 0.0;
 
   // The last step: its start, the indicator there, whether it ended within a smooth piece.
   double step_start_ = 0.0;
   ModeAdaptation::Memory memory_;
+  ModeAdaptation::LeftOut largest_;  // in it
   bool is_plain_ = false;
 
   long num_changes_ = 0;

@@ -17,6 +17,11 @@ void FullMotion::take(const HeldModes& held, const ConstrainedEquations& equatio
   put_active(held, equations.v_dot(), v_dot_);
 }
 
+void FullMotion::go_to(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  q_ = q;
+  v_ = v;
+}
+
 const SystemTerms& FullMotion::calc_terms(double time) {
   terms_.update_positions(time, q_);
   terms_.update_mass();

@@ -19,6 +19,8 @@ class FullMotion {
 
   /// Takes over where the equations of a model that is run are; what is held stays, at rest.
   void take(const HeldModes& held, const ConstrainedEquations& equations);
+  /// Goes to another state, as far as positions and velocities are concerned.
+  void go_to(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& v_dot() const { return v_dot_; }

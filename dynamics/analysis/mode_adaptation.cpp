@@ -9,7 +9,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kJoinsToo = 0.25;     // of the recall threshold: what joins when another has passed it
+constexpr double kLeaveTogether = 0.2;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
 
 }  // namespace
@@ -53,14 +53,25 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
   }
 }
 
-std::vector<int> ModeAdaptation::find_missed() const {
+bool ModeAdaptation::misses_any() const {
   const std::vector<ModeShare>& neglected = indicator_.neglected();
-  const bool any = std::any_of(neglected.begin(), neglected.end(),
-                               [this](const ModeShare& share) { return share.worst() > options_.recall; });
+  return std::any_of(neglected.begin(), neglected.end(),
+                     [this](const ModeShare& share) { return share.worst() > options_.recall; });
+}
+
+void ModeAdaptation::raise(LeftOut& largest) const {
+  largest.resize(indicator_.num_modes());
+  for (std::size_t j = 0; j < largest.size(); ++j) {
+    const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
+    largest[j] = {std::max(largest[j].amplitude, now.amplitude), std::max(largest[j].acceleration, now.acceleration)};
+  }
+}
+
+std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
   std::vector<int> missed;
-  if (!any) return missed;
-  for (std::size_t j = 0; j < neglected.size(); ++j) {
-    if (neglected[j].worst() > kJoinsToo * options_.recall) missed.push_back(indicator_.modal_coordinates()[j]);
+  for (const int coordinate : indicator_.modal_coordinates()) {
+    if (active_[static_cast<std::size_t>(coordinate)]) continue;
+    if (share_of(coordinate, largest).worst() > options_.recall) missed.push_back(coordinate);
   }
   return missed;
 }
@@ -77,12 +88,12 @@ std::vector<int> ModeAdaptation::find_idle() const {
       candidates.emplace_back(windows_[j]->share, indicator_.modal_coordinates()[j]);
     }
   }
-  // Together they stop no more than the threshold allows to one.
+  // What they stop together must not be what makes others join.
   std::sort(candidates.begin(), candidates.end());
   double sum = 0.0;
   for (const auto& [share, coordinate] : candidates) {
     sum += share;
-    if (sum > options_.drop) break;
+    if (sum > kLeaveTogether * options_.recall) break;
     idle.push_back(coordinate);
   }
   std::sort(idle.begin(), idle.end());
@@ -94,7 +105,11 @@ std::size_t ModeAdaptation::mode_of(int coordinate) const {
   return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
 }
 
-ModeShare ModeAdaptation::share_of(int coordinate) const { return indicator_.neglected()[mode_of(coordinate)]; }
+ModeShare ModeAdaptation::share_of(int coordinate, const LeftOut& largest) const {
+  const std::size_t mode = mode_of(coordinate);
+  return indicator_.share(mode, largest[mode].amplitude, largest[mode].acceleration);
+}
+
 double ModeAdaptation::unbalanced_force_of(int coordinate) const {
   return indicator_.unbalanced_force(mode_of(coordinate));
 }

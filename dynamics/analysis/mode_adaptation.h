@@ -15,9 +15,10 @@ struct AdaptivityOptions {
   std::vector<bool> active;             ///< at the start, for each coordinate of `full`
   std::vector<int> points;              ///< markers whose motion is asked for
   bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
-  double recall = 1e-2;                 ///< share at which a mode joins
+  double recall = 5e-2;                 ///< share at which a mode joins
   double drop = 2e-3;                   ///< share below which it may leave, < recall
-  double residence = 0.2;               ///< shortest time below before it leaves, and between leavings [s]
+  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before modes join [s]
+  double residence = 0.05;
 };
 
 /// The largest share that a mode left out has had in a run.
@@ -43,11 +44,16 @@ class ModeAdaptation {
   void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
               const Eigen::VectorXd& v_dot);
 
-  /// Modal coordinates that have to join by the last update: none, or all that are at half the threshold or above.
-  std::vector<int> find_missed() const;
+  /// Whether a mode left out has passed the recall threshold, by the last update.
+  bool misses_any() const;
+  using LeftOut = std::vector<ModeIndicator::LeftOut>;  ///< by mode
+  /// Raises what was largest to what there was at the last update.
+  void raise(LeftOut& largest) const;
+  /// Modal coordinates that have to join for that.
+  std::vector<int> find_missed(const LeftOut& largest) const;
   /// Modal coordinates that may leave, once their rate is zero.
   std::vector<int> find_idle() const;
-  ModeShare share_of(int coordinate) const;  ///< of a mode left out, at the last update
+  ModeShare share_of(int coordinate, const LeftOut& largest) const;
 
   double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
   double unbalanced_force_of(int coordinate) const;

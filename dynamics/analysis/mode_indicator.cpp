@@ -35,8 +35,10 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
     bending_.push_back(largest);
   }
   oscillators_.resize(n);
+  left_out_.resize(n);
   neglected_.resize(n);
 
+  Eigen::MatrixXd directions;
   try {
     PartitionedEquations equations(full);
     const LinearisedSystem small = linearise(equations, time, q);
@@ -44,7 +46,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
     mass_ = small.mass;
     damping_ = small.damping;
     stiffness_ = small.stiffness;
-    directions_ = small.directions;
+    directions = small.directions;
   } catch (const support::NumericalError&) {
     // Near a singular position: each mode by itself, as if nothing gave way.
   }
@@ -66,8 +68,11 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
   }
   const double floor = std::max(full.gravity.norm(), full.length_scale);
   largest_deflection_ = kSmallestDeflection * full.length_scale;
-  largest_acceleration_ = kSmallestAcceleration * floor;
-  for (std::size_t j = 0; j < n; ++j) effective_[j] = calc_effective(j);
+  largest_acceleration_.assign(points_.size(), kSmallestAcceleration * floor);
+  for (const Eigen::Matrix2Xd& motion : point_motion_) {
+    if (!independent_.empty()) reduced_motion_.push_back(motion * directions);
+  }
+  update_effective();
 }
 
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
@@ -75,45 +80,66 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_[j])];
     if (now != active_[j]) oscillators_[j] = {};
     active_[j] = now;
+    left_out_[j] = {};
     neglected_[j] = {};
   }
+  const std::vector<Effective> before = effective_;
+  update_effective();
   for (std::size_t j = 0; j < modal_.size(); ++j) {
-    const double before = effective_[j].stiffness;
-    effective_[j] = calc_effective(j);
     Oscillator& one = oscillators_[j];
-    if (before > 0.0 && effective_[j].stiffness > 0.0) one.place += one.force / effective_[j].stiffness - one.force / before;
+    if (before[j].stiffness > 0.0 && effective_[j].stiffness > 0.0) {
+      one.place += one.force / effective_[j].stiffness - one.force / before[j].stiffness;
+    }
   }
 }
 
-// The rigid motions and the active modes give way by their inertia, x = −M_AA⁻¹ M_Aj.
-ModeIndicator::Effective ModeIndicator::calc_effective(std::size_t mode) const {
+// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
+// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
+void ModeIndicator::update_effective() {
   std::vector<Eigen::Index> giving;
-  Eigen::Index own = -1;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (independent_[i] == modal_[mode]) own = static_cast<Eigen::Index>(i);
-    else if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
   }
-  const int coordinate = modal_[mode];
-  Effective effective;
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(full_->num_coordinates);
-  if (own < 0) {
-    // The partition has it follow from others: by itself.
-    const auto body = std::find_if(full_->bodies.begin(), full_->bodies.end(), [&](const Body& one) {
-      return coordinate < one.first_coordinate + one.num_coordinates();
-    });
-    const Eigen::Index k = coordinate - body->first_coordinate - 3;
-    effective = {body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k)};
-    w[coordinate] = 1.0;
-  } else {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(mass_.rows());
-    if (!giving.empty()) x(giving) = -mass_(giving, giving).llt().solve(mass_(giving, own).eval());
-    x[own] = 1.0;
-    effective = {x.dot(mass_ * x), std::max(0.0, x.dot(damping_ * x)), std::max(0.0, x.dot(stiffness_ * x))};
-    w = directions_ * x;
+  const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
+  Eigen::VectorXd x, part(static_cast<Eigen::Index>(giving.size()));
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    const auto found = std::find(independent_.begin(), independent_.end(), modal_[j]);
+    if (found == independent_.end()) {
+      effective_[j] = make_alone(modal_[j]);
+      continue;
+    }
+    const Eigen::Index own = found - independent_.begin();
+    x = Eigen::VectorXd::Zero(mass_.rows());
+    if (active_[j]) {
+      x[own] = 1.0;
+      part = x(giving);
+      factor.solveInPlace(part);
+      x(giving) = part;
+      x /= x[own];
+    } else {
+      part = -mass_(giving, own);
+      if (!giving.empty()) factor.solveInPlace(part);
+      x(giving) = part;
+      x[own] = 1.0;
+    }
+    effective_[j] = {.mass = x.dot(mass_ * x),
+                     .damping = std::max(0.0, x.dot(damping_ * x)),
+                     .stiffness = std::max(0.0, x.dot(stiffness_ * x)),
+                     .reach = {}};
+    for (const Eigen::MatrixXd& motion : reduced_motion_) effective_[j].reach.push_back((motion * x).norm());
   }
-  for (const Eigen::Matrix2Xd& motion : point_motion_) effective.reach = std::max(effective.reach, (motion * w).norm());
+}
+
+// A mode that the partition has follow from others, or all where there is none: as if nothing gave way.
+ModeIndicator::Effective ModeIndicator::make_alone(int coordinate) const {
+  const auto body = std::find_if(full_->bodies.begin(), full_->bodies.end(), [&](const Body& one) {
+    return coordinate < one.first_coordinate + one.num_coordinates();
+  });
+  const Eigen::Index k = coordinate - body->first_coordinate - 3;
+  Effective effective{body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k), {}};
+  for (const Eigen::Matrix2Xd& motion : point_motion_) effective.reach.push_back(motion.col(coordinate).norm());
   return effective;
 }
 
@@ -123,8 +149,13 @@ double ModeIndicator::frequency(std::size_t mode) const {
 
 ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
   // Never more than all: where the run bends less than the mode would, the mode is the deflection.
-  const double deflection = bending_[mode] * std::abs(amplitude), change = effective_[mode].reach * std::abs(acceleration);
-  return {deflection / std::max(largest_deflection_, deflection), change / std::max(largest_acceleration_, change)};
+  const double deflection = bending_[mode] * std::abs(amplitude);
+  ModeShare share{.deflection = deflection / std::max(largest_deflection_, deflection)};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double change = effective_[mode].reach[i] * std::abs(acceleration);
+    share.acceleration = std::max(share.acceleration, change / std::max(largest_acceleration_[i], change));
+  }
+  return share;
 }
 
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
@@ -133,11 +164,7 @@ void ModeIndicator::update(double time, const ConstrainedEquations& run, const E
   raise_references(q, v, v_dot);
   const double step = has_begun_ ? time - time_ : 0.0;
   for (std::size_t j = 0; j < modal_.size(); ++j) {
-    if (active_[j]) {
-      neglected_[j] = {};
-    } else {
-      follow(j, step);
-    }
+    if (!active_[j]) follow(j, step);
   }
   time_ = time;
   has_begun_ = true;
@@ -161,7 +188,7 @@ void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::Vect
     calc_marker_position(marker, rotation, q.segment(first, size), point_states_[i]);
     calc_marker_velocity(marker, rotation, v.segment(first, size), point_states_[i]);
     const double acceleration = calc_marker_acceleration(point_states_[i], v_dot.segment(first, size)).norm();
-    largest_acceleration_ = std::max(largest_acceleration_, acceleration);
+    largest_acceleration_[i] = std::max(largest_acceleration_[i], acceleration);
   }
 }
 
@@ -187,6 +214,7 @@ void ModeIndicator::follow(std::size_t mode, double step) {
           : std::abs(one.place);
   const double acceleration =
       std::hypot(force - 2.0 * decay * one.rate - stiffness * one.place, std::sqrt(stiffness) * one.rate);
+  left_out_[mode] = {amplitude, acceleration};
   neglected_[mode] = share(mode, amplitude, acceleration);
 }
 
@@ -194,16 +222,12 @@ void ModeIndicator::remember(Memory& memory) const {
   memory.time = time_;
   memory.has_begun = has_begun_;
   memory.oscillators = oscillators_;
-  memory.largest_deflection = largest_deflection_;
-  memory.largest_acceleration = largest_acceleration_;
 }
 
 void ModeIndicator::go_back(const Memory& memory) {
   time_ = memory.time;
   has_begun_ = memory.has_begun;
   oscillators_ = memory.oscillators;
-  largest_deflection_ = memory.largest_deflection;
-  largest_acceleration_ = memory.largest_acceleration;
 }
 
 }  // namespace sprung::dynamics

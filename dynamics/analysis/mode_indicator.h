@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 /// What a modal coordinate does, as a share of the largest that there has been so far.
 struct ModeShare {
   double deflection = 0.0;    ///< of any named point of a flexible body
-  double acceleration = 0.0;  ///< of the points asked for
+  double acceleration = 0.0;  ///< of that of the points asked for of which it is the largest
   double worst() const { return deflection > acceleration ? deflection : acceleration; }
 };
 
@@ -44,7 +44,13 @@ class ModeIndicator {
   void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
               const Eigen::VectorXd& v_dot);
 
-  /// Of the modes left out, at the last update: what they miss. Zero for active ones.
+  /// What a mode left out would do: amplitude of its coordinate and of that one's acceleration.
+  struct LeftOut {
+    double amplitude = 0.0, acceleration = 0.0;
+  };
+  /// At the last update. Zero for active ones.
+  const std::vector<LeftOut>& left_out() const { return left_out_; }
+  /// The same as shares of the largest so far.
   const std::vector<ModeShare>& neglected() const { return neglected_; }
   /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
@@ -59,12 +65,12 @@ class ModeIndicator {
     double place = 0.0, rate = 0.0;  ///< ξ, ξ̇
     double force = 0.0;              ///< r at the last update
   };
-  /// What has to be kept to go back to an instant.
+  /// What has to be kept to go back to an instant. The largest that shares refer to stay what they have become: they
+  /// are known then, though they are still to come.
   struct Memory {
     double time = 0.0;
     bool has_begun = false;
     std::vector<Oscillator> oscillators;
-    double largest_deflection = 0.0, largest_acceleration = 0.0;
   };
   void remember(Memory& memory) const;
   void go_back(const Memory& memory);
@@ -73,9 +79,10 @@ class ModeIndicator {
   // The mode with what gives way to it.
   struct Effective {
     double mass = 0.0, damping = 0.0, stiffness = 0.0;
-    double reach = 0.0;  // largest displacement of an asked point
+    std::vector<double> reach;  // displacement of each asked point
   };
-  Effective calc_effective(std::size_t mode) const;
+  void update_effective();
+  Effective make_alone(int coordinate) const;
   void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
   void follow(std::size_t mode, double step);
 
@@ -88,16 +95,19 @@ class ModeIndicator {
 
   // About the start: small motion in the independents.
   std::vector<int> independent_;
-  Eigen::MatrixXd mass_, damping_, stiffness_, directions_;
-  std::vector<Eigen::Matrix2Xd> point_motion_;  // of each point, per coordinate of `full`
+  Eigen::MatrixXd mass_, damping_, stiffness_;
+  std::vector<Eigen::Matrix2Xd> point_motion_;   // of each point, per coordinate of `full`
+  std::vector<Eigen::MatrixXd> reduced_motion_;  // per independent coordinate
 
   std::vector<Effective> effective_;
   std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
   std::vector<Oscillator> oscillators_;
+  std::vector<LeftOut> left_out_;
   std::vector<ModeShare> neglected_;
   double time_ = 0.0;
   bool has_begun_ = false;
-  double largest_deflection_ = 0.0, largest_acceleration_ = 0.0;
+  double largest_deflection_ = 0.0;
+  std::vector<double> largest_acceleration_;  // of each asked point
 };
 
 }  // namespace sprung::dynamics
