@@ -50,6 +50,7 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
   leg->held = std::move(held);
   leg->start = time;
   leg->num_modes = modes_->num_active_modes();
+  if (options_.changes) leg->held_strain = motion_->calc_held_strain(modes_->active());
   leg->stepper = make_stepper(options_.changes ? leg->held.model : *model_, integrator_, listener_.on_repartition);
   leg->stepper->start(motion_->state_for(leg->held, time, branches));
   return leg;
@@ -61,10 +62,15 @@ void AdaptiveStepper::evaluate(double time) {
 }
 
 SystemStepper::Observation AdaptiveStepper::observe(double time) {
-  if (!options_.changes) return leg_->stepper->observe(time);
-  evaluate(time);
-  motion_->take(leg_->held, equations());
-  return {motion_->calc_terms(time), motion_->q(), motion_->v(), motion_->v_dot(), equations().multipliers()};
+  evaluated_time_ = time;
+  Observation now = leg_->stepper->observe(time);
+  if (!options_.changes) return now;
+  motion_->take(leg_->held, now.equations);
+  return {.equations = now.equations,
+          .q = motion_->q(),
+          .v = motion_->v(),
+          .v_dot = motion_->v_dot(),
+          .held_strain = leg_->held_strain};
 }
 
 // The forces may have jumped: the indicator has to know before the next step.

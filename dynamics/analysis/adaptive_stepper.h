@@ -46,8 +46,9 @@ class AdaptiveStepper final : public SystemStepper {
   // A stretch of the run with one set of modes.
   struct Leg {
     HeldModes held;
-    double start = 0.0;  // [s]
-    int num_modes = 0;   // active
+    double start = 0.0;        // [s]
+    double held_strain = 0.0;  // [J]
+    int num_modes = 0;         // active
     std::unique_ptr<SystemStepper> stepper;  // of held.model where modes change: gone before it
   };
 

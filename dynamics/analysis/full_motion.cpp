@@ -22,11 +22,22 @@ void FullMotion::go_to(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   v_ = v;
 }
 
-const SystemTerms& FullMotion::calc_terms(double time) {
+void FullMotion::update_terms(double time) {
   terms_.update_positions(time, q_);
   terms_.update_mass();
   terms_.update_velocities(v_);
-  return terms_;
+}
+
+double FullMotion::calc_held_strain(const std::vector<bool>& is_active) const {
+  double strain = 0.0;
+  for (const Body& body : full_->bodies) {
+    Eigen::VectorXd eta = q_.segment(body.first_coordinate + 3, body.num_modes());
+    for (Eigen::Index k = 0; k < eta.size(); ++k) {
+      if (is_active[static_cast<std::size_t>(body.first_coordinate + 3 + k)]) eta[k] = 0.0;
+    }
+    strain += 0.5 * eta.dot(body.stiffness * eta);
+  }
+  return strain;
 }
 
 HeldModes FullMotion::hold(const std::vector<bool>& is_active, double time) {
@@ -58,13 +69,13 @@ void FullMotion::let_go(int coordinate, double force, double time, double durati
 // the joints do.
 double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
                         std::span<const int> branches) {
-  const SystemTerms& before = calc_terms(time);
-  const double energy = calc_energy(before, branches).total();
+  update_terms(time);
+  const double energy = calc_energy(terms_, branches).total();
   Eigen::VectorXd momentum(full_->num_coordinates);
   for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
     const Body& body = full_->bodies[b];
     momentum.segment(body.first_coordinate, body.num_coordinates()) =
-        before.mass(b) * v_.segment(body.first_coordinate, body.num_coordinates());
+        terms_.mass(b) * v_.segment(body.first_coordinate, body.num_coordinates());
   }
   for (const int coordinate : coordinates) v_[coordinate] = v_dot_[coordinate] = 0.0;
 
@@ -80,7 +91,8 @@ double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& he
   equations.close_rates(v);
   put_active(held, equations.q(), q_);
   put_active(held, equations.v(), v_);
-  return energy - calc_energy(calc_terms(time), branches).total();
+  update_terms(time);
+  return energy - calc_energy(terms_, branches).total();
 }
 
 }  // namespace sprung::dynamics

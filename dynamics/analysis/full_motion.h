@@ -24,8 +24,8 @@ class FullMotion {
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& v_dot() const { return v_dot_; }
-  /// The terms of the full model there, all markers; forces are not up to date.
-  const SystemTerms& calc_terms(double time);
+  /// Strain energy of the modes that are not active [J]; the others add theirs, as no stiffness couples them.
+  double calc_held_strain(const std::vector<bool>& is_active) const;
 
   /// A model in which all modes but the active ones are held where they are now; forces being let go act on it.
   /// @param is_active  for each coordinate of the full model
@@ -42,6 +42,8 @@ class FullMotion {
   double stop(const std::vector<int>& coordinates, const HeldModes& held, double time, std::span<const int> branches);
 
  private:
+  void update_terms(double time);
+
   const Model* full_;
   SystemTerms terms_;
   std::vector<FadingForce> fading_;  // `mode` is a coordinate of the full model

@@ -210,7 +210,7 @@ void GeneralizedAlphaStepper::evaluate(double time) {
 SystemStepper::Observation GeneralizedAlphaStepper::observe(double time) {
   evaluate(time);
   equations_.terms().update_all_markers();
-  return {equations_.terms(), equations_.q(), equations_.v(), equations_.v_dot(), equations_.multipliers()};
+  return {.equations = equations_, .q = equations_.q(), .v = equations_.v(), .v_dot = equations_.v_dot()};
 }
 
 SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "dynamics/analysis/linearisation.h"
-#include "dynamics/analysis/oscillator_response.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -126,8 +125,7 @@ void ModeIndicator::update_effective() {
     }
     effective_[j] = {.mass = x.dot(mass_ * x),
                      .damping = std::max(0.0, x.dot(damping_ * x)),
-                     .stiffness = std::max(0.0, x.dot(stiffness_ * x)),
-                     .reach = {}};
+                     .stiffness = std::max(0.0, x.dot(stiffness_ * x))};
     for (const Eigen::MatrixXd& motion : reduced_motion_) effective_[j].reach.push_back((motion * x).norm());
   }
 }
@@ -138,7 +136,7 @@ ModeIndicator::Effective ModeIndicator::make_alone(int coordinate) const {
     return coordinate < one.first_coordinate + one.num_coordinates();
   });
   const Eigen::Index k = coordinate - body->first_coordinate - 3;
-  Effective effective{body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k), {}};
+  Effective effective{body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k)};
   for (const Eigen::Matrix2Xd& motion : point_motion_) effective.reach.push_back(motion.col(coordinate).norm());
   return effective;
 }
@@ -194,14 +192,16 @@ void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::Vect
 
 // One mode left out, over a step in which the force went straight to where it is now.
 void ModeIndicator::follow(std::size_t mode, double step) {
-  const Effective& effective = effective_[mode];
+  Effective& effective = effective_[mode];
   const double mass = effective.mass, decay = 0.5 * effective.damping / mass, stiffness = effective.stiffness / mass;
   Oscillator& one = oscillators_[mode];
   const double before = one.force / mass;
   one.force = unbalanced_.force()[modal_[mode]];
   const double force = one.force / mass;
   if (step > 0.0) {
-    const OscillatorResponse r = calc_oscillator_response(stiffness, decay, step);
+    if (step != effective.step) effective.response = calc_oscillator_response(stiffness, decay, step);
+    effective.step = step;
+    const OscillatorResponse& r = effective.response;
     const double slope = (force - before) / step, place = one.place, rate = one.rate;
     one.place = r.c * place + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
     one.rate = r.c_rate * place + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;

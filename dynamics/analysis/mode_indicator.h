@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/analysis/oscillator_response.h"
 #include "dynamics/analysis/unbalanced_force.h"
 #include "dynamics/system/constrained_equations.h"
 
@@ -79,7 +80,9 @@ class ModeIndicator {
   // The mode with what gives way to it.
   struct Effective {
     double mass = 0.0, damping = 0.0, stiffness = 0.0;
-    std::vector<double> reach;  // displacement of each asked point
+    std::vector<double> reach = {};  // displacement of each asked point
+    double step = 0.0;               // that `response` is over
+    OscillatorResponse response = {};
   };
   void update_effective();
   Effective make_alone(int coordinate) const;

@@ -73,7 +73,7 @@ SystemStepper::Observation PartitionedStepper::observe(double time) {
   evaluate(time);
   ode_.equations().update_all_markers();
   const ConstrainedEquations& now = equations();
-  return {now.terms(), now.q(), now.v(), now.v_dot(), now.multipliers()};
+  return {.equations = now, .q = now.q(), .v = now.v(), .v_dot = now.v_dot()};
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

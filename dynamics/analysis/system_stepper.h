@@ -26,12 +26,13 @@ class SystemStepper {
     Statistics& operator+=(const Statistics& later);  ///< of steppers one after the other
   };
 
-  /// All there is to see at one instant, in coordinates of the model that the run was given; until the next call of
-  /// anything else.
+  /// All there is to see at one instant, until the next call of anything else.
   struct Observation {
-    const SystemTerms& terms;  ///< positions, mass and velocities up to date, all markers
+    /// The equations of the model that is run: positions, mass, velocities and accelerations up to date, all markers.
+    const ConstrainedEquations& equations;
+    /// In coordinates of the model that the run was given; modes that are held in the other are at rest.
     const Eigen::VectorXd &q, &v, &v_dot;
-    const Eigen::VectorXd& multipliers;
+    double held_strain = 0.0;  ///< strain energy of modes that are held [J]
   };
 
   virtual ~SystemStepper() = default;

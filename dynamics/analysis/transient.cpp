@@ -122,14 +122,15 @@ class TransientRun {
     const SystemStepper::Observation now = stepper_->observe(time);
     if (!options_.on_output) return;
     const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
+    Energy stored = calc_energy(now.equations.terms(), piece().branches());
+    stored.strain += now.held_strain;
     options_.on_output({.time = time,
-                        .terms = now.terms,
+                        .equations = now.equations,
                         .q = now.q,
                         .v = now.v,
                         .v_dot = now.v_dot,
-                        .multipliers = now.multipliers,
                         .branches = piece().branches(),
-                        .energy = {calc_energy(now.terms, piece().branches()), flow.dissipated, flow.input},
+                        .energy = {stored, flow.dissipated, flow.input},
                         .modes = adaptive_ ? &adaptive_->modes() : nullptr});
   }
 
@@ -145,6 +146,15 @@ class TransientRun {
 };
 
 }  // namespace
+
+Eigen::Vector2d Snapshot::calc_acceleration(std::size_t marker) const {
+  const Model& model = terms().model();
+  const int b = model.markers[marker].body;
+  if (b == kGround) return Eigen::Vector2d::Zero();
+  const Body& body = model.bodies[static_cast<std::size_t>(b)];
+  return calc_marker_acceleration(terms().markers()[marker],
+                                  equations.v_dot().segment(body.first_coordinate, body.num_coordinates()));
+}
 
 TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options) {
   return TransientRun(model, options).run(start);
