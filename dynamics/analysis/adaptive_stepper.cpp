@@ -51,7 +51,13 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
   leg->start = time;
   leg->num_modes = modes_->num_active_modes();
   if (options_.changes) leg->held_strain = motion_->calc_held_strain(modes_->active());
-  leg->stepper = make_stepper(options_.changes ? leg->held.model : *model_, integrator_, listener_.on_repartition);
+  const Model& model = options_.changes ? leg->held.model : *model_;
+  Integrator::Options integrator = integrator_;
+  // Where only modes are free and all have left, there is no small motion to know beforehand.
+  if (model.num_freedoms() == 0 && integrator.method == Integrator::Method::kExponential) {
+    integrator.method = Integrator::Method::kAdams;
+  }
+  leg->stepper = make_stepper(model, integrator, listener_.on_repartition);
   leg->stepper->start(motion_->state_for(leg->held, time, branches));
   return leg;
 }

@@ -54,9 +54,9 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
 }
 
 bool ModeAdaptation::misses_any() const {
-  const std::vector<ModeShare>& neglected = indicator_.neglected();
-  return std::any_of(neglected.begin(), neglected.end(),
-                     [this](const ModeShare& share) { return share.worst() > options_.recall; });
+  double square = 0.0;
+  for (const ModeShare& share : indicator_.neglected()) square += share.worst() * share.worst();
+  return square > options_.recall * options_.recall;
 }
 
 void ModeAdaptation::raise(LeftOut& largest) const {
@@ -68,11 +68,18 @@ void ModeAdaptation::raise(LeftOut& largest) const {
 }
 
 std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
-  std::vector<int> missed;
+  std::vector<std::pair<double, int>> left_out;
   for (const int coordinate : indicator_.modal_coordinates()) {
-    if (active_[static_cast<std::size_t>(coordinate)]) continue;
-    if (share_of(coordinate, largest).worst() > options_.recall) missed.push_back(coordinate);
+    if (!active_[static_cast<std::size_t>(coordinate)]) left_out.emplace_back(share_of(coordinate, largest).worst(), coordinate);
   }
+  std::sort(left_out.begin(), left_out.end());
+  // The smallest stay out as long as they come to less than the threshold together.
+  double square = 0.0;
+  auto first = left_out.begin();
+  while (first != left_out.end() && (square += first->first * first->first) <= options_.recall * options_.recall) ++first;
+  std::vector<int> missed;
+  for (; first != left_out.end(); ++first) missed.push_back(first->second);
+  std::sort(missed.begin(), missed.end());
   return missed;
 }
 

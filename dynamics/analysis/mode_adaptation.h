@@ -15,7 +15,7 @@ struct AdaptivityOptions {
   std::vector<bool> active;             ///< at the start, for each coordinate of `full`
   std::vector<int> points;              ///< markers whose motion is asked for
   bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
-  double recall = 5e-2;                 ///< share at which a mode joins
+  double recall = 8e-2;                 ///< share of all left out together at which modes join
   double drop = 2e-3;                   ///< share below which it may leave, < recall
   /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before modes join [s]
   double residence = 0.05;
