@@ -9,9 +9,13 @@ import numpy as np
 from results_file import ResultsError
 
 BASELINE = "baseline"  # dense equations under Dormand–Prince 5(4)
-METHODS = ("exponential", "adams", "bdf")  # as in run files
+METHODS = ("exponential", "adams", "bdf", "generalized-alpha")  # as in run files
 REFERENCE_METHOD, REFERENCE_TOLERANCE = "exponential", 1e-9
-LADDER = (3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7)
+LADDER = (
+    3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 3e-7, 1e-7,
+)  # fmt: skip
+CONFIRMATIONS = 2  # finer rungs that have to be good enough too
+LONG_RUN, TOO_LONG_RUN = 0.5, 8.0  # s: not repeated; the method is given up
 HIGH_PASS = 16.0  # Hz
 ALLOWED_HEIGHT = 1e-4  # m
 ALLOWED_SHARE = 0.01  # of peak and r.m.s. of the acceleration, and of the deflection
@@ -111,14 +115,17 @@ class Case:
         return json.loads(text), read_series(path)
 
     def measure(self, method, tolerance, repetitions):
-        """One rung of the ladder; the median of the repetitions."""
-        cost, series = self._run(method, tolerance, repetitions)
+        """One rung of the ladder; the median of the repetitions, of long runs the time of one."""
+        cost, series = self._run(method, tolerance, 1)
+        seconds = cost["seconds"]
+        if repetitions > 1 and seconds[0] < LONG_RUN:
+            seconds = self._run(method, tolerance, repetitions)[0]["seconds"]
         errors = calc_errors(series, self.reference)
-        return Rung(tolerance, cost["evaluations"], cost["steps"], float(np.median(cost["seconds"])), errors)
+        return Rung(tolerance, cost["evaluations"], cost["steps"], float(np.median(seconds)), errors)
 
     def climb(self, method, repetitions, ladder=LADDER, whole=False):
-        """Rungs from the loosest tolerance to the first that is good enough (whole: to the last of the ladder), and
-        that good one, None if none is."""
+        """Rungs from the loosest tolerance to the first that is good enough together with the next finer ones, so that
+        it is not so by chance (whole: to the last of the ladder), and that good one, None if none is. Runs that take too long end it."""
         rungs = []
         good = None
         for tolerance in ladder:
@@ -126,8 +133,11 @@ class Case:
                 rungs.append(self.measure(method, tolerance, repetitions))
             except ResultsError:
                 continue  # so loose that it could not go on
-            if good is None and rungs[-1].errors.allowed():
-                good = rungs[-1]
+            if rungs[-1].seconds > TOO_LONG_RUN:
+                break
+            last = rungs[-1 - CONFIRMATIONS :]
+            if good is None and len(last) > CONFIRMATIONS and all(rung.errors.allowed() for rung in last):
+                good = last[0]
                 if not whole:
                     break
         return rungs, good

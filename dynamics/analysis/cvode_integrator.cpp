@@ -56,6 +56,27 @@ void keep_message(int /*code*/, const char* /*module*/, const char* function, ch
   static_cast<Callback*>(data)->message = fmt::format("{}: {}", function, message);
 }
 
+std::string explain_stop(int code, const std::string& message) {
+  switch (code) {
+    case CV_TOO_MUCH_ACC:
+      return "the relative tolerance is finer than rounding allows this method; try a larger one, or method = "
+             "\"exponential\"";
+    case CV_CONV_FAILURE:
+      return "the iteration of a step does not converge; look at forces and positions just before that time, and where "
+             "springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
+    case CV_ERR_FAILURE:
+      return "the step has become too short; look at forces and positions just before that time";
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+    case CV_RTFUNC_FAIL:
+      return "no accelerations can be found there; look at forces and positions just before that time";
+    default:
+      return fmt::format("code {}: {}", code, message);
+  }
+}
+
 }  // namespace
 
 struct CvodeIntegrator::Memory {
@@ -140,9 +161,7 @@ Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {
     throw support::NumericalError(
-        fmt::format("integration stopped at t = {:.9g} s (code {}): {}; try a smaller relative tolerance, and look at "
-                    "forces and positions just before that time",
-                    time_, code, memory.callback.message));
+        fmt::format("integration stopped at t = {:.9g} s: {}", time_, explain_stop(code, memory.callback.message)));
   }
   if (code == CV_ROOT_RETURN) return StepResult::kSwitched;
   return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/analysis/frequency_solver.h"
 #include "tools/support/numerical_error.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kMaxIterations = 200;
 constexpr double kTolerance = 1e-12;        // last step, natural sizes
+constexpr double kRounding = 1e-10;         // steps below that no longer fall are made by rounding
 constexpr double kNeutralStiffness = 1e-9;  // of the largest stiffness-to-mass ratio
 constexpr double kNeutralForce = 1e-7;      // acceleration along a neutral direction, natural sizes/s²
 constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that is rounding, of the largest
@@ -153,14 +155,16 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     equilibrium.linearised.partition = equations.partition();
     return equilibrium;
   }
-  double damping = 0.0;
+  double damping = 0.0, last_step = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
     const ModalForce modal(model, system);
     const double newton_step = largest_natural(model, system.partition.independent, modal.calc_step(0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
-    if (!modal.is_falling && newton_step <= kTolerance) {
+    const bool is_rounding = newton_step <= kRounding && newton_step > 0.5 * last_step;
+    last_step = newton_step;
+    if (!modal.is_falling && (newton_step <= kTolerance || is_rounding)) {
       equilibrium.last_step = newton_step;
       equilibrium.iterations = iteration;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {

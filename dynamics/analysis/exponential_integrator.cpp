@@ -17,9 +17,12 @@ using lobatto::combine;
 using lobatto::cubic_weights;
 using lobatto::node_polynomial;
 
-constexpr double kFirstLength = 1e-3;       // s; too long a step is found out
-constexpr double kShortestStep = 1e-12;     // s
-constexpr double kSwitchTolerance = 1e-12;  // s
+constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
+constexpr double kShortestStep = 1e-12;  // s
+// Place of a switch: late by this, at a tolerance of 1, a force that sets in wrongs the velocity by far less
+// than is allowed.
+constexpr double kSwitchTolerance = 1e-5;        // s
+constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr int kMaxSweeps = 6;
 constexpr double kIterationShare = 0.3;    // error of the iteration, of what is allowed
@@ -59,17 +62,12 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
-  const Motion motion{Vector::Zero(2 * f_), Vector::Zero(num_quadratures_)};
-  end_ = difference_ = between_motion_ = motion;
-  stages_.fill(motion);
+  now_ = last_ = CollocationStep(f_, num_quadratures_);
+  prediction_ = DrivePrediction(f_, num_quadratures_);
+  end_ = difference_ = between_motion_ = now_.motion;
+  stages_.fill(now_.motion);
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
-  now_.motion = motion;
-  now_.drive.pairs = lobatto::NodeValues::Zero(2 * f_, kNumNodes);
-  now_.drive.rates = lobatto::NodeValues::Zero(num_quadratures_, kNumNodes);
-  now_.quartic_pairs = pairs_jump_ = motion.u;
-  now_.quartic_rates = rates_jump_ = motion.w;
-  last_ = now_;
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
 }
 
@@ -108,26 +106,19 @@ void ExponentialIntegrator::begin() {
   has_begun_ = true;
 }
 
-void ExponentialIntegrator::propagate(const LobattoPropagator& propagator, const Step& step,
-                                      Motion& motion) const {
-  propagator.apply(basis_.blocks, step.motion.u, step.drive.pairs, motion.u);
-  motion.w = step.motion.w;
-  for (int j = 0; j < kNumNodes; ++j) motion.w += propagator.integral_weight(j) * step.drive.rates.col(j);
-}
-
-void ExponentialIntegrator::to_physical(const Motion& motion, Vector& y) const {
+void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
   y.head(2 * f_).noalias() = basis_.T * motion.u;
   y.tail(num_quadratures_) = motion.w;
 }
 
 // Root mean square over the components of y, each by its size that is allowed.
-double ExponentialIntegrator::calc_norm(const Motion& difference) {
+double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
   to_physical(difference, difference_y_);
   return std::sqrt((difference_y_.array() / scales_.array()).square().mean());
 }
 
 // The drive at stage_y_, which `motion` stands for.
-bool ExponentialIntegrator::evaluate(double time, const Motion& motion, int node) {
+bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
   auto pairs = now_.drive.pairs.col(node);
@@ -139,53 +130,20 @@ bool ExponentialIntegrator::evaluate(double time, const Motion& motion, int node
                                {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
 }
 
-// The polynomial of the last step goes on; behind a switch, beside itself through the drive that holds there.
-void ExponentialIntegrator::predict_drive() {
-  Drive& drive = now_.drive;
-  if (past_ == Past::kNone) {
-    for (int j = 1; j < kNumNodes; ++j) {
-      drive.pairs.col(j) = drive.pairs.col(0);
-      drive.rates.col(j) = drive.rates.col(0);
-    }
-    return;
-  }
-  const double origin = (now_.start - last_.start) / last_.length;
-  const bool switched = past_ == Past::kSwitched;
-  if (switched) {
-    const lobatto::NodeWeights weights = cubic_weights(origin);
-    combine(last_.drive.pairs, weights, pairs_jump_);
-    combine(last_.drive.rates, weights, rates_jump_);
-    pairs_jump_ = drive.pairs.col(0) - pairs_jump_;
-    rates_jump_ = drive.rates.col(0) - rates_jump_;
-  }
-  for (int j = 1; j < kNumNodes; ++j) {
-    const double theta = origin + lobatto::node(j) * now_.length / last_.length;
-    const lobatto::NodeWeights weights = cubic_weights(theta);
-    combine(last_.drive.pairs, weights, drive.pairs.col(j));
-    combine(last_.drive.rates, weights, drive.rates.col(j));
-    if (switched) {
-      drive.pairs.col(j) += pairs_jump_;
-      drive.rates.col(j) += rates_jump_;
-    } else if (last_.has_quartic) {
-      drive.pairs.col(j) += node_polynomial(theta) * last_.quartic_pairs;
-      drive.rates.col(j) += node_polynomial(theta) * last_.quartic_rates;
-    }
-  }
-}
-
 // Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
 bool ExponentialIntegrator::iterate() {
   double last_change = 0.0;
   for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
     for (int i = 1; i < kNumNodes; ++i) {
       const auto node = static_cast<std::size_t>(i);
-      propagate(propagators_[node], now_, stages_[node]);
+      now_.propagate(propagators_[node], basis_.blocks, stages_[node]);
       to_physical(stages_[node], stage_y_);
       if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
+      if (sweep == 1) prediction_.learn(i, now_);
     }
     double change = 0.0;
     for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-      propagate(propagators_[node], now_, end_);
+      now_.propagate(propagators_[node], basis_.blocks, end_);
       difference_.u = end_.u - stages_[node].u;
       difference_.w.setZero();
       change = std::max(change, calc_norm(difference_));
@@ -204,30 +162,29 @@ bool ExponentialIntegrator::iterate() {
 
 // Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
 // before.
-void ExponentialIntegrator::evaluate_quartic() {
+void ExponentialIntegrator::estimate_quartic() {
   now_.has_quartic = past_ == Past::kSmooth;
   if (!now_.has_quartic) {
     const lobatto::NodeWeights third = kTruncationOfFirst * lobatto::third_degree_weights();
-    combine(now_.drive.pairs, third, now_.quartic_pairs);
-    combine(now_.drive.rates, third, now_.quartic_rates);
+    combine(now_.drive.pairs, third, now_.quartic.u);
+    combine(now_.drive.rates, third, now_.quartic.w);
     return;
   }
   const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
   const lobatto::NodeWeights weights = cubic_weights(theta);
-  combine(now_.drive.pairs, weights, now_.quartic_pairs);
-  combine(now_.drive.rates, weights, now_.quartic_rates);
+  combine(now_.drive.pairs, weights, now_.quartic.u);
+  combine(now_.drive.rates, weights, now_.quartic.w);
   const double divisor = node_polynomial(theta);
-  now_.quartic_pairs = (last_.drive.pairs.col(2) - now_.quartic_pairs) / divisor;
-  now_.quartic_rates = (last_.drive.rates.col(2) - now_.quartic_rates) / divisor;
+  now_.quartic.u = (last_.drive.pairs.col(2) - now_.quartic.u) / divisor;
+  now_.quartic.w = (last_.drive.rates.col(2) - now_.quartic.w) / divisor;
 }
 
 // What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
 double ExponentialIntegrator::calc_truncation() {
-  evaluate_quartic();
+  estimate_quartic();
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-    propagators_[node].apply_quartic(basis_.blocks, now_.quartic_pairs, difference_.u);
-    difference_.w = propagators_[node].integral_quartic() * now_.quartic_rates;
+    now_.propagate_quartic(propagators_[node], basis_.blocks, difference_);
     sum += std::pow(calc_norm(difference_), 2);
   }
   return std::sqrt(sum);
@@ -235,7 +192,8 @@ double ExponentialIntegrator::calc_truncation() {
 
 double ExponentialIntegrator::choose_length(double longest_step) const {
   const double left = end_time_ - time_;
-  const double length = std::min(next_length_, longest_step);
+  double length = std::min(next_length_, longest_step);
+  if (propagator_length_ <= length && length < kWorthwhile * propagator_length_) length = propagator_length_;
   if (length >= left * (1.0 - 1e-9)) return left;
   return 2.0 * length > left ? 0.5 * left : length;
 }
@@ -264,7 +222,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
       }
       propagator_length_ = now_.length;
     }
-    predict_drive();
+    prediction_.predict(last_, past_, now_);
     if (!iterate()) {
       ++statistics_.iteration_failures;
       contraction_ = kFirstContraction;
@@ -302,7 +260,8 @@ bool ExponentialIntegrator::finish_step() {
     return true;
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
-  propagate(propagators_[kNumNodes - 1], now_, end_);
+  now_.propagate(propagators_[kNumNodes - 1], basis_.blocks, end_);
+  now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
   to_physical(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
@@ -319,29 +278,33 @@ bool ExponentialIntegrator::locate_switch() {
   while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
     ++after;
   if (after == kNumNodes) return false;
-  const auto move_to = [this](double theta) {
+  double place = 0.0;  // of between_motion_
+  const auto move_to = [&](double theta) {
+    place = theta;
     between_.update(theta, now_.length, basis_.blocks);
-    propagate(between_, now_, between_motion_);
+    now_.propagate(between_, basis_.blocks, between_motion_);
+    now_.add_quartic(between_, basis_.blocks, between_motion_);
   };
-  const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / now_.length;
-  const double theta = switch_search_.locate(
-      lobatto::node(after - 1), lobatto::node(after), tolerance, switches_.col(after - 1),
-      switches_.col(after), [&](double place, Vector& values) {
-        move_to(place);
+  const double tolerance =
+      std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)}) / now_.length;
+  const double theta =
+      switch_search_.locate(lobatto::nodes(), switches_, after, tolerance, [&](double at, Vector& values) {
+        move_to(at);
         to_physical(between_motion_, stage_y_);
-        const double time = now_.start + place * now_.length;
+        const double time = now_.start + at * now_.length;
         if (!system_.calc_switches(time, span_of(stage_y_), span_of(values))) {
           throw_stopped(time, "no positions can be found there");
         }
       });
   time_ = now_.start + theta * now_.length;
-  move_to(theta);
+  if (theta != place) move_to(theta);
   return true;
 }
 
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
   between_.update((time - last_.start) / last_.length, last_.length, basis_.blocks);
-  propagate(between_, last_, between_motion_);
+  last_.propagate(between_, basis_.blocks, between_motion_);
+  last_.add_quartic(between_, basis_.blocks, between_motion_);
   to_physical(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }

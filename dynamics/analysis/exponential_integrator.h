@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "dynamics/analysis/collocation_step.h"
 #include "dynamics/analysis/integrator.h"
-#include "dynamics/analysis/lobatto_step.h"
 #include "dynamics/analysis/switch_search.h"
 
 namespace sprung::dynamics {
@@ -22,6 +22,7 @@ class ExponentialIntegrator final : public Integrator {
 
   void start(double time, std::span<const double> y, double end_time) override;
   StepResult step(double longest_step) override;
+  double largest_gap() const override { return lobatto::node(2) - lobatto::node(1); }
   double time() const override { return time_; }
   std::span<const double> y() const override { return {y_.data(), static_cast<std::size_t>(y_.size())}; }
   void interpolate(double time, std::span<double> y) const override;
@@ -31,42 +32,17 @@ class ExponentialIntegrator final : public Integrator {
   static constexpr int kNumNodes = lobatto::kNumNodes;
   using Vector = Eigen::VectorXd;
 
-  // Pairs, 2f, and quadratures at one instant.
-  struct Motion {
-    Vector u, w;
-  };
-  // What drives them at the nodes.
-  struct Drive {
-    lobatto::NodeValues pairs, rates;
-  };
-  // The start and the drive tell all of a step.
-  struct Step {
-    double start = 0.0, length = 0.0;  // [s]
-    Motion motion;
-    Drive drive;
-    Vector quartic_pairs, quartic_rates;  // coefficients of node_polynomial, estimated
-    bool has_quartic = false;
-  };
-  // What the forces at the nodes are predicted from.
-  enum class Past {
-    kNone,
-    kSwitched,  // last_ was cut off where now_ starts
-    kSmooth,    // last_ ended where now_ starts
-  };
-
   void linearise();
   void begin();
   double choose_length(double longest_step) const;
-  bool evaluate(double time, const Motion& motion, int node);
-  void evaluate_quartic();
-  void predict_drive();
+  bool evaluate(double time, const PairedMotion& motion, int node);
+  void estimate_quartic();
   bool iterate();
   double calc_truncation();
   bool finish_step();
   bool locate_switch();
-  void propagate(const LobattoPropagator& propagator, const Step& step, Motion& motion) const;
-  void to_physical(const Motion& motion, Vector& y) const;
-  double calc_norm(const Motion& difference);
+  void to_physical(const PairedMotion& motion, Vector& y) const;
+  double calc_norm(const PairedMotion& difference);
 
   OdeSystem& system_;
   double tolerance_;
@@ -81,23 +57,23 @@ class ExponentialIntegrator final : public Integrator {
 
   double time_ = 0.0, end_time_ = 0.0;
   double next_length_ = 0.0;
-  Vector y_;         // at time_
-  Step now_, last_;  // being made; finished
+  Vector y_;                    // at time_
+  CollocationStep now_, last_;  // being made; finished
+  DrivePrediction prediction_;
   bool has_begun_ = false;
   Past past_ = Past::kNone;
   double contraction_;                                    // of the iteration, from sweep to sweep
   double last_error_ = 0.0;                               // of the step before, of the tolerance
   std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
-  std::array<Motion, kNumNodes> stages_;
+  std::array<PairedMotion, kNumNodes> stages_;
   Eigen::MatrixXd switches_;  // num_switches × 4
   SwitchSearch switch_search_;
 
-  Motion end_, difference_;
+  PairedMotion end_, difference_;
   Vector y_dot_, scales_, stage_y_, difference_y_;
-  Vector pairs_jump_, rates_jump_;
   mutable LobattoPropagator between_;
-  mutable Motion between_motion_;
+  mutable PairedMotion between_motion_;
   mutable Vector between_y_;
 };
 

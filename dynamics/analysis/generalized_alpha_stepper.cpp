@@ -36,6 +36,7 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integ
       equations_(model, SystemTerms::Markers::kActing),
       step_(model, piece_, method_, options.relative_tolerance),
       next_length_(kFirstLength),
+      switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()) {
   q_ = v_ = Vector::Zero(model.num_coordinates);
 }
@@ -173,13 +174,16 @@ void GeneralizedAlphaStepper::finish_step(double length) {
 }
 
 bool GeneralizedAlphaStepper::locate_switch() {
+  static constexpr std::array<double, 2> kEnds = {0.0, 1.0};
   const auto span_of = [](Vector& x) { return std::span(x.data(), static_cast<std::size_t>(x.size())); };
   piece_.calc_switches(step_.residual().terms(), span_of(step_.end().switches));
   if (!SwitchSearch::any_crosses(step_.begin().switches, step_.end().switches)) return false;
   const double from = step_.begin().motion.time, length = step_.end().motion.time - from;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
-  const double theta = switch_search_.locate(
-      0.0, 1.0, tolerance, step_.begin().switches, step_.end().switches, [&](double place, Vector& values) {
+  switches_.col(0) = step_.begin().switches;
+  switches_.col(1) = step_.end().switches;
+  const double theta =
+      switch_search_.locate(kEnds, switches_, 1, tolerance, [&](double place, Vector& values) {
         step_.interpolate(from + place * length, q_, v_, energy_);
         step_.residual().terms().update_positions(piece_.evaluation_time(from + place * length), q_);
         step_.residual().terms().update_velocities(v_);

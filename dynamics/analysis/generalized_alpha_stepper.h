@@ -62,6 +62,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
 
   Vector q_, v_;  // within a step
   Pair energy_ = Pair::Zero();
+  Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
   SwitchSearch switch_search_;
 };
 

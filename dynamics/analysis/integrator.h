@@ -40,6 +40,8 @@ class Integrator {
   /// One step of at most `longest_step`.
   /// @throws support::NumericalError with the time and the reason
   virtual StepResult step(double longest_step) = 0;
+  /// Share of a step in which no forces are looked at.
+  virtual double largest_gap() const { return 1.0; }
 
   virtual double time() const = 0;                ///< end of the last step, or of its part up to a switch
   virtual std::span<const double> y() const = 0;  ///< at time()

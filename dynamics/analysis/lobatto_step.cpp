@@ -36,8 +36,8 @@ const Eigen::Matrix4d& coefficients() {
 
 }  // namespace
 
-double lobatto::node(int j) {
-  return kNode[static_cast<std::size_t>(j)];
+const std::array<double, kNumNodes>& lobatto::nodes() {
+  return kNode;
 }
 
 lobatto::NodeWeights lobatto::cubic_weights(double theta) {
@@ -120,14 +120,14 @@ void LobattoPropagator::apply(const PairBlocks& blocks, const Eigen::VectorXd& s
   }
 }
 
-void LobattoPropagator::apply_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients,
+void LobattoPropagator::add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients,
                                       Eigen::VectorXd& u) const {
   const Eigen::Index f = blocks.size();
   for (Eigen::Index m = 0; m < f; ++m) {
     const double g1 = coefficients[m], g2 = coefficients[f + m];
     const double a = alpha_quartic_[m], b = beta_quartic_[m];
-    u[m] = a * g1 + b * (blocks.b11[m] * g1 + blocks.b12[m] * g2);
-    u[f + m] = a * g2 + b * (blocks.b21[m] * g1 + blocks.b22[m] * g2);
+    u[m] += a * g1 + b * (blocks.b11[m] * g1 + blocks.b12[m] * g2);
+    u[f + m] += a * g2 + b * (blocks.b21[m] * g1 + blocks.b22[m] * g2);
   }
 }
 

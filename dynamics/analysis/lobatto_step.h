@@ -14,7 +14,8 @@ constexpr int kNumNodes = 4;
 using NodeWeights = Eigen::Vector4d;
 using NodeValues = Eigen::Matrix<double, Eigen::Dynamic, kNumNodes>;  ///< a column for each node
 
-double node(int j);
+const std::array<double, kNumNodes>& nodes();
+inline double node(int j) { return nodes()[static_cast<std::size_t>(j)]; }
 /// Weights of the values at the nodes for the value of the cubic through them at θ.
 NodeWeights cubic_weights(double theta);
 /// (θ − c₀)(θ − c₁)(θ − c₂)(θ − c₃): what a quartic has beyond its cubic.
@@ -46,8 +47,8 @@ class LobattoPropagator {
   /// u ← e^{Bt} u₀ + the response to the drive. @param start, u  2f @param drive  2f×4
   void apply(const PairBlocks& blocks, const Eigen::VectorXd& start, const lobatto::NodeValues& drive,
              Eigen::VectorXd& u) const;
-  /// Response to a drive of node_polynomial(θ) times `coefficients`, 2f.
-  void apply_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
+  /// u += the response to a drive of node_polynomial(θ) times `coefficients`, 2f.
+  void add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
 
   double integral_weight(int j) const {
     return integral_[static_cast<std::size_t>(j)];

@@ -21,7 +21,9 @@ class PartitionedStepper final : public SystemStepper {
   void resume(double end_time) override;
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return is_running_ ? integrator_->time() : start_time_; }
-  double calc_longest_step() const override { return ode_.piece().calc_longest_step(equations().terms()); }
+  double calc_longest_step() const override {
+    return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
+  }
   void evaluate(double time) override;
   void look() override;
   Observation observe(double time) override;

@@ -2,16 +2,17 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 namespace sprung::dynamics {
 
-/// Finds the first zero of several functions of one variable between two places, by the Illinois rule.
-/// Allocates nothing. Source: [Dowell & Jarratt 1971]
+/// Finds the first zero of several functions of one variable, by cubics through four places around it.
+/// Allocates nothing. Source: interpolation after Newton; halving where that is slow.
 class SwitchSearch {
  public:
-  explicit SwitchSearch(Eigen::Index num_switches) {
-    low_ = high_ = between_ = Eigen::VectorXd::Zero(num_switches);
-  }
+  explicit SwitchSearch(Eigen::Index num_switches) : values_(num_switches, kMaxPlaces), new_(num_switches) {}
 
   /// Whether one of the values changes its sign, or becomes zero.
   template <class Before, class After>
@@ -22,41 +23,115 @@ class SwitchSearch {
     return false;
   }
 
-  /// @param at_low, at_high  the values there; some of them cross
-  /// @param evaluate         (theta, values) → values at theta
-  /// @return a place within `tolerance` behind the first zero
+  /// @param places    2 to 4, increasing
+  /// @param values    a column for each of them
+  /// @param after     the place before which, and behind the one before it, functions cross
+  /// @param evaluate  (theta, values) → values at theta
+  /// @return a place within `tolerance` behind the first zero, as near as the cubic knows it
   template <class Evaluate>
-  double locate(double low, double high, double tolerance, const Eigen::Ref<const Eigen::VectorXd>& at_low,
-                const Eigen::Ref<const Eigen::VectorXd>& at_high, const Evaluate& evaluate) {
-    low_ = at_low;
-    high_ = at_high;
-    double weight = 1.0;  // of the value at `high`
-    int last_moved = 0;
-    for (int iteration = 0; iteration < kMaxIterations && high - low > tolerance; ++iteration) {
-      double theta = high;
-      for (Eigen::Index i = 0; i < low_.size(); ++i) {
-        if (!crosses(low_[i], high_[i])) continue;
-        theta = std::min(theta, low + (high - low) * low_[i] / (low_[i] - weight * high_[i]));
+  double locate(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values, int after,
+                double tolerance, const Evaluate& evaluate) {
+    begin(places, values, after);
+    double width = high() - low();
+    for (int iteration = 1; iteration <= kMaxIterations && high() - low() > tolerance; ++iteration) {
+      const double zero = predict();
+      if (iteration > 1 && high() - zero <= tolerance) break;
+      double theta = zero + 0.5 * tolerance;  // so that it comes to lie behind
+      if (iteration % 3 == 0) {
+        if (high() - low() > 0.5 * width) theta = 0.5 * (low() + high());
+        width = high() - low();
       }
-      theta = std::clamp(theta, low + 0.5 * tolerance, high - 0.5 * tolerance);
-      evaluate(theta, between_);
-      const bool is_behind = any_crosses(low_, between_);
-      (is_behind ? high : low) = theta;
-      (is_behind ? high_ : low_).swap(between_);
-      const int moved = is_behind ? 1 : -1;
-      weight = moved != last_moved ? 1.0 : is_behind ? 2.0 * weight : 0.5 * weight;
-      last_moved = moved;
+      theta = std::clamp(theta, low() + 0.5 * tolerance, high() - 0.5 * tolerance);
+      evaluate(theta, new_);
+      take(theta);
     }
-    return high;
+    return high();
   }
 
  private:
-  static constexpr int kMaxIterations = 100;
+  static constexpr int kMaxPlaces = 4, kMaxIterations = 100;
+
   static bool crosses(double before, double after) {
     return before * after < 0.0 || (after == 0.0 && before != 0.0);
   }
+  double low() const { return places_[0]; }
+  double high() const { return places_[1]; }
 
-  Eigen::VectorXd low_, high_, between_;
+  void begin(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values, int after) {
+    num_places_ = 0;
+    const auto add = [&](int column) {
+      places_[static_cast<std::size_t>(num_places_)] = places[static_cast<std::size_t>(column)];
+      values_.col(num_places_++) = values.col(column);
+    };
+    add(after - 1);
+    add(after);
+    for (int j = 0; j < static_cast<int>(places.size()); ++j) {
+      if (j != after - 1 && j != after) add(j);
+    }
+  }
+
+  // new_ at theta becomes the lower or the upper end; the farthest of the other places is forgotten.
+  void take(double theta) {
+    const std::size_t end = any_crosses(values_.col(0), new_) ? 1 : 0;
+    num_places_ = std::min(num_places_ + 1, kMaxPlaces);
+    for (const auto& [to, from] : {std::array<std::size_t, 2>{3, 2}, {2, end}}) {
+      places_[to] = places_[from];
+      values_.col(static_cast<Eigen::Index>(to)) = values_.col(static_cast<Eigen::Index>(from));
+    }
+    places_[end] = theta;
+    values_.col(static_cast<Eigen::Index>(end)) = new_;
+  }
+
+  // First zero of the polynomials through all places, of those functions that cross between low and high.
+  double predict() const {
+    double first = high();
+    for (Eigen::Index i = 0; i < values_.rows(); ++i) {
+      if (crosses(values_(i, 0), values_(i, 1))) first = std::min(first, predict(i));
+    }
+    return first;
+  }
+
+  double predict(Eigen::Index i) const {
+    std::array<double, kMaxPlaces> c{};  // divided differences
+    const auto n = static_cast<std::size_t>(num_places_);
+    for (std::size_t k = 0; k < n; ++k) c[k] = values_(i, static_cast<Eigen::Index>(k));
+    for (std::size_t order = 1; order < n; ++order) {
+      for (std::size_t k = n - 1; k >= order; --k)
+        c[k] = (c[k] - c[k - 1]) / (places_[k] - places_[k - order]);
+    }
+    const auto value = [&](double theta) {
+      double sum = 0.0;
+      for (std::size_t k = n; k-- > 0;) sum = sum * (theta - places_[k]) + c[k];
+      return sum;
+    };
+    return find_zero(value, values_(i, 0), values_(i, 1));
+  }
+
+  // By the Illinois rule [Dowell & Jarratt 1971]. The value at high may be 0.
+  template <class Function>
+  double find_zero(const Function& value, double at_low, double at_high) const {
+    double a = low(), b = high(), f_a = at_low, f_b = at_high;
+    for (int iteration = 0; iteration < kMaxIterations && f_b != 0.0; ++iteration) {
+      if (std::abs(b - a) <= kZeroShare * (high() - low())) break;
+      const double x = b - f_b * (b - a) / (f_b - f_a);
+      const double f = value(x);
+      if (f * f_b < 0.0) {
+        a = b;
+        f_a = f_b;
+      } else {
+        f_a *= 0.5;
+      }
+      b = x;
+      f_b = f;
+    }
+    return b;
+  }
+  static constexpr double kZeroShare = 1e-13;
+
+  int num_places_ = 0;
+  std::array<double, kMaxPlaces> places_{};  // low, high, and others in the order in which they are forgotten
+  Eigen::MatrixXd values_;
+  Eigen::VectorXd new_;
 };
 
 }  // namespace sprung::dynamics

@@ -42,7 +42,7 @@ struct Request {
 using Row = std::array<double, 4>;
 
 struct Cost {
-  long evaluations = 0, steps = 0;
+  long evaluations = 0, steps = 0, rejected = 0, unsettled = 0, switches = 0;
 };
 
 double thread_seconds() {
@@ -84,7 +84,7 @@ Cost run_once(const dynamics::PreparedRun& prepared, const Request& request, dou
       };
     }
     const auto statistics = baseline.run(duration, tolerance, kLargestBaselineStep, kOutputStep, output);
-    return {statistics.evaluations, statistics.steps};
+    return {statistics.evaluations, statistics.steps, statistics.rejected, 0, 0};
   }
   dynamics::TransientOptions options;
   options.end_time = duration;
@@ -96,7 +96,9 @@ Cost run_once(const dynamics::PreparedRun& prepared, const Request& request, dou
     };
   }
   const dynamics::TransientStatistics statistics = run_transient(prepared.model, prepared.start, options);
-  return {statistics.stepper.evaluations, statistics.stepper.integrator.steps};
+  const auto& integrator = statistics.stepper.integrator;
+  return {statistics.stepper.evaluations, integrator.steps, integrator.error_test_failures,
+          integrator.iteration_failures, statistics.switches};
 }
 
 void benchmark_tolerance(const dynamics::PreparedRun& prepared, const Request& request, double tolerance,
@@ -115,9 +117,10 @@ void benchmark_tolerance(const dynamics::PreparedRun& prepared, const Request& r
     seconds += fmt::format("{}{:.6e}", i > 0 ? ", " : "", thread_seconds() - start);
   }
   fmt::print(
-      R"({{"method": "{}", "modes": {}, "tolerance": {:g}, "evaluations": {}, "steps": {}, "seconds": [{}]}})"
+      R"({{"method": "{}", "modes": {}, "tolerance": {:g}, "evaluations": {}, "steps": {}, "rejected": {}, "unsettled": {}, "switches": {}, "seconds": [{}]}})"
       "\n",
-      request.method, request.num_modes, tolerance, cost.evaluations, cost.steps, seconds);
+      request.method, request.num_modes, tolerance, cost.evaluations, cost.steps, cost.rejected,
+      cost.unsettled, cost.switches, seconds);
 }
 
 int run(int argc, char** argv) {

@@ -41,17 +41,22 @@ class Judging(unittest.TestCase):
         for name, value in (("height", 1.1e-4), ("peak", 0.011), ("rms", 0.011), ("deflection", 0.011)):
             self.assertFalse(good._replace(**{name: value}).allowed())
 
-    def test_the_climb_ends_at_the_loosest_tolerance_that_is_good_enough(self):
-        case = Case.__new__(Case)  # without programs: errors in proportion to the tolerance
+    def climb(self, errors, seconds=1.0, **options):
+        """Tolerances of the rungs, and of the good one. errors: of the height in units of what is allowed, by rung."""
+        case = Case.__new__(Case)  # without programs
+        heights = {10.0**-i: 1e-4 * error for i, error in enumerate(errors)}
         case.measure = lambda method, tolerance, repetitions: Rung(
-            tolerance, 10, 5, 1.0, Errors(tolerance, 0.0, 0.0, 0.0)
+            tolerance, 10, 5, seconds, Errors(heights[tolerance], 0.0, 0.0, 0.0)
         )
-        rungs, good = case.climb("adams", 1, ladder=(1e-2, 1e-3, 1e-4, 1e-5))
-        self.assertEqual([rung.tolerance for rung in rungs], [1e-2, 1e-3, 1e-4])
-        self.assertEqual(good.tolerance, 1e-4)
-        rungs, good = case.climb("adams", 1, ladder=(1e-2, 1e-4, 1e-5), whole=True)
-        self.assertEqual((len(rungs), good.tolerance), (3, 1e-4))
-        self.assertIsNone(case.climb("adams", 1, ladder=(1e-2,))[1])
+        rungs, good = case.climb("adams", 1, ladder=tuple(heights), **options)
+        return [rung.tolerance for rung in rungs], good and good.tolerance
+
+    def test_the_climb_ends_at_the_loosest_tolerance_that_is_good_enough_with_the_next_two(self):
+        self.assertEqual(self.climb((9, 2, 0.9, 0.2, 0.1, 0.1)), ([1.0, 0.1, 0.01, 1e-3, 1e-4], 0.01))
+        self.assertEqual(self.climb((9, 0.9, 2, 0.9, 0.2, 0.1))[1], 1e-3)  # once by chance
+        self.assertEqual(self.climb((0.9, 0.9, 0.9, 2), whole=True), ([1.0, 0.1, 0.01, 1e-3], 1.0))
+        self.assertIsNone(self.climb((0.9, 0.9))[1])
+        self.assertEqual(self.climb((0.9, 0.9, 0.9), seconds=9.0), ([1.0], None))
 
     def test_ratios_are_to_the_fastest_rigid_run_and_of_the_baseline(self):
         def rung(seconds):

@@ -161,6 +161,17 @@ TEST_CASE("Where the equations cannot be evaluated the run stops with the time a
   }
 }
 
+TEST_CASE("A tolerance beyond rounding is told as such", "[analysis]") {
+  Oscillator oscillator;
+  const auto integrator = make_integrator(oscillator, {.method = Method::kAdams, .relative_tolerance = 1e-18});
+  integrator->start(0.0, std::array{1.0, 0.0}, 10.0);
+  const auto run = [&] {
+    while (integrator->step(kInfinity) == Integrator::StepResult::kStepped) {
+    }
+  };
+  CHECK_THROWS_WITH(run(), Contains("finer than rounding") && Contains("try a larger one"));
+}
+
 TEST_CASE("The exponential method takes motion that it knows beforehand in a few steps", "[analysis]") {
   // 10 000 rad/s for 10 s: 16 000 periods.
   class Stiff final : public dynamics::OdeSystem {
