@@ -23,7 +23,20 @@ ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& st
   if (active_.size() != static_cast<std::size_t>(options.full->num_coordinates)) {
     throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
   }
+  extremes_.resize(indicator_.num_modes());
   indicator_.set_active(active_);
+}
+
+WorstNeglect ModeAdaptation::worst() const {
+  WorstNeglect worst;
+  for (std::size_t j = 0; j < extremes_.size(); ++j) {
+    const Extreme& extreme = extremes_[j];
+    const ModeShare share = indicator_.share(j, extreme.amplitude, extreme.acceleration);
+    if (!(share.worst() > worst.share.worst())) continue;
+    const bool is_deflection = share.deflection > share.acceleration;
+    worst = {share, indicator_.modal_coordinates()[j], is_deflection ? extreme.amplitude_time : extreme.acceleration_time};
+  }
+  return worst;
 }
 
 int ModeAdaptation::num_active_modes() const {
@@ -39,8 +52,16 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
   for (std::size_t j = 0; j < modal.size(); ++j) {
     const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
     if (!indicator_.is_active(j)) {
-      const ModeShare& share = indicator_.neglected()[j];
-      if (share.worst() > worst_.share.worst() || worst_.coordinate < 0) worst_ = {share, modal[j], time};
+      const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
+      Extreme& extreme = extremes_[j];
+      if (now.amplitude > extreme.amplitude) {
+        extreme.amplitude = now.amplitude;
+        extreme.amplitude_time = time;
+      }
+      if (now.acceleration > extreme.acceleration) {
+        extreme.acceleration = now.acceleration;
+        extreme.acceleration_time = time;
+      }
       continue;
     }
     std::optional<Window>& window = windows_[j];
@@ -140,13 +161,13 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
 void ModeAdaptation::remember(Memory& memory) const {
   indicator_.remember(memory.indicator);
   memory.windows = windows_;
-  memory.worst = worst_;
+  memory.extremes = extremes_;
 }
 
 void ModeAdaptation::go_back(const Memory& memory) {
   indicator_.go_back(memory.indicator);
   windows_ = memory.windows;
-  worst_ = memory.worst;
+  extremes_ = memory.extremes;
 }
 
 }  // namespace sprung::dynamics

@@ -66,15 +66,21 @@ class ModeAdaptation {
     double low = 0.0, high = 0.0, largest_acceleration = 0.0;
     double share = 0.0;  ///< of range and acceleration
   };
+  /// The largest that a mode has been left out with, and when.
+  struct Extreme {
+    double amplitude = 0.0, amplitude_time = 0.0;
+    double acceleration = 0.0, acceleration_time = 0.0;
+  };
   /// What has to be kept to take a step back to the last update.
   struct Memory {
     ModeIndicator::Memory indicator;
     std::vector<std::optional<Window>> windows;
-    WorstNeglect worst;
+    std::vector<Extreme> extremes;
   };
   void remember(Memory& memory) const;
   void go_back(const Memory& memory);
-  const WorstNeglect& worst() const { return worst_; }
+  /// Of the run up to the last update, as shares of what was largest in all of it.
+  WorstNeglect worst() const;
 
  private:
 
@@ -85,7 +91,7 @@ class ModeAdaptation {
   std::vector<bool> active_;
   std::vector<std::optional<Window>> windows_;  // by mode
   double last_change_;
-  WorstNeglect worst_;
+  std::vector<Extreme> extremes_;               // by mode
 };
 
 }  // namespace sprung::dynamics
