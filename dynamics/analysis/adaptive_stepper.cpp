@@ -110,9 +110,13 @@ Integrator::StepResult AdaptiveStepper::step(double longest_step) {
     step_start_ = time();
     modes_->remember(memory_);
     largest_.clear();
+    modes_->raise(largest_);
     const Integrator::StepResult result = leg_->stepper->step(longest_step);
     is_plain_ = result == Integrator::StepResult::kStepped;
-    if (!follow_step()) return result;
+    if (!follow_step()) {
+      modes_->note(time(), largest_);
+      return result;
+    }
     take_back(result);
   }
 }
@@ -129,7 +133,7 @@ bool AdaptiveStepper::follow_step() {
   const double begin = watched_time_, end = time(), length = end - begin;
   if (!(length > 0.0)) return false;
   const int parts = static_cast<int>(std::clamp(std::ceil(length / kLongestUnseen), 1.0, kMostParts));
-  bool misses = false;
+  bool misses = options_.changes && modes_->misses_any();  // forces may have jumped at its start
   for (int i = 1; i <= parts; ++i) {
     const double time = i == parts ? end : begin + length * i / parts;
     if (i == parts) {
@@ -138,9 +142,8 @@ bool AdaptiveStepper::follow_step() {
       leg_->stepper->evaluate(time);
     }
     watch(time);
-    if (!options_.changes) continue;
     modes_->raise(largest_);
-    misses |= modes_->misses_any();
+    misses |= options_.changes && modes_->misses_any();
   }
   return misses;
 }

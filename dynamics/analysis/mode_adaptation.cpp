@@ -27,6 +27,20 @@ ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& st
   indicator_.set_active(active_);
 }
 
+void ModeAdaptation::note(double time, const LeftOut& largest) {
+  for (std::size_t j = 0; j < extremes_.size(); ++j) {
+    Extreme& extreme = extremes_[j];
+    if (largest[j].amplitude > extreme.amplitude) {
+      extreme.amplitude = largest[j].amplitude;
+      extreme.amplitude_time = time;
+    }
+    if (largest[j].acceleration > extreme.acceleration) {
+      extreme.acceleration = largest[j].acceleration;
+      extreme.acceleration_time = time;
+    }
+  }
+}
+
 WorstNeglect ModeAdaptation::worst() const {
   WorstNeglect worst;
   for (std::size_t j = 0; j < extremes_.size(); ++j) {
@@ -51,19 +65,7 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
   const std::vector<int>& modal = indicator_.modal_coordinates();
   for (std::size_t j = 0; j < modal.size(); ++j) {
     const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
-    if (!indicator_.is_active(j)) {
-      const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
-      Extreme& extreme = extremes_[j];
-      if (now.amplitude > extreme.amplitude) {
-        extreme.amplitude = now.amplitude;
-        extreme.amplitude_time = time;
-      }
-      if (now.acceleration > extreme.acceleration) {
-        extreme.acceleration = now.acceleration;
-        extreme.acceleration_time = time;
-      }
-      continue;
-    }
+    if (!indicator_.is_active(j)) continue;
     std::optional<Window>& window = windows_[j];
     if (!window) window = {time, eta, eta, acceleration, 0.0};
     window->low = std::min(window->low, eta);
@@ -161,13 +163,11 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
 void ModeAdaptation::remember(Memory& memory) const {
   indicator_.remember(memory.indicator);
   memory.windows = windows_;
-  memory.extremes = extremes_;
 }
 
 void ModeAdaptation::go_back(const Memory& memory) {
   indicator_.go_back(memory.indicator);
   windows_ = memory.windows;
-  extremes_ = memory.extremes;
 }
 
 }  // namespace sprung::dynamics

@@ -75,11 +75,12 @@ class ModeAdaptation {
   struct Memory {
     ModeIndicator::Memory indicator;
     std::vector<std::optional<Window>> windows;
-    std::vector<Extreme> extremes;
   };
   void remember(Memory& memory) const;
   void go_back(const Memory& memory);
-  /// Of the run up to the last update, as shares of what was largest in all of it.
+  /// Takes down what was largest in a step that is final. @param time  its end [s]
+  void note(double time, const LeftOut& largest);
+  /// Of what was noted, as shares of what was largest in all of the run.
   WorstNeglect worst() const;
 
  private:
