@@ -110,8 +110,10 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing,
                                kCutShare * std::max(tolerance, kLeastTolerance));
   if (measure.is_cut_short()) {
-    choice.remarks.push_back(fmt::format("frequencies above {:.4g} Hz are left out of the prediction",
-                                         measure.forcing().frequency(measure.num_lines() - 1)));
+    choice.remarks.push_back(
+        fmt::format("frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of one of the "
+                    "quantities lie there, and modes above may be worth more than is said",
+                    measure.forcing().frequency(measure.num_lines() - 1), 100.0 * measure.share_above()));
   }
 
   // Each mode by itself, then each cluster, then the clusters left out one after the other.

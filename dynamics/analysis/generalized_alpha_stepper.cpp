@@ -211,7 +211,12 @@ void GeneralizedAlphaStepper::evaluate(double time) {
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
   statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
+}
+
+SystemStepper::Observation GeneralizedAlphaStepper::observe(double time) {
+  evaluate(time);
   equations_.terms().update_all_markers();
+  return {.equations = equations_, .q = equations_.q(), .v = equations_.v(), .v_dot = equations_.v_dot()};
 }
 
 SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {

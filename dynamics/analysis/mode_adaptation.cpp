@@ -3,32 +3,54 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kJoinsToo = 0.25;     // of the recall threshold: what joins when another has passed it
+constexpr double kLeaveTogether = 0.2;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
 
 }  // namespace
-
-struct ModeAdaptation::Memory {
-  ModeIndicator::Memory indicator;
-  std::vector<std::optional<Window>> windows;
-  WorstNeglect worst;
-};
 
 ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& start)
     : options_(options),
       indicator_(*options.full, start.time, start.q, options.points),
       active_(options.active),
       windows_(indicator_.num_modes()),
-      last_leaving_(start.time) {
+      last_change_(start.time) {
   if (active_.size() != static_cast<std::size_t>(options.full->num_coordinates)) {
     throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
   }
+  extremes_.resize(indicator_.num_modes());
   indicator_.set_active(active_);
+}
+
+void ModeAdaptation::note(double time, const LeftOut& largest) {
+  for (std::size_t j = 0; j < extremes_.size(); ++j) {
+    Extreme& extreme = extremes_[j];
+    if (largest[j].amplitude > extreme.amplitude) {
+      extreme.amplitude = largest[j].amplitude;
+      extreme.amplitude_time = time;
+    }
+    if (largest[j].acceleration > extreme.acceleration) {
+      extreme.acceleration = largest[j].acceleration;
+      extreme.acceleration_time = time;
+    }
+  }
+}
+
+WorstNeglect ModeAdaptation::worst() const {
+  WorstNeglect worst;
+  for (std::size_t j = 0; j < extremes_.size(); ++j) {
+    const Extreme& extreme = extremes_[j];
+    const ModeShare share = indicator_.share(j, extreme.amplitude, extreme.acceleration);
+    if (!(share.worst() > worst.share.worst())) continue;
+    const bool is_deflection = share.deflection > share.acceleration;
+    worst = {share, indicator_.modal_coordinates()[j], is_deflection ? extreme.amplitude_time : extreme.acceleration_time};
+  }
+  return worst;
 }
 
 int ModeAdaptation::num_active_modes() const {
@@ -37,50 +59,74 @@ int ModeAdaptation::num_active_modes() const {
                                         [this](int i) { return active_[static_cast<std::size_t>(i)]; }));
 }
 
-void ModeAdaptation::update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                            const Eigen::VectorXd& v_dot, const Eigen::VectorXd& multipliers,
-                            std::span<const int> branches) {
-  indicator_.update(time, q, v, v_dot, multipliers, branches);
+void ModeAdaptation::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+  indicator_.update(time, run, q, v, v_dot);
   const std::vector<int>& modal = indicator_.modal_coordinates();
   for (std::size_t j = 0; j < modal.size(); ++j) {
     const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
-    if (!indicator_.is_active(j)) {
-      const ModeShare& share = indicator_.neglected()[j];
-      if (share.worst() > worst_.share.worst() || worst_.coordinate < 0) worst_ = {share, modal[j], time};
-      continue;
-    }
+    if (!indicator_.is_active(j)) continue;
     std::optional<Window>& window = windows_[j];
-    if (!window) window = {time, eta, eta, acceleration};
+    if (!window) window = {time, eta, eta, acceleration, 0.0};
     window->low = std::min(window->low, eta);
     window->high = std::max(window->high, eta);
     window->largest_acceleration = std::max(window->largest_acceleration, acceleration);
-    if (indicator_.share(j, window->high - window->low, window->largest_acceleration).worst() > options_.drop) {
-      window = {time, eta, eta, acceleration};
-    }
+    window->share = indicator_.share(j, window->high - window->low, window->largest_acceleration).worst();
+    if (window->share > options_.drop) window = {time, eta, eta, acceleration, window->share};
   }
 }
 
-std::vector<int> ModeAdaptation::find_missed() const {
-  std::vector<int> missed;
-  bool any = false;
-  for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
-    if (indicator_.is_active(j)) continue;
-    const double share = indicator_.neglected()[j].worst();
-    any |= share > options_.recall;
-    if (share > kJoinsToo * options_.recall) missed.push_back(indicator_.modal_coordinates()[j]);
+bool ModeAdaptation::misses_any() const {
+  double square = 0.0;
+  for (const ModeShare& share : indicator_.neglected()) square += share.worst() * share.worst();
+  return square > options_.recall * options_.recall;
+}
+
+void ModeAdaptation::raise(LeftOut& largest) const {
+  largest.resize(indicator_.num_modes());
+  for (std::size_t j = 0; j < largest.size(); ++j) {
+    const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
+    largest[j] = {std::max(largest[j].amplitude, now.amplitude), std::max(largest[j].acceleration, now.acceleration)};
   }
-  return any ? missed : std::vector<int>{};
+}
+
+std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
+  std::vector<std::pair<double, int>> left_out;
+  for (const int coordinate : indicator_.modal_coordinates()) {
+    if (!active_[static_cast<std::size_t>(coordinate)]) left_out.emplace_back(share_of(coordinate, largest).worst(), coordinate);
+  }
+  std::sort(left_out.begin(), left_out.end());
+  // The smallest stay out as long as they come to less than the threshold together.
+  double square = 0.0;
+  auto first = left_out.begin();
+  while (first != left_out.end() && (square += first->first * first->first) <= options_.recall * options_.recall) ++first;
+  std::vector<int> missed;
+  for (; first != left_out.end(); ++first) missed.push_back(first->second);
+  std::sort(missed.begin(), missed.end());
+  return missed;
 }
 
 std::vector<int> ModeAdaptation::find_idle() const {
   std::vector<int> idle;
-  if (indicator_.time() - last_leaving_ < options_.residence) return idle;
+  if (indicator_.time() - last_change_ < options_.residence) return idle;
+  std::vector<std::pair<double, int>> candidates;
   for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
     if (!indicator_.is_active(j) || !windows_[j]) continue;
     const double frequency = indicator_.frequency(j);
     const double stay = std::max(options_.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
-    if (indicator_.time() - windows_[j]->since >= stay) idle.push_back(indicator_.modal_coordinates()[j]);
+    if (indicator_.time() - windows_[j]->since >= stay) {
+      candidates.emplace_back(windows_[j]->share, indicator_.modal_coordinates()[j]);
+    }
   }
+  // What they stop together must not be what makes others join.
+  std::sort(candidates.begin(), candidates.end());
+  double sum = 0.0;
+  for (const auto& [share, coordinate] : candidates) {
+    sum += share;
+    if (sum > kLeaveTogether * options_.recall) break;
+    idle.push_back(coordinate);
+  }
+  std::sort(idle.begin(), idle.end());
   return idle;
 }
 
@@ -89,19 +135,24 @@ std::size_t ModeAdaptation::mode_of(int coordinate) const {
   return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
 }
 
-ModeShare ModeAdaptation::share_of(int coordinate) const { return indicator_.neglected()[mode_of(coordinate)]; }
+ModeShare ModeAdaptation::share_of(int coordinate, const LeftOut& largest) const {
+  const std::size_t mode = mode_of(coordinate);
+  return indicator_.share(mode, largest[mode].amplitude, largest[mode].acceleration);
+}
+
 double ModeAdaptation::unbalanced_force_of(int coordinate) const {
   return indicator_.unbalanced_force(mode_of(coordinate));
 }
 double ModeAdaptation::frequency_of(int coordinate) const { return indicator_.frequency(mode_of(coordinate)); }
 
 void ModeAdaptation::activate(const std::vector<int>& coordinates) {
+  last_change_ = indicator_.time();
   for (const int i : coordinates) active_[static_cast<std::size_t>(i)] = true;
   indicator_.set_active(active_);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
-  last_leaving_ = indicator_.time();
+  last_change_ = indicator_.time();
   for (const int i : coordinates) {
     active_[static_cast<std::size_t>(i)] = false;
     windows_[mode_of(i)].reset();
@@ -109,14 +160,14 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
   indicator_.set_active(active_);
 }
 
-std::shared_ptr<const ModeAdaptation::Memory> ModeAdaptation::remember() const {
-  return std::make_shared<const Memory>(Memory{indicator_.remember(), windows_, worst_});
+void ModeAdaptation::remember(Memory& memory) const {
+  indicator_.remember(memory.indicator);
+  memory.windows = windows_;
 }
 
 void ModeAdaptation::go_back(const Memory& memory) {
   indicator_.go_back(memory.indicator);
   windows_ = memory.windows;
-  worst_ = memory.worst;
 }
 
 }  // namespace sprung::dynamics

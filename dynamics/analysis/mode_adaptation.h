@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +15,10 @@ struct AdaptivityOptions {
   std::vector<bool> active;             ///< at the start, for each coordinate of `full`
   std::vector<int> points;              ///< markers whose motion is asked for
   bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
-  double recall = 1e-2;                 ///< share at which a mode joins
+  double recall = 8e-2;                 ///< share of all left out together at which modes join
   double drop = 2e-3;                   ///< share below which it may leave, < recall
-  double residence = 0.2;               ///< shortest time below before it leaves, and between leavings [s]
+  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before modes join [s]
+  double residence = 0.05;
 };
 
 /// The largest share that a mode left out has had in a run.
@@ -40,32 +40,50 @@ class ModeAdaptation {
   const std::vector<bool>& active() const { return active_; }  ///< for each coordinate of the full model
   int num_active_modes() const;
 
-  /// Goes on to the next instant. All in coordinates of the full model.
-  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
-              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+  /// Goes on to the next instant, as ModeIndicator::update.
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
 
-  /// Modal coordinates that have to join by the last update: none, or all that are at half the threshold or above.
-  std::vector<int> find_missed() const;
+  /// Whether a mode left out has passed the recall threshold, by the last update.
+  bool misses_any() const;
+  using LeftOut = std::vector<ModeIndicator::LeftOut>;  ///< by mode
+  /// Raises what was largest to what there was at the last update.
+  void raise(LeftOut& largest) const;
+  /// Modal coordinates that have to join for that.
+  std::vector<int> find_missed(const LeftOut& largest) const;
   /// Modal coordinates that may leave, once their rate is zero.
   std::vector<int> find_idle() const;
-  ModeShare share_of(int coordinate) const;  ///< of a mode left out, at the last update
+  ModeShare share_of(int coordinate, const LeftOut& largest) const;
 
   double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
   double unbalanced_force_of(int coordinate) const;
   void activate(const std::vector<int>& coordinates);
   void deactivate(const std::vector<int>& coordinates);
 
-  struct Memory;
-  /// What is needed to take a step back. The time of the last update is where one gets.
-  std::shared_ptr<const Memory> remember() const;
+  /// What an active mode has done since it was not quiet last.
+  struct Window {
+    double since = 0.0;  ///< [s]
+    double low = 0.0, high = 0.0, largest_acceleration = 0.0;
+    double share = 0.0;  ///< of range and acceleration
+  };
+  /// The largest that a mode has been left out with, and when.
+  struct Extreme {
+    double amplitude = 0.0, amplitude_time = 0.0;
+    double acceleration = 0.0, acceleration_time = 0.0;
+  };
+  /// What has to be kept to take a step back to the last update.
+  struct Memory {
+    ModeIndicator::Memory indicator;
+    std::vector<std::optional<Window>> windows;
+  };
+  void remember(Memory& memory) const;
   void go_back(const Memory& memory);
-  const WorstNeglect& worst() const { return worst_; }
+  /// Takes down what was largest in a step that is final. @param time  its end [s]
+  void note(double time, const LeftOut& largest);
+  /// Of what was noted, as shares of what was largest in all of the run.
+  WorstNeglect worst() const;
 
  private:
-  // What an active mode has done since it was quiet last.
-  struct Window {
-    double since, low, high, largest_acceleration;
-  };
 
   std::size_t mode_of(int coordinate) const;
 
@@ -73,8 +91,8 @@ class ModeAdaptation {
   ModeIndicator indicator_;
   std::vector<bool> active_;
   std::vector<std::optional<Window>> windows_;  // by mode
-  double last_leaving_;
-  WorstNeglect worst_;
+  double last_change_;
+  std::vector<Extreme> extremes_;               // by mode
 };
 
 }  // namespace sprung::dynamics

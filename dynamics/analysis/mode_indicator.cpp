@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "dynamics/analysis/linearisation.h"
-#include "dynamics/analysis/oscillator_response.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -18,14 +17,13 @@ constexpr double kSmallestAcceleration = 1e-2;   // of gravity
 }  // namespace
 
 ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points)
-    : full_(&full), terms_(full), points_(std::move(points)) {
+    : full_(&full), unbalanced_(full), points_(std::move(points)), time_(time) {
   for (const Body& body : full.bodies) {
     for (int k = 0; k < body.num_modes(); ++k) modal_.push_back(body.first_coordinate + 3 + k);
   }
   const std::size_t n = modal_.size();
   active_.assign(n, false);
-  effective_.assign(n, Eigen::Vector3d::Zero());
-  reach_.assign(n, 0.0);
+  effective_.resize(n);
   for (const int coordinate : modal_) {
     double largest = 0.0;
     for (const Marker& marker : full.markers) {
@@ -35,10 +33,11 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
     }
     bending_.push_back(largest);
   }
-  oscillators_.assign(n, Eigen::Vector3d::Zero());
-  neglected_.assign(n, {});
-  residual_ = Eigen::VectorXd::Zero(full.num_coordinates);
+  oscillators_.resize(n);
+  left_out_.resize(n);
+  neglected_.resize(n);
 
+  Eigen::MatrixXd directions;
   try {
     PartitionedEquations equations(full);
     const LinearisedSystem small = linearise(equations, time, q);
@@ -46,98 +45,131 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
     mass_ = small.mass;
     damping_ = small.damping;
     stiffness_ = small.stiffness;
-    directions_ = small.directions;
+    directions = small.directions;
   } catch (const support::NumericalError&) {
     // Near a singular position: each mode by itself, as if nothing gave way.
   }
 
-  terms_.update_positions(time, q);
+  SystemTerms terms(full);
+  terms.update_positions(time, q);
   for (const int i : points_) {
     const Marker& marker = full.markers[static_cast<std::size_t>(i)];
     Eigen::Matrix2Xd motion = Eigen::Matrix2Xd::Zero(2, full.num_coordinates);
     if (marker.body != kGround) {
       const Body& body = full.bodies[static_cast<std::size_t>(marker.body)];
-      const MarkerState& state = terms_.markers()[static_cast<std::size_t>(i)];
+      const MarkerState& state = terms.markers()[static_cast<std::size_t>(i)];
       motion.block<2, 2>(0, body.first_coordinate).setIdentity();
       motion.col(body.first_coordinate + 2) = state.r_theta;
       motion.middleCols(body.first_coordinate + 3, body.num_modes()) = state.r_eta;
     }
     point_motion_.push_back(motion);
+    point_states_.push_back(terms.markers()[static_cast<std::size_t>(i)]);
   }
   const double floor = std::max(full.gravity.norm(), full.length_scale);
   largest_deflection_ = kSmallestDeflection * full.length_scale;
-  largest_acceleration_ = kSmallestAcceleration * floor;
-  set_active(std::vector<bool>(static_cast<std::size_t>(full.num_coordinates), false));
+  largest_acceleration_.assign(points_.size(), kSmallestAcceleration * floor);
+  for (const Eigen::Matrix2Xd& motion : point_motion_) {
+    if (!independent_.empty()) reduced_motion_.push_back(motion * directions);
+  }
+  update_effective();
 }
 
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < modal_.size(); ++j) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_[j])];
-    if (now != active_[j]) oscillators_[j].setZero();
+    if (now != active_[j]) oscillators_[j] = {};
     active_[j] = now;
+    left_out_[j] = {};
     neglected_[j] = {};
   }
-  for (std::size_t j = 0; j < modal_.size(); ++j) calc_effective(j);
+  const std::vector<Effective> before = effective_;
+  update_effective();
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    Oscillator& one = oscillators_[j];
+    if (before[j].stiffness > 0.0 && effective_[j].stiffness > 0.0) {
+      one.place += one.force / effective_[j].stiffness - one.force / before[j].stiffness;
+    }
+  }
 }
 
-// The mode with what gives way to it by inertia: the rigid motions and the active modes, x = −M_AA⁻¹ M_Aj.
-void ModeIndicator::calc_effective(std::size_t mode) {
+// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
+// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
+void ModeIndicator::update_effective() {
   std::vector<Eigen::Index> giving;
-  Eigen::Index own = -1;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (independent_[i] == modal_[mode]) own = static_cast<Eigen::Index>(i);
-    else if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
   }
-  const int coordinate = modal_[mode];
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(full_->num_coordinates);
-  if (own < 0) {
-    // The partition has it follow from others: by itself.
-    const auto body = std::find_if(full_->bodies.begin(), full_->bodies.end(), [&](const Body& one) {
-      return coordinate < one.first_coordinate + one.num_coordinates();
-    });
-    const Eigen::Index k = coordinate - body->first_coordinate - 3;
-    effective_[mode] = {body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k)};
-    w[coordinate] = 1.0;
-  } else {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(mass_.rows());
-    if (!giving.empty()) x(giving) = -mass_(giving, giving).llt().solve(mass_(giving, own).eval());
-    x[own] = 1.0;
-    effective_[mode] = {x.dot(mass_ * x), std::max(0.0, x.dot(damping_ * x)), std::max(0.0, x.dot(stiffness_ * x))};
-    w = directions_ * x;
+  const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
+  Eigen::VectorXd x, part(static_cast<Eigen::Index>(giving.size()));
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    const auto found = std::find(independent_.begin(), independent_.end(), modal_[j]);
+    if (found == independent_.end()) {
+      effective_[j] = make_alone(modal_[j]);
+      continue;
+    }
+    const Eigen::Index own = found - independent_.begin();
+    x = Eigen::VectorXd::Zero(mass_.rows());
+    if (active_[j]) {
+      x[own] = 1.0;
+      part = x(giving);
+      factor.solveInPlace(part);
+      x(giving) = part;
+      x /= x[own];
+    } else {
+      part = -mass_(giving, own);
+      if (!giving.empty()) factor.solveInPlace(part);
+      x(giving) = part;
+      x[own] = 1.0;
+    }
+    effective_[j] = {.mass = x.dot(mass_ * x),
+                     .damping = std::max(0.0, x.dot(damping_ * x)),
+                     .stiffness = std::max(0.0, x.dot(stiffness_ * x))};
+    for (const Eigen::MatrixXd& motion : reduced_motion_) effective_[j].reach.push_back((motion * x).norm());
   }
-  reach_[mode] = 0.0;
-  for (const Eigen::Matrix2Xd& motion : point_motion_) reach_[mode] = std::max(reach_[mode], (motion * w).norm());
+}
+
+// A mode that the partition has follow from others, or all where there is none: as if nothing gave way.
+ModeIndicator::Effective ModeIndicator::make_alone(int coordinate) const {
+  const auto body = std::find_if(full_->bodies.begin(), full_->bodies.end(), [&](const Body& one) {
+    return coordinate < one.first_coordinate + one.num_coordinates();
+  });
+  const Eigen::Index k = coordinate - body->first_coordinate - 3;
+  Effective effective{body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k)};
+  for (const Eigen::Matrix2Xd& motion : point_motion_) effective.reach.push_back(motion.col(coordinate).norm());
+  return effective;
 }
 
 double ModeIndicator::frequency(std::size_t mode) const {
-  return std::sqrt(effective_[mode][2] / effective_[mode][0]) / (2.0 * std::acos(-1.0));
+  return std::sqrt(effective_[mode].stiffness / effective_[mode].mass) / (2.0 * std::acos(-1.0));
 }
 
 ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
   // Never more than all: where the run bends less than the mode would, the mode is the deflection.
-  const double deflection = bending_[mode] * std::abs(amplitude), change = reach_[mode] * std::abs(acceleration);
-  return {deflection / std::max(largest_deflection_, deflection), change / std::max(largest_acceleration_, change)};
+  const double deflection = bending_[mode] * std::abs(amplitude);
+  ModeShare share{.deflection = deflection / std::max(largest_deflection_, deflection)};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const double change = effective_[mode].reach[i] * std::abs(acceleration);
+    share.acceleration = std::max(share.acceleration, change / std::max(largest_acceleration_[i], change));
+  }
+  return share;
 }
 
-void ModeIndicator::update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                           const Eigen::VectorXd& v_dot, const Eigen::VectorXd& multipliers,
-                           std::span<const int> branches) {
-  terms_.update_positions(time, q);
-  terms_.update_jacobian();
-  terms_.update_mass();
-  terms_.update_velocities(v);
-  terms_.update_forces(branches);
-  residual_.setZero();
-  terms_.jacobian().add_transposed_product(multipliers, residual_);
-  residual_ = terms_.forces() - residual_;
-  for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
-    const Body& body = full_->bodies[b];
-    residual_.segment(body.first_coordinate, body.num_coordinates()) -=
-        terms_.mass(b) * v_dot.segment(body.first_coordinate, body.num_coordinates());
+void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
+                           const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+  unbalanced_.update(run.terms(), run.multipliers(), q, v, v_dot);
+  raise_references(q, v, v_dot);
+  const double step = has_begun_ ? time - time_ : 0.0;
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    if (!active_[j]) follow(j, step);
   }
+  time_ = time;
+  has_begun_ = true;
+}
 
+// Brings the largest deflection and acceleration so far up to date.
+void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
   for (const Marker& marker : full_->markers) {
     if (marker.body == kGround || marker.Phi.cols() == 0) continue;
     const int first = full_->bodies[static_cast<std::size_t>(marker.body)].first_coordinate + 3;
@@ -145,53 +177,57 @@ void ModeIndicator::update(double time, const Eigen::VectorXd& q, const Eigen::V
     for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) deflection += marker.Phi.col(k) * q[first + k];
     largest_deflection_ = std::max(largest_deflection_, deflection.norm());
   }
-  for (const int i : points_) {
-    const Marker& marker = full_->markers[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Marker& marker = full_->markers[static_cast<std::size_t>(points_[i])];
     if (marker.body == kGround) continue;
     const Body& body = full_->bodies[static_cast<std::size_t>(marker.body)];
-    largest_acceleration_ = std::max(
-        largest_acceleration_, calc_marker_acceleration(terms_.markers()[static_cast<std::size_t>(i)],
-                                                        v_dot.segment(body.first_coordinate, body.num_coordinates()))
-                                   .norm());
+    const int first = body.first_coordinate, size = body.num_coordinates();
+    const FrameRotation rotation = FrameRotation::from_angle(q[first + 2]);
+    calc_marker_position(marker, rotation, q.segment(first, size), point_states_[i]);
+    calc_marker_velocity(marker, rotation, v.segment(first, size), point_states_[i]);
+    const double acceleration = calc_marker_acceleration(point_states_[i], v_dot.segment(first, size)).norm();
+    largest_acceleration_[i] = std::max(largest_acceleration_[i], acceleration);
   }
-
-  const double step = time - time_;
-  for (std::size_t j = 0; j < modal_.size(); ++j) {
-    neglected_[j] = {};
-    if (active_[j]) continue;
-    const double mass = effective_[j][0], decay = 0.5 * effective_[j][1] / mass, stiffness = effective_[j][2] / mass;
-    const double force = residual_[modal_[j]] / mass;
-    double& x = oscillators_[j][0];
-    double& rate = oscillators_[j][1];
-    if (has_begun_ && step > 0.0) {
-      const OscillatorResponse r = calc_oscillator_response(stiffness, decay, step);
-      const double slope = (force - oscillators_[j][2]) / step, before = oscillators_[j][2];
-      const double next = r.c * x + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
-      rate = r.c_rate * x + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
-      x = next;
-    }
-    if (!has_begun_ && stiffness > 0.0) x = force / stiffness;  // what is missing from the start on is no vibration
-    oscillators_[j][2] = force;
-    // Amplitude rather than instant, which may pass through zero; and what the force would do for good.
-    const double amplitude = stiffness > 0.0 ? std::max(std::sqrt(x * x + rate * rate / stiffness), std::abs(force) / stiffness)
-                                             : std::abs(x);
-    const double acceleration = std::hypot(force - 2.0 * decay * rate - stiffness * x, std::sqrt(stiffness) * rate);
-    neglected_[j] = share(j, amplitude, acceleration);
-  }
-  time_ = time;
-  has_begun_ = true;
 }
 
-ModeIndicator::Memory ModeIndicator::remember() const {
-  return {time_, has_begun_, oscillators_, largest_deflection_, largest_acceleration_};
+// One mode left out, over a step in which the force went straight to where it is now.
+void ModeIndicator::follow(std::size_t mode, double step) {
+  Effective& effective = effective_[mode];
+  const double mass = effective.mass, decay = 0.5 * effective.damping / mass, stiffness = effective.stiffness / mass;
+  Oscillator& one = oscillators_[mode];
+  const double before = one.force / mass;
+  one.force = unbalanced_.force()[modal_[mode]];
+  const double force = one.force / mass;
+  if (step > 0.0) {
+    if (step != effective.step) effective.response = calc_oscillator_response(stiffness, decay, step);
+    effective.step = step;
+    const OscillatorResponse& r = effective.response;
+    const double slope = (force - before) / step, place = one.place, rate = one.rate;
+    one.place = r.c * place + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
+    one.rate = r.c_rate * place + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
+  }
+  if (!has_begun_ && stiffness > 0.0) one.place = force / stiffness;  // what is missing from the start on is no vibration
+  // Amplitude rather than instant, which may pass through zero; and what the force would do for good.
+  const double amplitude =
+      stiffness > 0.0
+          ? std::max(std::sqrt(one.place * one.place + one.rate * one.rate / stiffness), std::abs(force) / stiffness)
+          : std::abs(one.place);
+  const double acceleration =
+      std::hypot(force - 2.0 * decay * one.rate - stiffness * one.place, std::sqrt(stiffness) * one.rate);
+  left_out_[mode] = {amplitude, acceleration};
+  neglected_[mode] = share(mode, amplitude, acceleration);
+}
+
+void ModeIndicator::remember(Memory& memory) const {
+  memory.time = time_;
+  memory.has_begun = has_begun_;
+  memory.oscillators = oscillators_;
 }
 
 void ModeIndicator::go_back(const Memory& memory) {
   time_ = memory.time;
   has_begun_ = memory.has_begun;
   oscillators_ = memory.oscillators;
-  largest_deflection_ = memory.largest_deflection;
-  largest_acceleration_ = memory.largest_acceleration;
 }
 
 }  // namespace sprung::dynamics

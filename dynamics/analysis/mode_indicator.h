@@ -5,14 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/system/partitioned_equations.h"
+#include "dynamics/analysis/oscillator_response.h"
+#include "dynamics/analysis/unbalanced_force.h"
+#include "dynamics/system/constrained_equations.h"
 
 namespace sprung::dynamics {
 
 /// What a modal coordinate does, as a share of the largest that there has been so far.
 struct ModeShare {
   double deflection = 0.0;    ///< of any named point of a flexible body
-  double acceleration = 0.0;  ///< of the points asked for
+  double acceleration = 0.0;  ///< of that of the points asked for of which it is the largest
   double worst() const { return deflection > acceleration ? deflection : acceleration; }
 };
 
@@ -32,57 +34,83 @@ class ModeIndicator {
   const std::vector<int>& modal_coordinates() const { return modal_; }
   std::size_t num_modes() const { return modal_.size(); }
 
-  /// Says which modes are active from `time` on; those that stop being so begin at rest where they are held.
+  /// Says which modes are active from the last update on; those that stop being so begin at rest where they are held.
+  /// What gives way to the others is another then: their vibration about where the force would hold them stays.
   void set_active(const std::vector<bool>& is_active_coordinate);
   bool is_active(std::size_t mode) const { return active_[mode]; }
 
-  /// Goes on to the next instant of the run. @param q, v, v_dot  in coordinates of `full`, held ones at rest
-  void update(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot,
-              const Eigen::VectorXd& multipliers, std::span<const int> branches);
+  /// Goes on to the next instant of the run; at the same instant again, where forces have jumped.
+  /// @param run          equations of the model that is run, accelerations up to date
+  /// @param q, v, v_dot  in coordinates of `full`, held ones at rest
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
 
-  /// Of the modes left out, at the last update: what they miss. Zero for active ones.
+  /// What a mode left out would do: amplitude of its coordinate and of that one's acceleration.
+  struct LeftOut {
+    double amplitude = 0.0, acceleration = 0.0;
+  };
+  /// At the last update. Zero for active ones.
+  const std::vector<LeftOut>& left_out() const { return left_out_; }
+  /// The same as shares of the largest so far.
   const std::vector<ModeShare>& neglected() const { return neglected_; }
   /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
   /// The force that the run leaves unbalanced on a mode left out, at the last update.
-  double unbalanced_force(std::size_t mode) const { return effective_[mode][0] * oscillators_[mode][2]; }
+  double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
 
-  /// What has to be kept to go back to an instant.
+  /// What a mode left out would do.
+  struct Oscillator {
+    double place = 0.0, rate = 0.0;  ///< ξ, ξ̇
+    double force = 0.0;              ///< r at the last update
+  };
+  /// What has to be kept to go back to an instant. The largest that shares refer to stay what they have become: they
+  /// are known then, though they are still to come.
   struct Memory {
     double time = 0.0;
     bool has_begun = false;
-    std::vector<Eigen::Vector3d> oscillators;  // ξ, ξ̇, r
-    double largest_deflection = 0.0, largest_acceleration = 0.0;
+    std::vector<Oscillator> oscillators;
   };
-  Memory remember() const;
+  void remember(Memory& memory) const;
   void go_back(const Memory& memory);
 
  private:
-  void calc_effective(std::size_t mode);
+  // The mode with what gives way to it.
+  struct Effective {
+    double mass = 0.0, damping = 0.0, stiffness = 0.0;
+    std::vector<double> reach = {};  // displacement of each asked point
+    double step = 0.0;               // that `response` is over
+    OscillatorResponse response = {};
+  };
+  void update_effective();
+  Effective make_alone(int coordinate) const;
+  void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
+  void follow(std::size_t mode, double step);
 
   const Model* full_;
-  SystemTerms terms_;
+  UnbalancedForce unbalanced_;
   std::vector<int> points_;
+  std::vector<MarkerState> point_states_;
   std::vector<int> modal_;
   std::vector<bool> active_;
 
   // About the start: small motion in the independents.
   std::vector<int> independent_;
-  Eigen::MatrixXd mass_, damping_, stiffness_, directions_;
-  std::vector<Eigen::Matrix2Xd> point_motion_;  // of each point, per coordinate of `full`
+  Eigen::MatrixXd mass_, damping_, stiffness_;
+  std::vector<Eigen::Matrix2Xd> point_motion_;   // of each point, per coordinate of `full`
+  std::vector<Eigen::MatrixXd> reduced_motion_;  // per independent coordinate
 
-  std::vector<Eigen::Vector3d> effective_;  // mass, damping, stiffness
-  std::vector<double> bending_;             // largest deflection of a named point per unit of the mode
-  std::vector<double> reach_;               // largest displacement of an asked point, with what gives way
-  std::vector<Eigen::Vector3d> oscillators_;  // ξ, ξ̇, r/m
+  std::vector<Effective> effective_;
+  std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
+  std::vector<Oscillator> oscillators_;
+  std::vector<LeftOut> left_out_;
   std::vector<ModeShare> neglected_;
   double time_ = 0.0;
   bool has_begun_ = false;
-  double largest_deflection_ = 0.0, largest_acceleration_ = 0.0;
-  Eigen::VectorXd residual_;
+  double largest_deflection_ = 0.0;
+  std::vector<double> largest_acceleration_;  // of each asked point
 };
 
 }  // namespace sprung::dynamics

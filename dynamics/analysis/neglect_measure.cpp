@@ -121,7 +121,8 @@ void NeglectMeasure::choose_num_lines(double accuracy) {
   }
   // From above, as long as what is left out stays small.
   Eigen::VectorXd above = Eigen::VectorXd::Zero(w);
-  const Eigen::VectorXd allowed = accuracy * accuracy * raise(*watched_, total.cwiseSqrt(), vehicle_->model().length_scale).cwiseAbs2();
+  const Eigen::VectorXd rms = raise(*watched_, total.cwiseSqrt(), vehicle_->model().length_scale);
+  const Eigen::VectorXd allowed = accuracy * accuracy * rms.cwiseAbs2();
   num_lines_ = 1;
   for (std::size_t g = ends.size(); g-- > 0;) {
     above += squares[g];
@@ -129,8 +130,11 @@ void NeglectMeasure::choose_num_lines(double accuracy) {
     num_lines_ = ends[g];
     break;
   }
-  is_cut_short_ = num_lines_ > kMostLines;
-  num_lines_ = std::min(num_lines_, kMostLines);
+  if (num_lines_ <= kMostLines) return;
+  num_lines_ = kMostLines;
+  above.setZero();
+  for (std::size_t g = ends.size(); g-- > 0 && ends[g] > num_lines_;) above += squares[g];
+  share_above_ = divide(above.cwiseSqrt(), rms).maxCoeff();
 }
 
 HeldResponse NeglectMeasure::calc_static_response() const {

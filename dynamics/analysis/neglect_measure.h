@@ -42,7 +42,9 @@ class NeglectMeasure {
 
   const ForcingSpectrum& forcing() const { return forcing_; }
   Eigen::Index num_lines() const { return num_lines_; }  ///< those looked at, the lowest
-  bool is_cut_short() const { return is_cut_short_; }    ///< what lies above them is more than the accuracy
+  bool is_cut_short() const { return share_above_ > 0.0; }  ///< what lies above them is more than the accuracy
+  /// What lies above them then, of the r.m.s. of the quantity that has most of it there.
+  double share_above() const { return share_above_; }
 
  private:
   // Changes of the outputs by sets of modes, p×sets.
@@ -68,7 +70,7 @@ class NeglectMeasure {
   HeldResponseSolver solver_;
   ForcingSpectrum forcing_;
   Eigen::Index num_lines_ = 0;
-  bool is_cut_short_ = false;
+  double share_above_ = 0.0;  // 0 where it is less than the accuracy
   Eigen::VectorXd rms_, peak_, weight_;  // w, what shares are of
 };
 

@@ -18,7 +18,7 @@ PartitionedOde::PartitionedOde(const Model& model)
 void PartitionedOde::set_state(const State& state, double dissipated, double input) {
   equations_.choose_partition_at(state.time, state.q);
   ++coordinate_version_;
-  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
   piece_.set_branches(state.branches);
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
@@ -37,7 +37,7 @@ bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const double formula_time = piece_.evaluation_time(time);
   if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin()))
     return true;
-  evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
   if (equations_.update_positions(formula_time, y.first(f)) != PartitionedEquations::Outcome::kGood)
     return false;
   equations_.update_velocities(y.subspan(f, f));
@@ -52,6 +52,7 @@ State PartitionedOde::make_state(double time, std::span<const double> y) {
     throw support::NumericalError(fmt::format(
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
+  accelerated_time_ = evaluated_time_;
   return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = piece_.branches()};
 }
 
@@ -83,6 +84,7 @@ bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std
   if (!evaluate_motion(time, y)) return false;
   if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood)
     return false;
+  accelerated_time_ = evaluated_time_;
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
   for (std::size_t k = 0; k < f; ++k) {

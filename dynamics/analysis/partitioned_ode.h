@@ -35,6 +35,9 @@ class PartitionedOde final : public OdeSystem {
   double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
   double input(std::span<const double> y) const { return y[y.size() - 1]; }
 
+  /// Whether the equations were evaluated last at that time, accelerations included.
+  bool has_accelerations(double time) const { return piece_.evaluation_time(time) == accelerated_time_; }
+
   long num_derivatives() const { return num_derivatives_; }
 
   int size() const override { return 2 * equations_.num_freedoms() + 2; }
@@ -59,6 +62,7 @@ class PartitionedOde final : public OdeSystem {
   std::vector<double> natural_sizes_;  // of the independents
   // The arguments at which the motion of the equations was evaluated last.
   double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  double accelerated_time_ = std::numeric_limits<double>::quiet_NaN();  // and the accelerations, if they were
   std::vector<double> evaluated_y_;
 };
 

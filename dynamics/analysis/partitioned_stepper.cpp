@@ -63,7 +63,17 @@ void PartitionedStepper::evaluate(double time) {
   }
   evaluated_time_ = time;
   ode_.make_state(time, y_);
+}
+
+void PartitionedStepper::look() {
+  if (!ode_.has_accelerations(time())) evaluate(time());
+}
+
+SystemStepper::Observation PartitionedStepper::observe(double time) {
+  evaluate(time);
   ode_.equations().update_all_markers();
+  const ConstrainedEquations& now = equations();
+  return {.equations = now, .q = now.q(), .v = now.v(), .v_dot = now.v_dot()};
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

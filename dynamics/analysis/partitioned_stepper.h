@@ -25,6 +25,8 @@ class PartitionedStepper final : public SystemStepper {
     return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
   }
   void evaluate(double time) override;
+  void look() override;
+  Observation observe(double time) override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
   EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
   SmoothPiece& piece() override { return ode_.piece(); }

@@ -51,7 +51,9 @@ double SmoothPiece::calc_longest_step(const SystemTerms& terms) const {
 }
 
 double SmoothPiece::update_next_break(double time) {
-  const auto next = std::upper_bound(model_->time_breaks.begin(), model_->time_breaks.end(), time);
+  constexpr double kShortest = 1e-9;  // s
+  const auto next = std::upper_bound(model_->time_breaks.begin(), model_->time_breaks.end(), time,
+                                     [](double after, double one) { return one - after >= kShortest; });
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (next == model_->time_breaks.end()) return latest_time_ = kInfinity;
   latest_time_ = std::nextafter(*next, -kInfinity);

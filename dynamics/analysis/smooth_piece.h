@@ -34,8 +34,8 @@ class SmoothPiece {
   /// Longest step that no force element and no prescribed motion would regret, at the state of the terms [s].
   double calc_longest_step(const SystemTerms& terms) const;
 
-  /// The next break in time of a function of time after `time`, infinite where there is none. From now on
-  /// that is where the piece ends.
+  /// The next break in time of a function of time after `time`, infinite where there is none; pieces too short to be
+  /// integrated are passed over. From now on that is where the piece ends.
   double update_next_break(double time);
   /// The time to evaluate at for `time`: at the break itself a hair before it, so that the formula that ends
   /// there is used up to its end.

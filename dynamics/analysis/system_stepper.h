@@ -22,6 +22,17 @@ class SystemStepper {
     long evaluations = 0;  ///< of the equations, by the integrator
     long repartitions = 0;
     double velocity_violation = 0.0;  ///< largest |φ_q v + φ_t| of a step's end that was closed for output
+
+    Statistics& operator+=(const Statistics& later);  ///< of steppers one after the other
+  };
+
+  /// All there is to see at one instant, until the next call of anything else.
+  struct Observation {
+    /// The equations of the model that is run: positions, mass, velocities and accelerations up to date, all markers.
+    const ConstrainedEquations& equations;
+    /// In coordinates of the model that the run was given; modes that are held in the other are at rest.
+    const Eigen::VectorXd &q, &v, &v_dot;
+    double held_strain = 0.0;  ///< strain energy of modes that are held [J]
   };
 
   virtual ~SystemStepper() = default;
@@ -38,10 +49,15 @@ class SystemStepper {
   /// Longest step that the piece would not regret, at the state evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
-  /// Brings equations() and energy_flow() to a time within the last step: joints closed, all markers,
-  /// accelerations and multipliers those of the equations.
+  /// Brings equations() and energy_flow() to a time within the last step: joints closed, accelerations and multipliers
+  /// those of the equations; markers that joints and forces see.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
+  /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that the
+  /// integrator tried there: for who watches, not for who goes on from it.
+  virtual void look() { evaluate(time()); }
+  /// `evaluate`, and what it has come to with all markers.
+  virtual Observation observe(double time) = 0;
   virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
   virtual EnergyFlow energy_flow() const = 0;
 

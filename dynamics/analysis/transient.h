@@ -30,12 +30,16 @@ struct Event {
 /// Everything about the vehicle at one output time; valid during the call that gets it.
 struct Snapshot {
   double time = 0.0;
-  const SystemTerms& terms;  ///< positions, velocities and forces up to date, all markers
-  const Eigen::VectorXd& q, &v, &v_dot;  ///< num_coordinates
-  const Eigen::VectorXd& multipliers;    ///< num_constraints
+  /// Of the model that is run, in which modes may be held: positions, velocities and forces up to date, all markers.
+  const ConstrainedEquations& equations;
+  const Eigen::VectorXd& q, &v, &v_dot;  ///< num_coordinates of the model that the run was given
   std::span<const int> branches;
   EnergyBook energy;
   const ModeAdaptation* modes;  ///< which modes are active, and what the others miss; null where nobody asked
+
+  const SystemTerms& terms() const { return equations.terms(); }
+  const Eigen::VectorXd& multipliers() const { return equations.multipliers(); }  ///< num_constraints
+  Eigen::Vector2d calc_acceleration(std::size_t marker) const;                    ///< [m/s²]
 };
 
 struct TransientOptions {

@@ -87,7 +87,16 @@ AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
   settings.recall = table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
   settings.drop = table.number_or("drop", std::min(settings.drop, 0.2 * settings.recall), support::non_negative(""));
   settings.residence = table.number_or("residence", settings.residence, support::non_negative("s"));
-  if (const auto available = table.find_table("available")) settings.available = read_modes(*available);
+  if (const auto available = table.find_table("available")) {
+    settings.available = read_modes(*available);
+    for (const auto& [body, request] : settings.available) {
+      if (request.kind != ModeRequest::Kind::kAuto) continue;
+      throw support::InputError(request.location,
+                                fmt::format("'{}' must be a number of modes, a list of mode numbers or \"all\"; \"auto\" "
+                                            "chooses from what is available, in [modes]",
+                                            request.key));
+    }
+  }
   table.reject_unknown_keys();
   if (!(settings.drop < settings.recall)) {
     throw table.error(fmt::format("must have 'drop' below 'recall', got {} and {}", settings.drop, settings.recall));

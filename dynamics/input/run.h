@@ -43,7 +43,7 @@ struct AdaptivitySettings {
   support::SourceLocation location;
   bool enabled = false;
   bool indicator = true;  ///< whether a run with a fixed set is told what it misses
-  double recall = 1e-2, drop = 2e-3, residence = 0.2;  ///< as in AdaptivityOptions
+  double recall = 8e-2, drop = 2e-3, residence = 0.05;  ///< as in AdaptivityOptions
   ModeRequests available;  ///< bodies that are not named have all modes of their file
 };
 

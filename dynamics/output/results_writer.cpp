@@ -65,13 +65,13 @@ void ResultsWriter::add_point_series() {
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
     add_series(group + "/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.terms.markers()[i].r);
+      put(row, now.terms().markers()[i].r);
     });
     add_series(group + "/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.terms.markers()[i].v);
+      put(row, now.terms().markers()[i].v);
     });
-    add_series(group + "/acceleration", 2, "m/s^2", [i, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, calc_marker_acceleration(now.terms.markers()[i], now.v_dot.segment(first, size)));
+    add_series(group + "/acceleration", 2, "m/s^2", [i](const Snapshot& now, std::vector<double>& row) {
+      put(row, now.calc_acceleration(i));
     });
     if (body.num_modes() == 0) continue;
     add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
@@ -99,15 +99,14 @@ void ResultsWriter::add_body_series() {
     if (center >= 0) {
       const auto i = static_cast<std::size_t>(center);
       add_series(group + "/center_of_mass/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.terms.markers()[i].r);
+        put(row, now.terms().markers()[i].r);
       });
       add_series(group + "/center_of_mass/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.terms.markers()[i].v);
+        put(row, now.terms().markers()[i].v);
       });
       add_series(group + "/center_of_mass/acceleration", 2, "m/s^2",
-                 [i, first, n](const Snapshot& now, std::vector<double>& row) {
-                   put(row, calc_marker_acceleration(now.terms.markers()[i],
-                                                     now.v_dot.segment(first, 3 + n)));
+                 [i](const Snapshot& now, std::vector<double>& row) {
+                   put(row, now.calc_acceleration(i));
                  });
     }
     if (n == 0) continue;
@@ -163,11 +162,11 @@ void ResultsWriter::add_joint_series() {
     add_series("/joints/" + joint.name + "/reaction", 3, "N, N, N m",
                [&joint, row_of_joint](const Snapshot& now, std::vector<double>& row) {
                  JointJacobian Ga, Gb;
-                 const auto markers = now.terms.markers();
+                 const auto markers = now.terms().markers();
                  joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
                                      markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
                  const Eigen::Vector3d reaction =
-                     -Ga.transpose() * now.multipliers.segment(row_of_joint, joint.num_constraints());
+                     -Ga.transpose() * now.multipliers().segment(row_of_joint, joint.num_constraints());
                  put(row, reaction);
                });
     file_.attribute("/joints/" + joint.name, "kind", joint.kind());
@@ -181,18 +180,18 @@ void ResultsWriter::add_joint_coordinate(const Joint& joint, int row_of_joint) {
   const std::string group = "/joints/" + joint.name, unit = coordinate->is_angle() ? "rad" : "m";
   const auto a = static_cast<std::size_t>(joint.marker_a), b = static_cast<std::size_t>(joint.marker_b);
   add_series(group + "/coordinate", 0, unit, [=](const Snapshot& now, std::vector<double>& row) {
-    const auto markers = now.terms.markers();
+    const auto markers = now.terms().markers();
     row[0] = coordinate->value(markers[a], markers[b]);
   });
   add_series(group + "/rate", 0, unit + "/s", [=](const Snapshot& now, std::vector<double>& row) {
-    const auto markers = now.terms.markers();
+    const auto markers = now.terms().markers();
     row[0] = coordinate->rate(markers[a], markers[b]);
   });
   if (!joint.is_motion()) return;
   // Work of the constraint −λ δφ with φ = coordinate − f(t): what drives the coordinate is −λ.
   add_series(group + "/drive", 0, coordinate->is_angle() ? "N m" : "N",
              [row_of_joint](const Snapshot& now, std::vector<double>& row) {
-               row[0] = -now.multipliers[row_of_joint];
+               row[0] = -now.multipliers()[row_of_joint];
              });
 }
 
@@ -206,7 +205,7 @@ void ResultsWriter::add_force_series() {
       add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
                  [&force, first, count, c](const Snapshot& now, std::vector<double>& row) {
                    std::vector<double> values(force.channels().size());
-                   force.calc_channels(now.terms.instant(), now.branches.subspan(first, count), values);
+                   force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
                  });
     }

@@ -31,7 +31,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
 }
 
 void RunStatistics::add(const Snapshot& snapshot) {
-  const SystemTerms& terms = snapshot.terms;
+  const SystemTerms& terms = snapshot.terms();
   if (model_->num_constraints > 0) {
     terms.calc_residual(phi_);
     constraint_violation_ = std::max(constraint_violation_, phi_.lpNorm<Eigen::Infinity>());
@@ -54,17 +54,9 @@ void RunStatistics::add(const Snapshot& snapshot) {
   if (snapshot.time < from_ - tolerance || snapshot.time > to_ + tolerance) return;
   ++num_samples_;
   for (Point& point : points_) {
-    const Marker& marker = model_->markers[static_cast<std::size_t>(point.marker)];
-    const MarkerState& state = terms.markers()[static_cast<std::size_t>(point.marker)];
-    point.displacement.add(state.r.y() - point.reference_height);
-    if (marker.body == kGround) {
-      point.acceleration.add(0.0);
-      continue;
-    }
-    const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
-    point.acceleration.add(calc_marker_acceleration(state, snapshot.v_dot.segment(
-                                                               body.first_coordinate, body.num_coordinates()))
-                               .y());
+    const auto marker = static_cast<std::size_t>(point.marker);
+    point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
+    point.acceleration.add(snapshot.calc_acceleration(marker).y());
   }
 }
 

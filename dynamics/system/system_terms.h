@@ -45,6 +45,9 @@ class SystemTerms {
   void update_forces(std::span<const int> branches);
   const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
   const Power& power() const { return power_; }
+  /// What force elements, and joints under multipliers λ, do to each marker; after `update_jacobian` and
+  /// `update_forces`. @param[out] loads  of all markers, world axes
+  void calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const;
 
   void choose_branches(std::span<int> branches) const;
   /// Positions and velocities of all markers at the present q and v, whatever the scope.

@@ -157,7 +157,7 @@ BumpResult drive_over_bump(const BumpRun& run) {
     const double mirror = run.mirrored ? -1.0 : 1.0;
     rows.emplace_back(start.direction * (q[chassis] - balance[0]), q[chassis + 1] - balance[1],
                       mirror * q[chassis + 2]);
-    snapshot.terms.calc_residual(phi);
+    snapshot.terms().calc_residual(phi);
     result.largest_violation = std::max(result.largest_violation, phi.cwiseAbs().maxCoeff());
     closure.add(snapshot.energy);
   };

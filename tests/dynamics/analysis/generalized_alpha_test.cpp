@@ -130,7 +130,7 @@ Outputs run(const Model& model, const dynamics::State& start, double end_time,
   transient.on_output = [&](const dynamics::Snapshot& now) {
     outputs.q.push_back(now.q);
     outputs.v.push_back(now.v);
-    outputs.lambda.push_back(now.multipliers);
+    outputs.lambda.push_back(now.multipliers());
     const double energy = now.energy.stored.total() + now.energy.dissipated - now.energy.input;
     outputs.lowest_energy = std::min(outputs.lowest_energy, energy);
     outputs.highest_energy = std::max(outputs.highest_energy, energy);

@@ -44,7 +44,7 @@ Motion run(const Model& model, const VectorXd& q, const VectorXd& v, double end_
     if (motion.time.size() == 1) energy = total;
     motion.largest_energy_change = std::max(motion.largest_energy_change, std::abs(total - energy));
     VectorXd phi(model.num_constraints);
-    snapshot.terms.calc_residual(phi);
+    snapshot.terms().calc_residual(phi);
     motion.largest_violation = std::max(motion.largest_violation, phi.cwiseAbs().maxCoeff());
   };
   motion.statistics = dynamics::run_transient(model, test::make_state(model, q, v), options);

@@ -132,6 +132,9 @@ TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
 TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refused") {
   CHECK(error_of("vehicle = \"cart.toml\"\n", "") == "runs/first.toml: error: missing key 'vehicle'");
   CHECK(error_of("duration = 5.0\n", "") == "runs/first.toml: error: missing key 'duration'");
+  CHECK(error_of("[modes]", "[adaptivity.available]\nframe = \"auto\"\n[modes]") ==
+        "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of mode numbers or "
+        "\"all\"; \"auto\" chooses from what is available, in [modes]");
   CHECK(error_of("speed =", "sped =") ==
         "runs/first.toml:2:1: error: unknown key 'sped' (did you mean 'speed'?)");
   CHECK(error_of("speed = 3.0", "speed = \"3 m/s\"") ==

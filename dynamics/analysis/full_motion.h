@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "dynamics/system/constrained_equations.h"
+#include "dynamics/system/held_modes.h"
+
+namespace sprung::dynamics {
+
+/// Motion in coordinates of a full model, while models are run in which some of its modes are held: what is carried
+/// over from one to the next. Source: dynamics/README.md, eqs. 71, 75 and 76.
+class FullMotion {
+ public:
+  /// @param full   has to outlive this
+  /// @param start  in its coordinates
+  FullMotion(const Model& full, const State& start);
+
+  /// Takes over where the equations of a model that is run are; what is held stays, at rest.
+  void take(const HeldModes& held, const ConstrainedEquations& equations);
+  /// Goes to another state, as far as positions and velocities are concerned.
+  void go_to(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  const Eigen::VectorXd& q() const { return q_; }
+  const Eigen::VectorXd& v() const { return v_; }
+  const Eigen::VectorXd& v_dot() const { return v_dot_; }
+  /// Strain energy of the modes that are not active [J]; the others add theirs, as no stiffness couples them.
+  double calc_held_strain(const std::vector<bool>& is_active) const;
+
+  /// A model in which all modes but the active ones are held where they are now; forces being let go act on it.
+  /// @param is_active  for each coordinate of the full model
+  HeldModes hold(const std::vector<bool>& is_active, double time);
+  /// The state here for a model made by `hold`.
+  State state_for(const HeldModes& held, double time, const std::vector<int>& branches) const;
+
+  /// What held a mode that has joined, −r, acts on it from now on, and fades within `duration` [s].
+  void let_go(int coordinate, double force, double time, double duration);
+  /// Stops modes for good where they are: all others keep their momentum, but for what the joints do.
+  /// @param held  made by `hold` without them
+  /// @return energy lost by it [J]
+  /// @throws support::NumericalError if the joints cannot be closed
+  double stop(const std::vector<int>& coordinates, const HeldModes& held, double time, std::span<const int> branches);
+
+ private:
+  void update_terms(double time);
+
+  const Model* full_;
+  SystemTerms terms_;
+  std::vector<FadingForce> fading_;  // `mode` is a coordinate of the full model
+  Eigen::VectorXd q_, v_, v_dot_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,309 @@
+// Modes that join and leave on models small enough to know what each mode does: beams held at their root, where modes of
+// small motion do not feel each other.
+#include "dynamics/analysis/adaptive_stepper.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/analysis/transient.h"
+#include "dynamics/forces/applied_force.h"
+#include "dynamics/joints/coordinate_joint.h"
+#include "tests/catch.h"
+#include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/small_models.h"
+
+using namespace sprung;
+using dynamics::Model;
+using dynamics::TimeFunction;
+
+namespace {
+
+constexpr int kNumModes = 4;  // of each beam: bending at 5, 31, 88 and 176 Hz
+constexpr double kRecall = 0.08;
+
+test::BeamSuperelement make_cantilever() {
+  return test::make_beam_superelement(
+      test::make_straight_beam("cantilever", {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}, 1e8, 800.0, 10.0), kNumModes);
+}
+
+// A cantilever along x, its root at `root`. @return markers of its nodes, the root's first
+std::vector<int> add_cantilever(Model& model, const std::string& name, const Eigen::Vector2d& root) {
+  const reduce::Superelement superelement = make_cantilever().superelement;
+  std::vector<int> modes(kNumModes);
+  for (int k = 0; k < kNumModes; ++k) modes[static_cast<std::size_t>(k)] = k + 1;
+  const int body = test::add_body(model, dynamics::make_flexible_body(name, superelement, modes));
+  std::vector<int> nodes;
+  for (int node = 0; node < 6; ++node) nodes.push_back(test::add_node_marker(model, body, superelement, node));
+  const int ground = test::add_marker(model, dynamics::kGround, root);
+  model.joints.push_back(std::make_unique<dynamics::CoordinateJoint>(
+      name + " root", ground, nodes[0], support::SourceLocation{}, dynamics::make_fixed_joint(0.0)));
+  return nodes;
+}
+
+void push(Model& model, int marker, TimeFunction force) {
+  model.forces.push_back(std::make_unique<dynamics::AppliedForce>(
+      "push", dynamics::AppliedForce::Parameters{.marker = marker,
+                                                 .axes = dynamics::AppliedForce::Axes::kWorld,
+                                                 .force_x = TimeFunction(0.0),
+                                                 .force_y = std::move(force),
+                                                 .torque = TimeFunction(0.0)}));
+}
+
+double frequency(int mode) {  // [Hz], from 1
+  return make_cantilever().superelement.frequency_hz[mode - 1];
+}
+
+// amplitude × sin² rising and falling once from start to end, × sin(2π f t).
+TimeFunction burst(double frequency_hz, double amplitude, double start, double end) {
+  std::vector<double> t{0.0}, x{0.0};
+  const int count = static_cast<int>(40.0 * frequency_hz * (end - start));
+  for (int i = 0; i <= count; ++i) {
+    const double s = static_cast<double>(i) / count, time = start + s * (end - start);
+    t.push_back(time);
+    x.push_back(amplitude * std::pow(std::sin(std::numbers::pi * s), 2) *
+                std::sin(2.0 * std::numbers::pi * frequency_hz * (time - start)));
+  }
+  return TimeFunction::spline(t, x);
+}
+
+struct Change {
+  double time;
+  std::string mode;  // "beam.mode 2"
+  bool joins;
+  std::string text;
+};
+
+struct Run {
+  std::vector<Change> changes;
+  std::vector<double> tip, tip_acceleration;  // of the marker watched [m, m/s²]
+  std::vector<dynamics::EnergyBook> energy;
+  dynamics::TransientStatistics statistics;
+
+  long count(const std::string& mode, bool joins) const {
+    return std::count_if(changes.begin(), changes.end(),
+                         [&](const Change& one) { return one.mode == mode && one.joins == joins; });
+  }
+};
+
+struct Case {
+  int watched = 0;               // marker
+  std::vector<int> active;       // modal coordinates at the start, by number in the whole model from 0
+  bool changes = true;
+  double duration = 2.0;
+  double recall = kRecall, drop = 2e-3;
+  double tolerance = 1e-6;       // of the integrator
+  bool may_leave = false;        // where all are active at the start; else it is a run with that set
+};
+
+const std::vector<int> kAll{0, 1, 2, 3, 4, 5, 6, 7};
+
+Run drive(const Model& model, const Case& test_case) {
+  Run run;
+  dynamics::AdaptivityOptions adaptivity;
+  adaptivity.full = &model;
+  adaptivity.changes = test_case.changes;
+  adaptivity.recall = test_case.recall;
+  adaptivity.drop = test_case.drop;
+  adaptivity.points = {test_case.watched};
+  int mode = 0;
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    const bool is_modal = model.coordinate_name(i).find(".mode ") != std::string::npos;
+    const auto& active = test_case.active;
+    adaptivity.active.push_back(!is_modal || std::find(active.begin(), active.end(), mode) != active.end());
+    if (is_modal) ++mode;
+  }
+  dynamics::TransientOptions options;
+  options.end_time = test_case.duration;
+  options.integrator.relative_tolerance = test_case.tolerance;
+  options.adaptivity = adaptivity;
+  options.on_output = [&](const dynamics::Snapshot& now) {
+    run.tip.push_back(now.terms().markers()[static_cast<std::size_t>(test_case.watched)].r.y());
+    run.tip_acceleration.push_back(now.calc_acceleration(static_cast<std::size_t>(test_case.watched)).y());
+    run.energy.push_back(now.energy);
+  };
+  options.on_event = [&](const dynamics::Event& event) {
+    if (event.kind == "modes") run.changes.push_back({event.time, event.object, event.text.starts_with("joins"), event.text});
+  };
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates);
+  for (const dynamics::Body& body : model.bodies) {
+    const auto& root = *std::find_if(model.joints.begin(), model.joints.end(),
+                                     [&](const auto& joint) { return joint->name == body.name + " root"; });
+    q.segment<2>(body.first_coordinate) = model.markers[static_cast<std::size_t>(root->marker_a)].p_BP;
+  }
+  const Eigen::VectorXd v = Eigen::VectorXd::Zero(model.num_coordinates);
+  if (test_case.active == kAll && !test_case.may_leave) options.adaptivity.reset();
+  if (test_case.changes) {
+    run.statistics = dynamics::run_transient(model, test::make_state(model, q, v), options);
+  } else {
+    const dynamics::HeldModes fixed = dynamics::hold_modes(model, adaptivity.active, q);
+    run.statistics = dynamics::run_transient(
+        fixed.model, test::make_state(fixed.model, select_active(fixed, q), select_active(fixed, v)), options);
+  }
+  return run;
+}
+
+double largest(const std::vector<double>& x) {
+  double value = 0.0;
+  for (const double one : x) value = std::max(value, std::abs(one));
+  return value;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  REQUIRE(a.size() == b.size());
+  double value = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) value = std::max(value, std::abs(a[i] - b[i]));
+  return value;
+}
+
+// Swings in its first mode from the start on, and late comes a force that the second one answers.
+Model make_late(double amplitude, std::vector<int>& nodes) {
+  Model model;
+  nodes = add_cantilever(model, "beam", {0.3, -0.2});
+  push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
+  push(model, nodes[2], burst(frequency(2), amplitude, 1.2, 1.8));
+  dynamics::number_model(model);
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("A mode that is excited only late joins then, by its resonance, and in time", "[adaptivity]") {
+  std::vector<int> nodes;
+  const Model model = make_late(6.0, nodes);
+  const Run full = drive(model, {.watched = nodes[5], .active = kAll});
+  const Run adaptive = drive(model, {.watched = nodes[5], .active = {0}});
+  // The first push may call it for a while; when the burst begins it is not there.
+  long before = 0;
+  std::vector<double> joinings;
+  for (const Change& change : adaptive.changes) {
+    if (change.mode != "beam.mode 2") continue;
+    if (change.time < 1.2) before += change.joins ? 1 : -1;
+    if (change.time >= 1.2 && change.joins) joinings.push_back(change.time);
+  }
+  CHECK(before == 0);
+  REQUIRE(joinings.size() == 1);
+  CHECK(joinings[0] < 1.4);
+  // What mode 2 does to the tip's acceleration is more than what mode 1 does: the force alone, without resonance, does a
+  // fiftieth of that, 1/(2ζ).
+  const Run one = drive(model, {.watched = nodes[5], .active = {0}, .changes = false});
+  CHECK(largest_difference(one.tip_acceleration, full.tip_acceleration) > 0.4 * largest(full.tip_acceleration));
+  CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) < kRecall * largest(full.tip_acceleration));
+  CHECK(largest_difference(adaptive.tip, full.tip) < kRecall * largest(full.tip));
+  CHECK(one.statistics.worst_neglect.share.acceleration > 0.3);
+}
+
+TEST_CASE("A mode that hovers at the threshold joins at most once, and is not missed beyond it", "[adaptivity]") {
+  // The second mode is called again and again by forces ever closer to where it just joins.
+  double below = 1e-3, above = 6.0;
+  for (int i = 0; i < 12; ++i) {
+    const double amplitude = i == 0 ? below : i == 1 ? above : std::sqrt(below * above);
+    INFO("force " << amplitude << " N");
+    Model model;
+    const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
+    push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
+    for (int k = 0; k < 4; ++k) push(model, nodes[2], burst(frequency(2), amplitude, 1.2 + 0.8 * k, 1.8 + 0.8 * k));
+    dynamics::number_model(model);
+    const Run run = drive(model, {.watched = nodes[5], .active = {0}, .duration = 4.5});
+    long joinings = 0, leavings = 0;
+    for (const Change& change : run.changes) {
+      if (change.mode == "beam.mode 2" && change.time > 1.2) ++(change.joins ? joinings : leavings);
+    }
+    CHECK(joinings <= 1);
+    CHECK(leavings <= joinings);
+    if (i == 0) CHECK(joinings == 0);
+    if (i == 1) CHECK(joinings == 1);
+    (joinings > 0 ? above : below) = amplitude;
+    const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 4.5});
+    CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) < 1.2 * kRecall * largest(full.tip_acceleration));
+  }
+  CHECK(above < 1.02 * below);
+}
+
+TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does not come back", "[adaptivity]") {
+  double stays = 6.0, leaves = 1e-3;
+  for (int i = 0; i < 14; ++i) {
+    const double amplitude = i == 0 ? stays : i == 1 ? leaves : std::sqrt(stays * leaves);
+    INFO("force " << amplitude << " N");
+    Model model;
+    const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
+    push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
+    push(model, nodes[2], burst(frequency(2), amplitude, 0.01, 0.6));
+    for (int k = 0; k < 4; ++k) push(model, nodes[2], burst(frequency(2), amplitude, 0.7 + 0.3 * k, 1.2 + 0.3 * k));
+    dynamics::number_model(model);
+    const Run run = drive(model, {.watched = nodes[5], .active = {0, 1}, .duration = 2.0});
+    CHECK(run.count("beam.mode 2", true) == 0);
+    CHECK(run.count("beam.mode 2", false) <= 1);
+    if (i == 0) CHECK(run.count("beam.mode 2", false) == 0);
+    if (i == 1) CHECK(run.count("beam.mode 2", false) == 1);
+    (run.count("beam.mode 2", false) > 0 ? leaves : stays) = amplitude;
+  }
+}
+
+TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[adaptivity]") {
+  // Right there: a point rigidly offset from a node by o along the beam moves by φ_y + o ψ in a mode, ψ its rotation.
+  const reduce::Superelement superelement = make_cantilever().superelement;
+  Model model;
+  const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
+  const dynamics::Marker& near = model.markers[static_cast<std::size_t>(nodes[4])];
+  const double offset = -near.Phi(1, 1) / near.Phi_rotation[1];
+  const int at_node = test::add_node_marker(model, 0, superelement, 4, {offset, 0.0});
+  REQUIRE(std::abs(model.markers[static_cast<std::size_t>(at_node)].Phi(1, 1)) < 1e-12);
+  // With the frequencies of modes 2 and 3: by those alone mode 2 would be the first.
+  push(model, at_node, burst(frequency(2), 50.0, 0.1, 0.6));
+  push(model, at_node, burst(frequency(3), 50.0, 0.1, 0.6));
+  dynamics::number_model(model);
+  const Run run = drive(model, {.watched = nodes[5], .active = {}, .duration = 1.0});
+  CHECK(run.count("beam.mode 1", true) >= 1);
+  CHECK(run.count("beam.mode 3", true) >= 1);
+  CHECK(run.count("beam.mode 2", true) == 0);
+  const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.0});
+  CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) < kRecall * largest(full.tip_acceleration));
+}
+
+TEST_CASE("Of two like bodies only the one that is excited calls its modes, whichever comes first", "[adaptivity]") {
+  for (const bool loaded_first : {true, false}) {
+    Model model;
+    std::vector<int> loaded, idle;
+    if (loaded_first) loaded = add_cantilever(model, "loaded", {0.0, 0.0});
+    idle = add_cantilever(model, "idle", {0.0, 2.0});
+    if (!loaded_first) loaded = add_cantilever(model, "loaded", {0.0, 0.0});
+    push(model, loaded[5], burst(frequency(2), 50.0, 0.1, 0.6));
+    dynamics::number_model(model);
+    const Run run = drive(model, {.watched = loaded[5], .active = {}, .duration = 1.0});
+    CHECK(run.count("loaded.mode 2", true) == 1);
+    for (const Change& change : run.changes) CHECK_FALSE(change.mode.starts_with("idle"));
+  }
+}
+
+TEST_CASE("What leaving modes take with them is told and booked", "[adaptivity]") {
+  // Two beams that ring down a little out of step, so that one is at rest where the other is not, and leave together at
+  // a threshold so high that what is lost can be seen.
+  Model model;
+  const std::vector<int> nodes = add_cantilever(model, "first", {0.0, 0.0});
+  const std::vector<int> others = add_cantilever(model, "second", {0.0, 2.0});
+  push(model, nodes[5], burst(frequency(1), 50.0, 0.01, 0.8));
+  push(model, others[5], burst(frequency(1), 49.0, 0.02, 0.81));
+  dynamics::number_model(model);
+  const Run run = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.0, .recall = 0.9, .drop = 0.08, .tolerance = 1e-9, .may_leave = true});
+  double lost = 0.0, time = -1.0;
+  for (const Change& change : run.changes) {
+    if (change.joins || change.time == time) continue;  // one number for all that leave together
+    const std::size_t place = change.text.find("energy lost by all that leave ");
+    REQUIRE(place != std::string::npos);
+    lost += std::stod(change.text.substr(place + 30));
+    time = change.time;
+  }
+  double open = 0.0;
+  for (const dynamics::EnergyBook& book : run.energy) {
+    const dynamics::EnergyBook& first = run.energy.front();
+    open = std::max(open, std::abs(book.stored.total() - first.stored.total() + book.dissipated - book.input));
+  }
+  CHECK(lost > 1e-6);  // J
+  CHECK(open < 0.01 * lost);
+}
