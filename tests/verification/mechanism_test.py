@@ -67,6 +67,13 @@ class FourBar(VerificationCase):
         self.assert_close(power[2:-2], rate, absolute=1e-6 * np.max(np.abs(rate)))
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
+    def test_a_mechanism_without_freedom_runs_by_every_method(self):
+        expected = self.run_to_results(EXAMPLES / "four_bar_run.toml", "--set", "integrator.method=adams")
+        reactions = expected["joints/coupler_rocker/reaction"]
+        for method in ("exponential", "bdf", "generalized-alpha"):
+            results = self.run_to_results(EXAMPLES / "four_bar_run.toml", "--set", f"integrator.method={method}")
+            self.assert_close(results["joints/coupler_rocker/reaction"], reactions, absolute=1e-8)
+
 
 class SliderCrank(VerificationCase):
     def test_piston_and_reactions(self):
