@@ -122,6 +122,36 @@ class Chains(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+class SteadyTurning(VerificationCase):
+    VEHICLE = """
+name = "rotor"
+gravity = [0.0, 0.0]
+[bodies.bar]
+mass = 1.0
+inertia = 0.02
+position = [0.3, 0.0]
+points = { eye = [-0.3, 0.0] }
+[[joints]]
+name = "bearing"
+type = "revolute"
+a = "ground.origin"
+b = "bar.eye"
+"""
+
+    def test_the_energy_of_what_turns_steadily_closes(self):
+        """No term of the energy changes but by errors, which are small beside the kinetic energy."""
+        results = self.run_text(self.VEHICLE, """
+start = "as-given"
+duration = 10.0
+output_step = 0.01
+[initial.bar]
+angular_velocity = 100.0
+velocity = [0.0, 30.0]
+""")
+        self.assert_close(results["energy/kinetic"], 550.0, relative=1e-4)
+        self.assertLess(results.summary["energy_closure"], 1e-3)
+
+
 class GeneralizedAlpha(VerificationCase):
     """The second integrator has neither coordinates nor formulas in common with the first, which serves as reference."""
 
