@@ -122,6 +122,48 @@ class Chains(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+def double_pendulum(length):
+    """Two equal uniform bars, hinged to the ground and to each other, at rest 0.3 and 1 rad above the horizontal."""
+    first = 0.5 * length * np.exp(0.3j)
+    second = 2.0 * first + 0.5 * length * np.exp(1.0j)
+    bars = "".join(f"""
+[bodies.{name}]
+mass = 1.0
+inertia = {length**2 / 12.0!r}
+position = [{float(centre.real)!r}, {float(centre.imag)!r}]
+angle = {angle}
+points = {{ near = [{-0.5 * length!r}, 0.0], far = [{0.5 * length!r}, 0.0] }}
+""" for name, centre, angle in (("upper", first, 0.3), ("lower", second, 1.0)))
+    return f"""
+name = "double pendulum"
+gravity = [0.0, -9.81]
+{bars}
+[[joints]]
+name = "support"
+type = "revolute"
+a = "ground.origin"
+b = "upper.near"
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "upper.far"
+b = "lower.near"
+"""
+
+
+class FullTurns(VerificationCase):
+    def test_turns_are_counted_however_small_the_mechanism(self):
+        """Lengths by s and times by √s give the same motion; the first step tried is then far too long."""
+        angles = []
+        for length in (1.0, 1e-2, 1e-4, 1e-6, 1e-8):
+            time = 3.0 * length**0.5
+            results = self.run_text(double_pendulum(length),
+                                    f'start = "as-given"\nduration = {time!r}\noutput_step = {time / 100.0!r}\n')
+            angles.append(np.column_stack([results[f"joints/{name}/coordinate"] for name in ("support", "hinge")]))
+        for found in angles[1:]:
+            self.assert_close(found, angles[0], absolute=1e-3)
+
+
 class SteadyTurning(VerificationCase):
     VEHICLE = """
 name = "rotor"
