@@ -141,7 +141,7 @@ Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   if (code < 0) {
     throw support::NumericalError(
         fmt::format("integration stopped at t = {:.9g} s (code {}): {}; try a smaller relative tolerance, and look at "
-                    "forces and positions just before that time",
+                    "forces and positions just before that time, which may be a singular one",
                     time_, code, memory.callback.message));
   }
   if (code == CV_ROOT_RETURN) return StepResult::kSwitched;

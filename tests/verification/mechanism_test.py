@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Mechanisms of rigid bodies: the examples, each against numbers from elsewhere."""
 
+import os
+import subprocess
 import unittest
 
 import h5py
@@ -66,6 +68,7 @@ class FourBar(VerificationCase):
         rate = (8.0 * (stored[3:-1] - stored[1:-3]) - (stored[4:] - stored[:-4])) / (12.0 * step)
         self.assert_close(power[2:-2], rate, absolute=1e-6 * np.max(np.abs(rate)))
         self.assertLess(results.summary["energy_closure"], 1e-6)
+
 
     def test_a_mechanism_without_freedom_runs_by_every_method(self):
         expected = self.run_to_results(EXAMPLES / "four_bar_run.toml", "--set", "integrator.method=adams")
@@ -235,6 +238,14 @@ class GeneralizedAlpha(VerificationCase):
         self.assertEqual(results.summary["steps"], 3000)
         self.assertGreater(results.summary["velocity_violation"], 1e-9)
         self.assertLess(results.summary["energy_closure"], 1e-3)
+
+    def test_steps_that_damp_nothing_fail_with_a_word_on_it(self):
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], "run", EXAMPLES / "andrews_run.toml", "--set", "integrator.fixed_step=1e-3",
+             "--set", "integrator.method=generalized-alpha", "--set", "integrator.spectral_radius=1.0"],
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("nothing damps the joints' forces", process.stderr)
 
 
 if __name__ == "__main__":
