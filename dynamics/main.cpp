@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "dynamics/program/commands.h"
 #include "tools/support/program.h"
@@ -20,6 +23,12 @@ void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output
   command.add_flag("--quiet", request.quiet, "no progress on stderr");
 }
 
+// An empty name, as of a shell's variable that is not set, is no wish to have no file.
+void add_output_option(CLI::App& command, RunOutput& output, const char* what) {
+  command.add_option("-o,--output", output.results, fmt::format("{} (HDF5); none is written without it", what))
+      ->check([](const std::string& name) { return name.empty() ? "must name a file, got an empty name" : ""; });
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Runs a vehicle of rigid and flexible bodies.", "sprung-dynamics"};
   app.footer(
@@ -34,7 +43,7 @@ int run(int argc, char** argv) {
   RunOutput output;
   CLI::App* run = app.add_subcommand("run", "static equilibrium, then the run; writes results and a summary");
   add_input_options(*run, request, output);
-  run->add_option("-o,--output", output.results, "results file (HDF5); none is written without it");
+  add_output_option(*run, output, "results file");
   run->add_flag("--dry-run", output.dry_run,
                 "says what would be run: bodies, modes, joints, freedoms and static balance; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
@@ -44,11 +53,11 @@ int run(int argc, char** argv) {
   CLI::App* response = app.add_subcommand(
       "response", "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
   add_input_options(*response, request, output);
-  response->add_option("-o,--output", output.results, "response file (HDF5); none is written without it");
+  add_output_option(*response, output, "response file");
   CLI::App* select = app.add_subcommand(
       "select-modes", "what each mode is worth under the run's forcing, and which are kept for modes \"auto\"");
   add_input_options(*select, request, output);
-  select->add_option("-o,--output", output.results, "file of the choice (HDF5); none is written without it");
+  add_output_option(*select, output, "file of the choice");
 
   try {
     app.parse(argc, argv);

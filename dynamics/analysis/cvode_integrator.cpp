@@ -65,7 +65,7 @@ std::string explain_stop(int code, const std::string& message) {
       return "the iteration of a step does not converge; look at forces and positions just before that time, and where "
              "springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
     case CV_ERR_FAILURE:
-      return "the step has become too short; look at forces and positions just before that time";
+      return "the step has become too short; look at forces and positions just before that time, which may be a singular one";
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:

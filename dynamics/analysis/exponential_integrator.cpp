@@ -216,7 +216,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     now_.length = choose_length(longest_step);
     if (now_.length < kShortestStep) {
       throw_stopped(time_,
-                    "the step has become too short; look at forces and positions just before that time");
+                    "the step has become too short; look at forces and positions just before that time, which "
+                    "may be a singular one");
     }
     if (now_.length != propagator_length_) {
       for (int i = 1; i < kNumNodes; ++i) {

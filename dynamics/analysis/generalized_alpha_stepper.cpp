@@ -22,8 +22,13 @@ constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFacto
 // multipliers.
 constexpr double kWorthwhile = 1.2;
 
-[[noreturn]] void throw_stopped(double time, const char* reason) {
-  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
+[[noreturn]] void throw_stopped(double time, const char* reason, const char* remark = "") {
+  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}{}", time, reason, remark));
+}
+
+// Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
+const char* remark_on_radius(double spectral_radius) {
+  return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
 }
 
 }  // namespace
@@ -31,6 +36,7 @@ constexpr double kWorthwhile = 1.2;
 GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integrator::Options& options)
     : model_(&model),
       method_(options.spectral_radius),
+      spectral_radius_(options.spectral_radius),
       fixed_step_(options.fixed_step),
       piece_(model),
       equations_(model, SystemTerms::Markers::kActing),
@@ -143,11 +149,13 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
       throw_stopped(
           time_,
           "the step has become too short; look at forces and positions just before that time, which may be "
-          "a singular one");
+          "a singular one",
+          remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {
       if (fixed_step_ > 0.0)
-        throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step");
+        throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step",
+                      remark_on_radius(spectral_radius_));
       next_length_ = 0.25 * length;
       continue;
     }

@@ -49,7 +49,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
 
   const Model* model_;
   GeneralizedAlpha method_;
-  double fixed_step_;
+  double spectral_radius_, fixed_step_;
   SmoothPiece piece_;
   ConstrainedEquations equations_;  // at the state evaluated last; `step` takes them elsewhere
   Statistics statistics_;

@@ -29,6 +29,11 @@ Integrator::Method default_method(int num_freedoms) {
 
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options) {
   if (options.method == Integrator::Method::kExponential) {
+    if (system.num_freedoms() == 0) {  // all motion is prescribed, only the energies are integrated
+      const Integrator::Options adams{.method = Integrator::Method::kAdams,
+                                      .relative_tolerance = options.relative_tolerance};
+      return std::make_unique<CvodeIntegrator>(system, adams);
+    }
     return std::make_unique<ExponentialIntegrator>(system, options.relative_tolerance);
   }
   if (options.method == Integrator::Method::kGeneralizedAlpha) {

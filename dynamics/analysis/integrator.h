@@ -57,8 +57,8 @@ std::string_view method_name(Integrator::Method method);
 Integrator::Method default_method(int num_freedoms);
 
 /// @param system  has to outlive the integrator
-/// @throws std::invalid_argument for the exponential method without a freedom, and for generalized-α, which has no
-///         use for independent coordinates
+/// @return for the exponential method without a freedom, which has no vibration to know, Adams
+/// @throws std::invalid_argument for generalized-α, which has no use for independent coordinates
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options);
 
 }  // namespace sprung::dynamics

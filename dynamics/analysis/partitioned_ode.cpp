@@ -19,6 +19,7 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
   equations_.choose_partition_at(state.time, state.q);
   ++coordinate_version_;
   evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
+  equations_.mark(state.time, state.q, state.v);
   piece_.set_branches(state.branches);
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
@@ -38,9 +39,13 @@ bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin()))
     return true;
   evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
-  if (equations_.update_positions(formula_time, y.first(f)) != PartitionedEquations::Outcome::kGood)
+  const bool is_good =
+      equations_.update_positions(formula_time, y.first(f)) == PartitionedEquations::Outcome::kGood;
+  if (is_good) equations_.update_velocities(y.subspan(f, f));
+  if (!is_good || equations_.has_lost_turns(formula_time)) {
+    equations_.return_to_mark();
     return false;
-  equations_.update_velocities(y.subspan(f, f));
+  }
   evaluated_time_ = formula_time;
   std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(2 * f), evaluated_y_.begin());
   return true;
@@ -54,6 +59,10 @@ State PartitionedOde::make_state(double time, std::span<const double> y) {
   }
   accelerated_time_ = evaluated_time_;
   return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = piece_.branches()};
+}
+
+void PartitionedOde::mark_motion() {
+  if (std::isfinite(evaluated_time_)) equations_.mark(evaluated_time_, equations_.q(), equations_.v());
 }
 
 // Differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.

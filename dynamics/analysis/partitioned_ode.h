@@ -28,6 +28,10 @@ class PartitionedOde final : public OdeSystem {
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
 
+  /// The motion evaluated last, if it was good, belongs to what has really been come to: from there positions are
+  /// searched for where a trial has failed, and dependent angles count their turns.
+  void mark_motion();
+
   PartitionedEquations& equations() { return equations_; }
   const PartitionedEquations& equations() const { return equations_; }
   SmoothPiece& piece() { return piece_; }

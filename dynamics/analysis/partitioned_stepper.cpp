@@ -35,6 +35,7 @@ void PartitionedStepper::resume(double end_time) {
 // seen to grow bad: beyond it no position can be found. Another partition goes on from there.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
+  ode_.mark_motion();
   try {
     return integrator_->step(longest_step);
   } catch (const support::NumericalError&) {

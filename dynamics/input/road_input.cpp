@@ -75,7 +75,8 @@ RoadPoints read_road_table(const std::filesystem::path& path) {
   const std::string text = support::read_text_file(path);
   RoadPoints points;
   support::SourceLocation location{.path = path.string()};
-  for (std::size_t begin = 0; begin < text.size();) {
+  const bool has_mark = text.starts_with("\xEF\xBB\xBF");  // of byte order, as spreadsheets write it
+  for (std::size_t begin = has_mark ? 3 : 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     ++location.line;
     read_line(std::string_view(text).substr(begin, end - begin), location, points);

@@ -38,7 +38,7 @@ class RunStatistics {
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
   /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the stored terms
-  /// (or a billionth of the terms themselves, where nothing moves).
+  /// (but at least a hundredth of the kinetic energy, for what turns steadily, and a billionth of the terms).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sprung::dynamics {
 
@@ -18,7 +19,7 @@ PartitionedEquations::PartitionedEquations(const Model& model)
       full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  q_ = v_ = last_good_q_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  q_ = v_ = last_good_q_ = marked_q_ = marked_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
   residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
   step_.resize(static_cast<std::size_t>(num_freedoms_));
 }
@@ -32,6 +33,31 @@ void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorX
   dependents_ = DependentSolver(terms().jacobian(), partition_, model_->num_coordinates);
   dependents_.factorise(terms().jacobian());
   dependents_.set_reference();
+  dependent_angles_.clear();
+  for (const Body& body : model_->bodies) {
+    const int angle = body.first_coordinate + 2;
+    const std::vector<int>& dependent = partition_.dependent;
+    if (std::find(dependent.begin(), dependent.end(), angle) != dependent.end()) dependent_angles_.push_back(angle);
+  }
+}
+
+void PartitionedEquations::mark(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  marked_time_ = time;
+  marked_q_ = q;
+  marked_v_ = v;
+}
+
+void PartitionedEquations::return_to_mark() {
+  q_ = last_good_q_ = marked_q_;
+  mutable_terms().update_positions(marked_time_, q_);
+  refactor();
+}
+
+bool PartitionedEquations::has_lost_turns(double time) const {
+  const double half = 0.5 * (time - marked_time_);
+  return std::any_of(dependent_angles_.begin(), dependent_angles_.end(), [&](int i) {
+    return std::abs(q_[i] - marked_q_[i] - half * (marked_v_[i] + v_[i])) > std::numbers::pi;
+  });
 }
 
 void PartitionedEquations::refactor() {

@@ -31,6 +31,13 @@ class PartitionedEquations {
   /// next search for dependents.
   void choose_partition_at(double time, const Eigen::VectorXd& q);
   const Partition& partition() const { return partition_; }
+  /// Marks a motion as one that has really been come to.
+  void mark(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// The next search for dependents starts at the marked positions, and not where a trial too far away has ended.
+  void return_to_mark();
+  /// Whether a dependent angle has turned by half a turn more or less since the mark than its velocities then and now
+  /// tell: Newton may find the mechanism assembled, but full turns off. After update_velocities.
+  bool has_lost_turns(double time) const;
   int num_freedoms() const { return num_freedoms_; }
 
   /// Positions: dependents from independents, Jacobian and its factors.
@@ -79,6 +86,9 @@ class PartitionedEquations {
   int num_freedoms_, num_constraints_;
 
   Eigen::VectorXd q_, v_, last_good_q_;
+  std::vector<int> dependent_angles_;  // coordinates
+  Eigen::VectorXd marked_q_, marked_v_;
+  double marked_time_ = 0.0;
   Eigen::VectorXd residual_, correction_;  // m
   std::vector<double> step_;               // of the independents, f
 };

@@ -241,17 +241,14 @@ void SystemTerms::update_forces(std::span<const int> branches) {
 
 void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const {
   std::copy(wrenches_.begin(), wrenches_.end(), loads.begin());
-  for (std::size_t j = 0; j < model_->joints.size(); ++j) {
-    const Joint& joint = *model_->joints[j];
-    const JointJacobians& G = joint_jacobians_[j];
-    Wrench& on_a = loads[static_cast<std::size_t>(joint.marker_a)];
-    Wrench& on_b = loads[static_cast<std::size_t>(joint.marker_b)];
-    for (int k = 0; k < joint.num_constraints(); ++k) {
-      const double multiplier = lambda[model_->joint_rows[j] + k];
-      on_a.force -= multiplier * G.a.row(k).head<2>().transpose();
-      on_a.torque -= multiplier * G.a(k, 2);
-      on_b.force -= multiplier * G.b.row(k).head<2>().transpose();
-      on_b.torque -= multiplier * G.b(k, 2);
+  for (const JointTerms& terms : joints_) {
+    for (const JointSide* side : {&terms.a, &terms.b}) {
+      Wrench& load = loads[side->marker];
+      for (int k = 0; k < terms.num_rows; ++k) {
+        const double multiplier = lambda[terms.row + k];
+        load.force -= multiplier * side->G.row(k).head<2>().transpose();
+        load.torque -= multiplier * side->G(k, 2);
+      }
     }
   }
 }

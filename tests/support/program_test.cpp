@@ -66,7 +66,7 @@ TEST_CASE("the message comes after what was printed before") {
 }
 
 TEST_CASE("the first interrupt is asked for politely") {
-  const int signal = GENERATE(SIGINT, SIGTERM);
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   const ChildResult result = run([signal]() -> int {
     if (interrupt_requested()) return 50;
     std::raise(signal);
@@ -85,6 +85,16 @@ TEST_CASE("the second interrupt ends the program at once") {
   });
   CHECK(result.signal == SIGINT);
   CHECK(result.exit_code == -1);
+}
+
+TEST_CASE("a program under nohup goes on when its terminal is closed") {
+  std::signal(SIGHUP, SIG_IGN);
+  const ChildResult result = run([]() -> int {
+    std::raise(SIGHUP);
+    return interrupt_requested() ? 50 : 7;
+  });
+  std::signal(SIGHUP, SIG_DFL);
+  CHECK(result.exit_code == 7);
 }
 
 TEST_CASE("a file-size limit and a closed pipe are errors of the write, not signals") {

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Mechanisms of rigid bodies: the examples, each against numbers from elsewhere."""
 
+import os
+import subprocess
 import unittest
 
 import h5py
@@ -68,6 +70,14 @@ class FourBar(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+    def test_a_mechanism_without_freedom_runs_by_every_method(self):
+        expected = self.run_to_results(EXAMPLES / "four_bar_run.toml", "--set", "integrator.method=adams")
+        reactions = expected["joints/coupler_rocker/reaction"]
+        for method in ("exponential", "bdf", "generalized-alpha"):
+            results = self.run_to_results(EXAMPLES / "four_bar_run.toml", "--set", f"integrator.method={method}")
+            self.assert_close(results["joints/coupler_rocker/reaction"], reactions, absolute=1e-8)
+
+
 class SliderCrank(VerificationCase):
     def test_piston_and_reactions(self):
         results = self.run_to_results(EXAMPLES / "slider_crank_run.toml")
@@ -115,6 +125,78 @@ class Chains(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+def double_pendulum(length):
+    """Two equal uniform bars, hinged to the ground and to each other, at rest 0.3 and 1 rad above the horizontal."""
+    first = 0.5 * length * np.exp(0.3j)
+    second = 2.0 * first + 0.5 * length * np.exp(1.0j)
+    bars = "".join(f"""
+[bodies.{name}]
+mass = 1.0
+inertia = {length**2 / 12.0!r}
+position = [{float(centre.real)!r}, {float(centre.imag)!r}]
+angle = {angle}
+points = {{ near = [{-0.5 * length!r}, 0.0], far = [{0.5 * length!r}, 0.0] }}
+""" for name, centre, angle in (("upper", first, 0.3), ("lower", second, 1.0)))
+    return f"""
+name = "double pendulum"
+gravity = [0.0, -9.81]
+{bars}
+[[joints]]
+name = "support"
+type = "revolute"
+a = "ground.origin"
+b = "upper.near"
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "upper.far"
+b = "lower.near"
+"""
+
+
+class FullTurns(VerificationCase):
+    def test_turns_are_counted_however_small_the_mechanism(self):
+        """Lengths by s and times by √s give the same motion; the first step tried is then far too long."""
+        angles = []
+        for length in (1.0, 1e-2, 1e-4, 1e-6, 1e-8):
+            time = 3.0 * length**0.5
+            results = self.run_text(double_pendulum(length),
+                                    f'start = "as-given"\nduration = {time!r}\noutput_step = {time / 100.0!r}\n')
+            angles.append(np.column_stack([results[f"joints/{name}/coordinate"] for name in ("support", "hinge")]))
+        for found in angles[1:]:
+            self.assert_close(found, angles[0], absolute=1e-3)
+
+
+class SteadyTurning(VerificationCase):
+    VEHICLE = """
+name = "rotor"
+gravity = [0.0, 0.0]
+[bodies.bar]
+mass = 1.0
+inertia = 0.02
+position = [0.3, 0.0]
+points = { eye = [-0.3, 0.0] }
+[[joints]]
+name = "bearing"
+type = "revolute"
+a = "ground.origin"
+b = "bar.eye"
+"""
+
+    def test_the_energy_of_what_turns_steadily_closes(self):
+        """No term of the energy changes but by errors, which are small beside the kinetic energy."""
+        results = self.run_text(self.VEHICLE, """
+start = "as-given"
+duration = 10.0
+output_step = 0.01
+[initial.bar]
+angular_velocity = 100.0
+velocity = [0.0, 30.0]
+""")
+        self.assert_close(results["energy/kinetic"], 550.0, relative=1e-4)
+        self.assertLess(results.summary["energy_closure"], 1e-3)
+
+
 class GeneralizedAlpha(VerificationCase):
     """The second integrator has neither coordinates nor formulas in common with the first, which serves as reference."""
 
@@ -156,6 +238,14 @@ class GeneralizedAlpha(VerificationCase):
         self.assertEqual(results.summary["steps"], 3000)
         self.assertGreater(results.summary["velocity_violation"], 1e-9)
         self.assertLess(results.summary["energy_closure"], 1e-3)
+
+    def test_steps_that_damp_nothing_fail_with_a_word_on_it(self):
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], "run", EXAMPLES / "andrews_run.toml", "--set", "integrator.fixed_step=1e-3",
+             "--set", "integrator.method=generalized-alpha", "--set", "integrator.spectral_radius=1.0"],
+            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("nothing damps the joints' forces", process.stderr)
 
 
 if __name__ == "__main__":

@@ -46,6 +46,12 @@ TEST_CASE("Joints are made as the file says") {
   CHECK(residual_of("type = \"distance\"\nlength = 4.0", marker(3.0, 4.0, 0.0))[0] == Approx(1.0));
 }
 
+TEST_CASE("An axis may be of any length") {
+  for (const char* axis : {"[0.0, 1e-300]", "[0.0, 1e300]"}) {
+    CHECK(residual_of(std::string("type = \"pin-in-slot\"\naxis = ") + axis, marker(0.2, 3.0, 0.0))[0] == Approx(-0.2));
+  }
+}
+
 TEST_CASE("A driven length moves, or stands still for a balance") {
   const std::string actuator = "type = \"distance\"\nlength = { polynomial = [4.0, 0.5] }";
   CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {}, 2.0)[0] == Approx(0.0).margin(1e-15));

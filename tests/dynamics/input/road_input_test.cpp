@@ -79,6 +79,10 @@ TEST_CASE("Keys of a road that are missing, unknown or unfit are refused") {
   CHECK(error_of("shape = \"table\"\nstart = 1.0") == "run.toml:1:1: error: missing key 'file' in 'road'");
 }
 
+TEST_CASE("A road table may begin with the mark of byte order that spreadsheets write") {
+  CHECK(make_table("\xEF\xBB\xBF" "0,0\r\n1,0.1\r\n")->height(3.0) == Approx(0.1).epsilon(1e-12));
+}
+
 TEST_CASE("A fault in a road table is found at its line and column") {
   CHECK(error_of_table("0 0\n1 0.1m\n") ==
         "roads/field.txt:2:3: error: the height must be a finite number [m], got '0.1m'");

@@ -68,6 +68,12 @@ class Results(DynamicsTestCase):
         process = self.run_to_results("--set", "statistics.from=0.00051", "--set", "statistics.to=0.0009")
         self.assert_refused(process, "statistics", "there is none")
 
+    def test_an_empty_name_is_no_name(self):
+        for verb in ("run", "response", "select-modes"):
+            process = self.run_program(*SHORT, "-o", "", verb=verb)
+            self.assertEqual(process.returncode, 2, process.stderr)
+            self.assertIn("must name a file", process.stderr)
+
     def test_disk_full_leaves_the_earlier_result(self):
         self.make_earlier_result()
         before = self.files()
