@@ -71,6 +71,13 @@ class Differences(unittest.TestCase):
         self.assertTrue(cells_agree("1e-06", "1e-06", 0.0))
         self.assertFalse(cells_agree("1e-06", "5e-06", 0.01))
 
+    def test_shares_alone_may_differ_by_points(self):
+        self.assertTrue(cells_agree("180.4, +0.3 %", "180.4, -0.6 %", 0.01, points=1.0))
+        self.assertTrue(cells_agree("180.4, +0.3 %", "180.4, +1.3 %", 0.01, points=1.0))
+        self.assertFalse(cells_agree("180.4, +0.3 %", "180.4, +1.4 %", 0.01, points=1.0))
+        self.assertFalse(cells_agree("0.30", "1.30", 0.01, points=1.0))
+        self.assertFalse(cells_agree("180.4, +0.3 %", "180.4, +1.3 %", 0.01))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -54,10 +54,11 @@ RELATIVE = 0.01
 RELATIVE_EVALUATIONS = 0.10
 OTHER_TERRAIN = "road_1_seed2"
 OTHER_SPEED = "speed8.5"
-RELATIVE_CHANGES, CHANGES = 0.10, 2.0  # of how often modes joined and left, and of what hangs on that: share, or units
+RELATIVE_CHANGES, CHANGES = 0.25, 3.0  # of how often modes joined and left, and how many took part: share, or units
+POINTS = 1.0  # per cent, of shares by which a run is off: what RELATIVE is of the value itself
 TIMED = ("cost", "mode cost")
 EVALUATIONS = ("evaluations", "effort", "effort of Adams")
-COUNTS = ("modes active", "instants of change", "evaluations")  # how columns of the tables on modes begin
+COUNTS = ("modes active", "instants of change")  # how columns of the tables on modes begin
 
 
 def rows_of_evaluations(name, row):
@@ -66,14 +67,24 @@ def rows_of_evaluations(name, row):
 
 
 def find_mode_differences(kept, made):
-    """Differences of a table on modes that come and go: its counts may differ more than its numbers."""
-    counted = [heading for heading in made[0][1:] if heading.startswith(COUNTS)]
-    numbers = [heading for heading in made[0] if heading not in counted]
-    counted = [made[0][0], *counted]
-    found = find_differences(keep_columns(kept, numbers), keep_columns(made, numbers), RELATIVE)
-    return found + find_differences(
-        keep_columns(kept, counted), keep_columns(made, counted), RELATIVE_CHANGES, CHANGES
-    )
+    """Differences of a table on modes that come and go. Whether one of them joins a moment earlier hangs on rounding errors:
+    its counts may differ more than its numbers, and its shares by as much as the values that they are of. How well the energy
+    book closes is rounding errors alone; run_all() refuses runs in which it does not."""
+    headings = [one for one in made[0][1:] if one != "energy closure"]
+    changes = [one for one in headings if one.startswith(COUNTS)]
+    effort = [one for one in headings if one.startswith(EVALUATIONS)]
+    numbers = [one for one in headings if one not in (*changes, *effort)]
+    found = []
+    for columns, relative, digits in (
+        (numbers, RELATIVE, 1.5),
+        (effort, RELATIVE_EVALUATIONS, 1.5),
+        (changes, RELATIVE_CHANGES, CHANGES),
+    ):
+        columns = [made[0][0], *columns]
+        found += find_differences(
+            keep_columns(kept, columns), keep_columns(made, columns), relative, digits, POINTS
+        )
+    return found
 
 
 class Report(unittest.TestCase):
@@ -117,7 +128,7 @@ class Report(unittest.TestCase):
                 kept = parse_markdown(read_part(self.text, name))
             with self.subTest(name):
                 self.assertGreater(len(rows), 0)
-                if name in list_mode_tables():
+                if name == "mode claims" or name in list_mode_tables():
                     self.assertEqual(find_mode_differences(kept, (headings, rows)), [])
                     continue
                 counts = [row for row in rows if rows_of_evaluations(name, row)]
@@ -168,7 +179,7 @@ class Report(unittest.TestCase):
             [row[:4] for row in shown], [[one.number, one.source, one.says, one.criterion] for one in list_mode_claims()]
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "recall"))[1]), len(RECALLS))
-        self.assertEqual(len(parse_markdown(read_part(self.text, "adaptive bump"))[1]), 13)
+        self.assertEqual(len(parse_markdown(read_part(self.text, "adaptive bump"))[1]), 12)
 
     def test_times_stand_beside_those_of_all_modes_by_the_same_method(self):
         times = {run.name: 1.0 + place for place, run in enumerate(list_timed_mode_runs())}

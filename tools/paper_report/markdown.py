@@ -45,11 +45,11 @@ def replace_part(text, name, content):
     return text[:start] + content + text[end:]
 
 
-def find_differences(kept, made, relative, absolute_digits=1.5):
+def find_differences(kept, made, relative, absolute_digits=1.5, points=0.0):
     """Where a table as kept differs from one as made: a list of sentences, empty if they agree.
 
     Rows of `made` are looked up in `kept` by their first cell. Words must be equal; numbers may differ by the share
-    `relative`, and by `absolute_digits` units of the last digit shown.
+    `relative`, by `absolute_digits` units of the last digit shown, and those in % by `points` of a per cent.
     """
     headings, rows = kept
     if list(headings) != list(made[0]):
@@ -61,19 +61,20 @@ def find_differences(kept, made, relative, absolute_digits=1.5):
             complaints.append(f"no row '{row[0]}'")
             continue
         for heading, old, new in zip(headings, found[row[0]], row):
-            if not cells_agree(old, new, relative, absolute_digits):
+            if not cells_agree(old, new, relative, absolute_digits, points):
                 complaints.append(f"row '{row[0]}', column '{heading}': '{old}' is now '{new}'")
     return complaints
 
 
-def cells_agree(old, new, relative, absolute_digits=1.5):
+def cells_agree(old, new, relative, absolute_digits=1.5, points=0.0):
     """Whether two cells have the same words, and numbers that agree as in find_differences()."""
     if NUMBER.sub("#", old) != NUMBER.sub("#", new):
         return False
-    for one, other in zip(NUMBER.findall(old), NUMBER.findall(new)):
-        first, second = (float(text.replace("−", "-")) for text in (one, other))
-        digits = len(one.partition(".")[2].partition("e")[0])
-        unit = 10.0**-digits * (10.0 ** int(one.partition("e")[2]) if "e" in one else 1.0)
-        if abs(first - second) > max(relative * abs(first), absolute_digits * unit):
+    for one, other in zip(NUMBER.finditer(old), NUMBER.findall(new)):
+        first, second = (float(text.replace("−", "-")) for text in (one[0], other))
+        digits = len(one[0].partition(".")[2].partition("e")[0])
+        unit = 10.0**-digits * (10.0 ** int(one[0].partition("e")[2]) if "e" in one[0] else 1.0)
+        share = points if old.startswith(" %", one.end()) else 0.0
+        if abs(first - second) > max(relative * abs(first), absolute_digits * unit, share):
             return False
     return True

@@ -1,7 +1,6 @@
 """The report's tables on modes that are chosen from the forcing, and join and leave during the run. Like those of tables.py
 they leave out rows of runs that are not there."""
 
-from mode_history import find_worst_neglect
 from paper_report.claims import percent
 from paper_report.mode_numbers import Choice, can_compare, compare, format_ranges
 from paper_report.mode_runs import (
@@ -12,7 +11,6 @@ from paper_report.mode_runs import (
     METHODS,
     RECALLS,
     TOLERANCES,
-    name_at_chassis,
     name_chosen,
     name_recall,
     name_watched,
@@ -33,8 +31,7 @@ def list_adaptive_cases(suffix=""):
     """What adaptive runs over the bump stand beside: dict of row's name → run's name."""
     fixed = {f"fixed, {name_set(n)}": f"bump_{name_modes(n)}{suffix}" for n in FIXED_COUNTS}
     adaptive = {FROM_FEW: f"bump_adaptive{suffix}", f"from 2, {FEW} available": f"bump_adaptive_of_{FEW}{suffix}"}
-    at_chassis = {f"{FROM_FEW}, judged at the chassis": name_at_chassis("bump_adaptive")}
-    return fixed | adaptive | ({} if suffix else at_chassis)
+    return fixed | adaptive
 
 
 def format_histories(case, digits=0):
@@ -140,7 +137,6 @@ def make_terrain_table(numbers):
     models = {f"fixed, {name_set(n)}": f"terrain_{name_modes(n)}" for n in FIXED_COUNTS} | {
         "chosen beforehand": name_chosen("terrain", TOLERANCES[0]),
         FROM_FEW: "terrain_adaptive",
-        f"{FROM_FEW}, judged at the chassis": name_at_chassis("terrain_adaptive"),
     }
     rows = []
     for model, name in models.items():
@@ -175,21 +171,16 @@ def make_neglect_table(numbers):
             rows.append(
                 (
                     f"{road}, {name_set(count)}",
-                    *(format_neglect(case.run.results, column) for column in (0, 1)),
+                    case.run.left_out or "–",
                     *(f"{100.0 * share:.1f} %" for share in case.largest_differences()),
                     "yes" if case.run.warnings else "no",
                 )
             )
     headings = (
-        "", "told: of the deflection", "told: of the acceleration", "missed: front end's deflection",
+        "", "told: the mode that misses most", "missed: front end's deflection",
         "missed: middle's acceleration", "missed: seat's acceleration", "warns",
     )  # fmt: skip
     return headings, rows
-
-
-def format_neglect(results, column):
-    worst = find_worst_neglect(results, column)
-    return f"{100.0 * worst.share:.1f} %, {worst.body} {worst.mode} at {worst.time:.2f} s" if worst else "–"
 
 
 def make_mode_cost_table(numbers):
@@ -214,7 +205,6 @@ def make_mode_cost_table(numbers):
         f"fixed, all {ALL} modes, with the indicator": name_watched(f"terrain_{ALL}modes"),
         "chosen beforehand": name_chosen("terrain", TOLERANCES[0]),
         FROM_FEW: "terrain_adaptive",
-        f"{FROM_FEW}, judged at the chassis": name_at_chassis("terrain_adaptive"),
     }.items():
         rows.append((f"terrain: {model}", f"{numbers.costs[name]:.2f}", f"{numbers.costs[name] / full:.2f}", "–", "–"))
     return ("", *COST_HEADINGS), rows

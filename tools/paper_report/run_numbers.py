@@ -24,6 +24,7 @@ SEAT = "points/chassis.seat"
 FRONT_END = "points/chassis.front_end/deflection.y"
 BANDS = (4.0, 8.0, 16.0)  # Hz
 SEGMENT = 4.0  # s, of an averaged spectrum
+LEFT_OUT = "largest mode left out"  # how a line of the run's summary begins
 
 
 class Deflection(NamedTuple):
@@ -90,12 +91,23 @@ class RunNumbers:
         return float(self.results.file["summary"].attrs["energy_closure"])
 
     @property
-    def warnings(self):
-        """What the program warned of at the end of the run, a line each. ResultsError if it was not kept."""
+    def said(self):
+        """What the program said at the end of the run. ResultsError if it was not kept."""
         said = self.path.with_suffix(".txt")
         if not said.exists():
             raise ResultsError(f"{said}: error: no such file")
-        return list_warnings(said.read_text(encoding="utf-8"))
+        return said.read_text(encoding="utf-8")
+
+    @property
+    def warnings(self):
+        """What the program warned of at the end of the run, a line each."""
+        return list_warnings(self.said)
+
+    @property
+    def left_out(self):
+        """The mode that was left out and misses most, and its shares, in the program's words; empty if none was."""
+        lines = [line for line in self.said.splitlines() if line.startswith(LEFT_OUT)]
+        return lines[0].removeprefix(LEFT_OUT).strip() if lines else ""
 
     @property
     def frequencies(self):
