@@ -69,7 +69,7 @@ def tightens(numbers):
     """Whether the histories' differences at the tightest thresholds are the least of all."""
     found = np.array([compare(numbers, name_recall(recall)).histories() for recall in RECALLS])
     words = ", ".join(
-        f"{what} {100.0 * first:.1f} to {100.0 * last:.1f} %" for what, first, last in zip(POINTS, found[0], found[-1])
+        f"{what} {100.0 * first:.1f} % to {100.0 * last:.1f} %" for what, first, last in zip(POINTS, found[0], found[-1])
     )
     return Finding(words, {what: bool(column[-1] == column.min()) for what, column in zip(POINTS, found.T)})
 
