@@ -29,7 +29,7 @@ from paper_report.markdown import (
     read_part,
 )
 from paper_report.mode_claims import list_mode_claims
-from paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs
+from paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
 from paper_report.mode_tables import list_mode_tables, make_mode_cost_table
 from paper_report.paper_runs import (
     MODE_COUNTS,
@@ -50,7 +50,7 @@ from paper_report.paper_runs import (
     run_all,
     write_roads,
 )
-from paper_report.run_numbers import Numbers
+from paper_report.run_numbers import MIDDLE, SEAT, Numbers
 from paper_report.tables import list_tables, list_texts
 from results_file import ResultsError, open_results, read_numbers
 from ride_measures import calc_contact
@@ -172,6 +172,13 @@ class Report(unittest.TestCase):
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "recall"))[1]), len(RECALLS))
         self.assertEqual(len(parse_markdown(read_part(self.text, "adaptive bump"))[1]), 12)
+
+    def test_the_programs_own_thresholds_are_among_those_that_are_tightened(self):
+        own = self.numbers.run("bump_adaptive")
+        same = [one for one in RECALLS if self.numbers.run(name_recall(one)).evaluations == own.evaluations]
+        self.assertEqual(len(same), 1)
+        for point in (MIDDLE, SEAT):
+            np.testing.assert_array_equal(self.numbers.run(name_recall(same[0])).acceleration(point), own.acceleration(point))
 
     def test_times_stand_beside_those_of_all_modes_by_the_same_method(self):
         times = {run.name: 1.0 + place for place, run in enumerate(list_timed_mode_runs())}
