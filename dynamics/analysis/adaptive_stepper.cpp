@@ -167,7 +167,7 @@ void AdaptiveStepper::take_back(Integrator::StepResult result) {
                                                              100.0 * share.deflection, 100.0 * share.acceleration));
     const double frequency = modes_->frequency_of(coordinate);
     if (!(frequency > 0.0)) continue;
-    motion_->let_go(coordinate, -modes_->unbalanced_force_of(coordinate), step_start_, kPeriodsOfRelease / frequency);
+    motion_->let_go(coordinate, -modes_->held_force_of(coordinate), step_start_, kPeriodsOfRelease / frequency);
   }
   if (!missed.empty()) {
     modes_->activate(missed);

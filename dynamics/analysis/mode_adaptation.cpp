@@ -140,8 +140,8 @@ ModeShare ModeAdaptation::share_of(int coordinate, const LeftOut& largest) const
   return indicator_.share(mode, largest[mode].amplitude, largest[mode].acceleration);
 }
 
-double ModeAdaptation::unbalanced_force_of(int coordinate) const {
-  return indicator_.unbalanced_force(mode_of(coordinate));
+double ModeAdaptation::held_force_of(int coordinate) const {
+  return indicator_.held_force(mode_of(coordinate));
 }
 double ModeAdaptation::frequency_of(int coordinate) const { return indicator_.frequency(mode_of(coordinate)); }
 

@@ -56,7 +56,7 @@ class ModeAdaptation {
   ModeShare share_of(int coordinate, const LeftOut& largest) const;
 
   double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
-  double unbalanced_force_of(int coordinate) const;
+  double held_force_of(int coordinate) const;   ///< what has held it until now, without what has just jumped
   void activate(const std::vector<int>& coordinates);
   void deactivate(const std::vector<int>& coordinates);
 

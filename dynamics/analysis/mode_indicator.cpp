@@ -77,7 +77,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < modal_.size(); ++j) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_[j])];
-    if (now != active_[j]) oscillators_[j] = {};
+    if (now != active_[j]) oscillators_[j] = {.is_fresh = has_begun_};
     active_[j] = now;
     left_out_[j] = {};
     neglected_[j] = {};
@@ -197,6 +197,8 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   Oscillator& one = oscillators_[mode];
   const double before = one.force / mass;
   one.force = unbalanced_.force()[modal_[mode]];
+  if (step > 0.0 || one.is_fresh) one.held_force = one.force;
+  one.is_fresh = false;
   const double force = one.force / mass;
   if (step > 0.0) {
     if (step != effective.step) effective.response = calc_oscillator_response(stiffness, decay, step);

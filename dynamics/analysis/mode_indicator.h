@@ -57,6 +57,8 @@ class ModeIndicator {
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
   /// The force that the run leaves unbalanced on a mode left out, at the last update.
   double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
+  /// The part of it that was there before, without what has jumped at this very instant (or with what the run starts).
+  double held_force(std::size_t mode) const { return oscillators_[mode].held_force; }
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
@@ -65,6 +67,8 @@ class ModeIndicator {
   struct Oscillator {
     double place = 0.0, rate = 0.0;  ///< ξ, ξ̇
     double force = 0.0;              ///< r at the last update
+    double held_force = 0.0;         ///< the same but for what has jumped at that instant; 0 at the start
+    bool is_fresh = false;           ///< left out since that instant
   };
   /// What has to be kept to go back to an instant. The largest that shares refer to stay what they have become: they
   /// are known then, though they are still to come.

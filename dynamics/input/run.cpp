@@ -221,8 +221,11 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
 }
 
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle) {
-  if (!run.adaptivity.enabled) return selected;
   ModeRequests requests = run.adaptivity.available;
+  if (!run.adaptivity.enabled) {
+    resolve_modes(requests, vehicle);  // what is wrong there is wrong, though nothing comes of it
+    return selected;
+  }
   for (const auto& [body, request] : run.modes) {
     ModeRequest all = request;
     all.kind = ModeRequest::Kind::kAll;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 
@@ -14,6 +15,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr std::string_view kVehiclePrefix = "vehicle.";
+constexpr double kNoRate = 1e-10;  // of a mode at the start, that is rounding, of all velocities
 
 // The overrides of one of the two files, each with its place on the command line.
 void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides,
@@ -60,6 +62,24 @@ void check_steady(const Run& run, const Model& model, const Equilibrium& equilib
                             "'start' can be \"steady\" only where what is carried along sees the same forces "
                             "at all times: not with weight on what turns, springs to the ground, or a motion that "
                             "changes its rate");
+}
+
+// Modes that the start sets in motion take part from there: what is held has no rate.
+void activate_moving_modes(const Model& model, const State& start, std::vector<bool>& active) {
+  double energy = 0.0;  // twice the kinetic one, without what couples motions
+  for (const Body& body : model.bodies) {
+    energy += body.mass * start.v.segment<2>(body.first_coordinate).squaredNorm();
+    energy += body.second_moment * std::pow(start.v[body.first_coordinate + 2], 2);
+    const Eigen::VectorXd eta_dot = start.v.segment(body.first_coordinate + 3, body.num_modes());
+    energy += eta_dot.dot(body.M_ff * eta_dot);
+  }
+  for (const Body& body : model.bodies) {
+    for (int k = 0; k < body.num_modes(); ++k) {
+      const int i = body.first_coordinate + 3 + k;
+      const double share = body.M_ff(k, k) * start.v[i] * start.v[i];
+      if (share > kNoRate * kNoRate * energy) active[static_cast<std::size_t>(i)] = true;
+    }
+  }
 }
 
 }  // namespace
@@ -182,6 +202,7 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
           std::binary_search(selected->second.begin(), selected->second.end(), number);
     }
   }
+  if (settings.enabled) activate_moving_modes(prepared.model, prepared.start, options.active);
   for (const std::string& point : prepared.output_points) options.points.push_back(options.full->find_marker(point));
   return options;
 }

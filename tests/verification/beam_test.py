@@ -253,6 +253,19 @@ class SoftPendulum(VerificationCase):
             self.assert_close(deflection[row], bent, relative=0.05)
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
+    def test_modes_that_the_start_sets_in_motion_take_part_though_not_named(self):
+        start = ["--set", "stiffening.beam=false", "--set", "duration=0.2", "--set", "output_step=1e-3",
+                 "--set", "initial.beam.modal_rate=[0.0, 0.4, 0.0, 0.0, 0.0, 0.0]"]  # fmt: skip
+        runs = {}
+        for name, modes in (("full", ["6"]), ("adaptive", ["1", "--set", "adaptivity.enabled=true",
+                                            "--set", "adaptivity.available.beam=6"])):  # fmt: skip
+            results = self.run_to_results(MODELS / "soft_pendulum_run.toml", *start, "--set", f"modes.beam={modes[0]}", *modes[1:])
+            runs[name] = (results["energy/kinetic"][0], results["points/beam.tip/position"])
+        self.assertGreater(runs["full"][0], 0.07)
+        self.assert_close(runs["adaptive"][0], runs["full"][0], relative=1e-9)
+        moved = np.abs(runs["full"][1] - [1.0, 0.0]).max()
+        self.assert_close(runs["adaptive"][1], runs["full"][1], absolute=0.01 * moved)
+
 
 SPIN_UP = """
 name = "spin-up"

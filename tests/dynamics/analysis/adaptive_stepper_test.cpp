@@ -13,7 +13,9 @@
 
 #include "dynamics/analysis/transient.h"
 #include "dynamics/forces/applied_force.h"
+#include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/joints/coordinate_joint.h"
+#include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/small_models.h"
@@ -264,6 +266,44 @@ TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[ada
   CHECK(run.count("beam.mode 2", true) == 0);
   const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.0});
   CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) < kRecall * largest(full.tip_acceleration));
+}
+
+TEST_CASE("A load that is there at once sets modes off that join then as if they had been there", "[adaptivity]") {
+  Model model;
+  const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, 0.0});
+  push(model, nodes[5], TimeFunction(1.0));
+  dynamics::number_model(model);
+  const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 0.3});
+  const Run adaptive = drive(model, {.watched = nodes[5], .active = {}, .duration = 0.3});
+  // From rest it swings to nearly twice the deflection under the load, F L³/3EI.
+  const dynamics::Body& beam = model.bodies[0];
+  double still = 0.0;
+  for (int k = 0; k < kNumModes; ++k) {
+    still += std::pow(model.markers[static_cast<std::size_t>(nodes[5])].Phi(1, k), 2) / beam.stiffness(k, k);
+  }
+  CHECK(largest(full.tip) > 1.8 * still);
+  CHECK(largest_difference(adaptive.tip, full.tip) < 0.02 * largest(full.tip));
+}
+
+TEST_CASE("What an impact sets off joins with its vibration", "[adaptivity]") {
+  // The tip swings onto a damper, whose force is there at once.
+  const dynamics::FlatRoad ground;
+  Model model;
+  const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, 0.301});
+  push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
+  model.forces.push_back(std::make_unique<dynamics::PointContactTyre>(
+      "stop",
+      dynamics::PointContactTyre::Parameters{
+          .marker = nodes[5], .radius = 0.3, .spring = dynamics::PiecewisePolynomial({0.0, 1.0}), .damping = 20.0},
+      dynamics::PlacedRoad{&ground, 1.0, 0.0}));
+  dynamics::number_model(model);
+  const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.2});
+  const Run adaptive = drive(model, {.watched = nodes[5], .active = {0}, .duration = 1.2});
+  const Run one = drive(model, {.watched = nodes[5], .active = {0}, .changes = false, .duration = 1.2});
+  const double size = largest(full.tip_acceleration);
+  CHECK(adaptive.count("beam.mode 2", true) >= 1);
+  CHECK(largest_difference(one.tip_acceleration, full.tip_acceleration) > 0.4 * size);
+  CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) < 0.02 * size);
 }
 
 TEST_CASE("Of two like bodies only the one that is excited calls its modes, whichever comes first", "[adaptivity]") {

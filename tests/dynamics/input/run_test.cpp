@@ -129,6 +129,17 @@ TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
       "runs/first.toml:31:1: error: 'initial.frome' is about no body of the vehicle (did you mean 'frame'?)");
 }
 
+TEST_CASE("Modes to join of a body that is not there are refused, also where none may join") {
+  const dynamics::Vehicle cart = test::read_cart(test::cart_text());
+  const std::string text = test::with_change(kText, "[modes]", "[adaptivity.available]\nframo = 1\n[modes]");
+  for (const char* enabled : {"", "[adaptivity]\nenabled = true\n"}) {
+    const dynamics::Run run = read(test::with_change(text, "[adaptivity.available]", enabled + std::string("[adaptivity.available]")));
+    const std::string error = input_error_of([&] { dynamics::resolve_available_modes(run, {}, cart); });
+    CHECK(error.ends_with("error: 'adaptivity.available.framo' is about no body of the vehicle: there is no 'framo' (did you "
+                          "mean 'frame'?)"));
+  }
+}
+
 TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refused") {
   CHECK(error_of("vehicle = \"cart.toml\"\n", "") == "runs/first.toml: error: missing key 'vehicle'");
   CHECK(error_of("duration = 5.0\n", "") == "runs/first.toml: error: missing key 'duration'");
