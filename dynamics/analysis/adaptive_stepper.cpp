@@ -67,6 +67,11 @@ void AdaptiveStepper::evaluate(double time) {
   evaluated_time_ = time;
 }
 
+void AdaptiveStepper::evaluate_motion(double time) {
+  leg_->stepper->evaluate_motion(time);
+  evaluated_time_ = time;
+}
+
 SystemStepper::Observation AdaptiveStepper::observe(double time) {
   evaluated_time_ = time;
   Observation now = leg_->stepper->observe(time);

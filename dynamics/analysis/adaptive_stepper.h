@@ -32,6 +32,7 @@ class AdaptiveStepper final : public SystemStepper {
   double time() const override { return leg_->stepper->time(); }
   double calc_longest_step() const override { return leg_->stepper->calc_longest_step(); }
   void evaluate(double time) override;
+  void evaluate_motion(double time) override;
   Observation observe(double time) override;
   const ConstrainedEquations& equations() const override { return leg_->stepper->equations(); }
   EnergyFlow energy_flow() const override;

@@ -21,7 +21,7 @@ constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
 constexpr double kShortestStep = 1e-12;  // s
 // Place of a switch: late by this, at a tolerance of 1, a force that sets in wrongs the velocity by far less
 // than is allowed.
-constexpr double kSwitchTolerance = 1e-5;        // s
+constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr int kMaxSweeps = 6;

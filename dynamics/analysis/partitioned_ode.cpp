@@ -51,11 +51,19 @@ bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   return true;
 }
 
+void PartitionedOde::throw_not_closed(double time) {
+  throw support::NumericalError(fmt::format(
+      "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+}
+
+void PartitionedOde::close_joints(double time, std::span<const double> y) {
+  if (!evaluate_motion(time, y)) throw_not_closed(time);
+}
+
 State PartitionedOde::make_state(double time, std::span<const double> y) {
-  if (!evaluate_motion(time, y) ||
-      equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
-    throw support::NumericalError(fmt::format(
-        "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+  close_joints(time, y);
+  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
+    throw_not_closed(time);
   }
   accelerated_time_ = evaluated_time_;
   return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = piece_.branches()};

@@ -24,6 +24,9 @@ class PartitionedOde final : public OdeSystem {
   void set_state(const State& state, double dissipated, double input);
   std::span<const double> y() const { return y_; }
 
+  /// Brings positions and velocities of `equations()` to y.
+  /// @throws support::NumericalError if the constraints cannot be satisfied
+  void close_joints(double time, std::span<const double> y);
   /// The state that y stands for; all terms of `equations()` are evaluated there.
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
@@ -55,6 +58,7 @@ class PartitionedOde final : public OdeSystem {
 
  private:
   bool evaluate_motion(double time, std::span<const double> y);
+  [[noreturn]] static void throw_not_closed(double time);
 
   const Model* model_;
   PartitionedEquations equations_;

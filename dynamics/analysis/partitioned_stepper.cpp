@@ -55,7 +55,7 @@ void PartitionedStepper::choose_partition() {
   integrator_->start(now, ode_.y(), end_time_);
 }
 
-void PartitionedStepper::evaluate(double time) {
+void PartitionedStepper::go_to(double time) {
   if (is_running_) {
     if (time >= integrator_->time())
       std::copy(integrator_->y().begin(), integrator_->y().end(), y_.begin());
@@ -63,7 +63,16 @@ void PartitionedStepper::evaluate(double time) {
       integrator_->interpolate(time, y_);
   }
   evaluated_time_ = time;
+}
+
+void PartitionedStepper::evaluate(double time) {
+  go_to(time);
   ode_.make_state(time, y_);
+}
+
+void PartitionedStepper::evaluate_motion(double time) {
+  go_to(time);
+  ode_.close_joints(time, y_);
 }
 
 void PartitionedStepper::look() {

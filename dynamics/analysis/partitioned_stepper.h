@@ -25,6 +25,7 @@ class PartitionedStepper final : public SystemStepper {
     return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
   }
   void evaluate(double time) override;
+  void evaluate_motion(double time) override;
   void look() override;
   Observation observe(double time) override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
@@ -34,6 +35,7 @@ class PartitionedStepper final : public SystemStepper {
 
  private:
   void choose_partition();
+  void go_to(double time);
 
   PartitionedOde ode_;
   std::unique_ptr<Integrator> integrator_;

@@ -39,7 +39,7 @@ class SystemStepper {
 
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
-  /// Goes on from where `evaluate` was called last with the branches of piece(), up to `end_time`.
+  /// Goes on from where `evaluate` or `evaluate_motion` was called last with the branches of piece(), up to `end_time`.
   /// @throws support::NumericalError where there are no accelerations
   virtual void resume(double end_time) = 0;
   /// One step of at most `longest_step`.
@@ -53,6 +53,8 @@ class SystemStepper {
   /// those of the equations; markers that joints and forces see.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
+  /// `evaluate` without accelerations and multipliers, which what comes next need not ask for.
+  virtual void evaluate_motion(double time) { evaluate(time); }
   /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that the
   /// integrator tried there: for who watches, not for who goes on from it.
   virtual void look() { evaluate(time()); }

@@ -89,7 +89,7 @@ class TransientRun {
   // Goes on with the branches that hold at the end of the last step.
   void start_anew(double time) {
     find_end_of_smoothness(time);
-    stepper_->evaluate(time);
+    stepper_->evaluate_motion(time);
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
       tell({time, "switch", change.element, change.text});
     }

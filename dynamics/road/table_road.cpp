@@ -107,11 +107,22 @@ void TableRoad::limit_slopes() {
   }
 }
 
+// Points mostly have equal distances: then the interval is where it would be by them, or beside.
+std::size_t TableRoad::find_interval(double s) const {
+  const auto last = static_cast<double>(s_.size() - 2);
+  const double guess = std::floor((s - s_.front()) / (s_.back() - s_.front()) * (last + 1.0));
+  const auto i = static_cast<std::size_t>(std::clamp(guess, 0.0, last));
+  for (const std::size_t near : {i, i + 1, i - std::min<std::size_t>(i, 1)}) {
+    if (near + 1 < s_.size() && s >= s_[near] && s < s_[near + 1]) return near;
+  }
+  const auto above = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
+  return static_cast<std::size_t>(above - s_.begin()) - 1;
+}
+
 RoadSample TableRoad::sample(int segment, double s) const {
   if (segment == 0) return {};
   if (segment == 2) return {height_.back(), 0.0};
-  const auto above = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
-  const std::size_t i = static_cast<std::size_t>(above - s_.begin()) - 1;
+  const std::size_t i = find_interval(s);
   const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
   const double u = (s - s_[i]) / cubic.h;
   return {cubic.height(u), cubic.slope(u)};
@@ -120,8 +131,7 @@ RoadSample TableRoad::sample(int segment, double s) const {
 double TableRoad::integral(int segment, double s) const {
   if (segment == 0) return 0.0;
   if (segment == 2) return height_.back() * s;
-  const auto above = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
-  const std::size_t i = static_cast<std::size_t>(above - s_.begin()) - 1;
+  const std::size_t i = find_interval(s);
   const Cubic cubic{height_[i], height_[i + 1], slope_[i], slope_[i + 1], s_[i + 1] - s_[i]};
   return integral_[i] + cubic.integral((s - s_[i]) / cubic.h);
 }

@@ -39,6 +39,7 @@ class TableRoad final : public Road {
   std::size_t num_limited() const { return num_limited_; }
 
  private:
+  std::size_t find_interval(double s) const;
   bool overshoots(std::size_t interval) const;
   void limit_slopes();
 
