@@ -58,7 +58,9 @@ WorstNeglect ModeAdaptation::worst() const {
     if (share.deflection > share.acceleration) continue;
     // The point whose share it is.
     for (std::size_t i = 0; i < reached.acceleration.size(); ++i) {
-      ModeIndicator::Reached alone{.deflection = 0.0, .acceleration = std::vector<double>(reached.acceleration.size(), 0.0)};
+      ModeIndicator::Reached alone = reached;
+      alone.deflection = 0.0;
+      std::fill(alone.acceleration.begin(), alone.acceleration.end(), 0.0);
       alone.acceleration[i] = reached.acceleration[i];
       if (indicator_.share(alone).acceleration == share.acceleration) worst.time = acceleration_time[i];
     }

@@ -12,7 +12,8 @@ namespace sprung::dynamics {
 /// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked points.
 struct AdaptivityOptions {
   const Model* full = nullptr;          ///< with every mode that is available; has to outlive the run
-  const LinearisedSystem* linearised = nullptr;  ///< of `full` about the start, if known; needed until the run has begun
+  /// Of `full` about the start, where it is known; needed until the run has begun.
+  const LinearisedSystem* linearised = nullptr;
   std::vector<bool> active;             ///< at the start, for each coordinate of `full`
   std::vector<int> points;              ///< markers whose motion is asked for
   bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed

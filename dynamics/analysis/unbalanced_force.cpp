@@ -8,7 +8,9 @@ UnbalancedForce::UnbalancedForce(const Model& full)
       loads_(full.markers.size()),
       spin_(Eigen::VectorXd::Zero(full.num_coordinates)),
       force_(Eigen::VectorXd::Zero(full.num_coordinates)) {
-  for (const Body& body : full.bodies) is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
+  for (const Body& body : full.bodies) {
+    is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
+  }
   for (const int i : full.acting_markers) {
     const Marker& marker = full.markers[static_cast<std::size_t>(i)];
     if (marker.body != kGround && marker.Phi.cols() > 0) acting_[static_cast<std::size_t>(marker.body)].push_back(i);

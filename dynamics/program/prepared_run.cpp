@@ -155,7 +155,9 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
     options.full = &prepared.model;
     // On the road the vehicle stands as it does on level ground.
     const std::optional<Equilibrium>& balance = prepared.equilibrium;
-    if (balance && balance->motion.is_rest() && prepared.start.q == balance->q) options.linearised = &balance->linearised;
+    if (balance && balance->motion.is_rest() && prepared.start.q == balance->q) {
+      options.linearised = &balance->linearised;
+    }
   } else {
     ModeSelection all;
     ModalDamping damping;

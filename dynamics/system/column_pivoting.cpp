@@ -15,7 +15,7 @@ namespace {
 constexpr double kEqual = 1e-9;        // share by which norms differ that differ by more than rounding
 constexpr double kLeastPivot = 1e-12;  // of AᵀA: squares
 constexpr int kFewRows = 150;          // up to which the longest column is taken
-constexpr int kFewColumns = 150;       // up to which all products together cost less than finding those that are not zero
+constexpr int kFewColumns = 150;       // up to which all products cost less than keeping to those that are not zero
 const double kAlike = std::log(4.0);   // of a matrix with more: of norms that count as equal
 
 // Rank of a pivot: the same for all that count as equal, growing where pivots get smaller.
@@ -113,8 +113,8 @@ class Remainder {
 
   std::map<int, double>& row(int i) { return rows_[static_cast<std::size_t>(i)]; }
   Key key(int column) {
-    return {rank_of(pivot(column), largest_pivot_, has_few_rows_ ? kEqual : kAlike), has_few_rows_ ? 0 : row(column).size(),
-            column};
+    const double equal = has_few_rows_ ? kEqual : kAlike;
+    return {rank_of(pivot(column), largest_pivot_, equal), has_few_rows_ ? 0 : row(column).size(), column};
   }
 
   // A column of which nothing is left is never taken: what is coupled with it need not know.
