@@ -102,7 +102,7 @@ void ExponentialIntegrator::begin() {
   now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
-  if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there");
+  if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
   // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
   switches_.col(0) = switches_.col(0).cwiseMax(0.0);
   has_begun_ = true;

@@ -105,6 +105,7 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
   }
   if (road.shape == "table") {
     road.file = folder / table.string("file");
+    road.file_location = table.at("file").location();
   } else if (road.shape != "flat") {
     road.length = table.number("length", support::positive("m"));
     road.height = table.number("height", support::any("m"));
@@ -116,6 +117,10 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
 std::unique_ptr<Road> make_road(const RoadDescription& description) {
   if (description.shape == "flat") return std::make_unique<FlatRoad>();
   if (description.shape == "table") {
+    if (!std::filesystem::is_regular_file(description.file)) {
+      throw support::InputError(description.file_location,
+                                fmt::format("there is no road file {}", description.file.string()));
+    }
     const RoadPoints points = read_road_table(description.file);
     return std::make_unique<TableRoad>(description.start, points.distance, points.height);
   }

@@ -16,6 +16,7 @@ struct RoadDescription {
   double length = 0.0;         ///< of a bump, > 0 [m]
   double height = 0.0;         ///< of a bump [m]
   std::filesystem::path file;  ///< of a table
+  support::SourceLocation file_location;
   support::SourceLocation location;
 };
 

@@ -59,6 +59,7 @@ struct Run {
   std::filesystem::path vehicle_path;  ///< made relative to the working folder
   support::SourceLocation vehicle_location;
   double speed = 0.0;                  ///< of all bodies along the vehicle's heading at the start [m/s]
+  support::SourceLocation speed_location;
   double duration = 0.0;               ///< > 0 [s]
   double output_step = 1e-3;           ///< > 0, ≤ duration [s]
   Start start = Start::kEquilibrium;

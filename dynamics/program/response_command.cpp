@@ -26,7 +26,7 @@ void check_request(const Run& run) {
   }
   if (!(run.speed > 0.0)) {
     throw support::InputError(
-        run.response.location,
+        run.speed_location,
         fmt::format("a response to the road needs a 'speed' above 0 m/s, got {}", run.speed));
   }
 }

@@ -103,5 +103,5 @@ TEST_CASE("A fault in a road table is found at its line and column") {
 TEST_CASE("A road table that is not there is named") {
   const dynamics::RoadDescription road = read("shape = \"table\"\nstart = 2.0\nfile = \"nowhere.txt\"");
   CHECK(input_error_of([&] { dynamics::make_road(road); }) ==
-        "roads/nowhere.txt: error: cannot be read: No such file or directory");
+        "run.toml:4:8: error: there is no road file roads/nowhere.txt");
 }
