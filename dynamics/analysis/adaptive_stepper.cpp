@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kPeriodsOfRelease = 4.0;  // over which what was held is let go
-constexpr double kLongestUnseen = 2e-3;    // s between updates of the indicator
+constexpr double kLongestUnseen = 4e-3;    // s between updates of the indicator
 constexpr double kMostParts = 8.0;         // of a step, between which the indicator is updated
 constexpr double kAtRest = 1e-3;           // rate that counts as none, of those at the ends of the step
 constexpr int kMaxSearch = 12;
@@ -58,6 +58,9 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
     integrator.method = Integrator::Method::kAdams;
   }
   leg->stepper = make_stepper(model, integrator, listener_.on_repartition);
+  if (std::optional<KnownMotion> known = modes_->indicator().calc_small_motion(leg->held)) {
+    leg->stepper->suggest(std::move(*known));
+  }
   leg->stepper->start(motion_->state_for(leg->held, time, branches));
   return leg;
 }
@@ -131,12 +134,14 @@ void AdaptiveStepper::watch(double time) {
   motion_->take(leg_->held, equations());
   modes_->update(time, equations(), motion_->q(), motion_->v(), motion_->v_dot());
   watched_time_ = time;
+  rates_ = motion_->v();
 }
 
 // Brings the indicator through the step just made. @return true if modes were missed in it
 bool AdaptiveStepper::follow_step() {
   const double begin = watched_time_, end = time(), length = end - begin;
   if (!(length > 0.0)) return false;
+  rates_before_ = rates_;
   const int parts = static_cast<int>(std::clamp(std::ceil(length / kLongestUnseen), 1.0, kMostParts));
   bool misses = options_.changes && modes_->misses_any();  // forces may have jumped at its start
   for (int i = 1; i <= parts; ++i) {
@@ -155,14 +160,18 @@ bool AdaptiveStepper::follow_step() {
 
 // Before modes join, the run goes on without them for as long as they would stay: so all that will be wanted are found at
 // once, and none that only seems large because what is to come has not come yet. Then they start where the step
-// did, from where they are held, at rest, and the force that held them fades.
+// did, from where they are held, at rest, and the force that held them fades. What those call in turn joins as the step
+// itself tells: how large all becomes is known by then.
 void AdaptiveStepper::take_back(Integrator::StepResult result) {
   evaluate(step_start_);
   motion_->take(leg_->held, equations());
   const Eigen::VectorXd q = motion_->q(), v = motion_->v();
   const EnergyFlow flow = energy_flow();
   const std::vector<int> branches = piece().branches();
-  look_ahead(result, step_start_ + options_.residence);
+  if (!(step_start_ < looked_until_)) {
+    look_ahead(result, step_start_ + options_.residence);
+    looked_until_ = step_start_ + options_.residence;
+  }
   motion_->go_to(q, v);
   modes_->go_back(memory_);
   const std::vector<int> missed = modes_->find_missed(largest_);
@@ -220,6 +229,7 @@ bool AdaptiveStepper::let_modes_go() {
   const int slowest = *std::min_element(idle.begin(), idle.end(), [this](int a, int b) {
     return modes_->frequency_of(a) < modes_->frequency_of(b);
   });
+  if (rates_before_[slowest] * rates_[slowest] > 0.0) return false;
   const double rest = find_rest(slowest);
   if (std::isnan(rest)) return false;
   modes_->go_back(memory_);

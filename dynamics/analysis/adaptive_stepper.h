@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -74,9 +75,11 @@ class AdaptiveStepper final : public SystemStepper {
   EnergyFlow flow_before_;  // of the legs before
   Statistics work_before_;
   double end_time_ = 0.0, evaluated_time_ = 0.0, watched_time_ = 0.0;
+  double looked_until_ = -std::numeric_limits<double>::infinity();  // how far the run has been looked ahead
 
   // The last step: its start, the indicator there, whether it ended within a smooth piece.
   double step_start_ = 0.0;
+  Eigen::VectorXd rates_before_, rates_;  // there, and at the last update of the indicator
   ModeAdaptation::Memory memory_;
   ModeAdaptation::LeftOut largest_;  // in it
   bool is_plain_ = false;

@@ -9,14 +9,14 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLeaveTogether = 0.2;  // of the recall threshold: sum of the shares of those that leave at once
+constexpr double kLeaveTogether = 0.4;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
 
 }  // namespace
 
 ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& start)
     : options_(options),
-      indicator_(*options.full, start.time, start.q, options.points),
+      indicator_(*options.full, start.time, start.q, options.points, options.linearised),
       active_(options.active),
       windows_(indicator_.num_modes()),
       last_change_(start.time) {
@@ -24,19 +24,26 @@ ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& st
     throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
   }
   extremes_.resize(indicator_.num_modes());
+  for (Extreme& extreme : extremes_) {
+    extreme.reached.acceleration.assign(options.points.size(), 0.0);
+    extreme.acceleration_time.assign(options.points.size(), start.time);
+  }
   indicator_.set_active(active_);
 }
 
+// What gives way to a mode is another after the next change: what counts is what it would have done now.
 void ModeAdaptation::note(double time, const LeftOut& largest) {
   for (std::size_t j = 0; j < extremes_.size(); ++j) {
+    indicator_.calc_reached(j, largest[j], reached_);
     Extreme& extreme = extremes_[j];
-    if (largest[j].amplitude > extreme.amplitude) {
-      extreme.amplitude = largest[j].amplitude;
-      extreme.amplitude_time = time;
+    if (reached_.deflection > extreme.reached.deflection) {
+      extreme.reached.deflection = reached_.deflection;
+      extreme.deflection_time = time;
     }
-    if (largest[j].acceleration > extreme.acceleration) {
-      extreme.acceleration = largest[j].acceleration;
-      extreme.acceleration_time = time;
+    for (std::size_t i = 0; i < reached_.acceleration.size(); ++i) {
+      if (!(reached_.acceleration[i] > extreme.reached.acceleration[i])) continue;
+      extreme.reached.acceleration[i] = reached_.acceleration[i];
+      extreme.acceleration_time[i] = time;
     }
   }
 }
@@ -44,11 +51,19 @@ void ModeAdaptation::note(double time, const LeftOut& largest) {
 WorstNeglect ModeAdaptation::worst() const {
   WorstNeglect worst;
   for (std::size_t j = 0; j < extremes_.size(); ++j) {
-    const Extreme& extreme = extremes_[j];
-    const ModeShare share = indicator_.share(j, extreme.amplitude, extreme.acceleration);
+    const auto& [reached, deflection_time, acceleration_time] = extremes_[j];
+    const ModeShare share = indicator_.share(reached);
     if (!(share.worst() > worst.share.worst())) continue;
-    const bool is_deflection = share.deflection > share.acceleration;
-    worst = {share, indicator_.modal_coordinates()[j], is_deflection ? extreme.amplitude_time : extreme.acceleration_time};
+    worst = {share, indicator_.modal_coordinates()[j], deflection_time};
+    if (share.deflection > share.acceleration) continue;
+    // The point whose share it is.
+    for (std::size_t i = 0; i < reached.acceleration.size(); ++i) {
+      ModeIndicator::Reached alone = reached;
+      alone.deflection = 0.0;
+      std::fill(alone.acceleration.begin(), alone.acceleration.end(), 0.0);
+      alone.acceleration[i] = reached.acceleration[i];
+      if (indicator_.share(alone).acceleration == share.acceleration) worst.time = acceleration_time[i];
+    }
   }
   return worst;
 }

@@ -12,6 +12,8 @@ namespace sprung::dynamics {
 /// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked points.
 struct AdaptivityOptions {
   const Model* full = nullptr;          ///< with every mode that is available; has to outlive the run
+  /// Of `full` about the start, where it is known; needed until the run has begun.
+  const LinearisedSystem* linearised = nullptr;
   std::vector<bool> active;             ///< at the start, for each coordinate of `full`
   std::vector<int> points;              ///< markers whose motion is asked for
   bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
@@ -66,10 +68,11 @@ class ModeAdaptation {
     double low = 0.0, high = 0.0, largest_acceleration = 0.0;
     double share = 0.0;  ///< of range and acceleration
   };
-  /// The largest that a mode has been left out with, and when.
+  /// The largest that a mode has done while it was left out, and when.
   struct Extreme {
-    double amplitude = 0.0, amplitude_time = 0.0;
-    double acceleration = 0.0, acceleration_time = 0.0;
+    ModeIndicator::Reached reached;
+    double deflection_time = 0.0;
+    std::vector<double> acceleration_time;  ///< of each asked point
   };
   /// What has to be kept to take a step back to the last update.
   struct Memory {
@@ -80,11 +83,11 @@ class ModeAdaptation {
   void go_back(const Memory& memory);
   /// Takes down what was largest in a step that is final. @param time  its end [s]
   void note(double time, const LeftOut& largest);
-  /// Of what was noted, as shares of what was largest in all of the run.
+  /// Of what was noted, as shares of what was largest in all of the run: with modes that join and leave never more than
+  /// the recall threshold, as steps in which it was passed have been taken back.
   WorstNeglect worst() const;
 
  private:
-
   std::size_t mode_of(int coordinate) const;
 
   AdaptivityOptions options_;
@@ -93,6 +96,7 @@ class ModeAdaptation {
   std::vector<std::optional<Window>> windows_;  // by mode
   double last_change_;
   std::vector<Extreme> extremes_;               // by mode
+  ModeIndicator::Reached reached_;              // of one mode
 };
 
 }  // namespace sprung::dynamics

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/analysis/linearisation.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -13,10 +12,12 @@ namespace {
 
 constexpr double kSmallestDeflection = 1e-7;     // of the model's length scale, that shares refer to
 constexpr double kSmallestAcceleration = 1e-2;   // of gravity
+constexpr double kSameStep = 1e-9;  // relative: times of equal steps differ by rounding
 
 }  // namespace
 
-ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points)
+ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points,
+                             const LinearisedSystem* linearised)
     : full_(&full), unbalanced_(full), points_(std::move(points)), time_(time) {
   for (const Body& body : full.bodies) {
     for (int k = 0; k < body.num_modes(); ++k) modal_.push_back(body.first_coordinate + 3 + k);
@@ -39,8 +40,12 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
 
   Eigen::MatrixXd directions;
   try {
-    PartitionedEquations equations(full);
-    const LinearisedSystem small = linearise(equations, time, q);
+    std::optional<LinearisedSystem> found;
+    if (!linearised) {
+      PartitionedEquations equations(full);
+      linearised = &found.emplace(linearise(equations, time, q));
+    }
+    const LinearisedSystem& small = *linearised;
     independent_ = small.partition.independent;
     mass_ = small.mass;
     damping_ = small.damping;
@@ -145,15 +150,47 @@ double ModeIndicator::frequency(std::size_t mode) const {
   return std::sqrt(effective_[mode].stiffness / effective_[mode].mass) / (2.0 * std::acos(-1.0));
 }
 
-ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
-  // Never more than all: where the run bends less than the mode would, the mode is the deflection.
-  const double deflection = bending_[mode] * std::abs(amplitude);
+// Never more than all: where the run bends less than the mode would, the mode is the deflection.
+template <class Change>
+ModeShare ModeIndicator::calc_share(double deflection, const Change& change_at) const {
   ModeShare share{.deflection = deflection / std::max(largest_deflection_, deflection)};
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const double change = effective_[mode].reach[i] * std::abs(acceleration);
+    const double change = change_at(i);
     share.acceleration = std::max(share.acceleration, change / std::max(largest_acceleration_[i], change));
   }
   return share;
+}
+
+ModeShare ModeIndicator::share(std::size_t mode, double amplitude, double acceleration) const {
+  return calc_share(bending_[mode] * std::abs(amplitude),
+                    [&](std::size_t i) { return effective_[mode].reach[i] * std::abs(acceleration); });
+}
+
+void ModeIndicator::calc_reached(std::size_t mode, const LeftOut& left_out, Reached& reached) const {
+  reached.deflection = bending_[mode] * left_out.amplitude;
+  reached.acceleration.resize(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    reached.acceleration[i] = effective_[mode].reach[i] * left_out.acceleration;
+  }
+}
+
+ModeShare ModeIndicator::share(const Reached& reached) const {
+  return calc_share(reached.deflection, [&](std::size_t i) { return reached.acceleration[i]; });
+}
+
+std::optional<KnownMotion> ModeIndicator::calc_small_motion(const HeldModes& held) const {
+  KnownMotion known;
+  std::vector<Eigen::Index> free;
+  for (std::size_t i = 0; i < independent_.size(); ++i) {
+    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), independent_[i]);
+    if (place == held.coordinates.end() || *place != independent_[i]) continue;
+    free.push_back(static_cast<Eigen::Index>(i));
+    known.independent.push_back(static_cast<int>(place - held.coordinates.begin()));
+  }
+  const std::size_t num_held = static_cast<std::size_t>(full_->num_coordinates) - held.coordinates.size();
+  if (independent_.empty() || independent_.size() - free.size() != num_held) return std::nullopt;
+  known.motion = {mass_(free, free), damping_(free, free), stiffness_(free, free)};
+  return known;
 }
 
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
@@ -201,8 +238,10 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   one.is_fresh = false;
   const double force = one.force / mass;
   if (step > 0.0) {
-    if (step != effective.step) effective.response = calc_oscillator_response(stiffness, decay, step);
-    effective.step = step;
+    if (std::abs(step - effective.step) > kSameStep * step) {
+      effective.response = calc_oscillator_response(stiffness, decay, step);
+      effective.step = step;
+    }
     const OscillatorResponse& r = effective.response;
     const double slope = (force - before) / step, place = one.place, rate = one.rate;
     one.place = r.c * place + r.s * rate + r.forced[0] * before + r.forced[1] * slope;

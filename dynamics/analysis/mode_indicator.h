@@ -5,9 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/analysis/linearisation.h"
+#include "dynamics/analysis/ode_system.h"
 #include "dynamics/analysis/oscillator_response.h"
 #include "dynamics/analysis/unbalanced_force.h"
 #include "dynamics/system/constrained_equations.h"
+#include "dynamics/system/held_modes.h"
 
 namespace sprung::dynamics {
 
@@ -28,7 +31,14 @@ class ModeIndicator {
   /// @param full    the model with every mode that could be active; has to outlive this
   /// @param time, q  of the start, in coordinates of `full`: masses and stiffnesses are taken there
   /// @param points  markers whose motion is asked for
-  ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points);
+  /// @param linearised  of `full` about that start, where it is known; else it is found
+  ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points,
+                const LinearisedSystem* linearised = nullptr);
+
+  /// Small motion about the start where modes are held: that of the full model, without their rows and columns.
+  /// @param held  of `full`, with the modes that are active
+  /// @return none where a mode that is held is not independent in the full model
+  std::optional<KnownMotion> calc_small_motion(const HeldModes& held) const;
 
   /// Modal coordinates of `full`, ascending; all arrays below are in this order.
   const std::vector<int>& modal_coordinates() const { return modal_; }
@@ -55,6 +65,15 @@ class ModeIndicator {
   const std::vector<ModeShare>& neglected() const { return neglected_; }
   /// What a deflection and an acceleration of one modal coordinate would be of the largest so far.
   ModeShare share(std::size_t mode, double amplitude, double acceleration) const;
+  /// What a mode left out would do to what is asked for.
+  struct Reached {
+    double deflection = 0.0;           ///< [m]
+    std::vector<double> acceleration;  ///< of each asked point [m/s²]
+  };
+  /// With what gives way to the mode now.
+  void calc_reached(std::size_t mode, const LeftOut& left_out, Reached& reached) const;
+  /// Shares of the largest so far.
+  ModeShare share(const Reached& reached) const;
   /// The force that the run leaves unbalanced on a mode left out, at the last update.
   double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
   /// The part of it that was there before, without what has jumped at this very instant (or with what the run starts).
@@ -92,6 +111,8 @@ class ModeIndicator {
   Effective make_alone(int coordinate) const;
   void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
   void follow(std::size_t mode, double step);
+  template <class Change>
+  ModeShare calc_share(double deflection, const Change& change_at) const;
 
   const Model* full_;
   UnbalancedForce unbalanced_;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 namespace sprung::dynamics {
 
@@ -9,6 +10,12 @@ namespace sprung::dynamics {
 struct SmallMotion {
   Eigen::MatrixXd mass;  ///< symmetric positive definite
   Eigen::MatrixXd damping, stiffness;
+};
+
+/// Small motion in coordinates of a model.
+struct KnownMotion {
+  std::vector<int> independent;  ///< ascending, f
+  SmallMotion motion;
 };
 
 /// ẏ = f(t, y) with switch functions, as an integrator sees it. y = (q, v, w): f positions with q̇ = v, f velocities,

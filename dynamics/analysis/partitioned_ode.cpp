@@ -73,8 +73,13 @@ void PartitionedOde::mark_motion() {
   if (std::isfinite(evaluated_time_)) equations_.mark(evaluated_time_, equations_.q(), equations_.v());
 }
 
-// Differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
+// What is known; else differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
 bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
+  if (known_ && known_->independent == equations_.partition().independent) {
+    motion = std::move(known_->motion);
+    known_.reset();
+    return true;
+  }
   constexpr double kShift = 1e-6;  // of the natural size
   const Eigen::Index f = num_freedoms();
   std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());

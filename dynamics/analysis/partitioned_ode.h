@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dynamics/analysis/error_scales.h"
@@ -23,6 +25,9 @@ class PartitionedOde final : public OdeSystem {
   /// @param dissipated, input  energy so far [J]
   void set_state(const State& state, double dissipated, double input);
   std::span<const double> y() const { return y_; }
+
+  /// Small motion for the first time that it is asked for, where the partition is the one that it is known for.
+  void suggest(KnownMotion known) { known_ = std::move(known); }
 
   /// Brings positions and velocities of `equations()` to y.
   /// @throws support::NumericalError if the constraints cannot be satisfied
@@ -67,6 +72,7 @@ class PartitionedOde final : public OdeSystem {
   long num_derivatives_ = 0;
   std::vector<double> y_;
   int coordinate_version_ = 0;
+  std::optional<KnownMotion> known_;
   std::vector<double> natural_sizes_;  // of the independents
   // The arguments at which the motion of the equations was evaluated last.
   double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();

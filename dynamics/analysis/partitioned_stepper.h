@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "dynamics/analysis/partitioned_ode.h"
@@ -17,6 +18,7 @@ class PartitionedStepper final : public SystemStepper {
   PartitionedStepper(const Model& model, const Integrator::Options& options,
                      std::function<void(double time)> on_repartition);
 
+  void suggest(KnownMotion known) override { ode_.suggest(std::move(known)); }
   void start(const State& state) override;
   void resume(double end_time) override;
   Integrator::StepResult step(double longest_step) override;

@@ -37,6 +37,8 @@ class SystemStepper {
 
   virtual ~SystemStepper() = default;
 
+  /// Small motion about a state like that which the run starts from, for who treats it apart. Before `start`.
+  virtual void suggest(KnownMotion) {}
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
   /// Goes on from where `evaluate` or `evaluate_motion` was called last with the branches of piece(), up to `end_time`.

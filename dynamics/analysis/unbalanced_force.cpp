@@ -6,7 +6,11 @@ UnbalancedForce::UnbalancedForce(const Model& full)
     : full_(&full),
       acting_(full.bodies.size()),
       loads_(full.markers.size()),
+      spin_(Eigen::VectorXd::Zero(full.num_coordinates)),
       force_(Eigen::VectorXd::Zero(full.num_coordinates)) {
+  for (const Body& body : full.bodies) {
+    is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
+  }
   for (const int i : full.acting_markers) {
     const Marker& marker = full.markers[static_cast<std::size_t>(i)];
     if (marker.body != kGround && marker.Phi.cols() > 0) acting_[static_cast<std::size_t>(marker.body)].push_back(i);
@@ -29,11 +33,18 @@ void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lamb
     r += rate * rate * body.d.transpose() - turning * body.c.transpose();
     r.noalias() += rate * rate * (body.M_tt * eta);
     // B is skew: −(ηᵀB)ᵀ = B η.
-    r.noalias() += turning * (body.B * eta);
-    r.noalias() += 2.0 * rate * (body.B * eta_dot);
-    r.noalias() -= body.M_ff * eta_ddot;
-    r.noalias() -= body.damping * eta_dot;
-    r.noalias() -= body.stiffness * eta;
+    auto spin = spin_.head(n);
+    spin = turning * eta + 2.0 * rate * eta_dot;
+    r.noalias() += body.B * spin;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (eta_ddot[k] != 0.0) r -= eta_ddot[k] * body.M_ff.col(k);  // most are held, at rest
+    }
+    if (is_uncoupled_[b]) {
+      r -= body.damping.diagonal().cwiseProduct(eta_dot) + body.stiffness.diagonal().cwiseProduct(eta);
+    } else {
+      r.noalias() -= body.damping * eta_dot;
+      r.noalias() -= body.stiffness * eta;
+    }
     for (const int i : acting_[b]) {
       const Marker& marker = full_->markers[static_cast<std::size_t>(i)];
       const Wrench& load = loads_[static_cast<std::size_t>(i)];

@@ -39,12 +39,28 @@ DampedModes calc_damped_modes(const LinearisedSystem& system, const Eigen::Matri
   return modes;
 }
 
-// Modal assurance criterion in the mass metric.
-double likeness(const Eigen::MatrixXd& mass, const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
-  const Eigen::VectorXcd mass_b = mass.cast<std::complex<double>>() * b;
-  const double size_of_a = a.dot(mass.cast<std::complex<double>>() * a).real();
-  return std::norm(a.dot(mass_b)) / (size_of_a * b.dot(mass_b).real());
+// M b.
+Eigen::VectorXcd weigh(const Eigen::MatrixXd& mass, const Eigen::VectorXcd& b) {
+  Eigen::VectorXcd weighed(b.size());
+  weighed.real() = mass * b.real();
+  weighed.imag() = mass * b.imag();
+  return weighed;
 }
+
+// Shapes with what the modal assurance criterion in the mass metric takes of them.
+struct WeighedShapes {
+  WeighedShapes(const Eigen::MatrixXd& mass, const std::vector<Eigen::VectorXcd>& shapes) {
+    for (const Eigen::VectorXcd& shape : shapes) {
+      weighed.push_back(weigh(mass, shape));
+      sizes.push_back(shape.dot(weighed.back()).real());
+    }
+  }
+  // Modal assurance criterion, times the size of a.
+  double likeness(const Eigen::VectorXcd& a, std::size_t i) const { return std::norm(a.dot(weighed[i])) / sizes[i]; }
+
+  std::vector<Eigen::VectorXcd> weighed;  // M b
+  std::vector<double> sizes;              // bᴴ M b
+};
 
 // A mode of the system without damping, its shape in the independent coordinates.
 struct UndampedMode {
@@ -130,6 +146,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   terms.update_positions(0.0, equilibrium.q);
   terms.update_mass();
 
+  WeighedShapes of_damped(system.mass, damped.shapes);
   std::vector<VehicleMode> modes;
   for (std::size_t k = 0; k < undamped.size(); ++k) {
     VehicleMode mode;
@@ -144,8 +161,8 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
     mode.undamped_frequency_hz = undamped[k].omega / (2.0 * pi);
     std::size_t best = 0;
     double best_likeness = -1.0;
-    for (std::size_t i = 0; i < damped.shapes.size(); ++i) {
-      const double value = likeness(system.mass, undamped[k].shape, damped.shapes[i]);
+    for (std::size_t i = 0; i < damped.eigenvalues.size(); ++i) {
+      const double value = of_damped.likeness(undamped[k].shape, i);
       if (value > best_likeness) {
         best_likeness = value;
         best = i;
@@ -155,7 +172,8 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
     mode.damped_frequency_hz = s.imag() / (2.0 * pi);
     mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / (2.0 * pi * mode.undamped_frequency_hz);
     damped.eigenvalues.erase(damped.eigenvalues.begin() + static_cast<std::ptrdiff_t>(best));
-    damped.shapes.erase(damped.shapes.begin() + static_cast<std::ptrdiff_t>(best));
+    of_damped.weighed.erase(of_damped.weighed.begin() + static_cast<std::ptrdiff_t>(best));
+    of_damped.sizes.erase(of_damped.sizes.begin() + static_cast<std::ptrdiff_t>(best));
     modes.push_back(std::move(mode));
   }
   return modes;

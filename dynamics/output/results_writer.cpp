@@ -53,8 +53,8 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
 
 void ResultsWriter::add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
                                std::function<void(const Snapshot&, std::vector<double>&)> fill) {
-  file_.make_growing(dataset, columns, unit);
-  series_.push_back({dataset, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
+  support::Hdf5GrowingDataset& growing = file_.make_growing(dataset, columns, unit);
+  series_.push_back({&growing, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
 }
 
 void ResultsWriter::add_point_series() {
@@ -239,7 +239,7 @@ void ResultsWriter::add_recovery_series(const Vehicle& vehicle) {
 void ResultsWriter::add(const Snapshot& snapshot) {
   for (Series& series : series_) {
     series.fill(snapshot, series.row);
-    file_.append(series.dataset, series.row);
+    file_.append(*series.dataset, series.row);
   }
 }
 

@@ -55,7 +55,7 @@ class ResultsWriter {
  private:
   // A time history: where its values go and how a row is made.
   struct Series {
-    std::string dataset;
+    support::Hdf5GrowingDataset* dataset;
     std::vector<double> row;
     std::function<void(const Snapshot&, std::vector<double>& row)> fill;
   };

@@ -173,6 +173,11 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
   options.residence = settings.residence;
   if (settings.enabled) {
     options.full = &prepared.model;
+    // On the road the vehicle stands as it does on level ground.
+    const std::optional<Equilibrium>& balance = prepared.equilibrium;
+    if (balance && balance->motion.is_rest() && prepared.start.q == balance->q) {
+      options.linearised = &balance->linearised;
+    }
   } else {
     ModeSelection all;
     ModalDamping damping;

@@ -54,7 +54,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   }
   const Run& run = prepared.run;
   std::vector<VehicleMode> modes;
-  if (prepared.equilibrium && prepared.equilibrium->stable) {
+  if (!output.results.empty() && prepared.equilibrium && prepared.equilibrium->stable) {
     modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
   }
   if (!output.json && !request.quiet) {

@@ -15,9 +15,55 @@ namespace {
 constexpr double kEqual = 1e-9;        // share by which norms differ that differ by more than rounding
 constexpr double kLeastPivot = 1e-12;  // of AᵀA: squares
 constexpr int kFewRows = 150;          // up to which the longest column is taken
+constexpr int kFewColumns = 150;       // up to which all products cost less than keeping to those that are not zero
 const double kAlike = std::log(4.0);   // of a matrix with more: of norms that count as equal
 
-// What is left of AᵀA while pivots are taken.
+// Rank of a pivot: the same for all that count as equal, growing where pivots get smaller.
+double rank_of(double pivot, double largest, double equal) {
+  const double size = pivot / largest;
+  return size > 0.0 ? -std::round(0.5 * std::log(size) / equal) : 1e300;
+}
+
+// What is left of AᵀA while pivots are taken, of a small matrix.
+class DenseRemainder {
+ public:
+  explicit DenseRemainder(const Eigen::SparseMatrix<double>& matrix)
+      : products_(matrix.transpose() * matrix), is_left_(static_cast<std::size_t>(matrix.cols())) {
+    if (matrix.cols() > 0) largest_pivot_ = products_.diagonal().maxCoeff();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) is_left_[static_cast<std::size_t>(j)] = products_(j, j) > 0.0;
+  }
+
+  // Of columns that count as equal the first; −1 where nothing is left.
+  int largest() const {
+    int best = -1;
+    double best_rank = 0.0;
+    for (std::size_t j = 0; j < is_left_.size(); ++j) {
+      if (!is_left_[j]) continue;
+      const double rank = rank_of(pivot(static_cast<int>(j)), largest_pivot_, kEqual);
+      if (best >= 0 && !(rank < best_rank)) continue;
+      best = static_cast<int>(j);
+      best_rank = rank;
+    }
+    return best;
+  }
+  double pivot(int column) const { return products_(column, column); }
+
+  void take(int pivot_column) {
+    const Eigen::VectorXd column = products_.col(pivot_column);
+    products_.noalias() -= column * (column / column[pivot_column]).transpose();
+    is_left_[static_cast<std::size_t>(pivot_column)] = false;
+    for (std::size_t j = 0; j < is_left_.size(); ++j) {
+      if (!(pivot(static_cast<int>(j)) > kLeastPivot * largest_pivot_)) is_left_[j] = false;
+    }
+  }
+
+ private:
+  Eigen::MatrixXd products_;
+  std::vector<bool> is_left_;
+  double largest_pivot_ = 0.0;
+};
+
+// The same of a large one.
 class Remainder {
  public:
   explicit Remainder(const Eigen::SparseMatrix<double>& matrix)
@@ -67,10 +113,8 @@ class Remainder {
 
   std::map<int, double>& row(int i) { return rows_[static_cast<std::size_t>(i)]; }
   Key key(int column) {
-    const double size = pivot(column) / largest_pivot_;
     const double equal = has_few_rows_ ? kEqual : kAlike;
-    return {size > 0.0 ? -std::round(0.5 * std::log(size) / equal) : 1e300,
-            has_few_rows_ ? 0 : row(column).size(), column};
+    return {rank_of(pivot(column), largest_pivot_, equal), has_few_rows_ ? 0 : row(column).size(), column};
   }
 
   // A column of which nothing is left is never taken: what is coupled with it need not know.
@@ -101,10 +145,8 @@ ColumnPivots choose_densely(const Eigen::SparseMatrix<double>& matrix) {
   return pivots;
 }
 
-}  // namespace
-
-ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
-  Remainder remainder(matrix);
+template <class Remainder>
+ColumnPivots choose_from(Remainder remainder, const Eigen::SparseMatrix<double>& matrix) {
   ColumnPivots pivots;
   double first = 0.0;
   while (static_cast<Eigen::Index>(pivots.columns.size()) < matrix.rows()) {
@@ -117,6 +159,13 @@ ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
     remainder.take(column);
   }
   return pivots;
+}
+
+}  // namespace
+
+ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
+  if (matrix.rows() <= kFewRows && matrix.cols() <= kFewColumns) return choose_from(DenseRemainder(matrix), matrix);
+  return choose_from(Remainder(matrix), matrix);
 }
 
 }  // namespace sprung::dynamics

@@ -227,11 +227,12 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   });
 }
 
-void Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns, std::string_view unit) {
+Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns, std::string_view unit) {
   attempt([&] {
     prepare_dataset(file_.get(), dataset);
     growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
   });
+  return growing_.at(dataset);
 }
 
 void Hdf5Writer::append(const std::string& dataset, std::span<const double> values) {
@@ -239,7 +240,11 @@ void Hdf5Writer::append(const std::string& dataset, std::span<const double> valu
   if (found == growing_.end()) {
     throw std::invalid_argument(fmt::format("Hdf5Writer::append: there is no growing dataset '{}'", dataset));
   }
-  attempt([&] { found->second.append(values); });
+  append(found->second, values);
+}
+
+void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> values) {
+  attempt([&] { dataset.append(values); });
 }
 
 void Hdf5Writer::write_pending() {

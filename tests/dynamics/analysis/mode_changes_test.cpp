@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/analysis/full_motion.h"
+#include "dynamics/analysis/linearisation.h"
+#include "dynamics/analysis/mode_indicator.h"
 #include "dynamics/analysis/transient.h"
 #include "dynamics/analysis/unbalanced_force.h"
 #include "dynamics/forces/applied_force.h"
@@ -114,6 +117,32 @@ TEST_CASE("A model with held modes moves as the full one whose modes stand still
   const auto chassis = static_cast<std::size_t>(full.find_body("chassis"));
   const std::vector<int> rows{0, 1, 2, 3, 6, 7};
   CHECK((of_held.mass(chassis) - of_full.mass(chassis)(rows, rows)).norm() < 1e-12 * of_full.mass(chassis).norm());
+}
+
+TEST_CASE("Small motion with held modes is that of the full model without them", "[truck]") {
+  const test::TruckAtRest rest(6);
+  const dynamics::Model& full = rest.model;
+  std::vector<bool> is_active(static_cast<std::size_t>(full.num_coordinates), true);
+  const dynamics::Body& body = full.bodies[static_cast<std::size_t>(full.find_body("chassis"))];
+  for (const int k : {1, 2, 5}) is_active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] = false;
+  const dynamics::HeldModes held = dynamics::hold_modes(full, is_active, rest.equilibrium.q);
+  const dynamics::ModeIndicator indicator(full, 0.0, rest.equilibrium.q, {});
+  const std::optional<dynamics::KnownMotion> known = indicator.calc_small_motion(held);
+  REQUIRE(known);
+
+  dynamics::PartitionedEquations equations(held.model);
+  const dynamics::LinearisedSystem expected = linearise(equations, 0.0, select_active(held, rest.equilibrium.q));
+  REQUIRE(known->independent == expected.partition.independent);
+  CHECK((known->motion.mass - expected.mass).norm() < 1e-9 * expected.mass.norm());
+  CHECK((known->motion.damping - expected.damping).norm() < 1e-6 * expected.damping.norm());
+  CHECK((known->motion.stiffness - expected.stiffness).norm() < 1e-6 * expected.stiffness.norm());
+
+  // A linearisation that is known already is taken as it is.
+  dynamics::LinearisedSystem other = rest.equilibrium.linearised;
+  other.stiffness *= 2.0;
+  const dynamics::ModeIndicator informed(full, 0.0, rest.equilibrium.q, {}, &other);
+  CHECK((informed.calc_small_motion(held)->motion.stiffness - 2.0 * known->motion.stiffness).norm() <
+        1e-6 * expected.stiffness.norm());
 }
 
 namespace {
@@ -235,6 +264,9 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
   CHECK(adaptive.statistics.stepper.evaluations < full.statistics.stepper.evaluations);
   CHECK(adaptive.closure < 1e-5);
   CHECK(adaptive.changes.size() > 20);
+  // Steps in which more was missed were taken back.
+  CHECK(adaptive.statistics.worst_neglect.share.worst() > 0.0);
+  CHECK(adaptive.statistics.worst_neglect.share.worst() <= 8e-2 * (1.0 + 1e-9));
 
   SECTION("and comes closer with a smaller threshold") {
     const AdaptiveRun closer = drive(36, 2, 1e-2, duration);
@@ -242,6 +274,11 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
     CHECK((closer.deflection - full.deflection).cwiseAbs().maxCoeff() < 0.01 * scale);
     CHECK((closer.deflection - full.deflection).norm() < (adaptive.deflection - full.deflection).norm());
     CHECK((closer.origin - full.origin).norm() < 0.5 * (adaptive.origin - full.origin).norm());
+    CHECK(closer.statistics.worst_neglect.share.worst() <= 1e-2 * (1.0 + 1e-9));
+  }
+  SECTION("what is left out for good is told as it was then, not as it would be with what is active at the end") {
+    const AdaptiveRun whole = drive(36, 2, 2e-2, 5.0);
+    CHECK(whole.statistics.worst_neglect.share.worst() <= 2e-2 * (1.0 + 1e-9));
   }
   SECTION("the same each time") {
     const AdaptiveRun again = drive(36, 2, 8e-2, duration);
