@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -15,6 +16,8 @@ using Kind = WatchedQuantity::Kind;
 using Set = std::vector<int>;  // positions among the candidates
 
 constexpr double kCutShare = 0.1;       // accuracy of the range of frequencies, of the tolerance
+// Of the highest frequency looked at: modes up to there are judged also where much of the forcing lies above it.
+constexpr double kJudgedShare = 0.5;
 constexpr double kLeastTolerance = 1e-4;  // what it is never finer than
 constexpr Eigen::Index kMostShown = 2000;
 
@@ -109,11 +112,14 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   const WatchedQuantities watched = make_watched_quantities(vehicle, points);
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing,
                                kCutShare * std::max(tolerance, kLeastTolerance));
+  const double highest = measure.forcing().frequency(measure.num_lines() - 1);
+  const bool is_blind = measure.share_above() > tolerance;
   if (measure.is_cut_short()) {
-    choice.remarks.push_back(
-        fmt::format("frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of one of the "
-                    "quantities lie there, and modes above may be worth more than is said",
-                    measure.forcing().frequency(measure.num_lines() - 1), 100.0 * measure.share_above()));
+    choice.remarks.push_back(fmt::format(
+        "frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of one of the quantities lie "
+        "there{}",
+        highest, 100.0 * measure.share_above(),
+        is_blind ? fmt::format(", so that all modes above {:.4g} Hz are kept", kJudgedShare * highest) : ""));
   }
 
   // Each mode by itself, then each cluster, then the clusters left out one after the other.
@@ -124,7 +130,14 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   const std::vector<NeglectedShares> shares = measure.measure(sets);
   const std::vector<NeglectedShares> by_cluster(shares.begin() + static_cast<std::ptrdiff_t>(candidates.size()),
                                                 shares.end());
-  const std::vector<std::size_t> order = sort_clusters(by_cluster);
+  const auto is_beyond = [&](std::size_t cluster) {
+    const auto first = static_cast<std::size_t>(clusters[cluster].front());
+    return is_blind && candidates[first].frequency_hz > kJudgedShare * highest;
+  };
+  std::vector<std::size_t> order = sort_clusters(by_cluster);
+  const auto judged_end = std::stable_partition(order.begin(), order.end(), std::not_fn(is_beyond));
+  const std::vector<std::size_t> beyond(judged_end, order.end());
+  order.erase(judged_end, order.end());
   Set mode_order;
   std::vector<int> sizes;
   for (const std::size_t cluster : order) {
@@ -159,6 +172,12 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
     for (const int mode : cluster) {
       choice.verdicts[static_cast<std::size_t>(mode)].is_kept = is_over;
       choice.verdicts[static_cast<std::size_t>(mode)].reason = reason;
+    }
+  }
+  for (const std::size_t cluster : beyond) {
+    for (const int mode : clusters[cluster]) {
+      choice.verdicts[static_cast<std::size_t>(mode)].is_kept = true;
+      choice.verdicts[static_cast<std::size_t>(mode)].reason = "kept: beyond what the prediction looks at";
     }
   }
   add_spectrum(vehicle, measure, points, forcing.speed, choice);

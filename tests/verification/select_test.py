@@ -86,6 +86,17 @@ class Truck(VerificationCase):
         report = self.select("terrain", *overrides(mode_choice__tolerance=0, duration=2.0, statistics="{ from = 0, to = 2 }"))
         self.assertEqual(len(self.kept(report)), 36)
 
+    def test_what_a_long_run_cannot_look_at_is_kept(self):
+        # The longer the run, the lower the highest of the lines: those of a minute end below most modes.
+        report = self.select("bump", *overrides(duration=60.0, statistics="{ from = 0, to = 60 }"))
+        self.assertEqual(len(report["remarks"]), 1)
+        self.assertRegex(report["remarks"][0], r"^frequencies above .* are left out of the prediction: .* so that all modes above ")
+        limit = float(report["remarks"][0].split(" so that all modes above ")[1].split(" Hz")[0])
+        unjudged = [mode for mode in report["modes"] if mode["frequency"] > limit]
+        self.assertGreater(len(unjudged), 20)
+        for mode in unjudged:
+            self.assertEqual((mode["kept"], mode["reason"]), (True, "kept: beyond what the prediction looks at"))
+
     def test_says_why_all_are_kept_where_the_forcing_is_not_known(self):
         for setting, why in (
             (overrides(start="'as-given'"), "the run does not start in static balance"),
