@@ -140,8 +140,10 @@ class Report(unittest.TestCase):
                     (*row[:column], NUMBER.sub(lambda found: double(found[0]), row[column]), *row[column + 1 :])
                     for row in rows
                 ]
+                numbered = [row for row in rows if NUMBER.search(row[column])]  # "nothing" is left out of all modes
                 with self.subTest(name, column=headings[column]):
-                    self.assertEqual(len(find_mode_differences(name, kept, (headings, changed))), len(rows))
+                    self.assertGreater(len(numbered), 0)
+                    self.assertEqual(len(find_mode_differences(name, kept, (headings, changed))), len(numbered))
 
     def test_the_report_shows_a_row_for_every_claim_and_every_number_of_modes(self):
         rows = parse_markdown(read_part(self.text, "claims"))[1]

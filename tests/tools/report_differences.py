@@ -2,6 +2,8 @@
 
 import re
 
+import tool_test_case  # noqa: F401 (puts tools/ on the path)
+
 from paper_report.markdown import find_differences
 
 # The report states these.

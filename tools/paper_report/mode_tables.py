@@ -66,7 +66,7 @@ def make_choice_table(numbers):
                 (
                     f"{road}, {100.0 * tolerance:g} %",
                     f"{len(choice.kept)}: {format_ranges(choice.kept)}",
-                    f"{100.0 * choice.neglected:.2f} % of the {choice.neglected_of}",
+                    f"{100.0 * choice.neglected:.2f} % of the {choice.neglected_of}" if choice.neglected_of else "nothing",
                     *rms,
                     ", ".join(percent(case.peak(point)) for point in (MIDDLE, SEAT)),
                     format_histories(case),
