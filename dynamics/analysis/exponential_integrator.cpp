@@ -187,7 +187,8 @@ double ExponentialIntegrator::calc_truncation() {
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
     now_.propagate_quartic(propagators_[node], basis_.blocks, difference_);
-    sum += std::pow(calc_norm(difference_), 2);
+    const double size = calc_norm(difference_);
+    sum += size * size;
   }
   return std::sqrt(sum);
 }
@@ -253,7 +254,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 
-// now_ becomes last_, and the next one starts at its end. @return true if a switch cut it off
+// now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
   const bool switched = num_switches_ > 0 && locate_switch();
   if (switched) {
@@ -263,7 +264,6 @@ bool ExponentialIntegrator::finish_step() {
     return true;
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
-  now_.propagate(propagators_[kNumNodes - 1], basis_.blocks, end_);
   now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
   to_physical(end_, y_);
   std::swap(now_, last_);
