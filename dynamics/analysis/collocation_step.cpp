@@ -12,7 +12,8 @@ CollocationStep::CollocationStep(Eigen::Index num_pairs, Eigen::Index num_quadra
     : motion{Eigen::VectorXd::Zero(2 * num_pairs), Eigen::VectorXd::Zero(num_quadratures)},
       drive{lobatto::NodeValues::Zero(2 * num_pairs, kNumNodes),
             lobatto::NodeValues::Zero(num_quadratures, kNumNodes)},
-      quartic(motion) {}
+      quartic(motion),
+      bends(num_pairs, num_quadratures) {}
 
 void CollocationStep::propagate(const LobattoPropagator& propagator, const PairBlocks& blocks,
                                 PairedMotion& at) const {
@@ -28,6 +29,13 @@ void CollocationStep::add_quartic(const LobattoPropagator& propagator, const Pai
   at.w += propagator.integral_quartic() * quartic.w;
 }
 
+void CollocationStep::calc_drive(double theta, PairedMotion& at) const {
+  const lobatto::NodeWeights weights = cubic_weights(theta);
+  combine(drive.pairs, weights, at.u);
+  combine(drive.rates, weights, at.w);
+  for (const Bend& bend : bends.all()) bend.add_gain(theta, at);
+}
+
 void CollocationStep::propagate_quartic(const LobattoPropagator& propagator, const PairBlocks& blocks,
                                         PairedMotion& at) const {
   at.u.setZero();
@@ -38,7 +46,7 @@ void CollocationStep::propagate_quartic(const LobattoPropagator& propagator, con
 DrivePrediction::DrivePrediction(Eigen::Index num_pairs, Eigen::Index num_quadratures) {
   const CollocationStep step(num_pairs, num_quadratures);
   expected_ = step.drive;
-  surprise_ = step.motion;
+  surprise_ = at_ = step.motion;
 }
 
 void DrivePrediction::predict(const CollocationStep& last, Past past, CollocationStep& now) {
@@ -46,9 +54,7 @@ void DrivePrediction::predict(const CollocationStep& last, Past past, Collocatio
   const double ratio = past == Past::kNone ? 0.0 : now.length / last.length;
   const double origin = past == Past::kNone ? 0.0 : (now.start - last.start) / last.length;
   if (past == Past::kSwitched) {
-    const lobatto::NodeWeights weights = cubic_weights(origin);
-    combine(last.drive.pairs, weights, surprise_.u);
-    combine(last.drive.rates, weights, surprise_.w);
+    last.calc_drive(origin, surprise_);
     surprise_.u = drive.pairs.col(0) - surprise_.u;
     surprise_.w = drive.rates.col(0) - surprise_.w;
   }
@@ -61,9 +67,8 @@ void DrivePrediction::predict(const CollocationStep& last, Past past, Collocatio
       drive.rates.col(j) = drive.rates.col(0);
       continue;
     }
-    const lobatto::NodeWeights weights = cubic_weights(theta);
-    combine(last.drive.pairs, weights, drive.pairs.col(j));
-    combine(last.drive.rates, weights, drive.rates.col(j));
+    last.calc_drive(theta, at_);
+    drive.set(j, at_);
     if (past == Past::kSwitched) {
       drive.pairs.col(j) += surprise_.u;
       drive.rates.col(j) += surprise_.w;

@@ -33,6 +33,9 @@ constexpr double kHopelessError =
     2.0;  // of what is allowed, at which a step is given up before its iteration ends
 constexpr int kFailuresBeforeLinearising = 3;
 
+constexpr double kBendShare = 1.0;   // error of a step that is carried through bends, of what is allowed
+constexpr double kLeastEcho = 0.1;   // share by which what they do changes the drive in turn, as far as it is known
+
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
 constexpr double kMemory =
@@ -65,6 +68,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
   end_ = difference_ = between_motion_ = now_.motion;
+  end_drive_ = bend_response_ = now_.motion;
   stages_.fill(now_.motion);
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
@@ -103,9 +107,13 @@ void ExponentialIntegrator::begin() {
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
-  // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
-  switches_.col(0) = switches_.col(0).cwiseMax(0.0);
+  begin_switches(0);
   has_begun_ = true;
+}
+
+// What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
+void ExponentialIntegrator::begin_switches(int node) {
+  switches_.col(0) = switches_.col(node).cwiseMax(0.0);
 }
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
@@ -172,13 +180,14 @@ void ExponentialIntegrator::estimate_quartic() {
     combine(now_.drive.rates, third, now_.quartic.w);
     return;
   }
+  last_.calc_drive(lobatto::node(2), difference_);
   const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
   const lobatto::NodeWeights weights = cubic_weights(theta);
   combine(now_.drive.pairs, weights, now_.quartic.u);
   combine(now_.drive.rates, weights, now_.quartic.w);
   const double divisor = node_polynomial(theta);
-  now_.quartic.u = (last_.drive.pairs.col(2) - now_.quartic.u) / divisor;
-  now_.quartic.w = (last_.drive.rates.col(2) - now_.quartic.w) / divisor;
+  now_.quartic.u = (difference_.u - now_.quartic.u) / divisor;
+  now_.quartic.w = (difference_.w - now_.quartic.w) / divisor;
 }
 
 // What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
@@ -256,8 +265,10 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
 
 // now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
-  const bool switched = num_switches_ > 0 && locate_switch();
-  if (switched) {
+  now_.bends.clear();
+  const bool switches = num_switches_ > 0 && crosses();
+  if (switches && !pass_bends()) {
+    locate_switch();
     std::swap(now_, last_);
     to_physical(between_motion_, y_);
     has_begun_ = false;
@@ -265,22 +276,84 @@ bool ExponentialIntegrator::finish_step() {
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
   now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
+  if (switches) {
+    end_.u += bend_response_.u;
+    end_.w += bend_response_.w;
+  }
   to_physical(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
-  now_.drive.pairs.col(0) = last_.drive.pairs.col(kNumNodes - 1);
-  now_.drive.rates.col(0) = last_.drive.rates.col(kNumNodes - 1);
-  if (num_switches_ > 0) switches_.col(0) = switches_.col(kNumNodes - 1);
+  last_.calc_drive(1.0, difference_);
+  now_.drive.set(0, difference_);
+  if (num_switches_ > 0) begin_switches(kNumNodes - 1);
   past_ = Past::kSmooth;
   return false;
 }
 
+bool ExponentialIntegrator::crosses() const {
+  for (int j = 1; j < kNumNodes; ++j) {
+    if (SwitchSearch::any_crosses(switches_.col(j - 1), switches_.col(j))) return true;
+  }
+  return false;
+}
+
+// What a bend adds to the drive at the end of now_, at a motion that was come to there without it, and what that does.
+bool ExponentialIntegrator::find_gain(const PairedMotion& motion, Bend& bend, PairedMotion& response) {
+  now_.drive.get(kNumNodes - 1, bend.gain);
+  to_physical(motion, stage_y_);
+  if (!evaluate(now_.start + now_.length, motion, kNumNodes - 1)) return false;
+  bend.gain.u = now_.drive.pairs.col(kNumNodes - 1) - bend.gain.u;
+  bend.gain.w = now_.drive.rates.col(kNumNodes - 1) - bend.gain.w;
+  bend.add_response(1.0, now_.length, basis_.blocks, between_, response);
+  return true;
+}
+
+// The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn, and so on, each
+// time by about the same share: the second time is looked at. @return false where what is left is too much
+bool ExponentialIntegrator::find_gains() {
+  bend_response_.set_zero();
+  difference_.set_zero();
+  for (Bend& bend : now_.bends.all()) {
+    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length) ||
+        !find_gain(stages_[kNumNodes - 1], bend, bend_response_))
+      return false;
+    difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
+  }
+  const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
+  if (doubt + first <= kBendShare) return true;
+  between_motion_.u = end_.u + bend_response_.u;
+  between_motion_.w = end_.w + bend_response_.w;
+  difference_.set_zero();
+  if (!find_gain(between_motion_, now_.bends.add_echo(), difference_)) return false;
+  const double second = calc_norm(difference_), rate = std::max(kLeastEcho, second / first);
+  bend_response_.u += difference_.u;
+  bend_response_.w += difference_.w;
+  return rate < kUselessContraction && doubt + second * rate / (1.0 - rate) <= kBendShare;
+}
+
+// Carries now_ through forces that only bend in it. @return false, and nothing changed, where that will not do
+bool ExponentialIntegrator::pass_bends() {
+  if (!now_.bends.find(system_, switches_, switch_search_)) return false;
+  const auto num_bends = static_cast<long>(now_.bends.all().size());
+  now_.drive.get(kNumNodes - 1, end_drive_);
+  end_switches_ = switches_.col(kNumNodes - 1);
+  const bool good = find_gains();
+  now_.drive.set(kNumNodes - 1, end_drive_);
+  if (good) {
+    statistics_.bends += num_bends;
+  } else {
+    now_.bends.clear();
+    system_.take_back_passes();
+    switches_.col(kNumNodes - 1) = end_switches_;
+  }
+  return good;
+}
+
 // The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.
-bool ExponentialIntegrator::locate_switch() {
+void ExponentialIntegrator::locate_switch() {
   int after = 1;
   while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
     ++after;
-  if (after == kNumNodes) return false;
   double place = 0.0;  // of between_motion_
   const auto move_to = [&](double theta) {
     place = theta;
@@ -301,13 +374,14 @@ bool ExponentialIntegrator::locate_switch() {
       });
   time_ = now_.start + theta * now_.length;
   if (theta != place) move_to(theta);
-  return true;
 }
 
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
-  between_.update((time - last_.start) / last_.length, last_.length, basis_.blocks);
+  const double theta = (time - last_.start) / last_.length;
+  between_.update(theta, last_.length, basis_.blocks);
   last_.propagate(between_, basis_.blocks, between_motion_);
   last_.add_quartic(between_, basis_.blocks, between_motion_);
+  for (const Bend& bend : last_.bends.all()) bend.add_response(theta, last_.length, basis_.blocks, between_, between_motion_);
   to_physical(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }

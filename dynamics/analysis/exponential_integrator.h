@@ -40,7 +40,12 @@ class ExponentialIntegrator final : public Integrator {
   bool iterate();
   double calc_truncation();
   bool finish_step();
-  bool locate_switch();
+  bool crosses() const;
+  bool find_gain(const PairedMotion& motion, Bend& bend, PairedMotion& response);
+  bool find_gains();
+  bool pass_bends();
+  void begin_switches(int node);
+  void locate_switch();
   void to_physical(const PairedMotion& motion, Vector& y) const;
   double calc_norm(const PairedMotion& difference);
 
@@ -70,7 +75,8 @@ class ExponentialIntegrator final : public Integrator {
   Eigen::MatrixXd switches_;  // num_switches × 4
   SwitchSearch switch_search_;
 
-  PairedMotion end_, difference_;
+  PairedMotion end_, difference_, end_drive_, bend_response_;
+  Vector end_switches_;
   Vector y_dot_, scales_, stage_y_, difference_y_;
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;

@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/forces/passage.h"
+
 namespace sprung::dynamics {
 
 /// M δq̈ + C δq̇ + K δq = 0: small motion about a state, all f×f.
@@ -31,6 +33,13 @@ class OdeSystem {
   virtual int num_switches() const = 0;
   /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth in time
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
+  /// How f goes through the zero of a switch function.
+  virtual Passage passage(int /*switch_index*/) const { return Passage::kJump; }
+  /// From `time` on, calc_derivative uses the formulas that a switch function asks for at the arguments evaluated last.
+  /// Called in order of time. @return false, and nothing changed, where that cannot be
+  virtual bool pass(int /*switch_index*/, double /*time*/) { return false; }
+  /// Back to the formulas from before the first `pass` of this step.
+  virtual void take_back_passes() {}
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;
 

@@ -125,6 +125,10 @@ bool PartitionedOde::calc_switches(double time, std::span<const double> y, std::
   return true;
 }
 
+bool PartitionedOde::pass(int switch_index, double time) {
+  return std::isfinite(evaluated_time_) && piece_.pass(switch_index, time, equations_.terms());
+}
+
 void PartitionedOde::calc_error_scales(std::span<const double> y, std::span<double> scales) const {
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();

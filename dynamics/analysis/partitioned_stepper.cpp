@@ -36,6 +36,7 @@ void PartitionedStepper::resume(double end_time) {
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
   ode_.mark_motion();
+  ode_.piece().begin_step();
   try {
     return integrator_->step(longest_step);
   } catch (const support::NumericalError&) {
@@ -63,6 +64,7 @@ void PartitionedStepper::go_to(double time) {
       integrator_->interpolate(time, y_);
   }
   evaluated_time_ = time;
+  ode_.piece().go_to(time);
 }
 
 void PartitionedStepper::evaluate(double time) {

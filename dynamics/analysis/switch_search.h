@@ -14,6 +14,7 @@ class SwitchSearch {
  public:
   explicit SwitchSearch(Eigen::Index num_switches) : values_(num_switches, kMaxPlaces), new_(num_switches) {}
 
+  static bool crosses(double before, double after) { return before >= 0.0 && after < 0.0; }
   /// Whether one of the values becomes negative.
   template <class Before, class After>
   static bool any_crosses(const Before& before, const After& after) {
@@ -21,6 +22,13 @@ class SwitchSearch {
       if (crosses(before[i], after[i])) return true;
     }
     return false;
+  }
+
+  /// Where the cubic through the values of one of them becomes negative, between two places.
+  double find_crossing(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values, int after,
+                       Eigen::Index index, double tolerance) {
+    begin(places, values, after);
+    return predict(index, tolerance);
   }
 
   /// @param places    2 to 4, increasing
@@ -51,7 +59,6 @@ class SwitchSearch {
  private:
   static constexpr int kMaxPlaces = 4, kMaxIterations = 100;
 
-  static bool crosses(double before, double after) { return before >= 0.0 && after < 0.0; }
   double low() const { return places_[0]; }
   double high() const { return places_[1]; }
 

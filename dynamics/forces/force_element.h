@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/forces/passage.h"
 #include "dynamics/forces/road_response.h"
 #include "dynamics/forces/time_function.h"
 
@@ -67,6 +68,8 @@ class ForceElement {
   /// @param[out] values  positive while the branches hold, negative beyond; smooth in time
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
+  /// What happens at the zero of a switch function. A bend is nothing that describe_change tells of.
+  virtual Passage passage(int /*switch_index*/, std::span<const int> /*branches*/) const { return Passage::kJump; }
   /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth telling.
   virtual std::string describe_change(std::span<const int> /*old_branches*/, std::span<const int> /*new_branches*/) const {
     return {};

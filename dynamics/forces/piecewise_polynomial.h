@@ -50,6 +50,8 @@ class PiecewisePolynomial {
   /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band beyond its
   /// ends, so that x trembling at a break does not change pieces again and again.
   int choose_piece(int piece, double x, double dead_band) const;
+  /// Whether the upper or the lower end of a piece is at x = 0.
+  bool ends_at_zero(int piece, bool upper) const;
   /// @param[out] values  2: positive while x has not gone a dead band beyond the lower, the upper end of the piece
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
 

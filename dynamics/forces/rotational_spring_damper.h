@@ -31,6 +31,7 @@ class RotationalSpringDamper final : public ForceElement {
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
   int num_switches() const override { return 4; }
+  Passage passage(int switch_index, std::span<const int> branches) const override;
   void calc_switches(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const override;
 

@@ -61,6 +61,12 @@ void SpringDamper::calc_switches(const Instant& instant, std::span<const int> br
   parameters_.damper.calc_piece_switches(branches[1], line.rate, kRateDeadBand, values.subspan(2, 2));
 }
 
+// What a spring takes up it stores, so that its power does not count.
+Passage SpringDamper::passage(int switch_index, std::span<const int> branches) const {
+  const bool is_spring = switch_index < 2, is_upper = switch_index % 2 == 1;
+  return is_spring || parameters_.damper.ends_at_zero(branches[1], is_upper) ? Passage::kBendAtRest : Passage::kBend;
+}
+
 std::span<const Channel> SpringDamper::channels() const {
   static constexpr std::array<Channel, 4> kChannels{
       {{"length", "m"}, {"deflection", "m"}, {"rate", "m/s"}, {"force", "N"}}};

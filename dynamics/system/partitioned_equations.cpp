@@ -26,6 +26,7 @@ PartitionedEquations::PartitionedEquations(const Model& model)
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
   q_ = last_good_q_ = q;
+  has_accelerations_ = false;
   mutable_terms().update_positions(time, q_);
   mutable_terms().update_jacobian();
   mutable_terms().update_mass();
@@ -49,6 +50,7 @@ void PartitionedEquations::mark(double time, const Eigen::VectorXd& q, const Eig
 
 void PartitionedEquations::return_to_mark() {
   q_ = last_good_q_ = marked_q_;
+  has_accelerations_ = false;
   mutable_terms().update_positions(marked_time_, q_);
   refactor();
 }
@@ -79,7 +81,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     if (!std::isfinite(size)) return false;
     if (size <= tolerance) return true;
     // Until it is seen: with the factors from a distance d the residual is of order d², and falls by the share d.
-    const double contraction = iteration == 0 ? std::sqrt(size / model_->length_scale) : size / last;
+    const double contraction = iteration == 0 ? std::cbrt(size / model_->length_scale) : size / last;
     if (size * contraction * contraction > kAim * tolerance) refactor();
     last = size;
     dependents_.solve(residual_, correction_);
@@ -92,11 +94,14 @@ bool PartitionedEquations::solve_dependents(double time) {
 
 PartitionedEquations::Outcome PartitionedEquations::update_positions(double time,
                                                                      std::span<const double> q_independent) {
-  // The dependents go along with the independents by the last factors, then Newton closes the joints.
+  // The dependents go along with the independents by the last factors, and with the last accelerations where those
+  // are known: with both, to second order in time. Then Newton closes the joints.
+  const double bend = has_accelerations_ ? 0.5 * std::pow(time - terms().instant().time, 2) : 0.0;
+  has_accelerations_ = false;
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     const int i = partition_.independent[k];
     if (!std::isfinite(q_independent[k])) return Outcome::kNotFinite;
-    step_[k] = q_independent[k] - q_[i];
+    step_[k] = q_independent[k] - q_[i] - bend * v_dot()[i];
     q_[i] = q_independent[k];
   }
   if (num_constraints_ > 0) {
@@ -104,7 +109,8 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
     dependents_.add_independent_product(step_, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
-      q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
+      const int i = partition_.dependent[k];
+      q_[i] += bend * v_dot()[i] - correction_[static_cast<Eigen::Index>(k)];
     }
   }
   bool assembled = solve_dependents(time);
@@ -136,7 +142,8 @@ void PartitionedEquations::update_velocities(std::span<const double> v_independe
 }
 
 PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::span<const int> branches) {
-  return full_.update_accelerations(branches) ? Outcome::kGood : Outcome::kNotFinite;
+  has_accelerations_ = full_.update_accelerations(branches);
+  return has_accelerations_ ? Outcome::kGood : Outcome::kNotFinite;
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {

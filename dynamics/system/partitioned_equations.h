@@ -91,6 +91,7 @@ class PartitionedEquations {
   double marked_time_ = 0.0;
   Eigen::VectorXd residual_, correction_;  // m
   std::vector<double> step_;               // of the independents, f
+  bool has_accelerations_ = false;         // at q_
 };
 
 }  // namespace sprung::dynamics
