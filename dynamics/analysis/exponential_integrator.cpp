@@ -297,37 +297,41 @@ bool ExponentialIntegrator::crosses() const {
   return false;
 }
 
-// What a bend adds to the drive at the end of now_, at a motion that was come to there without it, and what that does.
-bool ExponentialIntegrator::find_gain(const PairedMotion& motion, Bend& bend, PairedMotion& response) {
-  now_.drive.get(kNumNodes - 1, bend.gain);
-  to_physical(motion, stage_y_);
-  if (!evaluate(now_.start + now_.length, motion, kNumNodes - 1)) return false;
-  bend.gain.u = now_.drive.pairs.col(kNumNodes - 1) - bend.gain.u;
-  bend.gain.w = now_.drive.rates.col(kNumNodes - 1) - bend.gain.w;
-  bend.add_response(1.0, now_.length, basis_.blocks, between_, response);
-  return true;
-}
-
 // The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn, and so on, each
 // time by about the same share: the second time is looked at. @return false where what is left is too much
 bool ExponentialIntegrator::find_gains() {
+  constexpr int kEnd = kNumNodes - 1;
+  const double end = now_.start + now_.length;
   bend_response_.set_zero();
   difference_.set_zero();
   for (Bend& bend : now_.bends.all()) {
-    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length) ||
-        !find_gain(stages_[kNumNodes - 1], bend, bend_response_))
-      return false;
+    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_))) return false;
+    bend.gain.u.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+    bend.gain.w = y_dot_.tail(num_quadratures_);
+    bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
     difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
   }
   const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
-  if (doubt + first <= kBendShare) return true;
+  if (doubt + first <= kBendShare) {
+    return system_.calc_switches(end, span_of(stage_y_), {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)});
+  }
   between_motion_.u = end_.u + bend_response_.u;
   between_motion_.w = end_.w + bend_response_.w;
+  to_physical(between_motion_, stage_y_);
+  if (!evaluate(end, between_motion_, kEnd)) return false;
+  difference_.u = now_.drive.pairs.col(kEnd) - end_drive_.u;
+  difference_.w = now_.drive.rates.col(kEnd) - end_drive_.w;
+  for (const Bend& bend : now_.bends.all()) {
+    difference_.u -= bend.gain.u;
+    difference_.w -= bend.gain.w;
+  }
+  Bend& echo = now_.bends.add_echo();
+  echo.gain = difference_;
   difference_.set_zero();
-  if (!find_gain(between_motion_, now_.bends.add_echo(), difference_)) return false;
-  const double second = calc_norm(difference_), rate = std::max(kLeastEcho, second / first);
+  echo.add_response(1.0, now_.length, basis_.blocks, between_, difference_);
   bend_response_.u += difference_.u;
   bend_response_.w += difference_.w;
+  const double second = calc_norm(difference_), rate = std::max(kLeastEcho, second / first);
   return rate < kUselessContraction && doubt + second * rate / (1.0 - rate) <= kBendShare;
 }
 

@@ -41,7 +41,6 @@ class ExponentialIntegrator final : public Integrator {
   double calc_truncation();
   bool finish_step();
   bool crosses() const;
-  bool find_gain(const PairedMotion& motion, Bend& bend, PairedMotion& response);
   bool find_gains();
   bool pass_bends();
   void begin_switches(int node);

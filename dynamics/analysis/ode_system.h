@@ -35,9 +35,11 @@ class OdeSystem {
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// How f goes through the zero of a switch function.
   virtual Passage passage(int /*switch_index*/) const { return Passage::kJump; }
-  /// From `time` on, calc_derivative uses the formulas that a switch function asks for at the arguments evaluated last.
-  /// Called in order of time. @return false, and nothing changed, where that cannot be
-  virtual bool pass(int /*switch_index*/, double /*time*/) { return false; }
+  /// From `time` on, calc_derivative uses the formulas that a switch function asks for at the arguments that it was
+  /// called with last. Called in order of time.
+  /// @param[out] change  of ẏ there
+  /// @return false, and nothing changed, where that cannot be
+  virtual bool pass(int /*switch_index*/, double /*time*/, std::span<double> /*change*/) { return false; }
   /// Back to the formulas from before the first `pass` of this step.
   virtual void take_back_passes() {}
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.

@@ -60,8 +60,8 @@ class PartitionedOde final : public OdeSystem {
   int num_switches() const override { return piece_.num_switches(); }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
   Passage passage(int switch_index) const override { return piece_.passage(switch_index); }
-  bool pass(int switch_index, double time) override;
-  void take_back_passes() override { piece_.take_back_passes(); }
+  bool pass(int switch_index, double time, std::span<double> change) override;
+  void take_back_passes() override;
   void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
 
  private:

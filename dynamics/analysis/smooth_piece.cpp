@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sprung::dynamics {
 
@@ -51,12 +52,12 @@ Passage SmoothPiece::passage(int switch_index) const {
   return model_->forces[one.force]->passage(one.index, branches_of(one.force));
 }
 
-bool SmoothPiece::pass(int switch_index, double time, const SystemTerms& terms) {
+std::optional<SmoothPiece::Pass> SmoothPiece::pass(int switch_index, double time, const SystemTerms& terms) {
   const std::size_t force = switches_[static_cast<std::size_t>(switch_index)].force;
   for (std::size_t k = 1; k < num_phases_; ++k) {
-    if (phases_[k].passed_force == force) return false;
+    if (phases_[k].passed_force == force) return {};
   }
-  if (num_phases_ == kMaxPhases) return false;
+  if (num_phases_ == kMaxPhases) return {};
   Phase& last = phases_[num_phases_ - 1];
   Phase& next = phases_[num_phases_];
   last.end = time;
@@ -64,7 +65,7 @@ bool SmoothPiece::pass(int switch_index, double time, const SystemTerms& terms) 
   next.passed_force = force;
   model_->forces[force]->choose_branches(terms.instant(), own_branches(force, next.branches));
   now_ = num_phases_++;
-  return true;
+  return Pass{force, own_branches(force, std::as_const(last.branches)), branches_of(force)};
 }
 
 void SmoothPiece::go_to(double time) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,9 +34,14 @@ class SmoothPiece {
   void calc_switches(const SystemTerms& terms, std::span<double> values) const;
   /// What happens at the zero of a switch function.
   Passage passage(int switch_index) const;
+  /// A force element and its branches before and behind the zero of one of its switch functions.
+  struct Pass {
+    std::size_t force;
+    std::span<const int> from, to;
+  };
   /// From `time` on, the element of a switch uses the branches that hold at the state of the terms; branches() are those.
-  /// Called in order of time. @return false, and nothing changed, where it has done so since begin_step, or too many have
-  bool pass(int switch_index, double time, const SystemTerms& terms);
+  /// Called in order of time. @return none, and nothing changed, where it has done so since begin_step, or too many have
+  std::optional<Pass> pass(int switch_index, double time, const SystemTerms& terms);
   void take_back_passes() { num_phases_ = 1, now_ = 0; }
   /// branches() become those of a time since begin_step.
   void go_to(double time);

@@ -73,8 +73,8 @@ bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
-    if (iteration == 0) mutable_terms().update_positions(time, q_);
-    else mutable_terms().adjust_positions(q_);
+    if (iteration == 0) mutable_terms().place_joints(time, q_);
+    else mutable_terms().adjust_joints(q_);
     if (num_constraints_ == 0) return true;
     terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
@@ -115,6 +115,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   }
   bool assembled = solve_dependents(time);
   if (assembled) {
+    mutable_terms().place_others();
     refactor();
     assembled = !dependents_.is_mirrored();
   }

@@ -1,5 +1,8 @@
 #include "dynamics/system/system_terms.h"
 
+#include <algorithm>
+#include <set>
+
 namespace sprung::dynamics {
 
 SystemTerms::SystemTerms(const Model& model, Markers scope)
@@ -9,17 +12,22 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       rotations_(model.bodies.size()),
       wrenches_(model.markers.size()),
+      changed_wrenches_(model.markers.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
   for (const Body& body : model.bodies) masses_.emplace_back(body);
   for (const Marker& marker : model.markers) markers_.push_back(make_marker_state(marker));
   for (const int i : model.acting_markers) {
     if (model.markers[static_cast<std::size_t>(i)].body != kGround) acting_markers_.push_back(find_body(i));
   }
-  if (scope == Markers::kActing) {
-    kept_markers_ = acting_markers_;
-  } else {
-    for (int i = 0; i < static_cast<int>(model.markers.size()); ++i) {
-      if (model.markers[static_cast<std::size_t>(i)].body != kGround) kept_markers_.push_back(find_body(i));
+  std::set<int> in_joints;
+  for (const auto& joint : model.joints) in_joints.insert({joint->marker_a, joint->marker_b});
+  for (int i = 0; i < static_cast<int>(model.markers.size()); ++i) {
+    if (model.markers[static_cast<std::size_t>(i)].body == kGround) continue;
+    if (in_joints.count(i) > 0) {
+      joint_markers_.push_back(find_body(i));
+    } else if (scope == Markers::kAll ||
+               std::binary_search(model.acting_markers.begin(), model.acting_markers.end(), i)) {
+      other_markers_.push_back(find_body(i));
     }
   }
   for (std::size_t j = 0; j < model.joints.size(); ++j) add_joint(j);
@@ -33,21 +41,30 @@ SystemTerms::MovingMarker SystemTerms::find_body(int marker_index) const {
 }
 
 void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
+  place_joints(time, q);
+  place_others();
+}
+
+void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
   time_ = time;
   q_ = q;
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
   }
-  for (const MovingMarker& moving : kept_markers_) place_marker(moving);
+  for (const MovingMarker& moving : joint_markers_) place_marker(moving);
 }
 
-void SystemTerms::adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q) {
+void SystemTerms::adjust_joints(const Eigen::Ref<const Eigen::VectorXd>& q) {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const int angle = model_->bodies[b].first_coordinate + 2;
     rotations_[b].turn_to(q[angle], q_[angle]);
   }
   q_ = q;
-  for (const MovingMarker& moving : kept_markers_) place_marker(moving);
+  for (const MovingMarker& moving : joint_markers_) place_marker(moving);
+}
+
+void SystemTerms::place_others() {
+  for (const MovingMarker& moving : other_markers_) place_marker(moving);
 }
 
 void SystemTerms::place_marker(const MovingMarker& moving) {
@@ -160,7 +177,8 @@ void SystemTerms::update_mass() {
 
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
   v_ = v;
-  for (const MovingMarker& moving : kept_markers_) move_marker(moving);
+  for (const MovingMarker& moving : joint_markers_) move_marker(moving);
+  for (const MovingMarker& moving : other_markers_) move_marker(moving);
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
@@ -179,9 +197,9 @@ void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
   }
 }
 
-void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench) {
+void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& forces) const {
   const MarkerState& state = markers_[moving.marker];
-  double* Q = Q_.data() + moving.first_coordinate;
+  double* Q = forces.data() + moving.first_coordinate;
   Q[0] += wrench.force.x();
   Q[1] += wrench.force.y();
   Q[2] += state.r_theta.dot(wrench.force) + wrench.torque;
@@ -205,7 +223,7 @@ void SystemTerms::update_forces(std::span<const int> branches) {
   Q_.setZero();
   for (const MovingMarker& moving : acting_markers_) {
     const Wrench& wrench = wrenches_[moving.marker];
-    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(moving, wrench);
+    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(moving, wrench, Q_);
   }
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
@@ -237,6 +255,30 @@ void SystemTerms::update_forces(std::span<const int> branches) {
       power_.input += value * eta_dot[fading.mode];
     }
   }
+}
+
+Power SystemTerms::change_branches(std::size_t f, std::span<const int> from, std::span<const int> to,
+                                   Eigen::VectorXd& change) {
+  for (const int i : model_->acting_markers) changed_wrenches_[static_cast<std::size_t>(i)] = Wrench{};
+  const ForceElement& force = *model_->forces[f];
+  const Power before = force.add_wrenches(instant(), from, changed_wrenches_);
+  for (const int i : model_->acting_markers) {
+    Wrench& wrench = changed_wrenches_[static_cast<std::size_t>(i)];
+    wrench = {.force = -wrench.force, .torque = -wrench.torque};
+  }
+  const Power after = force.add_wrenches(instant(), to, changed_wrenches_);
+  change.setZero();
+  for (const MovingMarker& moving : acting_markers_) {
+    const Wrench& wrench = changed_wrenches_[moving.marker];
+    add_wrench(moving, wrench, change);
+    wrenches_[moving.marker].force += wrench.force;
+    wrenches_[moving.marker].torque += wrench.torque;
+  }
+  Q_ += change;
+  const Power power{.dissipated = after.dissipated - before.dissipated, .input = after.input - before.input};
+  power_.dissipated += power.dissipated;
+  power_.input += power.input;
+  return power;
 }
 
 void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const {

@@ -23,10 +23,14 @@ class SystemTerms {
   };
   explicit SystemTerms(const Model& model, Markers scope = Markers::kAll);
 
-  /// Positions of the markers.
+  /// Positions of the markers: `place_joints` and `place_others`.
   void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
-  /// The same nearby, after `update_positions`: bodies that turned little are turned on instead of placed anew.
-  void adjust_positions(const Eigen::Ref<const Eigen::VectorXd>& q);
+  /// Positions of the markers that joints see, all that residual and Jacobian need.
+  void place_joints(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
+  /// The same nearby, after `place_joints`: bodies that turned little are turned on instead of placed anew.
+  void adjust_joints(const Eigen::Ref<const Eigen::VectorXd>& q);
+  /// Positions of the other markers, where the joints' are now.
+  void place_others();
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
   void update_jacobian();
   const BlockJacobian& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
@@ -43,6 +47,9 @@ class SystemTerms {
 
   /// Generalized forces of force elements, gravity, stiffness, damping and quadratic velocity terms.
   void update_forces(std::span<const int> branches);
+  /// Takes force element f from some of its branches to others, after `update_forces` with those.
+  /// @param[out] change  of forces(), nq   @return the change of power()
+  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to, Eigen::VectorXd& change);
   const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
   const Power& power() const { return power_; }
   /// What force elements, and joints under multipliers λ, do to each marker; after `update_jacobian` and
@@ -83,16 +90,17 @@ class SystemTerms {
   void add_joint(std::size_t joint);
   void add_block(const JointTerms& terms, JointSide& side);
   void fill_block(const JointSide& side);
-  void add_wrench(const MovingMarker& moving, const Wrench& wrench);
+  void add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& Q) const;
 
   const Model* model_;
-  std::vector<MovingMarker> kept_markers_, acting_markers_;
+  std::vector<MovingMarker> joint_markers_, other_markers_;  // that are kept up to date
+  std::vector<MovingMarker> acting_markers_;
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
-  std::vector<Wrench> wrenches_;
+  std::vector<Wrench> wrenches_, changed_wrenches_;
   std::vector<JointTerms> joints_;
   BlockJacobian Phi_q_;
   Power power_;
