@@ -165,6 +165,7 @@ int PiecewisePolynomial::choose_piece(int piece, double x, double dead_band) con
 }
 
 void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const {
+  if (breaks_.empty()) return;
   const auto i = static_cast<std::size_t>(piece);
   values[0] = i == 0 ? 1.0 : x - breaks_[i - 1] + dead_band;
   values[1] = i == breaks_.size() ? 1.0 : breaks_[i] - x + dead_band;

@@ -44,8 +44,10 @@ void RotationalSpringDamper::choose_branches(const Instant& instant, std::span<i
 void RotationalSpringDamper::calc_switches(const Instant& instant, std::span<const int> branches,
                                            std::span<double> values) const {
   const Twist twist = calc_twist(instant);
-  parameters_.spring.calc_piece_switches(branches[0], twist.deflection, kDeflectionDeadBand, values.first(2));
-  parameters_.damper.calc_piece_switches(branches[1], twist.rate, kRateDeadBand, values.subspan(2, 2));
+  parameters_.spring.calc_piece_switches(branches[0], twist.deflection, kDeflectionDeadBand, values);
+  parameters_.damper.calc_piece_switches(
+      branches[1], twist.rate, kRateDeadBand,
+      values.subspan(static_cast<std::size_t>(parameters_.spring.num_switches())));
 }
 
 std::span<const Channel> RotationalSpringDamper::channels() const {

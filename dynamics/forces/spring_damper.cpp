@@ -57,8 +57,10 @@ void SpringDamper::choose_branches(const Instant& instant, std::span<int> branch
 void SpringDamper::calc_switches(const Instant& instant, std::span<const int> branches,
                                  std::span<double> values) const {
   const Line line = calc_line(instant);
-  parameters_.spring.calc_piece_switches(branches[0], line.deflection, kDeflectionDeadBand, values.first(2));
-  parameters_.damper.calc_piece_switches(branches[1], line.rate, kRateDeadBand, values.subspan(2, 2));
+  parameters_.spring.calc_piece_switches(branches[0], line.deflection, kDeflectionDeadBand, values);
+  parameters_.damper.calc_piece_switches(
+      branches[1], line.rate, kRateDeadBand,
+      values.subspan(static_cast<std::size_t>(parameters_.spring.num_switches())));
 }
 
 std::span<const Channel> SpringDamper::channels() const {
