@@ -164,12 +164,13 @@ int PiecewisePolynomial::choose_piece(int piece, double x, double dead_band) con
   return above_lower_end && below_upper_end ? piece : static_cast<int>(find_piece(x));
 }
 
-bool PiecewisePolynomial::ends_at_zero(int piece, bool upper) const {
-  const int end = upper ? piece : piece - 1;
+bool PiecewisePolynomial::ends_at_zero(int piece, int switch_index) const {
+  const int end = piece - 1 + switch_index;
   return end >= 0 && end < static_cast<int>(breaks_.size()) && breaks_[static_cast<std::size_t>(end)] == 0.0;
 }
 
 void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const {
+  if (breaks_.empty()) return;
   const auto i = static_cast<std::size_t>(piece);
   values[0] = i == 0 ? 1.0 : x - breaks_[i - 1] + dead_band;
   values[1] = i == breaks_.size() ? 1.0 : breaks_[i] - x + dead_band;

@@ -50,10 +50,13 @@ class PiecewisePolynomial {
   /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band beyond its
   /// ends, so that x trembling at a break does not change pieces again and again.
   int choose_piece(int piece, double x, double dead_band) const;
-  /// Whether the upper or the lower end of a piece is at x = 0.
-  bool ends_at_zero(int piece, bool upper) const;
-  /// @param[out] values  2: positive while x has not gone a dead band beyond the lower, the upper end of the piece
+  /// Two, the ends of the piece in use; none where one piece is all there is.
+  int num_switches() const { return breaks_.empty() ? 0 : 2; }
+  /// @param[out] values  num_switches: positive while x has not gone a dead band beyond the lower, the upper end
+  /// of the piece
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
+  /// Whether the end of a piece that a switch function tells, 0 or 1, is at x = 0.
+  bool ends_at_zero(int piece, int switch_index) const;
 
  private:
   std::size_t find_piece(double x) const;

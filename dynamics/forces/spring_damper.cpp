@@ -57,14 +57,17 @@ void SpringDamper::choose_branches(const Instant& instant, std::span<int> branch
 void SpringDamper::calc_switches(const Instant& instant, std::span<const int> branches,
                                  std::span<double> values) const {
   const Line line = calc_line(instant);
-  parameters_.spring.calc_piece_switches(branches[0], line.deflection, kDeflectionDeadBand, values.first(2));
-  parameters_.damper.calc_piece_switches(branches[1], line.rate, kRateDeadBand, values.subspan(2, 2));
+  parameters_.spring.calc_piece_switches(branches[0], line.deflection, kDeflectionDeadBand, values);
+  parameters_.damper.calc_piece_switches(
+      branches[1], line.rate, kRateDeadBand,
+      values.subspan(static_cast<std::size_t>(parameters_.spring.num_switches())));
 }
 
 // What a spring takes up it stores, so that its power does not count.
 Passage SpringDamper::passage(int switch_index, std::span<const int> branches) const {
-  const bool is_spring = switch_index < 2, is_upper = switch_index % 2 == 1;
-  return is_spring || parameters_.damper.ends_at_zero(branches[1], is_upper) ? Passage::kBendAtRest : Passage::kBend;
+  const int of_damper = switch_index - parameters_.spring.num_switches();
+  if (of_damper < 0 || parameters_.damper.ends_at_zero(branches[1], of_damper)) return Passage::kBendAtRest;
+  return Passage::kBend;
 }
 
 std::span<const Channel> SpringDamper::channels() const {

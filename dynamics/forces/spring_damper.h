@@ -25,10 +25,12 @@ class SpringDamper final : public ForceElement {
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
   Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
-  /// Branches: pieces of spring and damper. Switches: the ends of both.
+  /// Branches: pieces of spring and damper. Switches: the ends of both, where they have any.
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
-  int num_switches() const override { return 4; }
+  int num_switches() const override {
+    return parameters_.spring.num_switches() + parameters_.damper.num_switches();
+  }
   Passage passage(int switch_index, std::span<const int> branches) const override;
   void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
 

@@ -129,6 +129,24 @@ TEST_CASE("A spring-damper's switches are where its pieces end", "[forces]") {
   CHECK(switches(place(0.4, 0.5, 1.0), {0, 1})[2] < 0.0);
 }
 
+TEST_CASE("What has no ends has no switches", "[forces]") {
+  // A damper with a kink beside a spring of one piece: the kink's switches are the first, and alone.
+  const auto make = [](PiecewisePolynomial damper) {
+    return SpringDamper("linear", {.marker_a = 0,
+                                   .marker_b = 1,
+                                   .free_length = 0.458,
+                                   .spring = PiecewisePolynomial(std::vector<double>{0.0, 4e5}),
+                                   .damper = std::move(damper)});
+  };
+  CHECK(make(PiecewisePolynomial(std::vector<double>{0.0, 5e3})).num_switches() == 0);
+  const SpringDamper kinked = make(PiecewisePolynomial::from_pieces({0.0}, {{0.0, 2e4}, {0.0, 5e3}}));
+  REQUIRE(kinked.num_switches() == 2);
+  std::array<double, 2> values{};
+  kinked.calc_switches(place(0.4, -0.5, 1.0).instant(), std::vector<int>{0, 0}, values);
+  CHECK(values[0] > 0.0);
+  CHECK(values[1] < 0.0);
+}
+
 TEST_CASE("Two points in one place get no force and no NaN", "[forces]") {
   const SpringDamper suspension = make_suspension();
   const test::MarkerPair pair = place(0.0, 0.0, 1.0);
