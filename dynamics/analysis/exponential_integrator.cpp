@@ -34,7 +34,7 @@ constexpr double kHopelessError =
 constexpr int kFailuresBeforeLinearising = 3;
 
 constexpr double kBendShare = 1.0;   // error of a step that is carried through bends, of what is allowed
-constexpr double kLeastEcho = 0.1;   // share by which what they do changes the drive in turn, as far as it is known
+constexpr double kLeastBendContraction = 0.1;
 
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
@@ -62,6 +62,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       num_quadratures_(system.size() - 2 * system.num_freedoms()),
       num_switches_(system.num_switches()),
       contraction_(kFirstContraction),
+      bend_contraction_(kFirstContraction),
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
@@ -298,7 +299,7 @@ bool ExponentialIntegrator::crosses() const {
 }
 
 // The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn, and so on, each
-// time by about the same share: the second time is looked at. @return false where what is left is too much
+// time by about the same share: the second time is looked at where it counts. @return false where what is left is too much
 bool ExponentialIntegrator::find_gains() {
   constexpr int kEnd = kNumNodes - 1;
   const double end = now_.start + now_.length;
@@ -312,7 +313,10 @@ bool ExponentialIntegrator::find_gains() {
     difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
   }
   const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
-  if (doubt + first <= kBendShare) {
+  const auto is_enough = [&](double size) {
+    return doubt + size * bend_contraction_ / (1.0 - bend_contraction_) <= kBendShare;
+  };
+  if (is_enough(first)) {
     return system_.calc_switches(end, span_of(stage_y_), {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)});
   }
   between_motion_.u = end_.u + bend_response_.u;
@@ -331,8 +335,9 @@ bool ExponentialIntegrator::find_gains() {
   echo.add_response(1.0, now_.length, basis_.blocks, between_, difference_);
   bend_response_.u += difference_.u;
   bend_response_.w += difference_.w;
-  const double second = calc_norm(difference_), rate = std::max(kLeastEcho, second / first);
-  return rate < kUselessContraction && doubt + second * rate / (1.0 - rate) <= kBendShare;
+  const double second = calc_norm(difference_);
+  bend_contraction_ = std::clamp(second / first, kLeastBendContraction, kUselessContraction);
+  return is_enough(second);
 }
 
 // Carries now_ through forces that only bend in it. @return false, and nothing changed, where that will not do

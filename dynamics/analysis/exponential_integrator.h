@@ -67,6 +67,7 @@ class ExponentialIntegrator final : public Integrator {
   bool has_begun_ = false;
   Past past_ = Past::kNone;
   double contraction_;                                    // of the iteration, from sweep to sweep
+  double bend_contraction_;                               // of what bends call for in turn
   double last_error_ = 0.0;                               // of the step before, of the tolerance
   std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;

@@ -80,7 +80,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     const double size = residual_.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
     if (size <= tolerance) return true;
-    // Until it is seen: with the factors from a distance d the residual is of order d², and falls by the share d.
+    // Until it is seen: after a step d the residual is of order d³, and falls by the share d.
     const double contraction = iteration == 0 ? std::cbrt(size / model_->length_scale) : size / last;
     if (size * contraction * contraction > kAim * tolerance) refactor();
     last = size;
