@@ -5,16 +5,22 @@
 
 namespace sprung::dynamics {
 
-/// The columns that QR with column pivoting takes from a sparse matrix A, in their order: always the one with
-/// the most left when what lies along those before is taken away. Found as the pivots of Cholesky on AᵀA, so
-/// that the work grows with what is coupled. Columns that are equal to rounding are taken in ascending order.
-/// Of more than 150 rows the elimination couples ever more columns in that order; there a column counts as equal to
-/// others up to four times its length, and the one that is coupled with the fewest is taken first.
-/// Where a pivot falls below 1e-6 of the first, which AᵀA no longer tells from rounding, the dense
-/// decomposition decides. Source: [Golub & Van Loan 2013], §§4.2.8, 5.4.2
+/// As many columns of a sparse matrix as it has rows, so chosen that they are regular and the others are made
+/// of them by factors that are not large.
+///
+/// Of up to 150 rows the columns that QR with column pivoting takes, in their order: always the one with the
+/// most left when what lies along those before is taken away; of columns that are equal to rounding the
+/// first. Source: [Golub & Van Loan 2013], §5.4.2
+///
+/// Of more rows that would come to ask for all products of columns. There the pivots of Gaussian elimination:
+/// sizes up to twice one another count as equal, and of the rows with the largest entries that with the
+/// fewest is taken, of its columns the one that is in the fewest rows; so the work grows with the entries of
+/// the factors. Source: [Duff, Erisman & Reid 2017], §§5.2, 7.2; [Wehage & Haug 1982]
+///
+/// Where a pivot falls below 1e-6 of the largest before, the dense decomposition decides.
 struct ColumnPivots {
   std::vector<int> columns;   ///< as many as A has rows
-  std::vector<double> norms;  ///< of what was left of each
+  std::vector<double> sizes;  ///< of what was left of each; of the pivot
 };
 /// @param matrix  no more rows than columns
 ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix);

@@ -57,11 +57,19 @@ class Matching {
  private:
   // @param origin  the row that looks for a column: no column is tried twice for it
   bool augment(int row, int origin) {
-    for (const PatternEntry& entry : rows_[static_cast<std::size_t>(row)]) {
+    const std::vector<PatternEntry>& entries = rows_[static_cast<std::size_t>(row)];
+    for (const PatternEntry& entry :
+         entries) {  // a column that nobody has spares the way through those that have one
+      int& owner = row_of_column_[static_cast<std::size_t>(entry.column)];
+      if (owner >= 0) continue;
+      owner = row;
+      return true;
+    }
+    for (const PatternEntry& entry : entries) {
       const auto column = static_cast<std::size_t>(entry.column);
       if (tried_for_[column] == origin) continue;
       tried_for_[column] = origin;
-      if (row_of_column_[column] < 0 || augment(row_of_column_[column], origin)) {
+      if (augment(row_of_column_[column], origin)) {
         row_of_column_[column] = row;
         return true;
       }

@@ -54,7 +54,7 @@ std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
   for (double& scale : row_scales) scale = scale > 0.0 ? 1.0 / std::sqrt(scale) : 1.0;
   const Eigen::SparseMatrix<double> rows = row_scales.asDiagonal() * scaled;
   const ColumnPivots pivots = choose_columns(rows);
-  const auto [smallest, largest] = std::minmax_element(pivots.norms.begin(), pivots.norms.end());
+  const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
   if (*smallest > kSafePivot * *largest) return {};
   // Which ones take part is a question for those who made a mistake: it may take its time.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.toDense(), Eigen::ComputeFullU);

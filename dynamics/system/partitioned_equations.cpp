@@ -37,7 +37,7 @@ void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorX
   for (const Body& body : model_->bodies) {
     const int angle = body.first_coordinate + 2;
     const std::vector<int>& dependent = partition_.dependent;
-    if (std::find(dependent.begin(), dependent.end(), angle) != dependent.end()) dependent_angles_.push_back(angle);
+    if (std::binary_search(dependent.begin(), dependent.end(), angle)) dependent_angles_.push_back(angle);
   }
 }
 

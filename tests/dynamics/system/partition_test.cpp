@@ -1,6 +1,7 @@
 #include "dynamics/system/partition.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,15 @@ TEST_CASE("The dependents of a long chain follow the independents as closely as 
   CHECK(smallest_share(80) > 0.25 * of_short);
 }
 
+TEST_CASE("The positions of a long open chain follow its angles", "[system]") {
+  // Which is what classical mechanics describes it by.
+  const test::Chain chain = test::make_open_chain(120);
+  const dynamics::Partition partition = dynamics::choose_partition(terms_at(chain.model, chain.state.q));
+  REQUIRE(partition.independent.size() == 120);
+  CHECK(std::all_of(partition.independent.begin(), partition.independent.end(),
+                    [](int coordinate) { return coordinate % 3 == 2; }));
+}
+
 TEST_CASE("A model without joints has no dependents", "[system]") {
   Model model;
   test::add_body(model, dynamics::make_rigid_body("free", 1.0, 0.5));
@@ -139,4 +149,22 @@ TEST_CASE("Constraints that follow from others are found, and only those that ta
   q[9] = 2.0;
   // Along the line of both pins (x) the second adds nothing.
   CHECK(dynamics::find_dependent_constraints(terms_at(model, q)) == std::vector<int>{2, 4});
+}
+
+TEST_CASE("Constraints that follow from others are found among many, too", "[system]") {
+  // Links 39 and 40, which share the pin with rows 80 and 81, are pinned a second time, beside it: along the
+  // line through both pins that adds nothing, and the line is parallel to no axis.
+  test::Chain chain = test::make_open_chain(80);
+  const auto add_marker_at = [&](int link, const Eigen::Vector2d& place) {
+    const Eigen::Vector3d q = chain.state.q.segment<3>(3 * link);
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(-q[2]) * (place - q.head<2>());
+    return test::add_marker(chain.model, link, arm);
+  };
+  const Eigen::Vector3d q = chain.state.q.segment<3>(3 * 40);
+  const Eigen::Vector2d beside = q.head<2>() + Eigen::Vector2d(0.05, 0.03);
+  test::add_pin(chain.model, "second", add_marker_at(39, beside), add_marker_at(40, beside));
+  dynamics::number_model(chain.model);
+  REQUIRE(chain.model.num_constraints == 162);
+  CHECK(dynamics::find_dependent_constraints(terms_at(chain.model, chain.state.q)) ==
+        std::vector<int>{80, 81, 160, 161});
 }

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -130,10 +131,35 @@ TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
     for (std::size_t k = 0; k < 9; ++k) {
       const auto place = static_cast<Eigen::Index>(k);
       const double norm = std::abs(qr.matrixQR()(place, place));
-      CHECK(found.norms[k] == Approx(norm).epsilon(1e-6).margin(1e-14));
+      CHECK(found.sizes[k] == Approx(norm).epsilon(1e-6).margin(1e-14));
       if (norm > 1e-12) CHECK(found.columns[k] == qr.colsPermutation().indices()[place]);
     }
   }
+}
+
+TEST_CASE("Of many rows regular columns are taken that make the others by factors that are not large",
+          "[system]") {
+  // Rows of four entries at random; sizes from 0.1 to 1, so that none is much less than its row's largest.
+  constexpr int kNumRows = 170, kNumColumns = 260;
+  test::RandomNumbers random(37);
+  MatrixXd dense = MatrixXd::Zero(kNumRows, kNumColumns);
+  for (int i = 0; i < kNumRows; ++i) {
+    for (int k = 0; k < 4; ++k) {
+      const int j = static_cast<int>(random.between(0.0, kNumColumns));
+      dense(i, j) = random.between(0.1, 1.0) * (random.between(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
+    }
+  }
+  const dynamics::ColumnPivots found = dynamics::choose_columns(dense.sparseView());
+  REQUIRE(std::set<int>(found.columns.begin(), found.columns.end()).size() == kNumRows);
+  const Eigen::FullPivLU<MatrixXd> taken(dense(Eigen::all, found.columns));
+  REQUIRE(taken.isInvertible());
+  // Dense QR, which takes the longest, leaves a largest factor of 1.4; pivots that are small in their rows,
+  // 2000.
+  CHECK(taken.solve(dense).cwiseAbs().maxCoeff() < 20.0);
+
+  dense.row(3) = dense.row(5) - 2.0 * dense.row(8);  // of lower rank: nothing is left for the last
+  const dynamics::ColumnPivots of_less = dynamics::choose_columns(dense.sparseView());
+  CHECK(*std::min_element(of_less.sizes.begin(), of_less.sizes.end()) < 1e-12);
 }
 
 TEST_CASE("The factors of a chain have entries in proportion to its bodies, open and closed", "[system]") {
