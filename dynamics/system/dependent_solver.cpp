@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sprung::dynamics {
 
 namespace {
-
-struct PatternEntry {
-  int row, column;
-  std::size_t source;
-};
 
 // For each coordinate its position among those chosen, −1 where it is not one of them.
 std::vector<int> list_positions(const std::vector<int>& chosen, int num_coordinates) {
@@ -21,10 +17,9 @@ std::vector<int> list_positions(const std::vector<int>& chosen, int num_coordina
 }
 
 // φ_d's entries, row by row.
-std::vector<std::vector<PatternEntry>> list_entries(const BlockJacobian& jacobian, const Partition& partition,
-                                                    int num_coordinates) {
+PatternRows list_entries(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
   const std::vector<int> position = list_positions(partition.dependent, num_coordinates);
-  std::vector<std::vector<PatternEntry>> rows(partition.dependent.size());
+  PatternRows rows(partition.dependent.size());
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
     for (int i = 0; i < block.num_rows; ++i) {
       for (int j = 0; j < block.num_columns; ++j) {
@@ -38,130 +33,65 @@ std::vector<std::vector<PatternEntry>> list_entries(const BlockJacobian& jacobia
   return rows;
 }
 
-// A column for each row such that all of them differ (augmenting paths); −1 where there is none.
-class Matching {
- public:
-  explicit Matching(const std::vector<std::vector<PatternEntry>>& rows)
-      : rows_(rows), row_of_column_(rows.size(), -1), column_of_row_(rows.size(), -1), tried_for_(rows.size(), -1) {
-    for (int row = 0; row < static_cast<int>(rows.size()); ++row) augment(row, row);
-    for (std::size_t column = 0; column < rows.size(); ++column) {
-      if (row_of_column_[column] >= 0) column_of_row_[static_cast<std::size_t>(row_of_column_[column])] = static_cast<int>(column);
-    }
-  }
-  bool is_complete() const {
-    return std::find(row_of_column_.begin(), row_of_column_.end(), -1) == row_of_column_.end();
-  }
-  const std::vector<int>& column_of_row() const { return column_of_row_; }
-  const std::vector<int>& row_of_column() const { return row_of_column_; }
-
- private:
-  // @param origin  the row that looks for a column: no column is tried twice for it
-  bool augment(int row, int origin) {
-    const std::vector<PatternEntry>& entries = rows_[static_cast<std::size_t>(row)];
-    for (const PatternEntry& entry :
-         entries) {  // a column that nobody has spares the way through those that have one
-      int& owner = row_of_column_[static_cast<std::size_t>(entry.column)];
-      if (owner >= 0) continue;
-      owner = row;
-      return true;
-    }
-    for (const PatternEntry& entry : entries) {
-      const auto column = static_cast<std::size_t>(entry.column);
-      if (tried_for_[column] == origin) continue;
-      tried_for_[column] = origin;
-      if (augment(row_of_column_[column], origin)) {
-        row_of_column_[column] = row;
-        return true;
-      }
-    }
-    return false;
-  }
-  const std::vector<std::vector<PatternEntry>>& rows_;
-  std::vector<int> row_of_column_, column_of_row_;
-  std::vector<int> tried_for_;
-};
-
-// Strongly connected groups of rows, where a row needs the rows whose columns it contains; in an order in which each
-// group comes after those that it needs.
-class Groups {
- public:
-  Groups(const std::vector<std::vector<PatternEntry>>& rows, const Matching& matching)
-      : rows_(rows), matching_(matching), index_(rows.size(), -1), low_(rows.size(), 0), on_stack_(rows.size(), false) {
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (index_[row] < 0) visit(static_cast<int>(row));
-    }
-  }
-  std::vector<std::vector<int>> take() { return std::move(groups_); }
-
- private:
-  void visit(int row) {
-    const auto r = static_cast<std::size_t>(row);
-    index_[r] = low_[r] = next_++;
-    stack_.push_back(row);
-    on_stack_[r] = true;
-    for (const PatternEntry& entry : rows_[r]) {
-      const int needed = matching_.row_of_column()[static_cast<std::size_t>(entry.column)];
-      const auto k = static_cast<std::size_t>(needed);
-      if (index_[k] < 0) {
-        visit(needed);
-        low_[r] = std::min(low_[r], low_[k]);
-      } else if (on_stack_[k]) {
-        low_[r] = std::min(low_[r], index_[k]);
-      }
-    }
-    if (low_[r] != index_[r]) return;
-    groups_.emplace_back();
-    int member = -1;
-    do {
-      member = stack_.back();
-      stack_.pop_back();
-      on_stack_[static_cast<std::size_t>(member)] = false;
-      groups_.back().push_back(member);
-    } while (member != row);
-    std::sort(groups_.back().begin(), groups_.back().end());
-  }
-  const std::vector<std::vector<PatternEntry>>& rows_;
-  const Matching& matching_;
-  std::vector<int> index_, low_, stack_;
-  std::vector<bool> on_stack_;
-  std::vector<std::vector<int>> groups_;
-  int next_ = 0;
-};
-
 }  // namespace
 
-DependentSolver::DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
-  const std::vector<std::vector<PatternEntry>> rows = list_entries(jacobian, partition, num_coordinates);
-  const Matching matching(rows);
+DependentSolver::DependentSolver(const BlockJacobian& jacobian, const Partition& partition,
+                                 int num_coordinates) {
   collect_strips(jacobian, partition, num_coordinates);
-  is_regular_ = matching.is_complete();
-  if (!is_regular_) return;
+  const PatternRows rows = list_entries(jacobian, partition, num_coordinates);
+  const BlockTriangularForm form = find_block_triangular_form(rows);
+  is_regular_ = form.is_regular;
   std::size_t largest = 0, most_entries = 0;
-  for (const std::vector<int>& group : Groups(rows, matching).take()) {
-    DiagonalBlock block;
-    block.rows = group;
-    for (const int row : group) block.columns.push_back(matching.column_of_row()[static_cast<std::size_t>(row)]);
-    std::sort(block.columns.begin(), block.columns.end());
-    const int size = static_cast<int>(group.size());
-    std::vector<SparseLu::Position> positions;
-    for (int i = 0; i < size; ++i) {
-      for (const PatternEntry& entry : rows[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])]) {
-        const auto found = std::lower_bound(block.columns.begin(), block.columns.end(), entry.column);
-        if (found != block.columns.end() && *found == entry.column) {
-          positions.push_back({i, static_cast<int>(found - block.columns.begin())});
-          block.inside.push_back(entry.source);
-        } else {
-          block.outside.push_back({i, entry.column, entry.source});
-        }
-      }
-    }
-    block.lu = SparseLu(size, std::move(positions));
+  for (const std::vector<int>& group : form.groups) {
+    if (group.size() == 1 && add_single(rows[static_cast<std::size_t>(group[0])], form)) continue;
+    const DiagonalBlock& block = add_block(group, rows, form);
     largest = std::max(largest, group.size());
     most_entries = std::max(most_entries, block.inside.size());
-    blocks_.push_back(std::move(block));
   }
   work_.resize(largest);
   entries_.resize(most_entries);
+}
+
+// @return false where the entry on the diagonal is a sum
+bool DependentSolver::add_single(const std::vector<PatternEntry>& entries, const BlockTriangularForm& form) {
+  const int row = entries.front().row, column = form.column_of_row[static_cast<std::size_t>(row)];
+  const auto is_inside = [&](const PatternEntry& entry) { return entry.column == column; };
+  if (std::count_if(entries.begin(), entries.end(), is_inside) != 1) return false;
+  Single single{.row = row, .column = column};
+  for (const PatternEntry& entry : entries) {
+    if (is_inside(entry))
+      single.source = entry.source;
+    else
+      outside_of_singles_.push_back({entry.column, entry.source});
+  }
+  single.end_of_outside = outside_of_singles_.size();
+  singles_.push_back(single);
+  return true;
+}
+
+const DependentSolver::DiagonalBlock& DependentSolver::add_block(const std::vector<int>& group,
+                                                                 const PatternRows& rows,
+                                                                 const BlockTriangularForm& form) {
+  DiagonalBlock block;
+  block.num_singles_before = singles_.size();
+  block.rows = group;
+  for (const int row : group) block.columns.push_back(form.column_of_row[static_cast<std::size_t>(row)]);
+  std::sort(block.columns.begin(), block.columns.end());
+  const int size = static_cast<int>(group.size());
+  std::vector<SparseLu::Position> positions;
+  for (int i = 0; i < size; ++i) {
+    for (const PatternEntry& entry : rows[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])]) {
+      const auto found = std::lower_bound(block.columns.begin(), block.columns.end(), entry.column);
+      if (found != block.columns.end() && *found == entry.column) {
+        positions.push_back({i, static_cast<int>(found - block.columns.begin())});
+        block.inside.push_back(entry.source);
+      } else {
+        block.outside.push_back({i, entry.column, entry.source});
+      }
+    }
+  }
+  block.lu = SparseLu(size, std::move(positions));
+  return blocks_.emplace_back(std::move(block));
 }
 
 void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
@@ -198,6 +128,7 @@ void DependentSolver::add_independent_product(std::span<const double> x_independ
 
 void DependentSolver::factorise(const BlockJacobian& jacobian) {
   values_ = jacobian.data();
+  for (Single& single : singles_) single.inverse = 1.0 / values_[single.source];
   for (DiagonalBlock& block : blocks_) {
     for (std::size_t k = 0; k < block.inside.size(); ++k) entries_[k] = values_[block.inside[k]];
     block.lu.factorise({entries_.data(), block.inside.size()});
@@ -209,7 +140,10 @@ void DependentSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const 
     x.setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
+  std::size_t num_solved = 0;  // of the singles
   for (const DiagonalBlock& block : blocks_) {
+    solve_singles(num_solved, block.num_singles_before, r, x);
+    num_solved = block.num_singles_before;
     for (std::size_t i = 0; i < block.rows.size(); ++i) work_[i] = r[block.rows[i]];
     for (const Entry& entry : block.outside) {
       work_[static_cast<std::size_t>(entry.row)] -= values_[entry.source] * x[entry.column];
@@ -217,26 +151,48 @@ void DependentSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const 
     block.lu.solve(work_.data());
     for (std::size_t i = 0; i < block.columns.size(); ++i) x[block.columns[i]] = work_[i];
   }
+  solve_singles(num_solved, singles_.size(), r, x);
+}
+
+void DependentSolver::solve_singles(std::size_t first, std::size_t end, const Eigen::VectorXd& r,
+                                    Eigen::VectorXd& x) const {
+  std::size_t outside = first == 0 ? 0 : singles_[first - 1].end_of_outside;
+  for (std::size_t k = first; k < end; ++k) {
+    const Single& single = singles_[k];
+    double left = r[single.row];
+    for (; outside < single.end_of_outside; ++outside) {
+      const Coupling& coupling = outside_of_singles_[outside];
+      left -= values_[coupling.source] * x[coupling.column];
+    }
+    x[single.column] = left * single.inverse;
+  }
 }
 
 int DependentSolver::num_factor_entries() const {
-  int count = 0;
-  for (const DiagonalBlock& block : blocks_) count += block.lu.num_factor_entries() + static_cast<int>(block.outside.size());
-  return count;
+  std::size_t count = singles_.size() + outside_of_singles_.size();
+  for (const DiagonalBlock& block : blocks_) {
+    count += static_cast<std::size_t>(block.lu.num_factor_entries()) + block.outside.size();
+  }
+  return static_cast<int>(count);
 }
 
 void DependentSolver::set_reference() {
+  for (Single& single : singles_) single.reference = values_[single.source];
   for (DiagonalBlock& block : blocks_) block.reference_determinant = block.lu.determinant();
 }
 
 bool DependentSolver::is_mirrored() const {
-  return std::any_of(blocks_.begin(), blocks_.end(), [](const DiagonalBlock& block) {
-    return (block.lu.determinant() < 0.0) != (block.reference_determinant < 0.0);
-  });
+  return std::any_of(
+             singles_.begin(), singles_.end(),
+             [](const Single& single) { return (single.inverse < 0.0) != (single.reference < 0.0); }) ||
+         std::any_of(blocks_.begin(), blocks_.end(), [](const DiagonalBlock& block) {
+           return (block.lu.determinant() < 0.0) != (block.reference_determinant < 0.0);
+         });
 }
 
 double DependentSolver::decay() const {
   double decay = 1.0;
+  for (const Single& single : singles_) decay = std::max(decay, std::abs(single.reference * single.inverse));
   for (const DiagonalBlock& block : blocks_) {
     decay = std::max(decay, std::abs(block.reference_determinant / block.lu.determinant()));
   }

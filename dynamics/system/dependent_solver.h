@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/system/block_jacobian.h"
+#include "dynamics/system/block_triangular_form.h"
 #include "dynamics/system/partition.h"
 #include "dynamics/system/sparse_lu.h"
 
@@ -12,9 +13,9 @@ namespace sprung::dynamics {
 
 /// Solves φ_d x = r, φ_d being the columns of φ_q that belong to the dependent coordinates.
 ///
-/// The pattern of φ_d is brought to block triangular form once for a partition: independent loops and links of a chain
-/// become blocks of their own, solved one after the other, so that the cost grows with the number of joints and not
-/// with its cube. Source: [Duff & Reid 1978], [Tarjan 1972]
+/// The pattern of φ_d is brought to block triangular form once for a partition: independent loops and links
+/// of a chain become blocks of their own, solved one after the other, so that the cost grows with the number
+/// of joints and not with its cube (BlockTriangularForm).
 class DependentSolver {
  public:
   DependentSolver() = default;
@@ -36,7 +37,7 @@ class DependentSolver {
   /// a mechanism goes through det φ_d = 0 only where its independents turn round, and there another partition is due.
   bool is_mirrored() const;
   int num_factor_entries() const;
-  int num_blocks() const { return static_cast<int>(blocks_.size()); }
+  int num_blocks() const { return static_cast<int>(singles_.size() + blocks_.size()); }
 
  private:
   struct Entry {
@@ -44,13 +45,31 @@ class DependentSolver {
     int column;          // dependent coordinate (position in the partition)
     std::size_t source;  // in the Jacobian's values
   };
+  // A block of one row and column, which most are in chains: kept side by side, with what they need.
+  struct Single {
+    int row, column;  // constraint; position in Partition::dependent
+    std::size_t end_of_outside =
+        0;                   // of its entries in outside_of_singles_, which begin where those before end
+    std::size_t source = 0;  // of its value
+    double inverse = 0.0;    // of the value
+    double reference = 0.0;  // the value at the reference
+  };
+  struct Coupling {
+    int column;
+    std::size_t source;
+  };
   struct DiagonalBlock {
-    std::vector<int> rows, columns;  // constraints; positions in Partition::dependent
+    std::size_t num_singles_before;   // that are solved first
+    std::vector<int> rows, columns;   // constraints; positions in Partition::dependent
     std::vector<std::size_t> inside;  // sources of the block's own entries
     std::vector<Entry> outside;       // in its rows, in columns of the blocks before
     SparseLu lu{0, {}};
     double reference_determinant = 0.0;
   };
+  bool add_single(const std::vector<PatternEntry>& entries, const BlockTriangularForm& form);
+  const DiagonalBlock& add_block(const std::vector<int>& group, const PatternRows& rows,
+                                 const BlockTriangularForm& form);
+  void solve_singles(std::size_t first, std::size_t end, const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
 
   // Columns of a block of the Jacobian that lie side by side and belong to independent coordinates.
   struct Strip {
@@ -62,6 +81,8 @@ class DependentSolver {
   void collect_strips(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
 
   std::vector<Strip> strips_;
+  std::vector<Single> singles_;
+  std::vector<Coupling> outside_of_singles_;
   std::vector<DiagonalBlock> blocks_;
   bool is_regular_ = true;  // its pattern
   const double* values_ = nullptr;  // of the Jacobian that was factorised
