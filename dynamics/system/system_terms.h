@@ -69,7 +69,7 @@ class SystemTerms {
     double alpha_BP;
     bool is_rigid() const { return num_coordinates == 3; }
   };
-  // A rigid body about its centre of mass, and one that is not, or bends.
+  // A rigid body about its centre of mass: what its weight needs.
   struct ConstantBody {
     int first_coordinate;
     double mass;
