@@ -92,13 +92,17 @@ def format_growth(lines):
                 str(line["bodies"]),
                 str(line["factor_entries"]),
                 f"{1e6 * line['seconds_per_evaluation']:.2f}",
+                f"{line['evaluations_per_step']:.2f}",
                 f"{1e6 * line['seconds_per_step']:.2f}",
                 ratio(line["seconds_per_step"], last and last["seconds_per_step"], 1),
                 f"{1e3 * line['seconds_to_start']:.2f}",
             )
         )
         before[line["chain"]] = line
-    headings = ("chain", "bodies", "factor entries", "evaluation µs", "step µs", "step to above", "start ms")
+    headings = (
+        "chain", "bodies", "factor entries", "evaluation µs", "evaluations a step", "step µs", "step to above",
+        "start ms",
+    )  # fmt: skip
     return format_table(headings, rows)
 
 

@@ -24,17 +24,18 @@ struct Marker {
   bool has_second_order() const { return K[0].size() > 0; }
 };
 
-/// Motion of a marker, world axes; what joints and forces see of the vehicle.
+/// Motion of a marker, world axes; what joints and forces see of the vehicle. What is read together stands
+/// together.
 struct MarkerState {
-  Eigen::Vector2d r = Eigen::Vector2d::Zero();       ///< position [m]
-  double angle = 0.0;                                ///< θ + Φ_rotation η, and of second order [rad]
-  Eigen::Vector2d v = Eigen::Vector2d::Zero();       ///< velocity [m/s]
-  double omega = 0.0;                                ///< angular velocity [rad/s]
-  Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();  ///< acceleration while q̈ = 0 [m/s²]
-  double alpha_bias = 0.0;                           ///< angular acceleration while q̈ = 0 [rad/s²]
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();        ///< position [m]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
-  Eigen::Matrix2Xd r_eta;                            ///< ∂r/∂η, 2×n [m]
-  Eigen::RowVectorXd angle_eta;                      ///< ∂angle/∂η, 1×n [rad]
+  double angle = 0.0;                                 ///< θ + Φ_rotation η, and of second order [rad]
+  double omega = 0.0;                                 ///< angular velocity [rad/s]
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();        ///< velocity [m/s]
+  Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
+  Eigen::Matrix2Xd r_eta;                             ///< ∂r/∂η, 2×n [m]
+  Eigen::RowVectorXd angle_eta;                       ///< ∂angle/∂η, 1×n [rad]
+  double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
 };
 
 /// A marker's state with room for its gradients; of a marker on the ground, which stays so, its position too.
@@ -51,6 +52,28 @@ void add_second_order_position(const Marker& marker, const FrameRotation& rotati
 void add_second_order_bias(const Marker& marker, const FrameRotation& rotation,
                            const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state);
 
+/// Position of a marker that is at u in its body, as it is deformed, and the gradient of that by the body's
+/// angle.
+/// @param u  body axes [m]   @param q  the body's coordinates, the first two of them
+inline void place_in_body(const Eigen::Vector2d& u, const FrameRotation& rotation, const double* q,
+                          MarkerState& state) {
+  // One number at a time: pairs that were just written by their halves are slow to read.
+  const double arm_x = rotation.cosine * u.x() - rotation.sine * u.y();
+  const double arm_y = rotation.sine * u.x() + rotation.cosine * u.y();
+  state.r = {q[0] + arm_x, q[1] + arm_y};
+  state.r_theta = {-arm_y, arm_x};
+}
+
+/// Velocity of a marker of a rigid body, after its position.
+/// @param v  the body's 3 velocities
+inline void move_with_body(const double* v, MarkerState& state) {
+  const double omega = v[2];
+  state.omega = omega;
+  const double across_x = state.r_theta.x() * omega, across_y = state.r_theta.y() * omega;
+  state.v = {v[0] + across_x, v[1] + across_y};
+  state.a_bias = {-omega * across_y, omega * across_x};
+}
+
 /// Position-level part of a marker's state.                                       (dynamics/README.md, eqs. 1, 41)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
@@ -66,11 +89,7 @@ inline void calc_marker_position(const Marker& marker, const FrameRotation& rota
     state.r_eta.col(k) = rotation * shape;
   }
   if (marker.has_second_order()) add_second_order_position(marker, rotation, q.tail(marker.Phi.cols()), u, state);
-  // One number at a time: pairs that were just written by their halves are slow to read.
-  const double arm_x = rotation.cosine * u.x() - rotation.sine * u.y();
-  const double arm_y = rotation.sine * u.x() + rotation.cosine * u.y();
-  state.r = {q[0] + arm_x, q[1] + arm_y};
-  state.r_theta = {-arm_y, arm_x};
+  place_in_body(u, rotation, q.data(), state);
 }
 
 /// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)

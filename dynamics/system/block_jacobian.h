@@ -30,6 +30,7 @@ class BlockJacobian {
   const double* values(std::size_t block) const { return values_.data() + blocks_[block].offset; }
   double* values(std::size_t block) { return values_.data() + blocks_[block].offset; }
   const double* data() const { return values_.data(); }
+  double* data() { return values_.data(); }
 
   /// r += φ_q v.  @param r num_rows  @param v num_columns
   void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;

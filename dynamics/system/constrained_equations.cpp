@@ -16,10 +16,18 @@ ConstrainedEquations::ConstrainedEquations(const Model& model, SystemTerms::Mark
     : model_(&model), terms_(model, scope), multipliers_(terms_.jacobian(), model.num_constraints) {
   v_dot_ = moved_ = step_ = Eigen::VectorXd::Zero(model.num_coordinates);
   lambda_ = residual_ = impulse_ = Eigen::VectorXd::Zero(model.num_constraints);
+  inverse_mass_ = Eigen::VectorXd::Ones(model.num_coordinates);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (terms_.masses()[b].is_constant())
+      terms_.masses()[b].solve(inverse_mass_.data() + model.bodies[b].first_coordinate);
+    else
+      varying_bodies_.push_back(b);
+  }
 }
 
 void ConstrainedEquations::apply_inverse_mass(Eigen::VectorXd& x) const {
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+  x.array() *= inverse_mass_.array();
+  for (const std::size_t b : varying_bodies_) {
     terms_.masses()[b].solve(x.data() + model_->bodies[b].first_coordinate);
   }
 }

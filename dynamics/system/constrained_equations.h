@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "dynamics/system/multiplier_solver.h"
 #include "dynamics/system/system_terms.h"
@@ -50,6 +51,8 @@ class ConstrainedEquations {
   const Model* model_;
   SystemTerms terms_;
   MultiplierSolver multipliers_;
+  Eigen::VectorXd inverse_mass_;                 // nq, of bodies whose mass is constant; of the others 1
+  std::vector<std::size_t> varying_bodies_;      // those others
   Eigen::VectorXd v_dot_, moved_, step_;         // nq
   Eigen::VectorXd lambda_, residual_, impulse_;  // m
 };

@@ -119,8 +119,8 @@ void DependentSolver::add_independent_product(std::span<const double> x_independ
     const double* value = values_ + strip.offset;
     const double* x = x_independent.data() + strip.first;
     for (int i = 0; i < strip.num_rows; ++i, value += strip.stride) {
-      double sum = 0.0;
-      for (int j = 0; j < strip.num_columns; ++j) sum += value[j] * x[j];
+      double sum = value[0] * x[0];
+      for (int j = 1; j < strip.num_columns; ++j) sum += value[j] * x[j];
       r[strip.row + i] += sum;
     }
   }

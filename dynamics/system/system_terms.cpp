@@ -14,7 +14,14 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       wrenches_(model.markers.size()),
       changed_wrenches_(model.markers.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
-  for (const Body& body : model.bodies) masses_.emplace_back(body);
+  for (const Body& body : model.bodies) {
+    angles_.push_back(body.first_coordinate + 2);
+    masses_.emplace_back(body);
+    if (masses_.back().is_constant())
+      constant_bodies_.push_back({body.first_coordinate, body.mass});
+    else
+      varying_bodies_.push_back(masses_.size() - 1);
+  }
   for (const Marker& marker : model.markers) markers_.push_back(make_marker_state(marker));
   for (const int i : model.acting_markers) {
     if (model.markers[static_cast<std::size_t>(i)].body != kGround) acting_markers_.push_back(find_body(i));
@@ -34,10 +41,15 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
 }
 
 SystemTerms::MovingMarker SystemTerms::find_body(int marker_index) const {
-  const auto marker = static_cast<std::size_t>(marker_index);
-  const auto b = static_cast<std::size_t>(model_->markers[marker].body);
+  const Marker& marker = model_->markers[static_cast<std::size_t>(marker_index)];
+  const auto b = static_cast<std::size_t>(marker.body);
   const Body& body = model_->bodies[b];
-  return {marker, b, body.first_coordinate, body.num_coordinates()};
+  return {.marker = static_cast<std::size_t>(marker_index),
+          .body = b,
+          .first_coordinate = body.first_coordinate,
+          .num_coordinates = body.num_coordinates(),
+          .p_BP = marker.p_BP,
+          .alpha_BP = marker.alpha_BP};
 }
 
 void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -48,17 +60,12 @@ void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::Ve
 void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
   time_ = time;
   q_ = q;
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    rotations_[b] = FrameRotation::from_angle(q_[model_->bodies[b].first_coordinate + 2]);
-  }
+  for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = FrameRotation::from_angle(q_[angles_[b]]);
   for (const MovingMarker& moving : joint_markers_) place_marker(moving);
 }
 
 void SystemTerms::adjust_joints(const Eigen::Ref<const Eigen::VectorXd>& q) {
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    const int angle = model_->bodies[b].first_coordinate + 2;
-    rotations_[b].turn_to(q[angle], q_[angle]);
-  }
+  for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b].turn_to(q[angles_[b]], q_[angles_[b]]);
   q_ = q;
   for (const MovingMarker& moving : joint_markers_) place_marker(moving);
 }
@@ -68,11 +75,22 @@ void SystemTerms::place_others() {
 }
 
 void SystemTerms::place_marker(const MovingMarker& moving) {
+  if (moving.is_rigid()) {
+    MarkerState& state = markers_[moving.marker];
+    const double* q = q_.data() + moving.first_coordinate;
+    state.angle = q[2] + moving.alpha_BP;
+    place_in_body(moving.p_BP, rotations_[moving.body], q, state);
+    return;
+  }
   calc_marker_position(model_->markers[moving.marker], rotations_[moving.body],
                        q_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
 }
 
 void SystemTerms::move_marker(const MovingMarker& moving) {
+  if (moving.is_rigid()) {
+    move_with_body(v_.data() + moving.first_coordinate, markers_[moving.marker]);
+    return;
+  }
   calc_marker_velocity(model_->markers[moving.marker], rotations_[moving.body],
                        v_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
 }
@@ -107,7 +125,30 @@ void SystemTerms::add_joint(std::size_t index) {
   if (is_constant) joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
   add_block(terms, terms.a);
   add_block(terms, terms.b);
+  const auto is_rigid = [&](const JointSide& side) {
+    const int body = model_->markers[side.marker].body;
+    return body == kGround || model_->bodies[static_cast<std::size_t>(body)].num_modes() == 0;
+  };
+  if (is_constant && is_rigid(terms.a) && is_rigid(terms.b))
+    fill_once(terms);
+  else
+    filled_joints_.push_back(joints_.size());
   joints_.push_back(terms);
+}
+
+void SystemTerms::fill_once(const JointTerms& terms) {
+  for (const JointSide* side : {&terms.a, &terms.b}) {
+    if (side->block < 0) continue;
+    fill_block(*side);
+    const BlockJacobian::Block& block = Phi_q_.blocks()[static_cast<std::size_t>(side->block)];
+    for (int k = 0; k < block.num_rows; ++k) {
+      turning_entries_.push_back({.value = block.offset + static_cast<std::size_t>(k * block.num_columns + 2),
+                                  .marker = side->marker,
+                                  .along_x = side->G(k, 0),
+                                  .along_y = side->G(k, 1),
+                                  .about = side->G(k, 2)});
+    }
+  }
 }
 
 void SystemTerms::add_block(const JointTerms& terms, JointSide& side) {
@@ -146,7 +187,13 @@ void SystemTerms::fill_block(const JointSide& side) {
 }
 
 void SystemTerms::update_jacobian() {
-  for (JointTerms& terms : joints_) {
+  double* values = Phi_q_.data();
+  for (const TurningEntry& entry : turning_entries_) {
+    const Eigen::Vector2d& r_theta = markers_[entry.marker].r_theta;
+    values[entry.value] = entry.along_x * r_theta.x() + entry.along_y * r_theta.y() + entry.about;
+  }
+  for (const std::size_t joint : filled_joints_) {
+    JointTerms& terms = joints_[joint];
     if (!terms.is_constant) {
       terms.joint->calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
     }
@@ -168,8 +215,7 @@ void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
 }
 
 void SystemTerms::update_mass() {
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    if (masses_[b].is_constant()) continue;
+  for (const std::size_t b : varying_bodies_) {
     const Body& body = model_->bodies[b];
     masses_[b].update(rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()));
   }
@@ -225,35 +271,37 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     const Wrench& wrench = wrenches_[moving.marker];
     if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(moving, wrench, Q_);
   }
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    const Body& body = model_->bodies[b];
-    const int first = body.first_coordinate;
-    if (masses_[b].is_constant()) {
-      Q_[first] += body.mass * model_->gravity.x();
-      Q_[first + 1] += body.mass * model_->gravity.y();
-      continue;
+  for (const ConstantBody& body : constant_bodies_) {
+    Q_[body.first_coordinate] += body.mass * model_->gravity.x();
+    Q_[body.first_coordinate + 1] += body.mass * model_->gravity.y();
+  }
+  for (const std::size_t b : varying_bodies_) add_body_forces(b);
+}
+
+// Weight, quadratic velocity terms, stiffness, damping.
+void SystemTerms::add_body_forces(std::size_t b) {
+  const Body& body = model_->bodies[b];
+  const int first = body.first_coordinate;
+  const Eigen::Index n = body.num_modes();
+  const auto eta = q_.segment(first + 3, n);
+  const auto eta_dot = v_.segment(first + 3, n);
+  auto Q = Q_.segment(first, 3 + n);
+  add_gravity_forces(body, rotations_[b], model_->gravity, eta, Q);
+  add_quadratic_velocity_forces(body, rotations_[b], v_[first + 2], eta, eta_dot, Q);
+  if (body.stiffening) add_stiffening_forces(*body.stiffening, v_[first + 2], eta, eta_dot, Q);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double damping_force = 0.0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Q[3 + i] -= body.stiffness(i, j) * eta[j];
+      damping_force += body.damping(i, j) * eta_dot[j];
     }
-    const Eigen::Index n = body.num_modes();
-    const auto eta = q_.segment(first + 3, n);
-    const auto eta_dot = v_.segment(first + 3, n);
-    auto Q = Q_.segment(first, 3 + n);
-    add_gravity_forces(body, rotations_[b], model_->gravity, eta, Q);
-    add_quadratic_velocity_forces(body, rotations_[b], v_[first + 2], eta, eta_dot, Q);
-    if (body.stiffening) add_stiffening_forces(*body.stiffening, v_[first + 2], eta, eta_dot, Q);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double damping_force = 0.0;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        Q[3 + i] -= body.stiffness(i, j) * eta[j];
-        damping_force += body.damping(i, j) * eta_dot[j];
-      }
-      Q[3 + i] -= damping_force;
-      power_.dissipated += damping_force * eta_dot[i];
-    }
-    for (const FadingForce& fading : body.fading) {
-      const double value = fading.value(time_);
-      Q[3 + fading.mode] += value;
-      power_.input += value * eta_dot[fading.mode];
-    }
+    Q[3 + i] -= damping_force;
+    power_.dissipated += damping_force * eta_dot[i];
+  }
+  for (const FadingForce& fading : body.fading) {
+    const double value = fading.value(time_);
+    Q[3 + fading.mode] += value;
+    power_.input += value * eta_dot[fading.mode];
   }
 }
 

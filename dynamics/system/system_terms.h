@@ -67,10 +67,19 @@ class SystemTerms {
   const Eigen::VectorXd& v() const { return v_; }
 
  private:
-  // A marker that moves, and where its body's coordinates are.
+  // A marker that moves, and where its body's coordinates are; of one on a rigid body all that its position
+  // needs.
   struct MovingMarker {
     std::size_t marker, body;
     int first_coordinate, num_coordinates;
+    Eigen::Vector2d p_BP;
+    double alpha_BP;
+    bool is_rigid() const { return num_coordinates == 3; }
+  };
+  // A rigid body about its centre of mass: what its weight needs.
+  struct ConstantBody {
+    int first_coordinate;
+    double mass;
   };
   // A joint's Jacobian by one of its markers, and the block of φ_q that is made of it.
   struct JointSide {
@@ -84,17 +93,29 @@ class SystemTerms {
     bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
     JointSide a, b;
   };
+  // Where a joint's Jacobian by its markers is constant, all that changes in its row on a rigid body: by the
+  // angle.
+  struct TurningEntry {
+    std::size_t value;  // its place in φ_q
+    std::size_t marker;
+    double along_x, along_y, about;  // the row of G
+  };
   MovingMarker find_body(int marker_index) const;
   void place_marker(const MovingMarker& moving);
   void move_marker(const MovingMarker& moving);
   void add_joint(std::size_t joint);
   void add_block(const JointTerms& terms, JointSide& side);
+  void fill_once(const JointTerms& terms);
   void fill_block(const JointSide& side);
+  void add_body_forces(std::size_t body);
   void add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& Q) const;
 
   const Model* model_;
   std::vector<MovingMarker> joint_markers_, other_markers_;  // that are kept up to date
   std::vector<MovingMarker> acting_markers_;
+  std::vector<int> angles_;  // coordinates, of each body
+  std::vector<ConstantBody> constant_bodies_;
+  std::vector<std::size_t> varying_bodies_;
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
@@ -102,6 +123,8 @@ class SystemTerms {
   std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_, changed_wrenches_;
   std::vector<JointTerms> joints_;
+  std::vector<TurningEntry> turning_entries_;
+  std::vector<std::size_t> filled_joints_;  // whose blocks are filled anew each time
   BlockJacobian Phi_q_;
   Power power_;
 };
