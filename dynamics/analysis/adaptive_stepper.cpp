@@ -12,7 +12,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kPeriodsOfRelease = 4.0;  // over which what was held is let go
 constexpr double kLongestUnseen = 4e-3;    // s between updates of the indicator
 constexpr double kMostParts = 8.0;         // of a step, between which the indicator is updated
 constexpr double kAtRest = 1e-3;           // rate that counts as none, of those at the ends of the step
@@ -175,19 +174,26 @@ void AdaptiveStepper::take_back(Integrator::StepResult result) {
   motion_->go_to(q, v);
   modes_->go_back(memory_);
   const std::vector<int> missed = modes_->find_missed(largest_);
+  if (!missed.empty()) {
+    let_join(missed);
+    ++num_changes_;
+  }
+  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
+}
+
+// At the start of the step.
+void AdaptiveStepper::let_join(const std::vector<int>& missed) {
+  std::vector<double> forces;
   for (const int coordinate : missed) {
     const ModeShare share = modes_->share_of(coordinate, largest_);
     listener_.on_change(step_start_, coordinate, fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
                                                              100.0 * share.deflection, 100.0 * share.acceleration));
-    const double frequency = modes_->frequency_of(coordinate);
-    if (!(frequency > 0.0)) continue;
-    motion_->let_go(coordinate, -modes_->held_force_of(coordinate), step_start_, kPeriodsOfRelease / frequency);
+    forces.push_back(-modes_->held_force_of(coordinate));
   }
-  if (!missed.empty()) {
-    modes_->activate(missed);
-    ++num_changes_;
-  }
-  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
+  modes_->activate(missed);
+  const double duration = modes_->calc_release_time(missed, forces);
+  if (!(duration > 0.0)) return;
+  for (std::size_t i = 0; i < missed.size(); ++i) motion_->let_go(missed[i], forces[i], step_start_, duration);
 }
 
 // Steps on from the end of the step that was made, through switches, up to the next break of a function of time.

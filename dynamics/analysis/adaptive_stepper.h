@@ -59,6 +59,7 @@ class AdaptiveStepper final : public SystemStepper {
   void watch(double time);
   bool follow_step();
   void take_back(Integrator::StepResult result);
+  void let_join(const std::vector<int>& missed);
   void look_ahead(Integrator::StepResult result, double until);
   bool let_modes_go();
   double find_rest(int coordinate);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeaveTogether = 0.4;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
+constexpr double kRinging = 0.1;  // of the recall threshold, that may come of letting go
 
 }  // namespace
 
@@ -164,6 +165,10 @@ void ModeAdaptation::activate(const std::vector<int>& coordinates) {
   last_change_ = indicator_.time();
   for (const int i : coordinates) active_[static_cast<std::size_t>(i)] = true;
   indicator_.set_active(active_);
+}
+
+double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const {
+  return indicator_.calc_release_time(coordinates, forces, kRinging * options_.recall, options_.residence);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {

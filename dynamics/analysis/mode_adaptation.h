@@ -60,6 +60,9 @@ class ModeAdaptation {
   double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
   double held_force_of(int coordinate) const;   ///< what has held it until now, without what has just jumped
   void activate(const std::vector<int>& coordinates);
+  /// How long what held modes, which are active now, takes to be let go: it leaves ringing a small part of the recall
+  /// threshold, and ends before they may leave [s].
+  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const;
   void deactivate(const std::vector<int>& coordinates);
 
   /// What an active mode has done since it was not quiet last.

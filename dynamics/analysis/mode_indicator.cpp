@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/analysis/release_time.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -97,15 +98,21 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   }
 }
 
-// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
-// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
-void ModeIndicator::update_effective() {
-  std::vector<Eigen::Index> giving;
+// Places in independent_ of all but modes left out.
+std::vector<Eigen::Index> ModeIndicator::find_free() const {
+  std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) free.push_back(static_cast<Eigen::Index>(i));
   }
+  return free;
+}
+
+// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
+// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
+void ModeIndicator::update_effective() {
+  const std::vector<Eigen::Index> giving = find_free();
   const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
   Eigen::VectorXd x, part(static_cast<Eigen::Index>(giving.size()));
   for (std::size_t j = 0; j < modal_.size(); ++j) {
@@ -191,6 +198,23 @@ std::optional<KnownMotion> ModeIndicator::calc_small_motion(const HeldModes& hel
   if (independent_.empty() || independent_.size() - free.size() != num_held) return std::nullopt;
   known.motion = {mass_(free, free), damping_(free, free), stiffness_(free, free)};
   return known;
+}
+
+double ModeIndicator::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces,
+                                        double share, double longest) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(mass_.rows());
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const auto found = std::find(independent_.begin(), independent_.end(), coordinates[k]);
+    if (found == independent_.end()) return longest;
+    force[found - independent_.begin()] = forces[k];
+  }
+  const std::vector<Eigen::Index> free = find_free();
+  std::vector<ReleasedPoint> points;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points.push_back({reduced_motion_[i](Eigen::all, free), share * largest_acceleration_[i]});
+  }
+  return dynamics::calc_release_time({mass_(free, free), damping_(free, free), stiffness_(free, free)}, force(free),
+                                     points, longest);
 }
 
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,

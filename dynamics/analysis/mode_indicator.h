@@ -78,6 +78,12 @@ class ModeIndicator {
   double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
   /// The part of it that was there before, without what has jumped at this very instant (or with what the run starts).
   double held_force(std::size_t mode) const { return oscillators_[mode].held_force; }
+  /// Time to let go of what held modes that have just become active: after it each asked point rings by at most a
+  /// share of its largest acceleration so far (calc_release_time).
+  /// @param forces   on `coordinates` [N/kg^½]
+  /// @param longest  where that is not enough, or not known [s]
+  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces, double share,
+                           double longest) const;
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
@@ -107,6 +113,7 @@ class ModeIndicator {
     double step = 0.0;               // that `response` is over
     OscillatorResponse response = {};
   };
+  std::vector<Eigen::Index> find_free() const;
   void update_effective();
   Effective make_alone(int coordinate) const;
   void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
