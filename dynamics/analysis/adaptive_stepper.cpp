@@ -230,7 +230,7 @@ void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
 // the drop threshold, are stopped with the momentum kept and the energy booked. @return true if some have left
 bool AdaptiveStepper::let_modes_go() {
   if (!options_.changes) return false;
-  const std::vector<int> idle = modes_->find_idle();
+  std::vector<int> idle = modes_->find_idle();
   if (idle.empty()) return false;
   const int slowest = *std::min_element(idle.begin(), idle.end(), [this](int a, int b) {
     return modes_->frequency_of(a) < modes_->frequency_of(b);
@@ -240,6 +240,7 @@ bool AdaptiveStepper::let_modes_go() {
   if (std::isnan(rest)) return false;
   modes_->go_back(memory_);
   watch(rest);
+  idle = modes_->find_stoppable(idle, motion_->v());
   modes_->deactivate(idle);
   HeldModes held = motion_->hold(modes_->active(), rest);
   EnergyFlow flow = energy_flow();

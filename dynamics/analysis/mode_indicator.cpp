@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/analysis/release_time.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -99,12 +98,12 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
 }
 
 // Places in independent_ of all but modes left out.
-std::vector<Eigen::Index> ModeIndicator::find_free() const {
+std::vector<Eigen::Index> ModeIndicator::find_free(const std::vector<bool>& active) const {
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) free.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active[static_cast<std::size_t>(found - modal_.begin())]) free.push_back(static_cast<Eigen::Index>(i));
   }
   return free;
 }
@@ -112,7 +111,7 @@ std::vector<Eigen::Index> ModeIndicator::find_free() const {
 // The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
 // one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
 void ModeIndicator::update_effective() {
-  const std::vector<Eigen::Index> giving = find_free();
+  const std::vector<Eigen::Index> giving = find_free(active_);
   const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
   Eigen::VectorXd x, part(static_cast<Eigen::Index>(giving.size()));
   for (std::size_t j = 0; j < modal_.size(); ++j) {
@@ -200,6 +199,14 @@ std::optional<KnownMotion> ModeIndicator::calc_small_motion(const HeldModes& hel
   return known;
 }
 
+Ringing ModeIndicator::make_ringing(const std::vector<Eigen::Index>& free) const {
+  std::vector<Ringing::Point> points;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points.push_back({reduced_motion_[i](Eigen::all, free), largest_acceleration_[i]});
+  }
+  return {{mass_(free, free), damping_(free, free), stiffness_(free, free)}, points};
+}
+
 double ModeIndicator::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces,
                                         double share, double longest) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(mass_.rows());
@@ -208,13 +215,25 @@ double ModeIndicator::calc_release_time(const std::vector<int>& coordinates, con
     if (found == independent_.end()) return longest;
     force[found - independent_.begin()] = forces[k];
   }
-  const std::vector<Eigen::Index> free = find_free();
-  std::vector<ReleasedPoint> points;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    points.push_back({reduced_motion_[i](Eigen::all, free), share * largest_acceleration_[i]});
+  const std::vector<Eigen::Index> free = find_free(active_);
+  return make_ringing(free).calc_release_time(force(free), share, longest);
+}
+
+// The momentum M_Aj v_j that a mode had given to the others stays theirs.
+std::vector<double> ModeIndicator::calc_stopping_shares(const std::vector<int>& coordinates,
+                                                        const Eigen::VectorXd& v) const {
+  std::vector<double> shares(coordinates.size(), 0.0);
+  std::vector<bool> active = active_;
+  for (const int i : coordinates) active[static_cast<std::size_t>(std::lower_bound(modal_.begin(), modal_.end(), i) - modal_.begin())] = false;
+  const std::vector<Eigen::Index> free = find_free(active);
+  if (free.empty()) return shares;
+  const Ringing ringing = make_ringing(free);
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const auto found = std::find(independent_.begin(), independent_.end(), coordinates[k]);
+    if (found == independent_.end()) continue;
+    shares[k] = ringing.calc_share_of_impulse(mass_(free, found - independent_.begin()) * v[coordinates[k]]);
   }
-  return dynamics::calc_release_time({mass_(free, free), damping_(free, free), stiffness_(free, free)}, force(free),
-                                     points, longest);
+  return shares;
 }
 
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
