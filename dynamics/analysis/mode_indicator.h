@@ -118,6 +118,7 @@ class ModeIndicator {
     double step = 0.0;               // that `response` is over
     OscillatorResponse response = {};
   };
+  void stack_shapes();
   std::vector<Eigen::Index> find_free(const std::vector<bool>& active) const;
   Ringing make_ringing(const std::vector<Eigen::Index>& free) const;
   void update_effective();
@@ -141,6 +142,8 @@ class ModeIndicator {
   std::vector<Eigen::MatrixXd> reduced_motion_;  // per independent coordinate
 
   std::vector<Effective> effective_;
+  std::vector<Eigen::MatrixXd> shapes_;  // of each body: deflections of its named points, two rows each, by its modes
+  Eigen::VectorXd deflections_;          // of one body
   std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
   std::vector<Oscillator> oscillators_;
   std::vector<LeftOut> left_out_;
