@@ -39,23 +39,28 @@ Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& p
 }
 
 void Hdf5GrowingDataset::append(std::span<const double> values) {
+  if (values.size() == row_size()) {  // the most frequent by far
+    append_row(values.data());
+    return;
+  }
   if (values.size() % row_size() != 0) {
     throw std::invalid_argument(
         fmt::format("Hdf5Writer::append: {} values are not whole rows of '{}' ({} columns)", values.size(),
                     path_, row_size()));
   }
-  const std::size_t chunk_size = chunk_rows_ * row_size();
-  while (!values.empty()) {
-    const std::size_t taken = std::min(values.size(), chunk_size - filled_);
-    std::copy_n(values.data(), taken, chunk_.data() + filled_);
-    filled_ += taken;
-    values = values.subspan(taken);
-    if (filled_ < chunk_size) return;
-    write_chunk();
-    rows_before_ += chunk_rows_;
-    filled_ = 0;
-    std::fill(chunk_.begin(), chunk_.end(), 0.0);
-  }
+  for (; !values.empty(); values = values.subspan(row_size())) append_row(values.data());
+}
+
+void Hdf5GrowingDataset::append_row(const double* values) {
+  const std::size_t n = row_size();
+  double* row = chunk_.data() + filled_;
+  for (std::size_t i = 0; i < n; ++i) row[i] = values[i];  // mostly few: a loop is shorter than a call
+  filled_ += n;
+  if (filled_ < chunk_.size() - 1) return;
+  write_chunk();
+  rows_before_ += chunk_rows_;
+  filled_ = 0;
+  std::fill(chunk_.begin(), chunk_.end(), 0.0);
 }
 
 void Hdf5GrowingDataset::write_pending() {

@@ -26,6 +26,7 @@ class Hdf5GrowingDataset {
 
  private:
   std::size_t row_size() const { return columns_ == 0 ? 1 : columns_; }
+  void append_row(const double* values);
   void write_chunk();
 
   std::string path_;
