@@ -60,11 +60,12 @@ void Hdf5GrowingDataset::append_row(const double* values) {
   write_chunk();
   rows_before_ += chunk_rows_;
   filled_ = 0;
-  std::fill(chunk_.begin(), chunk_.end(), 0.0);
 }
 
 void Hdf5GrowingDataset::write_pending() {
-  if (filled_ > 0) write_chunk();
+  if (filled_ == 0) return;
+  std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(), 0.0);  // rows of the chunk before
+  write_chunk();
 }
 
 // As it is to stand in the file: the library would copy it twice on the way, and its checksum is slow.

@@ -34,7 +34,7 @@ class Hdf5GrowingDataset {
   std::size_t chunk_rows_;
   std::size_t rows_before_ = 0;  // the chunk's first row
   std::size_t filled_ = 0;       // values in it
-  std::vector<double> chunk_;    // as it goes to the file: zeros behind what is filled, room for the checksum
+  std::vector<double> chunk_;    // as it goes to the file, with room for the checksum
   Hdf5Handle dataset_;
 };
 
