@@ -89,7 +89,7 @@ SystemStepper::Observation AdaptiveStepper::observe(double time) {
 // The forces may have jumped: the indicator has to know before the next step.
 void AdaptiveStepper::resume(double end_time) {
   end_time_ = end_time;
-  is_plain_ = false;
+  rest_.reset();
   evaluate(evaluated_time_);
   watch(evaluated_time_);
   leg_->stepper->resume(end_time);
@@ -112,16 +112,19 @@ double AdaptiveStepper::mean_active_modes() const {
 }
 
 Integrator::StepResult AdaptiveStepper::step(double longest_step) {
-  if (is_plain_ && let_modes_go()) longest_step = std::min(longest_step, calc_longest_step());
+  if (rest_) {
+    let_modes_go();
+    longest_step = std::min(longest_step, calc_longest_step());
+  }
   while (true) {
     step_start_ = time();
     modes_->remember(memory_);
     largest_.clear();
     modes_->raise(largest_);
     const Integrator::StepResult result = leg_->stepper->step(longest_step);
-    is_plain_ = result == Integrator::StepResult::kStepped;
     if (!follow_step()) {
       modes_->note(time(), largest_);
+      if (result == Integrator::StepResult::kStepped) rest_ = find_rest();
       return result;
     }
     take_back(result);
@@ -226,34 +229,41 @@ void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
   leg_->stepper->resume(end_time_);
 }
 
-// Idle modes leave together where the rate of the slowest passes zero. No position jumps; the rates of the others, below
-// the drop threshold, are stopped with the momentum kept and the energy booked. @return true if some have left
-bool AdaptiveStepper::let_modes_go() {
-  if (!options_.changes) return false;
-  std::vector<int> idle = modes_->find_idle();
-  if (idle.empty()) return false;
-  const int slowest = *std::min_element(idle.begin(), idle.end(), [this](int a, int b) {
+// Where idle modes leave within the step just made: the rate of the slowest passes zero. The step ends there.
+std::optional<double> AdaptiveStepper::find_rest() {
+  if (!options_.changes) return std::nullopt;
+  idle_ = modes_->find_idle();
+  if (idle_.empty()) return std::nullopt;
+  const int slowest = *std::min_element(idle_.begin(), idle_.end(), [this](int a, int b) {
     return modes_->frequency_of(a) < modes_->frequency_of(b);
   });
-  if (rates_before_[slowest] * rates_[slowest] > 0.0) return false;
-  const double rest = find_rest(slowest);
-  if (std::isnan(rest)) return false;
+  if (rates_before_[slowest] * rates_[slowest] > 0.0) return std::nullopt;
+  return find_rest_of(slowest);
+}
+
+// At rest_. No position jumps; the rates of idle modes other than the slowest, below the drop threshold, are stopped with
+// the momentum kept and the energy booked.
+void AdaptiveStepper::let_modes_go() {
+  const double rest = *rest_;
+  rest_.reset();
+  evaluate(rest);
+  motion_->take(leg_->held, equations());
+  const std::vector<int> leaving = modes_->find_stoppable(idle_, motion_->v());
+  if (leaving.empty()) return;
   modes_->go_back(memory_);
   watch(rest);
-  idle = modes_->find_stoppable(idle, motion_->v());
-  modes_->deactivate(idle);
+  modes_->deactivate(leaving);
   HeldModes held = motion_->hold(modes_->active(), rest);
   EnergyFlow flow = energy_flow();
-  const double lost = motion_->stop(idle, held, rest, piece().branches());
+  const double lost = motion_->stop(leaving, held, rest, piece().branches());
   flow.dissipated += lost;
-  for (const int coordinate : idle) {
+  for (const int coordinate : leaving) {
     listener_.on_change(rest, coordinate, fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
                                                       100.0 * options_.drop, lost));
   }
   ++num_changes_;
   const std::vector<int> branches = piece().branches();
   go_on(std::move(held), rest, flow, branches);
-  return true;
 }
 
 double AdaptiveStepper::rate_of(int coordinate) const {
@@ -261,15 +271,15 @@ double AdaptiveStepper::rate_of(int coordinate) const {
   return equations().v()[std::lower_bound(places.begin(), places.end(), coordinate) - places.begin()];
 }
 
-// Where a modal rate is zero within the step just made, evaluated there; NaN if it is nowhere. By the secant, the older
-// value halved where it stays [Dowell & Jarratt 1971].
-double AdaptiveStepper::find_rest(int coordinate) {
+// Where a modal rate is zero within the step just made. By the secant, the older value halved where it stays [Dowell &
+// Jarratt 1971].
+std::optional<double> AdaptiveStepper::find_rest_of(int coordinate) {
   double low = step_start_, high = time();
   evaluate(low);
   double rate_low = rate_of(coordinate);
   evaluate(high);
   double rate_high = rate_of(coordinate);
-  if (rate_low * rate_high > 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (rate_low * rate_high > 0.0) return std::nullopt;
   const double small = kAtRest * std::max(std::abs(rate_low), std::abs(rate_high));
   double place = high, rate = rate_high;
   for (int i = 0; i < kMaxSearch && std::abs(rate) > small; ++i) {

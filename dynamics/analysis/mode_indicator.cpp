@@ -318,7 +318,7 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   const double force = one.force / mass;
   if (step > 0.0) {
     if (std::abs(step - effective.step) > kSameStep * step) {
-      effective.response = calc_oscillator_response(stiffness, decay, step);
+      effective.response = calc_oscillator_response(stiffness, decay, step, 1);
       effective.step = step;
     }
     const OscillatorResponse& r = effective.response;
