@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "dynamics/analysis/full_motion.h"
+#include "dynamics/analysis/mode_adaptation.h"
 #include "dynamics/analysis/transient.h"
 #include "dynamics/forces/applied_force.h"
 #include "dynamics/joints/coordinate_joint.h"
+#include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/small_models.h"
@@ -158,4 +160,63 @@ TEST_CASE("What is let go 2 ms later does not touch what is being let go", "[ada
   CHECK(both[1].mode == 2);
   CHECK(both[1].value(0.103) == Approx(-3.0 * 0.5 * (1.0 + std::sqrt(0.5))).epsilon(1e-9));
   CHECK(motion.hold(active, 0.1065).model.bodies[0].fading.size() == 1);
+}
+
+TEST_CASE("Modes are stopped together only where the impulse leaves little ringing, as much as was foretold", "[adaptivity]") {
+  Turning turning(std::vector<bool>(kNumModes, false));
+  dynamics::number_model(turning.model);
+  const Model& model = turning.model;
+  const dynamics::Body& body = model.bodies[static_cast<std::size_t>(turning.beam.body)];
+  const int first = body.first_coordinate, slow = first + 3, fast = first + 5;  // modes 1 and 3
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates), v = q;
+  q[model.bodies[static_cast<std::size_t>(turning.other.body)].first_coordinate + 1] = 3.0;
+  v[first + 2] = kSpin;
+
+  dynamics::AdaptivityOptions options;
+  options.full = &model;
+  options.active.assign(static_cast<std::size_t>(model.num_coordinates), true);
+  options.points = {turning.beam.tip};
+  const dynamics::State start = test::make_state(model, q, v);
+  dynamics::ModeAdaptation adaptation(options, start);
+  dynamics::PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  std::vector<double> q_i, v_i;
+  for (const int i : equations.partition().independent) {
+    q_i.push_back(q[i]);
+    v_i.push_back(v[i]);
+  }
+  REQUIRE(equations.update_positions(0.0, q_i) == dynamics::PartitionedEquations::Outcome::kGood);
+  equations.update_velocities(v_i);
+  equations.update_accelerations(start.branches);
+  adaptation.update(0.0, equations.constrained(), equations.q(), equations.v(), equations.v_dot());
+  const double largest = kSpin * kSpin * 1.0;  // acceleration of the tip so far
+
+  v[fast] = 0.01;
+  const double share = adaptation.indicator().calc_stopping_shares({fast}, v)[0];
+  // Stopped, the motion goes on without the mode: what rings at the tip is normal to the beam, the spin along it.
+  std::vector<bool> active = options.active;
+  active[static_cast<std::size_t>(fast)] = false;
+  dynamics::FullMotion motion(model, test::make_state(model, q, v));
+  const dynamics::HeldModes held = motion.hold(active, 0.0);
+  motion.stop({fast}, held, 0.0, start.branches);
+  double rings = 0.0;
+  dynamics::TransientOptions run;
+  run.end_time = 0.2;
+  run.output_step = 1e-4;
+  run.on_output = [&](const dynamics::Snapshot& now) {
+    const Eigen::Vector2d a = now.calc_acceleration(static_cast<std::size_t>(turning.beam.tip));
+    const double angle = now.q[first + 2];
+    rings = std::max(rings, std::abs(-std::sin(angle) * a.x() + std::cos(angle) * a.y()));
+  };
+  dynamics::run_transient(held.model, motion.state_for(held, 0.0, start.branches), run);
+  INFO("rings by " << rings / largest << ", foretold " << share);
+  CHECK(rings > 0.7 * share * largest);
+  CHECK(rings < 2.3 * share * largest);  // five vibrations, each at its largest at once: √5
+
+  // The slow one is at rest; the other goes with it only where a tenth of the threshold is kept.
+  const double allowed = 0.1 * options.recall;
+  v[fast] *= 1.1 * allowed / adaptation.indicator().calc_stopping_shares({slow, fast}, v)[1];
+  CHECK(adaptation.find_stoppable({slow, fast}, v) == std::vector<int>{slow});
+  v[fast] *= 0.9 / 1.1;
+  CHECK(adaptation.find_stoppable({slow, fast}, v) == std::vector<int>{slow, fast});
 }
