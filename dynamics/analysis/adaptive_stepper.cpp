@@ -12,7 +12,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kPeriodsOfRelease = 4.0;  // over which what was held is let go
 constexpr double kLongestUnseen = 4e-3;    // s between updates of the indicator
 constexpr double kMostParts = 8.0;         // of a step, between which the indicator is updated
 constexpr double kAtRest = 1e-3;           // rate that counts as none, of those at the ends of the step
@@ -90,7 +89,7 @@ SystemStepper::Observation AdaptiveStepper::observe(double time) {
 // The forces may have jumped: the indicator has to know before the next step.
 void AdaptiveStepper::resume(double end_time) {
   end_time_ = end_time;
-  is_plain_ = false;
+  rest_.reset();
   evaluate(evaluated_time_);
   watch(evaluated_time_);
   leg_->stepper->resume(end_time);
@@ -113,16 +112,19 @@ double AdaptiveStepper::mean_active_modes() const {
 }
 
 Integrator::StepResult AdaptiveStepper::step(double longest_step) {
-  if (is_plain_ && let_modes_go()) longest_step = std::min(longest_step, calc_longest_step());
+  if (rest_) {
+    let_modes_go();
+    longest_step = std::min(longest_step, calc_longest_step());
+  }
   while (true) {
     step_start_ = time();
     modes_->remember(memory_);
     largest_.clear();
     modes_->raise(largest_);
     const Integrator::StepResult result = leg_->stepper->step(longest_step);
-    is_plain_ = result == Integrator::StepResult::kStepped;
     if (!follow_step()) {
       modes_->note(time(), largest_);
+      if (result == Integrator::StepResult::kStepped) rest_ = find_rest();
       return result;
     }
     take_back(result);
@@ -175,19 +177,26 @@ void AdaptiveStepper::take_back(Integrator::StepResult result) {
   motion_->go_to(q, v);
   modes_->go_back(memory_);
   const std::vector<int> missed = modes_->find_missed(largest_);
+  if (!missed.empty()) {
+    let_join(missed);
+    ++num_changes_;
+  }
+  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
+}
+
+// At the start of the step.
+void AdaptiveStepper::let_join(const std::vector<int>& missed) {
+  std::vector<double> forces;
   for (const int coordinate : missed) {
     const ModeShare share = modes_->share_of(coordinate, largest_);
     listener_.on_change(step_start_, coordinate, fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
                                                              100.0 * share.deflection, 100.0 * share.acceleration));
-    const double frequency = modes_->frequency_of(coordinate);
-    if (!(frequency > 0.0)) continue;
-    motion_->let_go(coordinate, -modes_->held_force_of(coordinate), step_start_, kPeriodsOfRelease / frequency);
+    forces.push_back(-modes_->held_force_of(coordinate));
   }
-  if (!missed.empty()) {
-    modes_->activate(missed);
-    ++num_changes_;
-  }
-  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
+  modes_->activate(missed);
+  const double duration = modes_->calc_release_time(missed, forces);
+  if (!(duration > 0.0)) return;
+  for (std::size_t i = 0; i < missed.size(); ++i) motion_->let_go(missed[i], forces[i], step_start_, duration);
 }
 
 // Steps on from the end of the step that was made, through switches, up to the next break of a function of time.
@@ -220,33 +229,41 @@ void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
   leg_->stepper->resume(end_time_);
 }
 
-// Idle modes leave together where the rate of the slowest passes zero. No position jumps; the rates of the others, below
-// the drop threshold, are stopped with the momentum kept and the energy booked. @return true if some have left
-bool AdaptiveStepper::let_modes_go() {
-  if (!options_.changes) return false;
-  const std::vector<int> idle = modes_->find_idle();
-  if (idle.empty()) return false;
-  const int slowest = *std::min_element(idle.begin(), idle.end(), [this](int a, int b) {
+// Where idle modes leave within the step just made: the rate of the slowest passes zero. The step ends there.
+std::optional<double> AdaptiveStepper::find_rest() {
+  if (!options_.changes) return std::nullopt;
+  idle_ = modes_->find_idle();
+  if (idle_.empty()) return std::nullopt;
+  const int slowest = *std::min_element(idle_.begin(), idle_.end(), [this](int a, int b) {
     return modes_->frequency_of(a) < modes_->frequency_of(b);
   });
-  if (rates_before_[slowest] * rates_[slowest] > 0.0) return false;
-  const double rest = find_rest(slowest);
-  if (std::isnan(rest)) return false;
+  if (rates_before_[slowest] * rates_[slowest] > 0.0) return std::nullopt;
+  return find_rest_of(slowest);
+}
+
+// At rest_. No position jumps; the rates of idle modes other than the slowest, below the drop threshold, are stopped with
+// the momentum kept and the energy booked.
+void AdaptiveStepper::let_modes_go() {
+  const double rest = *rest_;
+  rest_.reset();
+  evaluate(rest);
+  motion_->take(leg_->held, equations());
+  const std::vector<int> leaving = modes_->find_stoppable(idle_, motion_->v());
+  if (leaving.empty()) return;
   modes_->go_back(memory_);
   watch(rest);
-  modes_->deactivate(idle);
+  modes_->deactivate(leaving);
   HeldModes held = motion_->hold(modes_->active(), rest);
   EnergyFlow flow = energy_flow();
-  const double lost = motion_->stop(idle, held, rest, piece().branches());
+  const double lost = motion_->stop(leaving, held, rest, piece().branches());
   flow.dissipated += lost;
-  for (const int coordinate : idle) {
+  for (const int coordinate : leaving) {
     listener_.on_change(rest, coordinate, fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
                                                       100.0 * options_.drop, lost));
   }
   ++num_changes_;
   const std::vector<int> branches = piece().branches();
   go_on(std::move(held), rest, flow, branches);
-  return true;
 }
 
 double AdaptiveStepper::rate_of(int coordinate) const {
@@ -254,15 +271,15 @@ double AdaptiveStepper::rate_of(int coordinate) const {
   return equations().v()[std::lower_bound(places.begin(), places.end(), coordinate) - places.begin()];
 }
 
-// Where a modal rate is zero within the step just made, evaluated there; NaN if it is nowhere. By the secant, the older
-// value halved where it stays [Dowell & Jarratt 1971].
-double AdaptiveStepper::find_rest(int coordinate) {
+// Where a modal rate is zero within the step just made. By the secant, the older value halved where it stays [Dowell &
+// Jarratt 1971].
+std::optional<double> AdaptiveStepper::find_rest_of(int coordinate) {
   double low = step_start_, high = time();
   evaluate(low);
   double rate_low = rate_of(coordinate);
   evaluate(high);
   double rate_high = rate_of(coordinate);
-  if (rate_low * rate_high > 0.0) return std::numeric_limits<double>::quiet_NaN();
+  if (rate_low * rate_high > 0.0) return std::nullopt;
   const double small = kAtRest * std::max(std::abs(rate_low), std::abs(rate_high));
   double place = high, rate = rate_high;
   for (int i = 0; i < kMaxSearch && std::abs(rate) > small; ++i) {

@@ -30,7 +30,7 @@ class AdaptiveStepper final : public SystemStepper {
   void start(const State& state) override;
   void resume(double end_time) override;
   Integrator::StepResult step(double longest_step) override;
-  double time() const override { return leg_->stepper->time(); }
+  double time() const override { return rest_ ? *rest_ : leg_->stepper->time(); }
   double calc_longest_step() const override { return leg_->stepper->calc_longest_step(); }
   void evaluate(double time) override;
   void evaluate_motion(double time) override;
@@ -59,9 +59,11 @@ class AdaptiveStepper final : public SystemStepper {
   void watch(double time);
   bool follow_step();
   void take_back(Integrator::StepResult result);
+  void let_join(const std::vector<int>& missed);
   void look_ahead(Integrator::StepResult result, double until);
-  bool let_modes_go();
-  double find_rest(int coordinate);
+  std::optional<double> find_rest();
+  std::optional<double> find_rest_of(int coordinate);
+  void let_modes_go();
   double rate_of(int coordinate) const;
 
   const Model* model_;
@@ -77,12 +79,13 @@ class AdaptiveStepper final : public SystemStepper {
   double end_time_ = 0.0, evaluated_time_ = 0.0, watched_time_ = 0.0;
   double looked_until_ = -std::numeric_limits<double>::infinity();  // how far the run has been looked ahead
 
-  // The last step: its start, the indicator there, whether it ended within a smooth piece.
+  // The last step: its start, the indicator there.
   double step_start_ = 0.0;
   Eigen::VectorXd rates_before_, rates_;  // there, and at the last update of the indicator
   ModeAdaptation::Memory memory_;
   ModeAdaptation::LeftOut largest_;  // in it
-  bool is_plain_ = false;
+  std::vector<int> idle_;       // modes that may leave
+  std::optional<double> rest_;  // where they do, in the last step: it ends there [s]
 
   long num_changes_ = 0;
   double start_time_ = 0.0;

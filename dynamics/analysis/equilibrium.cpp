@@ -22,6 +22,7 @@ constexpr double kNeutralStiffness = 1e-9;  // of the largest stiffness-to-mass 
 constexpr double kNeutralForce = 1e-7;      // acceleration along a neutral direction, natural sizes/s²
 constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that is rounding, of the largest
 constexpr double kLargestStep = 0.05;       // natural sizes per iteration
+constexpr double kFastFall = 0.3;           // of the step before, with the stiffness of the step before
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates, const Eigen::VectorXd& values) {
   double largest = 0.0;
@@ -57,13 +58,13 @@ struct ModalForce {
     }
   }
 
-  /// Downhill step, each direction's stiffness raised by `damping`; neutral directions stay.
-  Eigen::VectorXd calc_step(double damping) const {
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(force.size());
+  /// Downhill step under forces r, each direction's stiffness raised by `damping`; neutral directions stay.
+  Eigen::VectorXd calc_step(const Eigen::VectorXd& r, double damping) const {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(r.size());
     const double least = kNeutralStiffness * stiffest;
     for (Eigen::Index k = 0; k < force.size(); ++k) {
       if (is_neutral[static_cast<std::size_t>(k)]) continue;
-      step += V.col(k) * (force[k] / (std::max(std::abs(omega_squared[k]), least) + damping));
+      step += V.col(k) * (r[k] / (std::max(std::abs(omega_squared[k]), least) + damping));
     }
     return step;
   }
@@ -127,7 +128,7 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
   double potential = 0.0;
   calc_static_force(equations, 0.0, q_i, &potential, motion);
   for (int attempt = 0; attempt < 40; ++attempt) {
-    Eigen::VectorXd step = modal.calc_step(damping);
+    Eigen::VectorXd step = modal.calc_step(modal.force, damping);
     const double size = largest_natural(model, system.partition.independent, step);
     if (size > kLargestStep) step *= kLargestStep / size;
     double trial_potential = 0.0;
@@ -138,6 +139,30 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
       break;
     }
     damping = std::max(10.0 * damping, 1e-6 * modal.stiffest);
+  }
+  return equations.q();
+}
+
+Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::VectorXd& q) {
+  Eigen::VectorXd q_i(static_cast<Eigen::Index>(system.partition.independent.size()));
+  for (Eigen::Index k = 0; k < q_i.size(); ++k) q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
+  return q_i;
+}
+
+// On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one evaluation, where the
+// stiffness costs four for each freedom. @return positions
+Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
+                                        const ModalForce& modal, const SteadyMotion& motion, double last_size) {
+  while (last_size > kTolerance) {
+    Eigen::VectorXd q_i = select_independent(system, equations.q());
+    const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
+    if (force.size() == 0) break;
+    const Eigen::VectorXd step = modal.calc_step(modal.V.transpose() * force, 0.0);
+    const double size = largest_natural(model, system.partition.independent, step);
+    if (!(size < kFastFall * last_size)) break;
+    q_i += step;
+    if (calc_static_force(equations, 0.0, q_i, nullptr, motion).size() == 0) break;
+    last_size = size;
   }
   return equations.q();
 }
@@ -160,7 +185,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
     const ModalForce modal(model, system);
-    const double newton_step = largest_natural(model, system.partition.independent, modal.calc_step(0.0));
+    const double newton_step = largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
     const bool is_rounding = newton_step <= kRounding && newton_step > 0.5 * last_step;
     last_step = newton_step;
@@ -180,11 +205,10 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       return equilibrium;
     }
     if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
-    Eigen::VectorXd q_i(modal.force.size());
-    for (Eigen::Index k = 0; k < q_i.size(); ++k) {
-      q_i[k] = equilibrium.q[system.partition.independent[static_cast<std::size_t>(k)]];
+    equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q), motion, damping);
+    if (damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
+      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step);
     }
-    equilibrium.q = step_downhill(model, equations, system, modal, q_i, motion, damping);
   }
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeaveTogether = 0.4;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
+constexpr double kRinging = 0.1;  // of the recall threshold, that a change may leave ringing
 
 }  // namespace
 
@@ -145,6 +146,22 @@ std::vector<int> ModeAdaptation::find_idle() const {
   return idle;
 }
 
+std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle, const Eigen::VectorXd& v) const {
+  const std::vector<double> shares = indicator_.calc_stopping_shares(idle, v);
+  std::vector<std::pair<double, int>> candidates;
+  for (std::size_t k = 0; k < idle.size(); ++k) candidates.emplace_back(shares[k], idle[k]);
+  std::sort(candidates.begin(), candidates.end());
+  std::vector<int> stoppable;
+  double square = 0.0;
+  for (const auto& [share, coordinate] : candidates) {
+    square += share * share;
+    if (std::sqrt(square) > kRinging * options_.recall) break;
+    stoppable.push_back(coordinate);
+  }
+  std::sort(stoppable.begin(), stoppable.end());
+  return stoppable;
+}
+
 std::size_t ModeAdaptation::mode_of(int coordinate) const {
   const std::vector<int>& modal = indicator_.modal_coordinates();
   return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
@@ -164,6 +181,10 @@ void ModeAdaptation::activate(const std::vector<int>& coordinates) {
   last_change_ = indicator_.time();
   for (const int i : coordinates) active_[static_cast<std::size_t>(i)] = true;
   indicator_.set_active(active_);
+}
+
+double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const {
+  return indicator_.calc_release_time(coordinates, forces, kRinging * options_.recall, options_.residence);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {

@@ -55,11 +55,17 @@ class ModeAdaptation {
   std::vector<int> find_missed(const LeftOut& largest) const;
   /// Modal coordinates that may leave, once their rate is zero.
   std::vector<int> find_idle() const;
+  /// Of idle ones those that can be stopped at once where they are, leaving no more ringing than modes that join may.
+  /// @param v  in coordinates of the full model
+  std::vector<int> find_stoppable(const std::vector<int>& idle, const Eigen::VectorXd& v) const;
   ModeShare share_of(int coordinate, const LeftOut& largest) const;
 
   double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
   double held_force_of(int coordinate) const;   ///< what has held it until now, without what has just jumped
   void activate(const std::vector<int>& coordinates);
+  /// How long what held modes, which are active now, takes to be let go: it leaves no more than a small part of the recall
+  /// threshold ringing, and ends before they may leave [s].
+  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const;
   void deactivate(const std::vector<int>& coordinates);
 
   /// What an active mode has done since it was not quiet last.

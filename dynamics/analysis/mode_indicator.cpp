@@ -37,6 +37,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
   oscillators_.resize(n);
   left_out_.resize(n);
   neglected_.resize(n);
+  stack_shapes();
 
   Eigen::MatrixXd directions;
   try {
@@ -79,6 +80,24 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
   update_effective();
 }
 
+// Of all markers of a body, one below the other.
+void ModeIndicator::stack_shapes() {
+  Eigen::Index most = 0;
+  for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
+    std::vector<const Marker*> markers;
+    for (const Marker& marker : full_->markers) {
+      if (marker.body == static_cast<int>(b) && marker.Phi.cols() > 0) markers.push_back(&marker);
+    }
+    const auto rows = static_cast<Eigen::Index>(2 * markers.size());
+    shapes_.emplace_back(rows, markers.empty() ? 0 : full_->bodies[b].num_modes());
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      shapes_.back().middleRows<2>(2 * static_cast<Eigen::Index>(i)) = markers[i]->Phi;
+    }
+    most = std::max(most, rows);
+  }
+  deflections_ = Eigen::VectorXd::Zero(most);
+}
+
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < modal_.size(); ++j) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_[j])];
@@ -97,41 +116,63 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   }
 }
 
-// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
-// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
-void ModeIndicator::update_effective() {
-  std::vector<Eigen::Index> giving;
+// Places in independent_ of all but modes left out.
+std::vector<Eigen::Index> ModeIndicator::find_free(const std::vector<bool>& active) const {
+  std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (!is_modal || active_[static_cast<std::size_t>(found - modal_.begin())]) giving.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active[static_cast<std::size_t>(found - modal_.begin())]) free.push_back(static_cast<Eigen::Index>(i));
   }
+  return free;
+}
+
+// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
+// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
+void ModeIndicator::update_effective() {
+  const std::vector<Eigen::Index> giving = find_free(active_);
   const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
-  Eigen::VectorXd x, part(static_cast<Eigen::Index>(giving.size()));
+  const auto n = static_cast<Eigen::Index>(modal_.size());
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mass_.rows(), n);
+  std::vector<Eigen::Index> own(modal_.size(), -1);
   for (std::size_t j = 0; j < modal_.size(); ++j) {
     const auto found = std::find(independent_.begin(), independent_.end(), modal_[j]);
-    if (found == independent_.end()) {
+    if (found == independent_.end()) continue;
+    own[j] = found - independent_.begin();
+    const auto column = static_cast<Eigen::Index>(j);
+    if (active_[j]) {
+      x(own[j], column) = 1.0;
+    } else {
+      x.col(column) = -mass_.col(own[j]);
+    }
+  }
+  Eigen::MatrixXd part = x(giving, Eigen::all);
+  if (!giving.empty()) factor.solveInPlace(part);
+  x.setZero();
+  x(giving, Eigen::all) = part;
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    if (own[j] < 0) continue;
+    auto column = x.col(static_cast<Eigen::Index>(j));
+    if (active_[j]) {
+      column /= column[own[j]];
+    } else {
+      column[own[j]] = 1.0;
+    }
+  }
+  const Eigen::VectorXd mass = x.cwiseProduct(mass_ * x).colwise().sum();
+  const Eigen::VectorXd damping = x.cwiseProduct(damping_ * x).colwise().sum();
+  const Eigen::VectorXd stiffness = x.cwiseProduct(stiffness_ * x).colwise().sum();
+  std::vector<Eigen::MatrixXd> reach;
+  for (const Eigen::MatrixXd& motion : reduced_motion_) reach.push_back(motion * x);
+  for (std::size_t j = 0; j < modal_.size(); ++j) {
+    if (own[j] < 0) {
       effective_[j] = make_alone(modal_[j]);
       continue;
     }
-    const Eigen::Index own = found - independent_.begin();
-    x = Eigen::VectorXd::Zero(mass_.rows());
-    if (active_[j]) {
-      x[own] = 1.0;
-      part = x(giving);
-      factor.solveInPlace(part);
-      x(giving) = part;
-      x /= x[own];
-    } else {
-      part = -mass_(giving, own);
-      if (!giving.empty()) factor.solveInPlace(part);
-      x(giving) = part;
-      x[own] = 1.0;
-    }
-    effective_[j] = {.mass = x.dot(mass_ * x),
-                     .damping = std::max(0.0, x.dot(damping_ * x)),
-                     .stiffness = std::max(0.0, x.dot(stiffness_ * x))};
-    for (const Eigen::MatrixXd& motion : reduced_motion_) effective_[j].reach.push_back((motion * x).norm());
+    const auto column = static_cast<Eigen::Index>(j);
+    effective_[j] = {
+        .mass = mass[column], .damping = std::max(0.0, damping[column]), .stiffness = std::max(0.0, stiffness[column])};
+    for (const Eigen::MatrixXd& motion : reach) effective_[j].reach.push_back(motion.col(column).norm());
   }
 }
 
@@ -193,6 +234,43 @@ std::optional<KnownMotion> ModeIndicator::calc_small_motion(const HeldModes& hel
   return known;
 }
 
+Ringing ModeIndicator::make_ringing(const std::vector<Eigen::Index>& free) const {
+  std::vector<Ringing::Point> points;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points.push_back({reduced_motion_[i](Eigen::all, free), largest_acceleration_[i]});
+  }
+  return {{mass_(free, free), damping_(free, free), stiffness_(free, free)}, points};
+}
+
+double ModeIndicator::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces,
+                                        double share, double longest) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(mass_.rows());
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const auto found = std::find(independent_.begin(), independent_.end(), coordinates[k]);
+    if (found == independent_.end()) return longest;
+    force[found - independent_.begin()] = forces[k];
+  }
+  const std::vector<Eigen::Index> free = find_free(active_);
+  return make_ringing(free).calc_release_time(force(free), share, longest);
+}
+
+// The momentum M_Aj v_j that a mode had given to the others stays theirs.
+std::vector<double> ModeIndicator::calc_stopping_shares(const std::vector<int>& coordinates,
+                                                        const Eigen::VectorXd& v) const {
+  std::vector<double> shares(coordinates.size(), 0.0);
+  std::vector<bool> active = active_;
+  for (const int i : coordinates) active[static_cast<std::size_t>(std::lower_bound(modal_.begin(), modal_.end(), i) - modal_.begin())] = false;
+  const std::vector<Eigen::Index> free = find_free(active);
+  if (free.empty()) return shares;
+  const Ringing ringing = make_ringing(free);
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const auto found = std::find(independent_.begin(), independent_.end(), coordinates[k]);
+    if (found == independent_.end()) continue;
+    shares[k] = ringing.calc_share_of_impulse(mass_(free, found - independent_.begin()) * v[coordinates[k]]);
+  }
+  return shares;
+}
+
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
                            const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
   unbalanced_.update(run.terms(), run.multipliers(), q, v, v_dot);
@@ -207,12 +285,13 @@ void ModeIndicator::update(double time, const ConstrainedEquations& run, const E
 
 // Brings the largest deflection and acceleration so far up to date.
 void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
-  for (const Marker& marker : full_->markers) {
-    if (marker.body == kGround || marker.Phi.cols() == 0) continue;
-    const int first = full_->bodies[static_cast<std::size_t>(marker.body)].first_coordinate + 3;
-    Eigen::Vector2d deflection = Eigen::Vector2d::Zero();
-    for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) deflection += marker.Phi.col(k) * q[first + k];
-    largest_deflection_ = std::max(largest_deflection_, deflection.norm());
+  for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
+    if (shapes_[b].cols() == 0) continue;
+    auto deflections = deflections_.head(shapes_[b].rows());
+    deflections.noalias() = shapes_[b] * q.segment(full_->bodies[b].first_coordinate + 3, shapes_[b].cols());
+    double square = 0.0;
+    for (Eigen::Index i = 0; i < deflections.size(); i += 2) square = std::max(square, deflections.segment<2>(i).squaredNorm());
+    largest_deflection_ = std::max(largest_deflection_, std::sqrt(square));
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Marker& marker = full_->markers[static_cast<std::size_t>(points_[i])];
@@ -239,7 +318,7 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   const double force = one.force / mass;
   if (step > 0.0) {
     if (std::abs(step - effective.step) > kSameStep * step) {
-      effective.response = calc_oscillator_response(stiffness, decay, step);
+      effective.response = calc_oscillator_response(stiffness, decay, step, 1);
       effective.step = step;
     }
     const OscillatorResponse& r = effective.response;

@@ -8,6 +8,7 @@
 #include "dynamics/analysis/linearisation.h"
 #include "dynamics/analysis/ode_system.h"
 #include "dynamics/analysis/oscillator_response.h"
+#include "dynamics/analysis/ringing.h"
 #include "dynamics/analysis/unbalanced_force.h"
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/held_modes.h"
@@ -78,6 +79,16 @@ class ModeIndicator {
   double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
   /// The part of it that was there before, without what has jumped at this very instant (or with what the run starts).
   double held_force(std::size_t mode) const { return oscillators_[mode].held_force; }
+  /// Time to let go of what held modes that have just become active: after it each asked point rings by at most a
+  /// share of its largest acceleration so far.
+  /// @param forces   on `coordinates` [N/kg^½]
+  /// @param longest  where that is not enough, or not known [s]
+  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces, double share,
+                           double longest) const;
+  /// What stopping each of the modes sets ringing, where all of them are left out: an impulse on what stays active.
+  /// @param v  in coordinates of `full`
+  /// @return largest share of any asked point's largest acceleration so far, for each of `coordinates`
+  std::vector<double> calc_stopping_shares(const std::vector<int>& coordinates, const Eigen::VectorXd& v) const;
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
@@ -107,6 +118,9 @@ class ModeIndicator {
     double step = 0.0;               // that `response` is over
     OscillatorResponse response = {};
   };
+  void stack_shapes();
+  std::vector<Eigen::Index> find_free(const std::vector<bool>& active) const;
+  Ringing make_ringing(const std::vector<Eigen::Index>& free) const;
   void update_effective();
   Effective make_alone(int coordinate) const;
   void raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
@@ -128,6 +142,8 @@ class ModeIndicator {
   std::vector<Eigen::MatrixXd> reduced_motion_;  // per independent coordinate
 
   std::vector<Effective> effective_;
+  std::vector<Eigen::MatrixXd> shapes_;  // of each body: deflections of its named points, two rows each, by its modes
+  Eigen::VectorXd deflections_;          // of one body
   std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
   std::vector<Oscillator> oscillators_;
   std::vector<LeftOut> left_out_;

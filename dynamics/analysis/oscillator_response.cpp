@@ -43,12 +43,12 @@ double power_term(int k, double time) {
 
 // Highest two forced responses by their power series, the lower ones by the equation itself, which only
 // multiplies.
-OscillatorResponse by_series(double stiffness, double decay, double time) {
+OscillatorResponse by_series(double stiffness, double decay, double time, int top) {
   // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
-  double before = 0.0, term = power_term(kTop + 2, time);
-  double value = term, rate = (kTop + 2) * term;
+  double before = 0.0, term = power_term(top + 2, time);
+  double value = term, rate = (top + 2) * term;
   const double damping = -2.0 * decay * time, spring = -stiffness * time * time;
-  for (int m = kTop + 3; m < kMaxTerms; ++m) {
+  for (int m = top + 3; m < kMaxTerms; ++m) {
     const auto& [once, twice] = kSeriesDivisors[static_cast<std::size_t>(m)];
     const double next = damping * once * term + spring * twice * before;
     before = term;
@@ -59,19 +59,19 @@ OscillatorResponse by_series(double stiffness, double decay, double time) {
   }
   OscillatorResponse r{};
   std::array<double, kTop + 3> X{};  // X_{−2} … X_top
-  X[kTop + 2] = value;
-  X[kTop + 1] = rate / time;
-  for (int k = kTop; k >= 0; --k) {
+  X[static_cast<std::size_t>(top) + 2] = value;
+  X[static_cast<std::size_t>(top) + 1] = rate / time;
+  for (int k = top; k >= 0; --k) {
     const auto i = static_cast<std::size_t>(k);
     X[i] = power_term(k, time) - 2.0 * decay * X[i + 1] - stiffness * X[i + 2];
   }
-  for (std::size_t k = 0; k <= kTop; ++k) r.forced[k] = X[k + 2];
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = X[k + 2];
   r.s = X[1];
   r.s_rate = X[0];
   return r;
 }
 
-OscillatorResponse by_recurrence(double stiffness, double decay, double time) {
+OscillatorResponse by_recurrence(double stiffness, double decay, double time, int top) {
   OscillatorResponse r{};
   const double discriminant = stiffness - decay * decay;
   const double mu = std::sqrt(std::abs(discriminant));
@@ -88,7 +88,7 @@ OscillatorResponse by_recurrence(double stiffness, double decay, double time) {
     r.s_rate = 0.5 * (slow + fast) - decay * r.s;
   }
   double last = r.s_rate, current = r.s;
-  for (int k = 0; k <= kTop; ++k) {
+  for (int k = 0; k <= top; ++k) {
     const double next = (power_term(k, time) - 2.0 * decay * current - last) / stiffness;
     r.forced[static_cast<std::size_t>(k)] = next;
     last = current;
@@ -98,22 +98,22 @@ OscillatorResponse by_recurrence(double stiffness, double decay, double time) {
 }
 
 // ∫ e^{r(t−σ)} σ^k/k! dσ for k = −1 … top, where k = −1 stands for the response to an impulse.
-std::array<double, kTop + 2> exponential_responses(double rate, double time) {
+std::array<double, kTop + 2> exponential_responses(double rate, double time, int top) {
   std::array<double, kTop + 2> Y{};
   const double z = rate * time;
   if (std::abs(z) < 1.0) {
-    double term = power_term(kTop + 1, time), sum = term;
-    for (int m = kTop + 2; m < 40; ++m) {
+    double term = power_term(top + 1, time), sum = term;
+    for (int m = top + 2; m < 40; ++m) {
       term *= z / m;
       sum += term;
     }
-    Y[kTop + 1] = sum;
-    for (int k = kTop; k >= 0; --k) {
+    Y[static_cast<std::size_t>(top) + 1] = sum;
+    for (int k = top; k >= 0; --k) {
       Y[static_cast<std::size_t>(k)] = power_term(k, time) + rate * Y[static_cast<std::size_t>(k) + 1];
     }
   } else {
     Y[0] = std::exp(z);
-    for (int k = 0; k <= kTop; ++k) {
+    for (int k = 0; k <= top; ++k) {
       Y[static_cast<std::size_t>(k) + 1] = (Y[static_cast<std::size_t>(k)] - power_term(k, time)) / rate;
     }
   }
@@ -121,26 +121,26 @@ std::array<double, kTop + 2> exponential_responses(double rate, double time) {
 }
 
 // Far beyond critical damping: the difference of two decays, which are far apart.
-OscillatorResponse by_two_decays(double stiffness, double decay, double time) {
+OscillatorResponse by_two_decays(double stiffness, double decay, double time, int top) {
   const double root = std::sqrt(decay * decay - stiffness);
   const double slow_rate = -stiffness / (decay + root), fast_rate = -(decay + root);
-  const auto slow = exponential_responses(slow_rate, time);
-  const auto fast = exponential_responses(fast_rate, time);
+  const auto slow = exponential_responses(slow_rate, time, top);
+  const auto fast = exponential_responses(fast_rate, time, top);
   OscillatorResponse r{};
   r.s = (slow[0] - fast[0]) / (2.0 * root);
   r.s_rate = (slow_rate * slow[0] - fast_rate * fast[0]) / (2.0 * root);
-  for (std::size_t k = 0; k <= kTop; ++k) r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
   return r;
 }
 
 }  // namespace
 
-OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time) {
+OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
   if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
   const double omega = std::sqrt(stiffness);
-  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit ? by_series(stiffness, decay, time)
-                         : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time)
-                                                       : by_recurrence(stiffness, decay, time);
+  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit ? by_series(stiffness, decay, time, max_power)
+                         : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time, max_power)
+                                                       : by_recurrence(stiffness, decay, time, max_power);
   r.c = r.s_rate + 2.0 * decay * r.s;
   r.c_rate = -stiffness * r.s;
   return r;

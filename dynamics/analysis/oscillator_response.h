@@ -21,6 +21,8 @@ struct OscillatorResponse {
 /// @param stiffness  ω² ≥ 0 [1/s²]
 /// @param decay  d [1/s]
 /// @param time  at least 0 [s]
-OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time);
+/// @param max_power  of the forced responses that are wanted, at most kMaxPower; higher ones stay zero
+OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time,
+                                            int max_power = OscillatorResponse::kMaxPower);
 
 }  // namespace sprung::dynamics

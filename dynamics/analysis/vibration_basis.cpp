@@ -28,6 +28,7 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
   RealPairs pairs{Eigen::MatrixXd::Zero(n, n), {}};
   if (eigen.info() != Eigen::Success) return pairs;
   const Eigen::VectorXcd& values = eigen.eigenvalues();
+  const Eigen::MatrixXd& parts = eigen.pseudoEigenvectors();  // real and imaginary parts side by side, not normalised
   PairBlocks& B = pairs.blocks;
   B.b11 = B.b12 = B.b21 = B.b22 = Eigen::ArrayXd::Zero(half);
   Eigen::Index next = 0;
@@ -37,8 +38,9 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
       real.push_back(i);
     } else if (values[i].imag() > 0.0) {
       // A (x + iy) = (a + ib)(x + iy): A [x y] = [x y] (a b; −b a).
-      pairs.vectors.col(next) = eigen.eigenvectors().col(i).real();
-      pairs.vectors.col(half + next) = eigen.eigenvectors().col(i).imag();
+      const double length = parts.middleCols<2>(i).norm();
+      pairs.vectors.col(next) = parts.col(i) / length;
+      pairs.vectors.col(half + next) = parts.col(i + 1) / length;
       B.b11[next] = B.b22[next] = values[i].real();
       B.b12[next] = values[i].imag();
       B.b21[next] = -values[i].imag();
@@ -46,8 +48,8 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
     }
   }
   for (std::size_t i = 0; i + 1 < real.size(); i += 2, ++next) {
-    pairs.vectors.col(next) = eigen.eigenvectors().col(real[i]).real();
-    pairs.vectors.col(half + next) = eigen.eigenvectors().col(real[i + 1]).real();
+    pairs.vectors.col(next) = parts.col(real[i]).normalized();
+    pairs.vectors.col(half + next) = parts.col(real[i + 1]).normalized();
     B.b11[next] = values[real[i]].real();
     B.b22[next] = values[real[i + 1]].real();
   }

@@ -200,12 +200,14 @@ void ResultsWriter::add_force_series() {
     const ForceElement& force = *model_->forces[f];
     const auto first = static_cast<std::size_t>(model_->force_branches[f]);
     const auto count = static_cast<std::size_t>(force.num_branches());
+    // All of a force's channels come at once, with the first of them.
+    channels_.emplace_back(force.channels().size());
+    const std::span<double> values = channels_.back();
     for (std::size_t c = 0; c < force.channels().size(); ++c) {
       const Channel& channel = force.channels()[c];
       add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
-                 [&force, first, count, c](const Snapshot& now, std::vector<double>& row) {
-                   std::vector<double> values(force.channels().size());
-                   force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
+                 [&force, first, count, c, values](const Snapshot& now, std::vector<double>& row) {
+                   if (c == 0) force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
                  });
     }

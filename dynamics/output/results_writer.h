@@ -74,6 +74,7 @@ class ResultsWriter {
   const Model* model_;
   support::Hdf5Writer file_;
   std::vector<Series> series_;
+  std::vector<std::vector<double>> channels_;  // of each force element, at the snapshot being added
   std::vector<Event> events_;
   std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
 };

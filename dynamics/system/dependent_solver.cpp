@@ -126,6 +126,16 @@ void DependentSolver::add_independent_product(std::span<const double> x_independ
   }
 }
 
+void DependentSolver::get_independent_column(std::size_t k, Eigen::VectorXd& r) const {
+  r.setZero();
+  const int column = static_cast<int>(k);
+  for (const Strip& strip : strips_) {
+    if (column < strip.first || column >= strip.first + strip.num_columns) continue;
+    const double* value = values_ + strip.offset + (column - strip.first);
+    for (int i = 0; i < strip.num_rows; ++i, value += strip.stride) r[strip.row + i] += *value;
+  }
+}
+
 void DependentSolver::factorise(const BlockJacobian& jacobian) {
   values_ = jacobian.data();
   for (Single& single : singles_) single.inverse = 1.0 / values_[single.source];

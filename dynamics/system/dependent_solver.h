@@ -26,6 +26,9 @@ class DependentSolver {
   /// r += φ_i x_i, at the present values of the Jacobian that was factorised last.
   /// @param x_independent  in the order of Partition::independent   @param r  num_constraints
   void add_independent_product(std::span<const double> x_independent, Eigen::VectorXd& r) const;
+  /// r = column k of φ_i, of the same Jacobian.
+  /// @param k  position in Partition::independent   @param r  num_constraints
+  void get_independent_column(std::size_t k, Eigen::VectorXd& r) const;
   /// x = φ_d⁻¹ r; NaN where φ_d has no inverse whatever its values.
   /// @param r, x  num_constraints; x in the order of Partition::dependent
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;

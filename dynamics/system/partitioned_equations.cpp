@@ -150,12 +150,8 @@ PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::sp
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(model_->num_coordinates, num_freedoms_);
   Eigen::VectorXd r(num_constraints_), x(num_constraints_);
-  std::vector<double> unit(static_cast<std::size_t>(num_freedoms_), 0.0);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    unit[k] = 1.0;
-    r.setZero();
-    dependents_.add_independent_product(unit, r);
-    unit[k] = 0.0;
+    dependents_.get_independent_column(k, r);
     dependents_.solve(r, x);
     const auto column = static_cast<Eigen::Index>(k);
     directions(partition_.independent[k], column) = 1.0;

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <stdexcept>
 
+#include "tools/support/fletcher32.h"
 #include "tools/support/hdf5_library.h"
 
 namespace sprung::support {
@@ -32,44 +35,52 @@ Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& p
   dataset_ = hdf5::make_dataset(parent, path, H5T_IEEE_F64LE, shape_of(shape, columns),
                                 shape_of(chunk, columns), true);
   hdf5::write_string_attribute(dataset_.get(), "unit", unit);
-  pending_.reserve(chunk_rows_ * row_size());
+  chunk_.assign(chunk_rows_ * row_size() + 1, 0.0);
 }
 
 void Hdf5GrowingDataset::append(std::span<const double> values) {
+  if (values.size() == row_size()) {  // the most frequent by far
+    append_row(values.data());
+    return;
+  }
   if (values.size() % row_size() != 0) {
     throw std::invalid_argument(
         fmt::format("Hdf5Writer::append: {} values are not whole rows of '{}' ({} columns)", values.size(),
                     path_, row_size()));
   }
-  const std::size_t chunk_size = chunk_rows_ * row_size();
-  while (!values.empty()) {
-    const std::size_t taken = std::min(values.size(), chunk_size - pending_.size());
-    pending_.insert(pending_.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(taken));
-    values = values.subspan(taken);
-    if (pending_.size() == chunk_size) write_pending();
-  }
+  for (; !values.empty(); values = values.subspan(row_size())) append_row(values.data());
+}
+
+void Hdf5GrowingDataset::append_row(const double* values) {
+  const std::size_t n = row_size();
+  double* row = chunk_.data() + filled_;
+  for (std::size_t i = 0; i < n; ++i) row[i] = values[i];  // mostly few: a loop is shorter than a call
+  filled_ += n;
+  if (filled_ < chunk_.size() - 1) return;
+  write_chunk();
+  rows_before_ += chunk_rows_;
+  filled_ = 0;
 }
 
 void Hdf5GrowingDataset::write_pending() {
-  if (pending_.empty()) return;
-  write_rows(pending_.data(), pending_.size() / row_size());
-  pending_.clear();
+  if (filled_ == 0) return;
+  std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(), 0.0);  // rows of the chunk before
+  write_chunk();
 }
 
-void Hdf5GrowingDataset::write_rows(const double* values, std::size_t rows) {
+// As it is to stand in the file: the library would copy it twice on the way, and its checksum is slow.
+void Hdf5GrowingDataset::write_chunk() {
+  static_assert(std::endian::native == std::endian::little, "chunks are written as they are in memory");
   const std::string what = fmt::format("dataset '{}' cannot be written", path_);
-  const int rank = columns_ == 0 ? 1 : 2;
-  const std::array<hsize_t, 2> shape{num_written_ + rows, columns_};
-  const std::array<hsize_t, 2> start{num_written_, 0};
-  const std::array<hsize_t, 2> count{rows, columns_};
+  const std::size_t size = chunk_rows_ * row_size();
+  const std::array<hsize_t, 2> shape{rows_before_ + filled_ / row_size(), columns_};
+  const std::array<hsize_t, 2> start{rows_before_, 0};
+  const std::uint32_t checksum = calc_fletcher32(std::span(chunk_).first(size));
+  std::memcpy(chunk_.data() + size, &checksum, sizeof checksum);
   hdf5::check(H5Dset_extent(dataset_.get(), shape.data()), what);
-  const Hdf5Handle target = hdf5::own(H5Dget_space(dataset_.get()), H5Sclose, what);
-  hdf5::check(H5Sselect_hyperslab(target.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+  hdf5::check(H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, start.data(), size * sizeof(double) + sizeof checksum,
+                             chunk_.data()),
               what);
-  const Hdf5Handle source = hdf5::own(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, what);
-  hdf5::check(H5Dwrite(dataset_.get(), H5T_NATIVE_DOUBLE, source.get(), target.get(), H5P_DEFAULT, values),
-              what);
-  num_written_ += rows;
 }
 
 }  // namespace sprung::support

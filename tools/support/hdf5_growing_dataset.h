@@ -22,17 +22,19 @@ class Hdf5GrowingDataset {
 
   /// @throws std::invalid_argument if the values are not whole rows
   void append(std::span<const double> values);
-  void write_pending();
+  void write_pending();  ///< what has not come to a whole chunk yet; more may follow
 
  private:
   std::size_t row_size() const { return columns_ == 0 ? 1 : columns_; }
-  void write_rows(const double* values, std::size_t rows);
+  void append_row(const double* values);
+  void write_chunk();
 
   std::string path_;
   std::size_t columns_;
   std::size_t chunk_rows_;
-  std::size_t num_written_ = 0;  // rows in the file
-  std::vector<double> pending_;  // rows not yet written, fewer than a chunk
+  std::size_t rows_before_ = 0;  // the chunk's first row
+  std::size_t filled_ = 0;       // values in it
+  std::vector<double> chunk_;    // as it goes to the file, with room for the checksum
   Hdf5Handle dataset_;
 };
 

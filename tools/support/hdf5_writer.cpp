@@ -56,32 +56,8 @@ Hdf5Handle create_file(const fs::path& temporary) {
   return hdf5::own(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
 }
 
-// Makes each group on the path that is not there.
-void make_groups(hid_t file, const std::string& path) {
-  if (path.empty() || path == "/") return;
-  for (std::size_t end = path.find('/', 1); true; end = path.find('/', end + 1)) {
-    const std::string prefix = path.substr(0, end);
-    if (!hdf5::exists(file, prefix)) {
-      const std::string what = fmt::format("group '{}' cannot be made", prefix);
-      const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
-      hdf5::own(H5Gcreate2(file, prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose, what);
-    }
-    if (end == std::string::npos) return;
-  }
-}
-
-void prepare_dataset(hid_t file, const std::string& path) {
-  if (hdf5::exists(file, path)) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer: dataset '{}' is there already", path));
-  }
-  make_groups(file, hdf5::parent_path(path));
-}
-
 // Opens an object and takes an older attribute of this name away.
-Hdf5Handle prepare_attribute(hid_t file, const std::string& object, const std::string& name) {
-  if (!hdf5::exists(file, object)) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer::attribute: there is no '{}'", object));
-  }
+Hdf5Handle open_for_attribute(hid_t file, const std::string& object, const std::string& name) {
   const std::string what = fmt::format("attribute '{}' of '{}' cannot be written", name, object);
   Hdf5Handle handle = hdf5::own(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
   if (hdf5::check(H5Aexists(handle.get(), name.c_str()), what) > 0) {
@@ -98,6 +74,9 @@ void write_scalar_attribute(hid_t object, const std::string& name, hid_t file_ty
       H5Acreate2(object, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
   hdf5::check(H5Awrite(attribute.get(), memory_type, value), what);
 }
+
+// The same path for each way of writing it.
+std::string from_root(const std::string& path) { return path.starts_with('/') ? path.substr(1) : path; }
 
 void reject_nul(std::string_view text, const std::string& place) {
   if (text.find('\0') != std::string_view::npos) {
@@ -131,6 +110,38 @@ void Hdf5Writer::attempt(Function&& function) {
   } catch (const hdf5::Failure& failure) {
     throw InputError({.path = target_.string()}, failure.what());
   }
+}
+
+bool Hdf5Writer::has(const std::string& path) const { return objects_.contains(from_root(path)); }
+
+// Makes each group on the path that is not there.
+void Hdf5Writer::make_groups(const std::string& path) {
+  if (path.empty() || path == "/") return;
+  for (std::size_t end = path.find('/', 1); true; end = path.find('/', end + 1)) {
+    const std::string prefix = path.substr(0, end);
+    if (!has(prefix)) {
+      const std::string what = fmt::format("group '{}' cannot be made", prefix);
+      const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
+      hdf5::own(H5Gcreate2(file_.get(), prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose, what);
+      objects_.insert(from_root(prefix));
+    }
+    if (end == std::string::npos) return;
+  }
+}
+
+void Hdf5Writer::prepare_dataset(const std::string& path) {
+  if (has(path)) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer: dataset '{}' is there already", path));
+  }
+  make_groups(hdf5::parent_path(path));
+  objects_.insert(from_root(path));
+}
+
+Hdf5Handle Hdf5Writer::prepare_attribute(const std::string& object, const std::string& name) {
+  if (object != "/" && !has(object)) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer::attribute: there is no '{}'", object));
+  }
+  return open_for_attribute(file_.get(), object, name);
 }
 
 void Hdf5Writer::write(const std::string& dataset, const Eigen::MatrixXd& matrix, std::string_view unit) {
@@ -187,7 +198,7 @@ void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
                                             dataset, array.count, count));
   }
   attempt([&] {
-    prepare_dataset(file_.get(), dataset);
+    prepare_dataset(dataset);
     const std::vector<hsize_t> chunk = hdf5::chunk_shape(array.shape, array.element_size);
     Hdf5Handle handle = hdf5::make_dataset(file_.get(), dataset, array.file_type, array.shape, chunk, false);
     if (array.unit) hdf5::write_string_attribute(handle.get(), "unit", *array.unit);
@@ -202,34 +213,34 @@ void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
 }
 
 void Hdf5Writer::make_group(const std::string& group) {
-  attempt([&] { make_groups(file_.get(), group); });
+  attempt([&] { make_groups(group); });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view value) {
   reject_nul(value, name);
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(file_.get(), object, name);
+    const Hdf5Handle handle = prepare_attribute(object, name);
     hdf5::write_string_attribute(handle.get(), name, value);
   });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(file_.get(), object, name);
+    const Hdf5Handle handle = prepare_attribute(object, name);
     write_scalar_attribute(handle.get(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
   });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(file_.get(), object, name);
+    const Hdf5Handle handle = prepare_attribute(object, name);
     write_scalar_attribute(handle.get(), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
   });
 }
 
 Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns, std::string_view unit) {
   attempt([&] {
-    prepare_dataset(file_.get(), dataset);
+    prepare_dataset(dataset);
     growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
   });
   return growing_.at(dataset);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,12 +79,17 @@ class Hdf5Writer {
   template <typename Function>
   void attempt(Function&& function);  // HDF5's failures as InputError of this file
   void write_array(const std::string& dataset, const Array& array);
+  bool has(const std::string& path) const;
+  void make_groups(const std::string& path);
+  void prepare_dataset(const std::string& path);
+  Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
   void write_pending();
   void close();
   void abandon() noexcept;
 
   std::filesystem::path target_, temporary_;
   Hdf5Handle file_;
+  std::set<std::string> objects_;  // groups and datasets made, by their paths
   std::map<std::string, Hdf5GrowingDataset> growing_;
   bool finished_ = false;
 };
