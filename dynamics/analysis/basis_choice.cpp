@@ -141,6 +141,30 @@ void add_spectrum(const LinearVehicle& vehicle, const NeglectMeasure& measure,
   }
 }
 
+// Wheels that the prediction pulls at: where it is outside its range.
+void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watched,
+                    const NeglectMeasure& measure, BasisChoice& choice) {
+  std::string wheels;
+  for (const RoadInput& input : vehicle.inputs()) {
+    if (!input.is_pressed) continue;
+    const auto& names = watched.outputs.names;
+    const auto found = std::find(names.begin(), names.end(), fmt::format("forces/{}/force", input.name));
+    if (found == names.end()) continue;
+    const auto row = static_cast<int>(found - names.begin());
+    const double standing = vehicle.calc_channels()[watched.outputs.channels[static_cast<std::size_t>(row)]];
+    const double lowest = measure.find_lowest(row);
+    if (!(standing > 0.0) || standing + lowest >= 0.0) continue;
+    if (!wheels.empty()) wheels += ", ";
+    wheels += fmt::format("'{}' by {:.2g} times its standing force", input.name, -lowest / standing);
+  }
+  if (wheels.empty()) return;
+  choice.remarks.push_back(
+      fmt::format("relieved of more than what they stand with: {}; these wheels leave the ground, which the "
+                  "prediction does "
+                  "not see: compare the run with one with more modes",
+                  wheels));
+}
+
 }  // namespace
 
 std::size_t BasisChoice::num_kept() const {
@@ -177,6 +201,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
         "neither road nor forces in time move the vehicle: modes are judged by what they do under the weight "
         "alone");
   }
+  remark_lifting(vehicle, watched, measure, choice);
   // Each mode by itself, then each cluster of several.
   const std::vector<Set> clusters = find_clusters(candidates);
   std::vector<Set> sets;

@@ -70,6 +70,16 @@ RoadAction LinearVehicle::calc_road_action(const RoadWave& wave) const {
   return action;
 }
 
+Eigen::VectorXd LinearVehicle::calc_channels() const {
+  Eigen::VectorXd values(channel_rows_.back());
+  for (std::size_t f = 0; f < model().forces.size(); ++f) {
+    const ForceElement& force = *model().forces[f];
+    force.calc_channels(equations_.terms().instant(), branches_of(model(), f, branches_),
+                        std::span(values.data() + channel_rows_[f], force.channels().size()));
+  }
+  return values;
+}
+
 void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave, std::span<WrenchGain> wrenches,
                                        Eigen::VectorXcd& channels) const {
   const auto f = static_cast<std::size_t>(inputs_[input].force);

@@ -50,6 +50,8 @@ class LinearVehicle {
   Eigen::VectorXd independent_positions() const;           ///< f
   /// The branches of the force elements there.
   const std::vector<int>& branches() const { return branches_; }
+  /// What all channels of all force elements show there.
+  Eigen::VectorXd calc_channels() const;
   /// First channel of each force element among all channels, and behind the last their number.
   const std::vector<int>& channel_rows() const { return channel_rows_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -140,16 +141,16 @@ void NeglectMeasure::calc_references() {
   omega_ =
       (2.0 * std::numbers::pi / forcing_.period) * Eigen::VectorXd::LinSpaced(m, 1.0, static_cast<double>(m));
   forces_.resize(vehicle_->system().mass.rows(), m);
-  RowsXcd whole(watched_->outputs.size(), m);
+  whole_.resize(watched_->outputs.size(), m);
   HarmonicInputs::Gains gains;
   for (Eigen::Index line = 0; line < m; ++line) {
     inputs_->calc_gains(forcing_.frequency(line), gains);
     forces_.col(line) = gains.forces * amplitudes_.col(line);
-    whole.col(line) = gains.direct * amplitudes_.col(line);
+    whole_.col(line) = gains.direct * amplitudes_.col(line);
   }
   outputs_ = sweep_.respond(omega_, forces_);
-  whole += outputs_;
-  const QuantitySizes sizes = calc_sizes(*watched_, whole, omega_);
+  whole_ += outputs_;
+  const QuantitySizes sizes = calc_sizes(*watched_, whole_, omega_);
 
   std::vector<int> all(coordinates_.size());
   std::iota(all.begin(), all.end(), 0);
@@ -198,6 +199,12 @@ std::vector<NeglectedShares> NeglectMeasure::measure_alone(const std::vector<std
     shares.push_back({divide(sizes[i].rms, rms_), divide(sizes[i].peak, peak_), calc_static_shares(sets[i])});
   }
   return shares;
+}
+
+double NeglectMeasure::find_lowest(int row) const {
+  const auto num_times =
+      static_cast<Eigen::Index>(std::bit_ceil(static_cast<std::size_t>(2 * whole_.cols() + 1)));
+  return calc_history(whole_.row(row), num_times).minCoeff();
 }
 
 RowsXcd NeglectMeasure::calc_wave_response(const std::vector<Eigen::Index>& lines) const {

@@ -45,6 +45,8 @@ class NeglectMeasure {
   /// largest share of r.m.s., 0 of all others.
   std::vector<NeglectedShares> measure_alone(const std::vector<std::vector<int>>& sets) const;
 
+  /// The lowest value of an output of the vehicle with all modes, counted from where it stands.
+  double find_lowest(int row) const;
   /// Watched outputs on a wave of the road of 1 m under the foremost wheel.  @param lines  k  @return p×k
   RowsXcd calc_wave_response(const std::vector<Eigen::Index>& lines) const;
 
@@ -74,7 +76,7 @@ class NeglectMeasure {
   Eigen::VectorXd omega_;                // m
   Eigen::MatrixXcd amplitudes_;          // of the inputs, i×m
   Eigen::MatrixXcd forces_;              // on the independent coordinates, f×m
-  RowsXcd outputs_;                      // p×m, of the motion alone
+  RowsXcd outputs_, whole_;              // p×m, of the motion alone, and with what the road does directly
   Eigen::VectorXd rms_, peak_, weight_;  // w, what shares are of
 };
 
