@@ -117,7 +117,12 @@ class Truck(VerificationCase):
         )
         self.assertEqual(self.kept(short), self.kept(long))
         self.assertEqual(short["neglected"], long["neglected"])
-        self.assertEqual(long["remarks"], [])
+        # Its wheels fly, and that is said.
+        for report in (short, long):
+            self.assertEqual(len(report["remarks"]), 1)
+            self.assertRegex(report["remarks"][0], "'front_tyre' by .* times its standing force.*leave the ground")
+        slow = self.select("terrain", *overrides(speed=1.0))
+        self.assertEqual(slow["remarks"], [])
 
     def test_without_motion_the_weight_alone_decides(self):
         report = self.select("terrain", *overrides(speed=0))
