@@ -107,7 +107,8 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     throw support::InputError(
         model.joints[last]->location,
         fmt::format("redundant joints: {} hold the same motion more than once, so that their reactions have no "
-                    "unique value; leave one of them out or free a direction",
+                    "unique value; leave one of them out or free a direction, or, if they do so in this position alone, "
+                    "a change point of the mechanism, draw it a little beside it",
                     name_constraints(model, dependent)));
   }
 

@@ -37,22 +37,24 @@ struct ModeVerdict {
 
 /// The modes that a run needs, by what is known of its forcing.
 struct BasisChoice {
-  double tolerance = 0.0;             ///< joint share that may be neglected
+  double tolerance = 0.0;                  ///< joint share that may be neglected
   std::vector<ModeVerdict> verdicts = {};  ///< body after body, ascending
-  double neglected = 0.0;             ///< the largest share that all modes left out have together
-  std::string neglected_of = {};      ///< "r.m.s. acceleration of chassis.seat"; empty where none is left out
-  std::vector<std::string> remarks = {};   ///< what was not taken into account, or kept without being measured
+  double neglected = 0.0;                  ///< the largest share that all modes left out have together
+  std::string neglected_of = {};  ///< "r.m.s. acceleration of chassis.seat"; empty where none is left out
+  std::vector<std::string> remarks = {};  ///< what was not taken into account, or kept without being measured
 
-  std::vector<double> frequency_hz = {};  ///< m, at which the forcing was looked at, thinned; empty where it was not
+  std::vector<double> frequency_hz =
+      {};                     ///< m, at which the forcing was looked at, thinned; empty where it was not
   Eigen::VectorXd road = {};  ///< m, |Fourier transform| of the height under the foremost wheel [m/Hz]
   std::vector<std::string> transfer_names = {};  ///< the points asked for
-  Eigen::MatrixXd transfer = {};  ///< points×m, acceleration on a wave of the road of 1 m [m/s²/m]; empty at rest
+  Eigen::MatrixXd transfer =
+      {};  ///< points×m, acceleration on a wave of the road of 1 m [m/s²/m]; empty at rest
 
   std::size_t num_kept() const;
 };
 
-/// Leaves out clusters of modes, the least share first, as long as what is neglected jointly stays below the tolerance
-/// (dynamics/README.md, eqs. 81 to 86). At a tolerance of 0 all modes are kept.
+/// Leaves out clusters of modes, the least share first, as long as what is neglected jointly stays below the
+/// tolerance (dynamics/README.md, eqs. 81 to 88). At a tolerance of 0 all modes are kept.
 /// @param vehicle  with all candidates active, at its equilibrium
 /// @param tolerance  ≥ 0, < 1
 BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,

@@ -28,11 +28,16 @@ struct ForcingSpectrum {
 };
 
 /// Samples the forcing during the run and lets it fade over the first half of the time that the vehicle needs to come
-/// to rest, the period being both together; sampled eight times as finely as the highest line needs.
-/// @param settling  time to come to rest, ≥ 0 [s]  @param highest  of the lines, > 0 [Hz]
+/// to rest, the period being both together; sampled eight times as finely as the highest line needs, or as chosen. Forces
+/// that do not change are left out.
+/// @param settling  time to come to rest, ≥ 0 [s]  @param highest  of the lines, > 0 [Hz]  @param fineness  ≥ 2
 /// @throws std::invalid_argument
 ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownForcing& forcing, double settling,
-                                      double highest);
+                                      double highest, double fineness = 8.0);
+
+/// Time from which on nothing changes any more under any wheel, at most the run's [s].
+/// @param settling  added where the road goes on at another height than it began
+double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& forcing, double settling);
 
 /// Time in which the slowest of the damped motions about the equilibrium falls to a hundredth, at most `longest` [s].
 double calc_settling_time(const LinearVehicle& vehicle, double longest);
@@ -40,5 +45,8 @@ double calc_settling_time(const LinearVehicle& vehicle, double longest);
 /// Values over the period of a series with these lines and without mean, at n times [n a power of two > 2m]: from its
 /// own value at the start.
 Eigen::VectorXd calc_history(const Eigen::Ref<const Eigen::RowVectorXcd>& lines, Eigen::Index n);
+/// Of two series by one transform: one as real, the other as imaginary part.
+Eigen::VectorXcd calc_histories(const Eigen::Ref<const Eigen::RowVectorXcd>& lines,
+                                const Eigen::Ref<const Eigen::RowVectorXcd>& others, Eigen::Index n);
 
 }  // namespace sprung::dynamics

@@ -6,34 +6,10 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-// Left factor L (unit diagonal) and right factor U of a matrix in place, without exchange of rows: leading parts of
-// the factors are those of the leading parts.
-void factorise(Eigen::MatrixXcd& A) {
-  const Eigen::Index n = A.rows();
-  for (Eigen::Index k = 0; k + 1 < n; ++k) {
-    const Eigen::Index rest = n - k - 1;
-    A.col(k).tail(rest) /= A(k, k);
-    A.bottomRightCorner(rest, rest).noalias() -= A.col(k).tail(rest) * A.row(k).tail(rest);
-  }
-}
-
-}  // namespace
-
 HeldResponseSolver::HeldResponseSolver(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                        std::vector<int> coordinates)
     : vehicle_(&vehicle), outputs_(&outputs), coordinates_(std::move(coordinates)) {
   modal_ = vehicle.system().directions(coordinates_, Eigen::all);
-}
-
-Eigen::VectorXcd HeldResponseSolver::calc_outputs(double omega, const Eigen::VectorXcd& force,
-                                                  const Eigen::VectorXcd& channels) const {
-  const LinearisedSystem& system = vehicle_->system();
-  const std::complex<double> s(0.0, omega);
-  const Eigen::MatrixXcd Z = system.stiffness + s * system.damping + s * s * system.mass;
-  const Eigen::VectorXcd x = Eigen::PartialPivLU<Eigen::MatrixXcd>(Z).solve(system.directions.transpose() * force);
-  return sum_outputs(*outputs_, omega, x, force, channels);
 }
 
 HeldResponse HeldResponseSolver::solve(double omega, const Eigen::VectorXcd& force,
@@ -61,20 +37,6 @@ Eigen::VectorXcd calc_change(const HeldResponse& response, const std::vector<int
   const Eigen::VectorXcd eta = response.amplitudes(modes);
   const Eigen::VectorXcd holding = Eigen::PartialPivLU<Eigen::MatrixXcd>(H).solve(eta);
   return -response.outputs_by_force(Eigen::all, modes) * holding;
-}
-
-Eigen::MatrixXcd calc_nested_changes(const HeldResponse& response, const std::vector<int>& order) {
-  Eigen::MatrixXcd H = response.receptance(order, order);
-  factorise(H);
-  const Eigen::VectorXcd z =
-      H.triangularView<Eigen::UnitLower>().solve(Eigen::VectorXcd(response.amplitudes(order)));
-  Eigen::MatrixXcd changes = response.outputs_by_force(Eigen::all, order);
-  H.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(changes);
-  for (Eigen::Index j = 0; j < changes.cols(); ++j) {
-    changes.col(j) *= -z[j];
-    if (j > 0) changes.col(j) += changes.col(j - 1);
-  }
-  return changes;
 }
 
 }  // namespace sprung::dynamics

@@ -7,8 +7,8 @@
 
 namespace sprung::dynamics {
 
-/// A linear vehicle under harmonic forcing and under a unit force on each of n modal coordinates, at one frequency:
-/// all that it takes to say what holding some of these modes still would change. p outputs.
+/// A linear vehicle under harmonic forcing and under a unit force on each of n modal coordinates, at one
+/// frequency: all that it takes to say what holding some of these modes still would change. p outputs.
 struct HeldResponse {
   Eigen::VectorXcd outputs;           ///< p, of the vehicle with all modes
   Eigen::VectorXcd amplitudes;        ///< n, of the modal coordinates
@@ -16,15 +16,15 @@ struct HeldResponse {
   Eigen::MatrixXcd receptance;        ///< n×n, modal coordinates by modal forces
 };
 
-/// Evaluates a vehicle at one frequency after the other: a factorisation of K̂ + iωĈ − ω²M̂ for each, as there are many
-/// right-hand sides.
+/// Evaluates a vehicle at one frequency: a factorisation of K̂ + iωĈ − ω²M̂, as there are many right-hand
+/// sides.
 class HeldResponseSolver {
  public:
   /// @param coordinates  the n modal coordinates  @param vehicle, outputs  have to outlive this
-  HeldResponseSolver(const LinearVehicle& vehicle, const LinearOutputs& outputs, std::vector<int> coordinates);
+  HeldResponseSolver(const LinearVehicle& vehicle, const LinearOutputs& outputs,
+                     std::vector<int> coordinates);
 
-  /// Outputs under the forcing alone, p. @param force  nq, generalized  @param channels  of all force elements
-  Eigen::VectorXcd calc_outputs(double omega, const Eigen::VectorXcd& force, const Eigen::VectorXcd& channels) const;
+  /// @param force  nq, generalized  @param channels  of all force elements
   HeldResponse solve(double omega, const Eigen::VectorXcd& force, const Eigen::VectorXcd& channels) const;
 
  private:
@@ -34,14 +34,9 @@ class HeldResponseSolver {
   Eigen::MatrixXd modal_;  // n×f, of the modal coordinates by the independent ones
 };
 
-/// What the outputs change by when a set of modes is held still, the others keeping on: with Y the outputs by modal
-/// forces, H the receptance and η the amplitudes, −Y_S H_SS⁻¹ η_S (dynamics/README.md, eq. 83).
+/// What the outputs change by when a set of modes is held still, the others keeping on: with Y the outputs by
+/// modal forces, H the receptance and η the amplitudes, −Y_S H_SS⁻¹ η_S (dynamics/README.md, eq. 83).
 /// @param modes  positions among the n  @return p
 Eigen::VectorXcd calc_change(const HeldResponse& response, const std::vector<int>& modes);
-
-/// The same for the sets of the first 1, 2, … n modes of an order at once: H = LU in that order, whose leading parts
-/// belong to the smaller sets (dynamics/README.md, eq. 84).
-/// @return p×n
-Eigen::MatrixXcd calc_nested_changes(const HeldResponse& response, const std::vector<int>& order);
 
 }  // namespace sprung::dynamics

@@ -56,23 +56,39 @@ RoadAction LinearVehicle::calc_road_action(const RoadWave& wave) const {
   RoadAction action{.forces = Eigen::MatrixXcd::Zero(model().num_coordinates, num_inputs),
                     .channels = Eigen::MatrixXcd::Zero(channel_rows_.back(), num_inputs)};
   std::vector<WrenchGain> wrenches(model().markers.size());
+  Eigen::VectorXcd channels;
   for (Eigen::Index i = 0; i < num_inputs; ++i) {
-    const RoadInput& input = inputs_[static_cast<std::size_t>(i)];
-    if (!input.is_pressed) continue;
-    const auto f = static_cast<std::size_t>(input.force);
-    const ForceElement& force = *model().forces[f];
-    for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};
-    Eigen::VectorXcd channels = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(force.channels().size()));
-    force.add_road_response(equations_.terms().instant(), branches_of(model(), f, branches_), wave, wrenches,
-                            {channels.data(), static_cast<std::size_t>(channels.size())});
+    const auto f = static_cast<std::size_t>(inputs_[static_cast<std::size_t>(i)].force);
+    calc_road_wrenches(static_cast<std::size_t>(i), wave, wrenches, channels);
     action.channels.col(i).segment(channel_rows_[f], channels.size()) = channels;
-    for (const int marker : force.markers()) {
+    for (const int marker : model().forces[f]->markers()) {
       const WrenchGain& wrench = wrenches[static_cast<std::size_t>(marker)];
       const Eigen::Vector3cd gain(wrench.force.x(), wrench.force.y(), wrench.torque);
       action.forces.col(i) += calc_marker_jacobian(equations_.terms(), marker).transpose() * gain;
     }
   }
   return action;
+}
+
+Eigen::VectorXd LinearVehicle::calc_channels() const {
+  Eigen::VectorXd values(channel_rows_.back());
+  for (std::size_t f = 0; f < model().forces.size(); ++f) {
+    const ForceElement& force = *model().forces[f];
+    force.calc_channels(equations_.terms().instant(), branches_of(model(), f, branches_),
+                        std::span(values.data() + channel_rows_[f], force.channels().size()));
+  }
+  return values;
+}
+
+void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave, std::span<WrenchGain> wrenches,
+                                       Eigen::VectorXcd& channels) const {
+  const auto f = static_cast<std::size_t>(inputs_[input].force);
+  const ForceElement& force = *model().forces[f];
+  for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};
+  channels.setZero(static_cast<Eigen::Index>(force.channels().size()));
+  if (!inputs_[input].is_pressed) return;
+  force.add_road_response(equations_.terms().instant(), branches_of(model(), f, branches_), wave, wrenches,
+                          {channels.data(), static_cast<std::size_t>(channels.size())});
 }
 
 Eigen::MatrixXcd LinearVehicle::calc_motion(double omega, const RoadAction& action) const {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,17 @@ class LinearVehicle {
   Eigen::VectorXd independent_positions() const;           ///< f
   /// The branches of the force elements there.
   const std::vector<int>& branches() const { return branches_; }
+  /// What all channels of all force elements show there.
+  Eigen::VectorXd calc_channels() const;
   /// First channel of each force element among all channels, and behind the last their number.
   const std::vector<int>& channel_rows() const { return channel_rows_; }
 
   RoadAction calc_road_action(const RoadWave& wave) const;
+  /// The same of one input, as force and torque on the markers of its force element.
+  /// @param[out] wrenches  of all markers; those of the element are set, all others left  @param[out] channels  of the
+  /// element's channels, direct part
+  void calc_road_wrenches(std::size_t input, const RoadWave& wave, std::span<WrenchGain> wrenches,
+                          Eigen::VectorXcd& channels) const;
   /// Motion of the independent coordinates, x of q = x e^{iωt}, f×k.
   Eigen::MatrixXcd calc_motion(double omega, const RoadAction& action) const;
   /// Share of the wave's amplitude at each input, and its phase, where the foremost input has 1: e^{iκ(s −

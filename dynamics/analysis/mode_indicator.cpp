@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kSmallestDeflection = 1e-7;     // of the model's length scale, that shares refer to
+constexpr double kSmallestDeflection = 1e-5;     // of the model's length scale, that shares refer to
 constexpr double kSmallestAcceleration = 1e-2;   // of gravity
 constexpr double kSameStep = 1e-9;  // relative: times of equal steps differ by rounding
 

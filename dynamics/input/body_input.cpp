@@ -13,7 +13,15 @@ namespace sprung::dynamics {
 
 namespace {
 
+// Products and squares of what lies between stay numbers; nothing on wheels is near either.
+constexpr double kLeast = 1e-30, kMost = 1e30;  // kg, kg·m²
 constexpr std::array<std::string_view, 2> kReservedPoints{"origin", "center_of_mass"};
+
+double read_inertia(const support::TomlTable& table, std::string_view key, std::string_view unit) {
+  const support::TomlValue value = table.at(key);
+  static_cast<void>(value.number(support::positive(unit)));
+  return value.number({.unit = unit, .at_least = kLeast, .at_most = kMost});
+}
 
 bool is_reserved(const std::string& point_name) {
   return std::find(kReservedPoints.begin(), kReservedPoints.end(), point_name) != kReservedPoints.end();
@@ -70,8 +78,10 @@ BodyDescription read_body(const std::string& name, const support::TomlValue& val
       table.reject_unknown_keys();
       throw table.error("must have either 'mass' and 'inertia', or a 'superelement'");
     }
-    body.mass = table.number("mass", support::positive("kg"));
-    body.inertia = table.number("inertia", support::positive("kg·m²"));
+    body.mass = read_inertia(table, "mass", "kg");
+    body.inertia = read_inertia(table, "inertia", "kg·m²");
+    body.mass_location = table.at("mass").location();
+    body.inertia_location = table.at("inertia").location();
   }
   body.position = read_vector(table.at("position"), "m");
   body.angle = table.number_or("angle", 0.0, support::any("rad"));

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "tools/support/text_table.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -80,10 +82,11 @@ std::vector<int> resolve_request(const ModeRequest& request, const reduce::Super
   const bool by_count = request.kind == ModeRequest::Kind::kCount;
   const int highest = by_count ? request.count : request.numbers.empty() ? 0 : request.numbers.back();
   if (highest > available) {
-    const std::string wanted = by_count ? fmt::format("{} modes", highest) : fmt::format("mode {}", highest);
+    const std::string wanted = by_count ? support::format_count(static_cast<std::size_t>(highest), "mode") : fmt::format("mode {}", highest);
     refuse(
         request.location, request.key,
-        fmt::format("asks for {}, but superelement '{}' has {} modes", wanted, superelement.name, available));
+        fmt::format("asks for {}, but superelement '{}' has {}", wanted, superelement.name,
+                    support::format_count(static_cast<std::size_t>(available), "mode")));
   }
   return by_count ? resolve_count(request, superelement) : request.numbers;
 }
@@ -162,8 +165,8 @@ ModalDamping resolve_modal_damping(const DampingRequests& requests, const ModeSe
     const std::size_t num_modes = active->second.size();
     if (request.ratios.size() != 1 && request.ratios.size() != num_modes) {
       refuse(request.location, request.key,
-             fmt::format("must be one ratio, or one for each of the {} active modes; got {}", num_modes,
-                         request.ratios.size()));
+             fmt::format("must be one ratio, or one for each of the {}; got {}",
+                         support::format_count(num_modes, "available mode"), request.ratios.size()));
     }
     damping.emplace(body, request.ratios);
   }

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "tools/support/text_table.h"
 
 namespace sprung::dynamics {
 
@@ -131,7 +132,9 @@ std::vector<PointReference> read_output(const support::TomlTable& table) {
   std::vector<PointReference> points;
   if (const std::optional<support::TomlValue> list = table.find("points")) {
     for (const support::TomlValue& item : list->items()) points.push_back(read_point(item));
-    if (points.empty()) throw list->error("must name at least one point \"body.point\"");
+    if (points.empty()) {
+      throw list->error("must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
+    }
   }
   table.reject_unknown_keys();
   return points;
@@ -164,8 +167,9 @@ void add_modal_values(const Body& body, const std::vector<double>& values, const
   if (values.size() != body.mode_numbers.size()) {
     throw support::InputError(
         motion.location,
-        fmt::format("'initial.{}.{}' must be one number for each of the {} active modes, got {}", body.name,
-                    key, body.num_modes(), values.size()));
+        fmt::format("'initial.{}.{}' must be one number for each of the {}, got {}", body.name, key,
+                    support::format_count(body.mode_numbers.size(), "available mode"),
+                    values.size()));
   }
   coordinates.segment(body.first_coordinate + 3, body.num_modes()) +=
       Eigen::Map<const Eigen::VectorXd>(values.data(), body.num_modes());

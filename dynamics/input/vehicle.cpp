@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "dynamics/bodies/body_equations.h"
@@ -92,6 +93,9 @@ std::vector<PointReference> read_monitor(const support::TomlTable& root, const V
     monitor.push_back(read_point(item));
     check_point(monitor.back(), points);
   }
+  if (monitor.empty()) {
+    throw list->error("must name at least one point \"body.point\"; leave it out for the origin of every body");
+  }
   return monitor;
 }
 
@@ -102,6 +106,39 @@ Eigen::Vector2d start_position(const Vehicle& vehicle, const std::vector<Vehicle
   if (found->body < 0) return found->p_BP;
   const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(found->body)];
   return body.position + FrameRotation::from_angle(body.angle) * found->p_BP;
+}
+
+// Bodies that no arithmetic of 16 digits holds in one system, or whose mass is nowhere near its own inertia.
+void check_masses(const Vehicle& vehicle) {
+  constexpr double kMostRatio = 1e12, kMostRadius = 1e9;
+  std::vector<double> masses;
+  for (const BodyDescription& body : vehicle.bodies) {
+    const reduce::Superelement* superelement = vehicle.superelement_of(body);
+    masses.push_back(superelement != nullptr ? superelement->inertia.mass : body.mass);
+  }
+  std::vector<double> sorted = masses;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const BodyDescription& body = vehicle.bodies[i];
+    if (!body.superelement.empty()) continue;
+    const double ratio = body.mass / *middle;
+    if (ratio > kMostRatio || ratio < 1.0 / kMostRatio) {
+      throw support::InputError(
+          body.mass_location,
+          fmt::format("'bodies.{}.mass' is {:g} kg, where half of the bodies have {} {:g} kg: more than a factor of {:g} "
+                      "apart they cannot be calculated together",
+                      body.name, body.mass, ratio > 1.0 ? "at most" : "at least", *middle, kMostRatio));
+    }
+    const double radius = std::sqrt(body.inertia / body.mass);
+    if (radius > kMostRadius || radius < 1.0 / kMostRadius) {
+      throw support::InputError(
+          body.inertia_location,
+          fmt::format("'bodies.{}.inertia' is {:g} kg·m², which for a mass of {:g} kg is a radius of gyration of {:g} m; "
+                      "expected {:g} to {:g} m",
+                      body.name, body.inertia, body.mass, radius, 1.0 / kMostRadius, kMostRadius));
+    }
+  }
 }
 
 // The line of a force or a link needs a direction to begin with.
@@ -167,6 +204,7 @@ Vehicle read_vehicle(const support::TomlDocument& document,
   for (const std::string_view key : {"joints", "motions", "forces", "monitor"}) root.find(key);
   root.reject_unknown_keys();
   vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);
+  check_masses(vehicle);
   const std::vector<std::string> points = point_names(vehicle);
   vehicle.joints = read_joints(root, points);
   vehicle.motions = read_motions(root, vehicle.joints, points);

@@ -42,8 +42,9 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
-  std::string text = fmt::format("{}: static equilibrium after {} iterations, last step {:.1e} of the natural size{}\n",
-                                 report.vehicle.name, equilibrium.iterations, equilibrium.last_step,
+  std::string text = fmt::format("{}: {} after {} iterations, last step {:.1e} of the natural size{}\n",
+                                 report.vehicle.name, report.is_steady ? "steady motion" : "static equilibrium",
+                                 equilibrium.iterations, equilibrium.last_step,
                                  equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
   if (report.assembly.largest_movement > 1e-9) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
@@ -56,9 +57,10 @@ std::string format_equilibrium(const BalanceReport& report) {
   for (const Body& body : report.model.bodies) {
     const Eigen::Vector3d position = equilibrium.q.segment<3>(body.first_coordinate);
     const Eigen::Vector3d moved = 1e3 * (position - report.file_positions.segment<3>(body.first_coordinate));
-    bodies.add_row({body.name, fmt::format("{:.6f}", position[0]), fmt::format("{:.6f}", position[1]),
-                    fmt::format("{:.6f}", position[2]), fmt::format("{:.3f}", moved[0]), fmt::format("{:.3f}", moved[1]),
-                    fmt::format("{:.3f}", moved[2])});
+    std::vector<std::string> row{body.name};
+    for (const double value : position) row.push_back(support::format_fixed(value, 6));
+    for (const double value : moved) row.push_back(support::format_fixed(value, 3));
+    bodies.add_row(row);
   }
   text += fmt::format("\n{}", bodies.str());
 
@@ -116,7 +118,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
       table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + mode.participants});
     } else {
       table.add_row({fmt::format("{}", number), fmt::format("{:.4f}", mode.undamped_frequency_hz),
-                     fmt::format("{:.4f}", mode.damped_frequency_hz), fmt::format("{:.4f}", mode.damping_ratio),
+                     support::format_fixed(mode.damped_frequency_hz, 4), support::format_fixed(mode.damping_ratio, 4),
                      mode.participants});
     }
   }

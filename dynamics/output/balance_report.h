@@ -16,6 +16,7 @@ struct BalanceReport {
   const Vehicle& vehicle;
   const Equilibrium& equilibrium;
   const AssemblyReport& assembly;
+  bool is_steady = false;          ///< what is carried along is in balance in its motion
   Eigen::VectorXd file_positions;  ///< num_coordinates, as the vehicle file has them
 };
 

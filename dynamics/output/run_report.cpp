@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "dynamics/output/json.h"
 #include "tools/support/text_table.h"
 
@@ -11,6 +13,12 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kTooMuchLeftOut = 0.05;  // share above which the summary warns
+
+// Then modes cannot join and leave.
+bool is_stiffened(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.stiffening.has_value(); });
+}
 
 }  // namespace
 
@@ -45,8 +53,9 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
     std::vector<std::string> neutral;
     for (const NeutralDirection& direction : equilibrium->neutral) neutral.push_back(direction.description);
     text += fmt::format(
-        "Static equilibrium{} after {} iterations{}\n", equilibrium->stable ? "" : " (unstable)",
-        equilibrium->iterations,
+        "{}{} after {} iterations{}\n",
+        run.start == Run::Start::kSteady ? "Steady motion" : "Static equilibrium",
+        equilibrium->stable ? "" : " (unstable)", equilibrium->iterations,
         neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
   } else {
     text += "Start: positions as given\n";
@@ -62,15 +71,16 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
   return text;
 }
 
-std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
+std::string format_summary(const Model& model, const RunSummary& summary) {
   support::TextTable points({"point", "displacement min m", "max m", "r.m.s. m", "acceleration min m/s²",
                              "max m/s²", "r.m.s. m/s²"});
   for (const PointStatistics& point : summary.statistics.point_statistics()) {
     const SampleStatistics& d = point.displacement;
     const SampleStatistics& a = point.acceleration;
-    points.add_row({point.point, fmt::format("{:.4f}", d.minimum), fmt::format("{:.4f}", d.maximum),
-                    fmt::format("{:.4f}", d.rms), fmt::format("{:.2f}", a.minimum),
-                    fmt::format("{:.2f}", a.maximum), fmt::format("{:.2f}", a.rms)});
+    std::vector<std::string> row{point.point};
+    for (const double value : {d.minimum, d.maximum, d.rms}) row.push_back(support::format_fixed(value, 4));
+    for (const double value : {a.minimum, a.maximum, a.rms}) row.push_back(support::format_fixed(value, 2));
+    points.add_row(row);
   }
   const TransientStatistics& transient = summary.transient;
   support::TextTable run({"quantity", "value"});
@@ -99,8 +109,9 @@ std::string format_summary(const Model& /*model*/, const RunSummary& summary) {
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
       if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
         warning = fmt::format("\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
-                              "asked for (at t = {:.3g} s); take more modes, or [adaptivity] enabled = true\n",
-                              name, shares, worst.time);
+                              "asked for (at t = {:.3g} s); take more modes{}\n",
+                              name, shares, worst.time,
+                              is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
       }
     }
   }

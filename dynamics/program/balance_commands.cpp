@@ -11,6 +11,7 @@ int equilibrium_command(const RunRequest& request, bool json) {
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
   const Model& model = prepared.balance_model;
   const BalanceReport report{model, prepared.vehicle, *prepared.equilibrium, prepared.assembly,
+                             prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle)};
   fmt::print("{}", json ? format_equilibrium_json(report) : format_equilibrium(report));
   return support::kGood;

@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -86,16 +87,84 @@ class Truck(VerificationCase):
         report = self.select("terrain", *overrides(mode_choice__tolerance=0, duration=2.0, statistics="{ from = 0, to = 2 }"))
         self.assertEqual(len(self.kept(report)), 36)
 
-    def test_what_a_long_run_cannot_look_at_is_kept(self):
-        # The longer the run, the lower the highest of the lines: those of a minute end below most modes.
-        report = self.select("bump", *overrides(duration=60.0, statistics="{ from = 0, to = 60 }"))
-        self.assertEqual(len(report["remarks"]), 1)
-        self.assertRegex(report["remarks"][0], r"^frequencies above .* are left out of the prediction: .* so that all modes above ")
-        limit = float(report["remarks"][0].split(" so that all modes above ")[1].split(" Hz")[0])
-        unjudged = [mode for mode in report["modes"] if mode["frequency"] > limit]
-        self.assertGreater(len(unjudged), 20)
-        for mode in unjudged:
-            self.assertEqual((mode["kept"], mode["reason"]), (True, "kept: beyond what the prediction looks at"))
+    def test_bump_run_has_the_peaks_of_the_full_basis(self):
+        tolerance = 0.01
+        full = self.run_truck("bump", "--set", 'modes.chassis="all"')
+        peaks = self.largest_values(full)
+        full.file.close()
+        auto = self.run_truck("bump", *AUTO)
+        kept = auto["model/mode_choice/kept"].sum()
+        self.assertLess(kept, 36)
+        self.assertGreater(kept, 8)
+        for name, peak in self.largest_values(auto).items():
+            with self.subTest(name):
+                self.assert_close(peak, peaks[name], relative=tolerance)
+
+    @staticmethod
+    def largest_values(results):
+        """Of all that the choice looks at: size of points' acceleration, reactions and forces."""
+        values = {f"points/{point}": results[f"points/{point}/acceleration"] for point in results.file["points"]}
+        for joint in results.file["joints"]:
+            values[f"joints/{joint}"] = results[f"joints/{joint}/reaction"][:, :2]
+        for force in results.file["forces"]:
+            values[f"forces/{force}"] = results[f"forces/{force}/force"][:, np.newaxis]
+        return {name: np.max(np.hypot.reduce(value, axis=1)) for name, value in values.items()}
+
+    def test_a_longer_run_over_the_same_bump_chooses_the_same(self):
+        short, long = (
+            self.select("bump", *overrides(duration=duration, statistics=f"{{ from = 0, to = {duration} }}"))
+            for duration in (5.0, 60.0)
+        )
+        self.assertEqual(self.kept(short), self.kept(long))
+        self.assertEqual(short["neglected"], long["neglected"])
+        # Its wheels fly, and that is said.
+        for report in (short, long):
+            self.assertEqual(len(report["remarks"]), 1)
+            self.assertRegex(report["remarks"][0], "'front_tyre' by .* times its standing force.*leave the ground")
+        slow = self.select("terrain", *overrides(speed=1.0))
+        self.assertEqual(slow["remarks"], [])
+
+    def test_without_motion_the_weight_alone_decides(self):
+        report = self.select("terrain", *overrides(speed=0))
+        self.assertEqual(report["remarks"], ["neither road nor forces in time move the vehicle: modes are judged by what "
+                                             "they do under the weight alone"])  # fmt: skip
+        self.assertGreater(len(self.kept(report)), 1)
+        for mode in report["modes"]:
+            self.assertLessEqual(mode["share"]["static"], 1.0)
+            self.assertEqual(mode["share"]["acceleration_rms"], 0.0)
+
+    def test_numbering_the_nodes_the_other_way_changes_nothing(self):
+        # The same chassis, numbered from its rear end: all of its modes are pairs, of which any turn would do.
+        design = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
+        lines = re.search(r"\[points\]\n(.*?)\n\n", design, re.DOTALL).group(1)  # nodes are numbered in this order
+        self.assertGreater(lines.count("\n"), 10)
+        (self.folder / "chassis.toml").write_text(
+            design.replace(lines, "\n".join(reversed(lines.split("\n")))), encoding="utf-8"
+        )
+        other = self.folder / "other"
+        subprocess.run([os.environ["SPRUNG_REDUCE"], "build", "chassis.toml", str(ROOT / "meshes/truck/long_arm.toml"),
+                        "--output-dir", str(other)], cwd=self.folder, capture_output=True, check=True)  # fmt: skip
+        with h5py.File(other / "chassis.h5", "r") as turned, h5py.File(f"{TRUCK_SUPERELEMENTS}/chassis.h5", "r") as straight:
+            numbers = [dict(zip(map(tuple, file["nodes/position"][:]), file["nodes/id"][:], strict=True)) for file in (straight, turned)]
+            self.assertEqual(numbers[0].keys(), numbers[1].keys())
+            self.assertNotEqual(*numbers)
+        reports, runs = [], []
+        for superelements in (TRUCK_SUPERELEMENTS, other):
+            reports.append(self.program("select-modes", TRUCK / "terrain.toml", *AUTO, superelements=superelements))
+            results = self.run_to_results(
+                TRUCK / "bump.toml",
+                # Into the bump at once: while all stands still modes are judged by rounding against rounding.
+                *overrides(adaptivity="{ enabled = true }", duration=0.8, statistics="{ from = 0, to = 0.8 }", road__start=0.01),
+                superelements=superelements)  # fmt: skip
+            runs.append((results["bodies/chassis/modal/active"], results["points/chassis.seat/acceleration"]))
+            results.file.close()
+        for mode, other_mode in zip(*(report["modes"] for report in reports), strict=True):
+            self.assertEqual(mode["kept"], other_mode["kept"])
+            for name, share in mode["share"].items():
+                self.assert_close(other_mode["share"][name], share, relative=1e-4, absolute=1e-9)
+        self.assertGreater(runs[0][0].sum(axis=1).max(), 2)
+        np.testing.assert_array_equal(runs[1][0], runs[0][0])
+        self.assert_close(runs[1][1], runs[0][1], absolute=1e-4 * np.max(np.abs(runs[0][1])))
 
     def test_says_why_all_are_kept_where_the_forcing_is_not_known(self):
         for setting, why in (

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sprung::support {
@@ -16,5 +18,10 @@ class TextTable {
  private:
   std::vector<std::vector<std::string>> rows_;  // the first is the header
 };
+
+/// A number with so many digits behind the point; what rounds to zero has no sign.
+std::string format_fixed(double value, int digits);
+/// "1 mode", "2 modes"
+std::string format_count(std::size_t count, std::string_view noun);
 
 }  // namespace sprung::support

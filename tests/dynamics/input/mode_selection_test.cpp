@@ -88,7 +88,7 @@ TEST_CASE("Damping ratios replace the superelement's, one for all modes or one f
 TEST_CASE("Damping ratios that fit no mode are refused") {
   const dynamics::ModeSelection three{{"frame", {1, 2, 4}}};
   CHECK(input_error_of([&] { damp("frame = [0.1, 0.2]", three); }) ==
-        "run.toml:2:9: error: 'modal_damping.frame' must be one ratio, or one for each of the 3 active "
+        "run.toml:2:9: error: 'modal_damping.frame' must be one ratio, or one for each of the 3 available "
         "modes; got 2");
   CHECK(input_error_of([&] { damp("frame = -0.1", three); }) ==
         "run.toml:2:9: error: 'modal_damping.frame' must be ≥ 0, got -0.1");

@@ -119,9 +119,9 @@ TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
   Eigen::VectorXd q = dynamics::make_start_positions(rigid, cart);
   CHECK(input_error_of([&] { dynamics::add_initial_amplitudes(read(kText), rigid, q); }) ==
         "runs/first.toml:31:1: error: 'initial.frame.modal_amplitude' must be one number for each of the 0 "
-        "active modes, got 2");
+        "available modes, got 2");
   CHECK(input_error_of([&] { dynamics::make_start_velocities(read(kText), cart, rigid); }) ==
-        "runs/first.toml:31:1: error: 'initial.frame.modal_rate' must be one number for each of the 0 active "
+        "runs/first.toml:31:1: error: 'initial.frame.modal_rate' must be one number for each of the 0 available "
         "modes, got 2");
   const dynamics::Run other = read(test::with_change(kText, "[initial.frame]", "[initial.frome]"));
   CHECK(
@@ -215,5 +215,5 @@ TEST_CASE("Output points that the vehicle lacks are refused") {
   CHECK(input_error_of([&] { dynamics::resolve_output_points(run, cart); }) ==
         "runs/first.toml:29:22: error: 'frame' has no point 'tob' (did you mean 'top'?)");
   CHECK(error_of("[\"arm.tip\", \"frame.top\", \"arm.tip\"]", "[]") ==
-        "runs/first.toml:29:10: error: 'output.points' must name at least one point \"body.point\"");
+        "runs/first.toml:29:10: error: 'output.points' must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
 }

@@ -102,6 +102,16 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
         "cart.toml:14:8: error: 'bodies.arm.mass' must be a finite number [kg], got nan");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 0.0") ==
         "cart.toml:15:11: error: 'bodies.arm.inertia' must be > 0 kg·m², got 0");
+  // Beyond all arithmetic, alone or beside the other body's 5 kg.
+  CHECK(error_of_cart("mass = 4.0", "mass = 1e308") ==
+        "cart.toml:14:8: error: 'bodies.arm.mass' must be ≥ 1e-30 and ≤ 1e+30 kg, got 1e+308");
+  CHECK(error_of_cart("inertia = 0.7", "inertia = 1e-320") ==
+        "cart.toml:15:11: error: 'bodies.arm.inertia' must be ≥ 1e-30 and ≤ 1e+30 kg·m², got 1e-320");
+  CHECK(error_of_cart("inertia = 0.7", "inertia = 7e19") ==
+        "cart.toml:15:11: error: 'bodies.arm.inertia' is 7e+19 kg·m², which for a mass of 4 kg is a radius of gyration of "
+        "4.1833e+09 m; expected 1e-09 to 1e+09 m");
+  CHECK(error_of_cart("mass = 4.0", "mass = 4e-25")
+            .starts_with("cart.toml:14:8: error: 'bodies.arm.mass' is 4e-25 kg, where half of the bodies have at least "));
   CHECK(error_of_cart("position = [3.5, 0.9]", "position = [inf, 0.9]") ==
         "cart.toml:16:13: error: 'bodies.arm.position.0' must be a finite number [m], got inf");
   CHECK(error_of_cart("free_length = 5.5", "free_length = 0.0") ==
