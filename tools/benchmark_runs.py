@@ -12,7 +12,7 @@ BASELINE = "baseline"  # dense equations under Dormand–Prince 5(4)
 METHODS = ("exponential", "adams", "bdf", "generalized-alpha")  # as in run files
 REFERENCE_METHOD, REFERENCE_TOLERANCE = "exponential", 1e-9
 LADDER = (
-    3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 3e-7, 1e-7,
+    1e-1, 5e-2, 3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 3e-7, 1e-7,
 )  # fmt: skip
 CONFIRMATIONS = 2  # finer rungs that have to be good enough too
 LONG_RUN, TOO_LONG_RUN = 0.5, 8.0  # s: not repeated; the method is given up
@@ -124,10 +124,11 @@ class Case:
         return Rung(tolerance, cost["evaluations"], cost["steps"], float(np.median(seconds)), errors)
 
     def climb(self, method, repetitions, ladder=LADDER, whole=False):
-        """Rungs from the loosest tolerance to the first that is good enough together with the next finer ones, so that
-        it is not so by chance (whole: to the last of the ladder), and that good one, None if none is. Runs that take too long end it."""
+        """Returns (rungs, good, first): the rungs from the loosest tolerance to the first that is good enough together
+        with the next finer ones, so that it is not so by chance (whole: to the last of the ladder); that good one;
+        the first that is good enough by itself. None where there is none. Runs that take too long end it."""
         rungs = []
-        good = None
+        good = first = None
         for tolerance in ladder:
             try:
                 rungs.append(self.measure(method, tolerance, repetitions))
@@ -135,12 +136,14 @@ class Case:
                 continue  # so loose that it could not go on
             if rungs[-1].seconds > TOO_LONG_RUN:
                 break
+            if first is None and rungs[-1].errors.allowed():
+                first = rungs[-1]
             last = rungs[-1 - CONFIRMATIONS :]
             if good is None and len(last) > CONFIRMATIONS and all(rung.errors.allowed() for rung in last):
                 good = last[0]
                 if not whole:
                     break
-        return rungs, good
+        return rungs, good, first
 
 
 def measure_evaluations(program, repetitions, min_time):
