@@ -46,7 +46,8 @@ double Bend::calc_doubt(double length) const {
 }
 
 Bends::Bends(Eigen::Index num_pairs, Eigen::Index num_quadratures) {
-  for (Bend& bend : bends_) bend.gain = {Eigen::VectorXd::Zero(2 * num_pairs), Eigen::VectorXd::Zero(num_quadratures)};
+  for (Bend& bend : bends_)
+    bend.gain = {Eigen::VectorXd::Zero(2 * num_pairs), Eigen::VectorXd::Zero(num_quadratures)};
 }
 
 bool Bends::find(const OdeSystem& system, const Eigen::MatrixXd& switches, SwitchSearch& search) {

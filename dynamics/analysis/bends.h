@@ -23,7 +23,8 @@ struct Bend {
   int switch_index = 0;
   int power_order = 1;         ///< of the shape, with which the rates of quadratures go
   double place = 0.0;          ///< θ
-  lobatto::NodeWeights shape;  ///< of the gain at the nodes of the step: the cubic through them is 0 at the place, 1 at the end
+  lobatto::NodeWeights shape;  ///< of the gain at the nodes of the step: the cubic through them is 0 at the
+                               ///< place, 1 at the end
   PairedMotion gain;           ///< at the end
 
   /// Adds what the gain does from the place to θ. @param propagator  for use within
@@ -31,7 +32,8 @@ struct Bend {
                     PairedMotion& motion) const;
   /// Adds the gain at θ, as though the formula had held all along.
   void add_gain(double theta, PairedMotion& drive) const;
-  /// What the power's course is not known better than, at the end, if it goes with the first power of the shape [rate · s].
+  /// What the power's course is not known better than, at the end, if it goes with the first power of the
+  /// shape [rate · s].
   double calc_doubt(double length) const;
 };
 
@@ -45,8 +47,8 @@ class Bends {
   /// @param switches  num_switches × 4, at the nodes
   /// @return false, and none, where something else than a few bends happens
   bool find(const OdeSystem& system, const Eigen::MatrixXd& switches, SwitchSearch& search);
-  /// One more from the place of the first on: a gain that grows with the square of the time, as a motion does which
-  /// the others cause. Not to be called twice.
+  /// One more from the place of the first on: a gain that grows with the square of the time, as a motion does
+  /// which the others cause. Not to be called twice.
   Bend& add_echo();
   void clear() { size_ = 0; }
 

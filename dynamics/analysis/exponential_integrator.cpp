@@ -19,10 +19,6 @@ using lobatto::node_polynomial;
 
 constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
 constexpr double kShortestStep = 1e-12;  // s
-// Place of a switch: late by this, at a tolerance of 1, a force that sets in wrongs the velocity by far less
-// than is allowed.
-constexpr double kSwitchTolerance = 1e-4;        // s
-constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr int kMaxSweeps = 6;
 constexpr double kIterationShare = 0.3;    // error of the iteration, of what is allowed
@@ -32,9 +28,6 @@ constexpr double kUselessContraction = 0.9;
 constexpr double kHopelessError =
     2.0;  // of what is allowed, at which a step is given up before its iteration ends
 constexpr int kFailuresBeforeLinearising = 3;
-
-constexpr double kBendShare = 1.0;   // error of a step that is carried through bends, of what is allowed
-constexpr double kLeastBendContraction = 0.1;
 
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
@@ -47,10 +40,6 @@ constexpr double kTruncationOfFirst =
 
 std::span<double> span_of(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
-}
-
-[[noreturn]] void throw_stopped(double time, const char* reason) {
-  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
 }
 
 }  // namespace
@@ -74,6 +63,10 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
+}
+
+void ExponentialIntegrator::throw_stopped(double time, const char* reason) {
+  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
 }
 
 void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
@@ -107,14 +100,10 @@ void ExponentialIntegrator::begin() {
   now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
-  if (!evaluate(time_, now_.motion, 0)) throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
+  if (!evaluate(time_, now_.motion, 0))
+    throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
   begin_switches(0);
   has_begun_ = true;
-}
-
-// What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
-void ExponentialIntegrator::begin_switches(int node) {
-  switches_.col(0) = switches_.col(node).cwiseMax(0.0);
 }
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
@@ -226,9 +215,10 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     now_.start = time_;
     now_.length = choose_length(longest_step);
     if (now_.length < kShortestStep) {
-      throw_stopped(time_,
-                    "the step has become too short; look at forces and positions just before that time, which "
-                    "may be a singular one");
+      throw_stopped(
+          time_,
+          "the step has become too short; look at forces and positions just before that time, which "
+          "may be a singular one");
     }
     if (now_.length != propagator_length_) {
       for (int i = 1; i < kNumNodes; ++i) {
@@ -264,7 +254,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 
-// now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true if a switch cut it off
+// now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true
+// if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
   now_.bends.clear();
   const bool switches = num_switches_ > 0 && crosses();
@@ -291,106 +282,13 @@ bool ExponentialIntegrator::finish_step() {
   return false;
 }
 
-bool ExponentialIntegrator::crosses() const {
-  for (int j = 1; j < kNumNodes; ++j) {
-    if (SwitchSearch::any_crosses(switches_.col(j - 1), switches_.col(j))) return true;
-  }
-  return false;
-}
-
-// The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn, and so on, each
-// time by about the same share: the second time is looked at where it counts. @return false where what is left is too much
-bool ExponentialIntegrator::find_gains() {
-  constexpr int kEnd = kNumNodes - 1;
-  const double end = now_.start + now_.length;
-  bend_response_.set_zero();
-  difference_.set_zero();
-  for (Bend& bend : now_.bends.all()) {
-    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_))) return false;
-    bend.gain.u.noalias() = basis_.inverse * y_dot_.head(2 * f_);
-    bend.gain.w = y_dot_.tail(num_quadratures_);
-    bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
-    difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
-  }
-  const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
-  const auto is_enough = [&](double size) {
-    return doubt + size * bend_contraction_ / (1.0 - bend_contraction_) <= kBendShare;
-  };
-  if (is_enough(first)) {
-    return system_.calc_switches(end, span_of(stage_y_), {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)});
-  }
-  between_motion_.u = end_.u + bend_response_.u;
-  between_motion_.w = end_.w + bend_response_.w;
-  to_physical(between_motion_, stage_y_);
-  if (!evaluate(end, between_motion_, kEnd)) return false;
-  difference_.u = now_.drive.pairs.col(kEnd) - end_drive_.u;
-  difference_.w = now_.drive.rates.col(kEnd) - end_drive_.w;
-  for (const Bend& bend : now_.bends.all()) {
-    difference_.u -= bend.gain.u;
-    difference_.w -= bend.gain.w;
-  }
-  Bend& echo = now_.bends.add_echo();
-  echo.gain = difference_;
-  difference_.set_zero();
-  echo.add_response(1.0, now_.length, basis_.blocks, between_, difference_);
-  bend_response_.u += difference_.u;
-  bend_response_.w += difference_.w;
-  const double second = calc_norm(difference_);
-  bend_contraction_ = std::clamp(second / first, kLeastBendContraction, kUselessContraction);
-  return is_enough(second);
-}
-
-// Carries now_ through forces that only bend in it. @return false, and nothing changed, where that will not do
-bool ExponentialIntegrator::pass_bends() {
-  if (!now_.bends.find(system_, switches_, switch_search_)) return false;
-  const auto num_bends = static_cast<long>(now_.bends.all().size());
-  now_.drive.get(kNumNodes - 1, end_drive_);
-  end_switches_ = switches_.col(kNumNodes - 1);
-  const bool good = find_gains();
-  now_.drive.set(kNumNodes - 1, end_drive_);
-  if (good) {
-    statistics_.bends += num_bends;
-  } else {
-    now_.bends.clear();
-    system_.take_back_passes();
-    switches_.col(kNumNodes - 1) = end_switches_;
-  }
-  return good;
-}
-
-// The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.
-void ExponentialIntegrator::locate_switch() {
-  int after = 1;
-  while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
-    ++after;
-  double place = 0.0;  // of between_motion_
-  const auto move_to = [&](double theta) {
-    place = theta;
-    between_.update(theta, now_.length, basis_.blocks);
-    now_.propagate(between_, basis_.blocks, between_motion_);
-    now_.add_quartic(between_, basis_.blocks, between_motion_);
-  };
-  const double tolerance =
-      std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)}) / now_.length;
-  const double theta =
-      switch_search_.locate(lobatto::nodes(), switches_, after, tolerance, [&](double at, Vector& values) {
-        move_to(at);
-        to_physical(between_motion_, stage_y_);
-        const double time = now_.start + at * now_.length;
-        if (!system_.calc_switches(time, span_of(stage_y_), span_of(values))) {
-          throw_stopped(time, "no positions can be found there");
-        }
-      });
-  time_ = now_.start + theta * now_.length;
-  if (theta != place) move_to(theta);
-}
-
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
   const double theta = (time - last_.start) / last_.length;
   between_.update(theta, last_.length, basis_.blocks);
   last_.propagate(between_, basis_.blocks, between_motion_);
   last_.add_quartic(between_, basis_.blocks, between_motion_);
-  for (const Bend& bend : last_.bends.all()) bend.add_response(theta, last_.length, basis_.blocks, between_, between_motion_);
+  for (const Bend& bend : last_.bends.all())
+    bend.add_response(theta, last_.length, basis_.blocks, between_, between_motion_);
   to_physical(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }

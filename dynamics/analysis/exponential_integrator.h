@@ -12,9 +12,9 @@ namespace sprung::dynamics {
 /// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
 /// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
 /// the step through its values at the four Lobatto points, found by iteration. So the step follows what
-/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Steps go on through forces that
-/// only bend. Nothing from before a switch is needed behind it: the step stays as long as it was. Source:
-/// variation of constants; [Hochbruck & Ostermann 2010] (dynamics/README.md, eqs. 51–56a).
+/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Steps go on through forces
+/// that only bend. Nothing from before a switch is needed behind it: the step stays as long as it was.
+/// Source: variation of constants; [Hochbruck & Ostermann 2010] (dynamics/README.md, eqs. 51–56a).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -31,6 +31,8 @@ class ExponentialIntegrator final : public Integrator {
  private:
   static constexpr int kNumNodes = lobatto::kNumNodes;
   using Vector = Eigen::VectorXd;
+
+  [[noreturn]] static void throw_stopped(double time, const char* reason);
 
   void linearise();
   void begin();

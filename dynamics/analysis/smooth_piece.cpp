@@ -13,7 +13,8 @@ constexpr std::size_t kMaxPhases = 5;
 }  // namespace
 
 SmoothPiece::SmoothPiece(const Model& model)
-    : model_(&model), phases_(kMaxPhases, {.branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))}) {
+    : model_(&model),
+      phases_(kMaxPhases, {.branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))}) {
   for (std::size_t i = 0; i < model.forces.size(); ++i) {
     for (int k = 0; k < model.forces[i]->num_switches(); ++k) switches_.push_back({i, k});
   }

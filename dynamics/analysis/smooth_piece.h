@@ -39,8 +39,9 @@ class SmoothPiece {
     std::size_t force;
     std::span<const int> from, to;
   };
-  /// From `time` on, the element of a switch uses the branches that hold at the state of the terms; branches() are those.
-  /// Called in order of time. @return none, and nothing changed, where it has done so since begin_step, or too many have
+  /// From `time` on, the element of a switch uses the branches that hold at the state of the terms;
+  /// branches() are those. Called in order of time. @return none, and nothing changed, where it has done so
+  /// since begin_step, or too many have
   std::optional<Pass> pass(int switch_index, double time, const SystemTerms& terms);
   void take_back_passes() { num_phases_ = 1, now_ = 0; }
   /// branches() become those of a time since begin_step.
@@ -50,8 +51,8 @@ class SmoothPiece {
   /// Longest step that no force element and no prescribed motion would regret, at the state of the terms [s].
   double calc_longest_step(const SystemTerms& terms) const;
 
-  /// The next break in time of a function of time after `time`, infinite where there is none; pieces too short to be
-  /// integrated are passed over. From now on that is where the piece ends.
+  /// The next break in time of a function of time after `time`, infinite where there is none; pieces too
+  /// short to be integrated are passed over. From now on that is where the piece ends.
   double update_next_break(double time);
   /// The time to evaluate at for `time`: at the break itself a hair before it, so that the formula that ends
   /// there is used up to its end.
@@ -68,7 +69,9 @@ class SmoothPiece {
     return std::span(branches).subspan(static_cast<std::size_t>(model_->force_branches[force]),
                                        static_cast<std::size_t>(model_->forces[force]->num_branches()));
   }
-  std::span<const int> branches_of(std::size_t force) const { return own_branches(force, phases_[now_].branches); }
+  std::span<const int> branches_of(std::size_t force) const {
+    return own_branches(force, phases_[now_].branches);
+  }
 
   const Model* model_;
   std::vector<Phase> phases_;  // since begin_step, in order of time: the first num_phases_ of them

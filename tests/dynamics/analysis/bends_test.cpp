@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "dynamics/analysis/integrator.h"
+#include "dynamics/analysis/transient.h"
 #include "tests/catch.h"
+#include "tests/dynamics/small_models.h"
 
 using namespace sprung;
 using dynamics::Integrator;
@@ -61,7 +63,8 @@ class TwoRates final : public dynamics::OdeSystem {
   void calc_error_scales(std::span<const double> /*y*/, std::span<double> scales) const override {
     std::fill(scales.begin(), scales.end(), 1.0);
   }
-  bool calc_small_motion(double /*time*/, std::span<const double> /*y*/, dynamics::SmallMotion& motion) override {
+  bool calc_small_motion(double /*time*/, std::span<const double> /*y*/,
+                         dynamics::SmallMotion& motion) override {
     motion.mass = Eigen::MatrixXd::Identity(1, 1);
     motion.damping = 0.3 * Eigen::MatrixXd::Identity(1, 1);
     motion.stiffness = 0.8 * Eigen::MatrixXd::Identity(1, 1);
@@ -168,4 +171,44 @@ TEST_CASE("A bend that cannot be passed is located", "[analysis]") {
   CHECK(outcome.num_located == 6);
   CHECK(outcome.statistics.bends == 0);
   CHECK(outcome.worst_within < 3e-3);
+}
+
+TEST_CASE("Outputs on either side of a bend within a step show the force that acts there", "[analysis]") {
+  // The same motion as a body of 1 kg on a spring-damper of 1 N/m, drawn 1 m up. What the spring-damper does
+  // is found from the acceleration.
+  using dynamics::PiecewisePolynomial;
+  dynamics::Model model;
+  const int body = test::add_body(model, dynamics::make_rigid_body("body", 1.0, 1.0));
+  dynamics::SpringDamper::Parameters parameters{
+      .marker_a = test::add_marker(model, dynamics::kGround, {0.0, -10.0}),
+      .marker_b = test::add_marker(model, body, {0.0, 0.0}),
+      .free_length = 10.0,
+      .spring = PiecewisePolynomial(std::vector<double>{0.0, 1.0}),
+      .damper = PiecewisePolynomial::from_pieces({0.0}, {{0.0, kAbove}, {0.0, kBelow}})};
+  model.forces.push_back(std::make_unique<dynamics::SpringDamper>("suspension", parameters));
+  dynamics::number_model(model);
+  for (const double tolerance : {1e-3, 1e-5}) {
+    INFO("tolerance " << tolerance);
+    double worst = 0.0, worst_closure = 0.0;
+    dynamics::TransientOptions options;
+    options.end_time = 20.0;
+    options.output_step = 0.02;
+    options.integrator.relative_tolerance = tolerance;
+    options.on_output = [&](const dynamics::Snapshot& snapshot) {
+      const auto [x, v] = calc_swing(snapshot.time);
+      const double acceleration = -x - (v > 0.0 ? kAbove : kBelow) * v;
+      worst = std::max({worst, std::abs(snapshot.q[1] - x), std::abs(snapshot.v[1] - v),
+                        std::abs(snapshot.v_dot[1] - acceleration)});
+      worst_closure =
+          std::max(worst_closure, std::abs(snapshot.energy.stored.total() + snapshot.energy.dissipated -
+                                           snapshot.energy.input - 0.5));
+    };
+    const dynamics::State start =
+        test::make_state(model, Eigen::Vector3d(0.0, 1.0, 0.0), Eigen::Vector3d::Zero());
+    const dynamics::TransientStatistics statistics = dynamics::run_transient(model, start, options);
+    CHECK(statistics.switches == 6);
+    CHECK(statistics.stepper.integrator.bends >= 5);
+    CHECK(worst < 3.0 * tolerance);
+    CHECK(worst_closure < tolerance);
+  }
 }

@@ -111,3 +111,54 @@ TEST_CASE("The fast and the plain evaluator agree on general states of the flexi
     }
   }
 }
+
+TEST_CASE("A force that goes over to another formula changes all as evaluating anew would", "[truck]") {
+  const dynamics::Vehicle vehicle = test::read_truck();
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 40.0, .height = 0.05});
+  const dynamics::Model model = test::make_truck(vehicle, 4, {&road, -1.0, 1.0});
+  test::RandomNumbers random(8);
+  const VectorXd q = test::assemble_truck(model, vehicle), v = random_change(model, random, 3.0, 1.0);
+  dynamics::PartitionedEquations changed(model), anew(model);
+  std::vector<double> q_i, v_i;
+  for (dynamics::PartitionedEquations* equations : {&changed, &anew}) {
+    equations->choose_partition_at(0.0, q);
+    q_i.clear(), v_i.clear();
+    for (const int i : equations->partition().independent) q_i.push_back(q[i]), v_i.push_back(v[i]);
+    REQUIRE(equations->update_positions(0.0, q_i) == dynamics::PartitionedEquations::Outcome::kGood);
+    equations->update_velocities(v_i);
+  }
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  changed.terms().choose_branches(branches);
+  changed.update_accelerations(branches);
+  const auto loads_of = [&](const dynamics::PartitionedEquations& equations) {
+    std::vector<dynamics::Wrench> loads(model.markers.size());
+    equations.terms().calc_loads(equations.multipliers(), loads);
+    VectorXd numbers(3 * static_cast<Index>(loads.size()));
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      numbers.segment<3>(3 * static_cast<Index>(i)) << loads[i].force, loads[i].torque;
+    return numbers;
+  };
+  int num_changed = 0;
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    if (model.forces[f]->kind() == "tyre") continue;
+    INFO(model.forces[f]->name);
+    const auto first = static_cast<std::size_t>(model.force_branches[f]);
+    const std::vector<int> from{branches[first], branches[first + 1]}, to{from[0], 1 - from[1]};
+    branches[first + 1] = to[1];
+    const VectorXd before = changed.v_dot();
+    const dynamics::Power old_power = changed.terms().power();
+    const dynamics::Power power = changed.change_branches(f, from, to);
+    anew.update_accelerations(branches);
+    const double size = anew.v_dot().norm();
+    CHECK((anew.v_dot() - before).norm() > 1e-3 * size);
+    CHECK((changed.v_dot() - anew.v_dot()).norm() < 1e-11 * size);
+    CHECK((changed.change_of_v_dot() - (anew.v_dot() - before)).norm() < 1e-11 * size);
+    CHECK((changed.multipliers() - anew.multipliers()).norm() < 1e-11 * anew.multipliers().norm());
+    CHECK((loads_of(changed) - loads_of(anew)).norm() < 1e-11 * loads_of(anew).norm());
+    CHECK(changed.terms().power().dissipated == Approx(anew.terms().power().dissipated).epsilon(1e-11));
+    CHECK(old_power.dissipated + power.dissipated == Approx(anew.terms().power().dissipated).epsilon(1e-11));
+    ++num_changed;
+  }
+  CHECK(num_changed >= 2);
+}

@@ -1,0 +1,128 @@
+// Switches within a step of the exponential method: carried through where forces bend, else located.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/analysis/exponential_integrator.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Place of a switch: late by this, at a tolerance of 1, a force that sets in wrongs the velocity by far less
+// than is allowed.
+constexpr double kSwitchTolerance = 1e-4;        // s
+constexpr double kLeastSwitchTolerance = 1e-12;  // s
+
+constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
+constexpr double kLeastBendContraction = 0.1, kLargestBendContraction = 0.9;
+
+std::span<double> span_of(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
+}  // namespace
+
+// What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
+void ExponentialIntegrator::begin_switches(int node) {
+  switches_.col(0) = switches_.col(node).cwiseMax(0.0);
+}
+
+bool ExponentialIntegrator::crosses() const {
+  for (int j = 1; j < kNumNodes; ++j) {
+    if (SwitchSearch::any_crosses(switches_.col(j - 1), switches_.col(j))) return true;
+  }
+  return false;
+}
+
+// The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn,
+// and so on, each time by about the same share: the second time is looked at where it counts. @return false
+// where what is left is too much
+bool ExponentialIntegrator::find_gains() {
+  constexpr int kEnd = kNumNodes - 1;
+  const double end = now_.start + now_.length;
+  bend_response_.set_zero();
+  difference_.set_zero();
+  for (Bend& bend : now_.bends.all()) {
+    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_)))
+      return false;
+    bend.gain.u.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+    bend.gain.w = y_dot_.tail(num_quadratures_);
+    bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
+    difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
+  }
+  const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
+  const auto is_enough = [&](double size) {
+    return doubt + size * bend_contraction_ / (1.0 - bend_contraction_) <= kBendShare;
+  };
+  if (is_enough(first)) {
+    return system_.calc_switches(end, span_of(stage_y_),
+                                 {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)});
+  }
+  between_motion_.u = end_.u + bend_response_.u;
+  between_motion_.w = end_.w + bend_response_.w;
+  to_physical(between_motion_, stage_y_);
+  if (!evaluate(end, between_motion_, kEnd)) return false;
+  difference_.u = now_.drive.pairs.col(kEnd) - end_drive_.u;
+  difference_.w = now_.drive.rates.col(kEnd) - end_drive_.w;
+  for (const Bend& bend : now_.bends.all()) {
+    difference_.u -= bend.gain.u;
+    difference_.w -= bend.gain.w;
+  }
+  Bend& echo = now_.bends.add_echo();
+  echo.gain = difference_;
+  difference_.set_zero();
+  echo.add_response(1.0, now_.length, basis_.blocks, between_, difference_);
+  bend_response_.u += difference_.u;
+  bend_response_.w += difference_.w;
+  const double second = calc_norm(difference_);
+  bend_contraction_ = std::clamp(second / first, kLeastBendContraction, kLargestBendContraction);
+  return is_enough(second);
+}
+
+// Carries now_ through forces that only bend in it. @return false, and nothing changed, where that will not
+// do
+bool ExponentialIntegrator::pass_bends() {
+  if (!now_.bends.find(system_, switches_, switch_search_)) return false;
+  const auto num_bends = static_cast<long>(now_.bends.all().size());
+  now_.drive.get(kNumNodes - 1, end_drive_);
+  end_switches_ = switches_.col(kNumNodes - 1);
+  const bool good = find_gains();
+  now_.drive.set(kNumNodes - 1, end_drive_);
+  if (good) {
+    statistics_.bends += num_bends;
+  } else {
+    now_.bends.clear();
+    system_.take_back_passes();
+    switches_.col(kNumNodes - 1) = end_switches_;
+  }
+  return good;
+}
+
+// The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.
+void ExponentialIntegrator::locate_switch() {
+  int after = 1;
+  while (after < kNumNodes && !SwitchSearch::any_crosses(switches_.col(after - 1), switches_.col(after)))
+    ++after;
+  double place = 0.0;  // of between_motion_
+  const auto move_to = [&](double theta) {
+    place = theta;
+    between_.update(theta, now_.length, basis_.blocks);
+    now_.propagate(between_, basis_.blocks, between_motion_);
+    now_.add_quartic(between_, basis_.blocks, between_motion_);
+  };
+  const double tolerance =
+      std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)}) / now_.length;
+  const double theta =
+      switch_search_.locate(lobatto::nodes(), switches_, after, tolerance, [&](double at, Vector& values) {
+        move_to(at);
+        to_physical(between_motion_, stage_y_);
+        const double time = now_.start + at * now_.length;
+        if (!system_.calc_switches(time, span_of(stage_y_), span_of(values))) {
+          throw_stopped(time, "no positions can be found there");
+        }
+      });
+  time_ = now_.start + theta * now_.length;
+  if (theta != place) move_to(theta);
+}
+
+}  // namespace sprung::dynamics
