@@ -150,9 +150,9 @@ Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::
 }
 
 // On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one evaluation, where the
-// stiffness costs four for each freedom. @return positions
+// stiffness costs four for each freedom. @return positions   @param[in,out] steps  taken
 Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
-                                        const ModalForce& modal, const SteadyMotion& motion, double last_size) {
+                                        const ModalForce& modal, const SteadyMotion& motion, double last_size, int& steps) {
   while (last_size > kTolerance) {
     Eigen::VectorXd q_i = select_independent(system, equations.q());
     const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
@@ -162,6 +162,7 @@ Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations
     if (!(size < kFastFall * last_size)) break;
     q_i += step;
     if (calc_static_force(equations, 0.0, q_i, nullptr, motion).size() == 0) break;
+    ++steps;
     last_size = size;
   }
   return equations.q();
@@ -191,7 +192,6 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     last_step = newton_step;
     if (!modal.is_falling && (newton_step <= kTolerance || is_rounding)) {
       equilibrium.last_step = newton_step;
-      equilibrium.iterations = iteration;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
         if (modal.is_neutral[static_cast<std::size_t>(k)]) {
           equilibrium.neutral.push_back(describe(model, system.directions * modal.V.col(k)));
@@ -206,8 +206,9 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     }
     if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
     equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q), motion, damping);
+    ++equilibrium.iterations;
     if (damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
-      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step);
+      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step, equilibrium.iterations);
     }
   }
 }

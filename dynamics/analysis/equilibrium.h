@@ -21,7 +21,7 @@ struct Equilibrium {
   Eigen::VectorXd q;                       ///< num_coordinates
   std::vector<NeutralDirection> neutral;   ///< held at their start value
   double last_step = 0.0;                  ///< size of the last Newton step [natural sizes]
-  int iterations = 0;
+  int iterations = 0;                      ///< steps taken, each with a new stiffness or the one before
   bool stable = true;                      ///< no direction with negative stiffness
   SteadyMotion motion;                     ///< in which it is one; rest in static balance
   LinearisedSystem linearised;             ///< about it

@@ -62,6 +62,7 @@ void push(Model& model, int marker, double force, double start, double end) {
 struct Run {
   std::vector<double> time, tip;  // acceleration of the turning beam's tip along its normal [m/s²]
   std::vector<double> joinings, leavings;
+  std::vector<int> num_active;  // modes of both, at each output
 };
 
 // The beam turns; another one, bent at once, says what is a large deflection.
@@ -70,6 +71,7 @@ struct Turning {
   Beam beam, other;
   std::vector<bool> left_out;  // modes of the turning beam at the start
   double duration = 1.0;
+  double drop = -1.0;  // none leaves, not even at rest
 
   explicit Turning(std::vector<bool> modes_left_out) : left_out(std::move(modes_left_out)) {
     beam = add_beam(model, "beam", {0.0, 0.0}, true);
@@ -81,7 +83,7 @@ struct Turning {
     Run run;
     dynamics::AdaptivityOptions adaptivity;
     adaptivity.full = &model;
-    adaptivity.drop = -1.0;  // none leaves, not even at rest
+    adaptivity.drop = drop;
     adaptivity.points = {beam.tip};
     adaptivity.active.assign(static_cast<std::size_t>(model.num_coordinates), true);
     const int first = model.bodies[static_cast<std::size_t>(beam.body)].first_coordinate;
@@ -92,12 +94,13 @@ struct Turning {
     if (adaptive) options.adaptivity = adaptivity;
     options.on_output = [&](const dynamics::Snapshot& now) {
       run.time.push_back(now.time);
+      if (now.modes) run.num_active.push_back(now.modes->num_active_modes());
       const double angle = now.q[first + 2];
       const Eigen::Vector2d a = now.calc_acceleration(static_cast<std::size_t>(beam.tip));
       run.tip.push_back(-std::sin(angle) * a.x() + std::cos(angle) * a.y());
     };
     options.on_event = [&](const dynamics::Event& event) {
-      if (event.kind != "modes" || !event.object.starts_with("beam.")) return;
+      if (event.kind != "modes") return;
       (event.text.starts_with("joins") ? run.joinings : run.leavings).push_back(event.time);
     };
     Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates), v = q;
@@ -136,6 +139,24 @@ TEST_CASE("A mode lower than those that are active joins without ringing, by its
     // much.
     const double largest = kSpin * kSpin * 1.0;  // acceleration of the tip, 1 m from the pin
     CHECK(largest_difference(full, adaptive, 0.0) < 1.3 * 0.1 * 0.08 * largest);
+  }
+}
+
+TEST_CASE("How many modes are active at an output is what the events have told until then", "[adaptivity]") {
+  Turning turning(std::vector<bool>(kNumModes, false));
+  turning.drop = 0.02;
+  push(turning.model, turning.beam.tip, 5.0, 0.1, 0.3);
+  dynamics::number_model(turning.model);
+  const Run run = turning.drive(true);
+  const auto count = [](const std::vector<double>& times, double until) {
+    return static_cast<int>(std::count_if(times.begin(), times.end(), [&](double t) { return t < until; }));
+  };
+  CHECK(run.leavings.size() >= 4);
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    INFO("at " << run.time[i] << " s");
+    const int before = 2 * kNumModes + count(run.joinings, run.time[i] - 1e-9) - count(run.leavings, run.time[i] - 1e-9);
+    const int after = 2 * kNumModes + count(run.joinings, run.time[i] + 1e-9) - count(run.leavings, run.time[i] + 1e-9);
+    if (before == after) REQUIRE(run.num_active[i] == after);  // at the very instant either is right
   }
 }
 
