@@ -63,6 +63,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
+  end_switches_ = Vector::Zero(num_switches_);
 }
 
 void ExponentialIntegrator::throw_stopped(double time, const char* reason) {
