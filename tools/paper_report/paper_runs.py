@@ -281,17 +281,25 @@ def list_timed_main_runs():
     return [run._replace(overrides=run.overrides + NOT_WATCHED) for run in runs]
 
 
+def name_start(run_name):
+    """Of the part of a run before its first step."""
+    return f"{run_name}, start"
+
+
 def measure_costs(programs, folder, runs, repeats=REPEATS, report=print):
     """Processor time of runs [s]: dict of run name → median. Of those of one name the first is measured.
 
-    No results are written. The runs take turns, so that whatever else the machine does hits all of them alike.
+    No results are written. The runs take turns, so that whatever else the machine does hits all of them alike. Under
+    name_start(run name) stands what goes by before the first step: that of a dry run.
     """
     named = {run.name: run for run in reversed(runs)}
-    times = {name: [] for name in named}
+    times = {name: [] for run_name in named for name in (run_name, name_start(run_name))}
     for turn in range(repeats):
         report(f"timing, round {turn + 1} of {repeats}")
         for name, run in named.items():
-            times[name].append(measure_processor_time(make_command(programs, run, folder)))
+            command = make_command(programs, run, folder)
+            times[name].append(measure_processor_time(command))
+            times[name_start(name)].append(measure_processor_time([*command, "--dry-run"]))
     return {name: statistics.median(values) for name, values in times.items()}
 
 
