@@ -34,9 +34,9 @@ void PartitionedStepper::resume(double end_time) {
 // A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is
 // seen to grow bad: beyond it no position can be found. Another partition goes on from there.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
+  ode_.piece().begin_step();
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
   ode_.mark_motion();
-  ode_.piece().begin_step();
   try {
     return integrator_->step(longest_step);
   } catch (const support::NumericalError&) {
