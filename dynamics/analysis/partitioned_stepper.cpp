@@ -27,6 +27,7 @@ void PartitionedStepper::start(const State& state) {
 
 void PartitionedStepper::resume(double end_time) {
   end_time_ = end_time;
+  ode_.piece().set_branches(ode_.piece().branches());
   integrator_->start(evaluated_time_, y_, end_time_);
   is_running_ = true;
 }
