@@ -249,9 +249,12 @@ void AdaptiveStepper::let_modes_go() {
   evaluate(rest);
   motion_->take(leg_->held, equations());
   const std::vector<int> leaving = modes_->find_stoppable(idle_, motion_->v());
-  if (leaving.empty()) return;
   modes_->go_back(memory_);
   watch(rest);
+  if (leaving.empty()) {
+    leg_->stepper->resume(end_time_);
+    return;
+  }
   modes_->deactivate(leaving);
   HeldModes held = motion_->hold(modes_->active(), rest);
   EnergyFlow flow = energy_flow();
