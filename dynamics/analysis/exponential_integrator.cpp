@@ -27,7 +27,9 @@ constexpr double kLeastContraction = 0.02;
 constexpr double kUselessContraction = 0.9;
 constexpr double kHopelessError =
     2.0;  // of what is allowed, at which a step is given up before its iteration ends
-constexpr int kFailuresBeforeLinearising = 3;
+// The oscillators may be those of a state long past: iterations that fail, or are slow step after step, tell.
+constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
+constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
 
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
@@ -58,7 +60,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
   end_ = difference_ = between_motion_ = now_.motion;
-  end_drive_ = bend_response_ = now_.motion;
+  end_drive_ = bend_response_ = doubt_ = now_.motion;
   stages_.fill(now_.motion);
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
@@ -93,6 +95,7 @@ void ExponentialIntegrator::linearise() {
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
+  failures_ = 0.0;
   propagator_length_ = 0.0;
   past_ = Past::kNone;
 }
@@ -212,7 +215,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   scales_ *= tolerance_;
 
   double factor = 1.0;
-  for (int failures = 0;;) {
+  while (true) {
     now_.start = time_;
     now_.length = choose_length(longest_step);
     if (now_.length < kShortestStep) {
@@ -233,8 +236,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
       contraction_ = kFirstContraction;
       past_ = Past::kNone;
       next_length_ = 0.5 * now_.length;
-      // The oscillators may be those of a state long past.
-      if (++failures == kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
+      failures_ += 1.0;
+      if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
         linearise();
         begin();
       }
@@ -249,6 +252,9 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     next_length_ = std::min(factor, 0.9) * now_.length;
   }
   ++statistics_.steps;
+  failures_ *= kFailureMemory;
+  if (contraction_ > kSlowContraction) failures_ += kSlowness;
+  if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) wants_linearisation_ = true;
   if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
   if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
   if (finish_step()) return StepResult::kSwitched;

@@ -43,6 +43,7 @@ class ExponentialIntegrator final : public Integrator {
   double calc_truncation();
   bool finish_step();
   bool crosses() const;
+  bool is_undisturbed(double place);
   bool find_gains();
   bool pass_bends();
   void begin_switches(int node);
@@ -60,6 +61,7 @@ class ExponentialIntegrator final : public Integrator {
   int version_ = 0;  // of the coordinates that it is for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
+  double failures_ = 0.0;        // of the iteration, those of earlier steps counting less and less
 
   double time_ = 0.0, end_time_ = 0.0;
   double next_length_ = 0.0;
@@ -77,7 +79,7 @@ class ExponentialIntegrator final : public Integrator {
   Eigen::MatrixXd switches_;  // num_switches × 4
   SwitchSearch switch_search_;
 
-  PairedMotion end_, difference_, end_drive_, bend_response_;
+  PairedMotion end_, difference_, end_drive_, bend_response_, doubt_;
   Vector end_switches_;
   Vector y_dot_, scales_, stage_y_, difference_y_;
   mutable LobattoPropagator between_;

@@ -14,6 +14,7 @@ constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
+constexpr double kDisturbance = 10.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
 constexpr double kLeastBendContraction = 0.1, kLargestBendContraction = 0.9;
 
 std::span<double> span_of(Eigen::VectorXd& x) {
@@ -34,6 +35,16 @@ bool ExponentialIntegrator::crosses() const {
   return false;
 }
 
+// Whether the bends before a place do next to nothing up to there: only then is it where it seems to be, and may what is
+// called for in turn be found at the end alone.
+bool ExponentialIntegrator::is_undisturbed(double place) {
+  difference_.set_zero();
+  for (const Bend& bend : now_.bends.all()) {
+    bend.add_response(place, now_.length, basis_.blocks, between_, difference_);
+  }
+  return calc_norm(difference_) <= kDisturbance;
+}
+
 // The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn,
 // and so on, each time by about the same share: the second time is looked at where it counts. @return false
 // where what is left is too much
@@ -41,27 +52,31 @@ bool ExponentialIntegrator::find_gains() {
   constexpr int kEnd = kNumNodes - 1;
   const double end = now_.start + now_.length;
   bend_response_.set_zero();
-  difference_.set_zero();
+  doubt_.set_zero();
   for (Bend& bend : now_.bends.all()) {
+    if (&bend != now_.bends.all().data() && !is_undisturbed(bend.place)) return false;
     if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_)))
       return false;
     bend.gain.u.noalias() = basis_.inverse * y_dot_.head(2 * f_);
     bend.gain.w = y_dot_.tail(num_quadratures_);
     bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
-    difference_.w += bend.calc_doubt(now_.length) * bend.gain.w;
+    doubt_.w += bend.calc_doubt(now_.length) * bend.gain.w;
   }
-  const double doubt = calc_norm(difference_), first = calc_norm(bend_response_);
+  const double doubt = calc_norm(doubt_), first = calc_norm(bend_response_);
   const auto is_enough = [&](double size) {
     return doubt + size * bend_contraction_ / (1.0 - bend_contraction_) <= kBendShare;
   };
+  // All that has been passed to has to hold at the end.
+  const auto holds = [&] { return switches_.col(kEnd).minCoeff() >= 0.0; };
   if (is_enough(first)) {
     return system_.calc_switches(end, span_of(stage_y_),
-                                 {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)});
+                                 {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)}) &&
+           holds();
   }
   between_motion_.u = end_.u + bend_response_.u;
   between_motion_.w = end_.w + bend_response_.w;
   to_physical(between_motion_, stage_y_);
-  if (!evaluate(end, between_motion_, kEnd)) return false;
+  if (!evaluate(end, between_motion_, kEnd) || !holds()) return false;
   difference_.u = now_.drive.pairs.col(kEnd) - end_drive_.u;
   difference_.w = now_.drive.rates.col(kEnd) - end_drive_.w;
   for (const Bend& bend : now_.bends.all()) {

@@ -35,9 +35,9 @@ class OdeSystem {
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// How f goes through the zero of a switch function.
   virtual Passage passage(int /*switch_index*/) const { return Passage::kJump; }
-  /// From `time` on, calc_derivative uses the formulas that a switch function asks for at the arguments that it was
-  /// called with last. Called in order of time.
-  /// @param[out] change  of ẏ there
+  /// From `time` on, calc_derivative uses the formulas next to the present ones, beyond a switch function that is none
+  /// of a jump. Called in order of time.
+  /// @param[out] change  of ẏ, at the arguments that calc_derivative was called with last
   /// @return false, and nothing changed, where that cannot be
   virtual bool pass(int /*switch_index*/, double /*time*/, std::span<double> /*change*/) { return false; }
   /// Back to the formulas from before the first `pass` of this step.

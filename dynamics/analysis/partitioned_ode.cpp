@@ -125,9 +125,15 @@ bool PartitionedOde::calc_switches(double time, std::span<const double> y, std::
   return true;
 }
 
+// The power of a prescribed motion bends with the force, wherever the force's own is at rest.
+Passage PartitionedOde::passage(int switch_index) const {
+  const Passage passage = piece_.passage(switch_index);
+  return passage == Passage::kBendAtRest && model_->has_motions ? Passage::kBend : passage;
+}
+
 bool PartitionedOde::pass(int switch_index, double time, std::span<double> change) {
   if (accelerated_time_ != evaluated_time_) return false;  // nor if they are not numbers
-  const auto pass = piece_.pass(switch_index, time, equations_.terms());
+  const auto pass = piece_.pass(switch_index, time);
   if (!pass) return false;
   const double motion_power = equations_.calc_motion_power();
   const Power power = equations_.change_branches(pass->force, pass->from, pass->to);

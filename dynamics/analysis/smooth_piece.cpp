@@ -53,8 +53,8 @@ Passage SmoothPiece::passage(int switch_index) const {
   return model_->forces[one.force]->passage(one.index, branches_of(one.force));
 }
 
-std::optional<SmoothPiece::Pass> SmoothPiece::pass(int switch_index, double time, const SystemTerms& terms) {
-  const std::size_t force = switches_[static_cast<std::size_t>(switch_index)].force;
+std::optional<SmoothPiece::Pass> SmoothPiece::pass(int switch_index, double time) {
+  const auto [force, index] = switches_[static_cast<std::size_t>(switch_index)];
   for (std::size_t k = 1; k < num_phases_; ++k) {
     if (phases_[k].passed_force == force) return {};
   }
@@ -64,7 +64,7 @@ std::optional<SmoothPiece::Pass> SmoothPiece::pass(int switch_index, double time
   last.end = time;
   next.branches = last.branches;
   next.passed_force = force;
-  model_->forces[force]->choose_branches(terms.instant(), own_branches(force, next.branches));
+  model_->forces[force]->go_beyond(index, own_branches(force, next.branches));
   now_ = num_phases_++;
   return Pass{force, own_branches(force, std::as_const(last.branches)), branches_of(force)};
 }

@@ -103,6 +103,10 @@ Passage PointContactTyre::passage(int switch_index, std::span<const int> /*branc
   return switch_index == 1 ? Passage::kBend : Passage::kJump;
 }
 
+void PointContactTyre::go_beyond(int /*switch_index*/, std::span<int> branches) const {
+  branches[0] = branches[0] == kPressed ? kTouching : kPressed;
+}
+
 std::string PointContactTyre::describe_change(std::span<const int> old_branches,
                                               std::span<const int> new_branches) const {
   const bool was_on_ground = old_branches[0] != kInAir;

@@ -57,6 +57,14 @@ Passage RotationalSpringDamper::passage(int switch_index, std::span<const int> b
   return Passage::kBend;
 }
 
+void RotationalSpringDamper::go_beyond(int switch_index, std::span<int> branches) const {
+  const int of_damper = switch_index - parameters_.spring.num_switches();
+  if (of_damper < 0)
+    branches[0] += switch_index == 0 ? -1 : 1;
+  else
+    branches[1] += of_damper == 0 ? -1 : 1;
+}
+
 std::span<const Channel> RotationalSpringDamper::channels() const {
   static constexpr std::array<Channel, 4> kChannels{
       {{"angle", "rad"}, {"deflection", "rad"}, {"rate", "rad/s"}, {"torque", "N m"}}};

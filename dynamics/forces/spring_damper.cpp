@@ -70,6 +70,14 @@ Passage SpringDamper::passage(int switch_index, std::span<const int> branches) c
   return Passage::kBend;
 }
 
+void SpringDamper::go_beyond(int switch_index, std::span<int> branches) const {
+  const int of_damper = switch_index - parameters_.spring.num_switches();
+  if (of_damper < 0)
+    branches[0] += switch_index == 0 ? -1 : 1;
+  else
+    branches[1] += of_damper == 0 ? -1 : 1;
+}
+
 std::span<const Channel> SpringDamper::channels() const {
   static constexpr std::array<Channel, 4> kChannels{
       {{"length", "m"}, {"deflection", "m"}, {"rate", "m/s"}, {"force", "N"}}};

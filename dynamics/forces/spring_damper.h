@@ -32,6 +32,7 @@ class SpringDamper final : public ForceElement {
     return parameters_.spring.num_switches() + parameters_.damper.num_switches();
   }
   Passage passage(int switch_index, std::span<const int> branches) const override;
+  void go_beyond(int switch_index, std::span<int> branches) const override;
   void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
 
   std::span<const Channel> channels() const override;

@@ -126,5 +126,82 @@ rebound_stop = { deflection = -0.1, rate = 5.0e4 }
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+DRIVEN = """
+name = "one mass over a base"
+gravity = [0.0, -9.80665]
+[bodies.mass]
+mass = 100.0
+inertia = 1.0
+position = [0.0, 1.0]
+[bodies.base]
+mass = 1.0
+inertia = 1.0
+position = [0.0, 0.0]
+[[joints]]
+name = "guide"
+type = "translational"
+a = "ground.origin"
+b = "mass.origin"
+axis = [0.0, 1.0]
+[[joints]]
+name = "drive"
+type = "translational"
+a = "ground.origin"
+b = "base.origin"
+axis = [0.0, 1.0]
+[[motions]]
+name = "road"
+joint = "drive"
+function = {{ harmonic = {{ amplitude = 0.05, frequency = 2.0 }} }}
+[[forces]]
+name = "suspension"
+type = "spring-damper"
+a = "base.origin"
+b = "mass.origin"
+free_length = 1.05
+spring = {{ polynomial = [0.0, 2.0e4] }}
+damper = {damper}
+"""
+RUN = 'start = "as-given"\nduration = 2.0\noutput_step = 1e-3\n[integrator]\nrelative_tolerance = {tolerance:g}\n'
+
+
+class BendingForces(VerificationCase):
+    """Forces that bend within a step, through which the default method goes."""
+
+    def test_the_energy_of_a_prescribed_motion_closes_with_the_tolerance(self):
+        for tolerance in (1e-3, 1e-4, 1e-6, 1e-8):
+            with self.subTest(tolerance=tolerance):
+                results = self.run_text(
+                    DRIVEN.format(damper="{ compression = 300.0, rebound = 1500.0 }"), RUN.format(tolerance=tolerance)
+                )
+                self.assertGreaterEqual(results.summary["switches"], 8)
+                self.assertLess(results.summary["energy_closure"], tolerance)
+
+    def test_outputs_show_the_piece_of_a_table_that_holds(self):
+        # Six pieces, each of them passed within a few ms: steps meet several of them.
+        rates = np.array([-1.0, -0.1, -0.02, 0.0, 0.03, 0.2, 1.0])
+        forces = np.array([-900.0, -400.0, -250.0, 0.0, 80.0, 200.0, 500.0])
+        table = ", ".join(f"[{x}, {y}]" for x, y in zip(rates, forces))
+        for tolerance in (1e-2, 1e-3, 1e-4, 1e-6):
+            with self.subTest(tolerance=tolerance):
+                results = self.run_text(DRIVEN.format(damper=f"{{ table = [{table}] }}"), RUN.format(tolerance=tolerance))
+                self.assertGreaterEqual(results.summary["switches"], 40)
+                length = results["bodies/mass/position"][:, 1] - results["bodies/base/position"][:, 1]
+                rate = results["bodies/base/velocity"][:, 1] - results["bodies/mass/velocity"][:, 1]
+                force = 2e4 * (1.05 - length) + np.interp(rate, rates, forces)
+                acceleration = results["points/mass.origin/acceleration"][:, 1]
+                # Within a step the place of a bend is known as well as the motion is.
+                self.assert_close(acceleration, force / 100.0 - 9.80665, absolute=max(1e-9, 3.0 * tolerance))
+
+    def test_a_damper_stiff_on_one_side_does_not_bind_the_steps(self):
+        # Rebound at 1e6 N·s/m holds the mass for seconds; soft is where the run starts.
+        results = self.run_text(
+            DRIVEN.format(damper="{ compression = 300.0, rebound = 1.0e6 }").replace("amplitude = 0.05", "amplitude = 0.0"),
+            RUN.format(tolerance=1e-6),
+        )
+        self.assertLess(results.summary["evaluations"], 2000)
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
 if __name__ == "__main__":
     unittest.main()
