@@ -14,7 +14,7 @@ constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
-constexpr double kDisturbance = 10.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
+constexpr double kDisturbance = 5.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
 constexpr double kLeastBendContraction = 0.1, kLargestBendContraction = 0.9;
 
 std::span<double> span_of(Eigen::VectorXd& x) {
