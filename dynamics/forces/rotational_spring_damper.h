@@ -2,6 +2,7 @@
 
 #include "dynamics/forces/force_element.h"
 #include "dynamics/forces/piecewise_polynomial.h"
+#include "dynamics/forces/spring_and_damper.h"
 
 namespace sprung::dynamics {
 
@@ -30,11 +31,13 @@ class RotationalSpringDamper final : public ForceElement {
   /// Branches: pieces of spring and damper. Switches: the ends of both, where they have any.
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
-  int num_switches() const override {
-    return parameters_.spring.num_switches() + parameters_.damper.num_switches();
+  int num_switches() const override { return laws().num_switches(); }
+  Passage passage(int switch_index, std::span<const int> branches) const override {
+    return laws().passage(switch_index, branches);
   }
-  Passage passage(int switch_index, std::span<const int> branches) const override;
-  void go_beyond(int switch_index, std::span<int> branches) const override;
+  void go_beyond(int switch_index, std::span<int> branches) const override {
+    laws().go_beyond(switch_index, branches);
+  }
   void calc_switches(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const override;
 
@@ -48,6 +51,7 @@ class RotationalSpringDamper final : public ForceElement {
     double rate;  // ḋ
   };
   Twist calc_twist(const Instant& instant) const;
+  SpringAndDamper laws() const { return {parameters_.spring, parameters_.damper}; }
   Parameters parameters_;
 };
 

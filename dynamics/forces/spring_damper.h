@@ -2,20 +2,22 @@
 
 #include "dynamics/forces/force_element.h"
 #include "dynamics/forces/piecewise_polynomial.h"
+#include "dynamics/forces/spring_and_damper.h"
 
 namespace sprung::dynamics {
 
-/// Spring and damper along the line between two markers (dynamics/README.md, eq. 9). Deflection d = free length −
-/// length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart when positive.
+/// Spring and damper along the line between two markers (dynamics/README.md, eq. 9). Deflection d = free
+/// length − length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart
+/// when positive.
 class SpringDamper final : public ForceElement {
  public:
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
-    double free_length = 0.0;        ///< > 0 [m]
-    double multiplicity = 1.0;       ///< how many of them act side by side, > 0
-    PiecewisePolynomial spring;      ///< F(d) [N], with its stops
-    PiecewisePolynomial damper;      ///< F(ḋ) [N]
+    double free_length = 0.0;    ///< > 0 [m]
+    double multiplicity = 1.0;   ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;  ///< F(d) [N], with its stops
+    PiecewisePolynomial damper;  ///< F(ḋ) [N]
   };
   SpringDamper(std::string element_name, Parameters parameters)
       : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
@@ -23,24 +25,30 @@ class SpringDamper final : public ForceElement {
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "spring-damper"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
-  Power add_wrenches(const Instant& instant, std::span<const int> branches, std::span<Wrench> wrenches) const override;
+  Power add_wrenches(const Instant& instant, std::span<const int> branches,
+                     std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
   /// Branches: pieces of spring and damper. Switches: the ends of both, where they have any.
   int num_branches() const override { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const override;
-  int num_switches() const override {
-    return parameters_.spring.num_switches() + parameters_.damper.num_switches();
+  int num_switches() const override { return laws().num_switches(); }
+  Passage passage(int switch_index, std::span<const int> branches) const override {
+    return laws().passage(switch_index, branches);
   }
-  Passage passage(int switch_index, std::span<const int> branches) const override;
-  void go_beyond(int switch_index, std::span<int> branches) const override;
-  void calc_switches(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void go_beyond(int switch_index, std::span<int> branches) const override {
+    laws().go_beyond(switch_index, branches);
+  }
+  void calc_switches(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
   std::span<const Channel> channels() const override;
-  void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const override;
+  void calc_channels(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const override;
 
  private:
   struct Line;
   Line calc_line(const Instant& instant) const;
+  SpringAndDamper laws() const { return {parameters_.spring, parameters_.damper}; }
   Parameters parameters_;
 };
 
