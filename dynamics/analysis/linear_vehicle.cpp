@@ -117,8 +117,8 @@ Eigen::MatrixXd calc_marker_jacobian(const SystemTerms& terms, int marker) {
   jacobian.block<2, 2>(0, first).setIdentity();
   jacobian.block<2, 1>(0, first + 2) = state.r_theta;
   jacobian(2, first + 2) = 1.0;
-  jacobian.block(0, first + 3, 2, body.num_modes()) = state.r_eta;
-  jacobian.block(2, first + 3, 1, body.num_modes()) = point.Phi_rotation;
+  jacobian.block(0, first + 3, 2, body.num_modes()) = state.r_eta();
+  jacobian.block(2, first + 3, 1, body.num_modes()) = state.Phi.row(2);
   return jacobian;
 }
 

@@ -30,7 +30,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
     for (const Marker& marker : full.markers) {
       if (marker.body == kGround) continue;
       const int k = coordinate - full.bodies[static_cast<std::size_t>(marker.body)].first_coordinate - 3;
-      if (k >= 0 && k < marker.Phi.cols()) largest = std::max(largest, marker.Phi.col(k).norm());
+      if (k >= 0 && k < marker.Phi.cols()) largest = std::max(largest, marker.Phi.col(k).head<2>().norm());
     }
     bending_.push_back(largest);
   }
@@ -66,7 +66,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
       const MarkerState& state = terms.markers()[static_cast<std::size_t>(i)];
       motion.block<2, 2>(0, body.first_coordinate).setIdentity();
       motion.col(body.first_coordinate + 2) = state.r_theta;
-      motion.middleCols(body.first_coordinate + 3, body.num_modes()) = state.r_eta;
+      motion.middleCols(body.first_coordinate + 3, body.num_modes()) = state.r_eta();
     }
     point_motion_.push_back(motion);
     point_states_.push_back(terms.markers()[static_cast<std::size_t>(i)]);
@@ -91,7 +91,7 @@ void ModeIndicator::stack_shapes() {
     const auto rows = static_cast<Eigen::Index>(2 * markers.size());
     shapes_.emplace_back(rows, markers.empty() ? 0 : full_->bodies[b].num_modes());
     for (std::size_t i = 0; i < markers.size(); ++i) {
-      shapes_.back().middleRows<2>(2 * static_cast<Eigen::Index>(i)) = markers[i]->Phi;
+      shapes_.back().middleRows<2>(2 * static_cast<Eigen::Index>(i)) = markers[i]->Phi.topRows<2>();
     }
     most = std::max(most, rows);
   }
@@ -262,8 +262,8 @@ void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::Vect
     const Body& body = full_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
     const FrameRotation rotation = FrameRotation::from_angle(q[first + 2]);
-    calc_marker_position(marker, rotation, q.segment(first, size), point_states_[i]);
-    calc_marker_velocity(marker, rotation, v.segment(first, size), point_states_[i]);
+    calc_marker_position(marker, rotation, q.data() + first, point_states_[i]);
+    calc_marker_velocity(marker, v.data() + first, point_states_[i]);
     const double acceleration = calc_marker_acceleration(point_states_[i], v_dot.segment(first, size)).norm();
     largest_acceleration_[i] = std::max(largest_acceleration_[i], acceleration);
   }

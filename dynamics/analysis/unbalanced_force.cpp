@@ -50,7 +50,7 @@ void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lamb
       const Wrench& load = loads_[static_cast<std::size_t>(i)];
       const Eigen::Vector2d force = rotation.transposed_times(load.force);
       for (Eigen::Index k = 0; k < n; ++k) {
-        r[k] += marker.Phi(0, k) * force.x() + marker.Phi(1, k) * force.y() + marker.Phi_rotation[k] * load.torque;
+        r[k] += marker.Phi(0, k) * force.x() + marker.Phi(1, k) * force.y() + marker.Phi(2, k) * load.torque;
       }
     }
   }

@@ -6,18 +6,18 @@ namespace sprung::dynamics {
 
 FrameRotation FrameRotation::from_angle(double theta) { return {std::cos(theta), std::sin(theta)}; }
 
-void FrameRotation::turn_to(double theta, double before) {
-  const double turn = theta - before, square = turn * turn;
-  constexpr double kSmall = 2e-3;  // rad: terms left out are below 1e-18
-  if (!(std::abs(turn) < kSmall)) {
-    *this = from_angle(theta);
-    return;
+FrameRotation NearbyRotation::at(double theta) {
+  const double turn = theta - kept_angle_, square = turn * turn;
+  constexpr double kNearby = 0.03;  // rad: what the series leave out is below 1e-18
+  if (!(std::abs(turn) < kNearby)) {
+    kept_angle_ = theta;
+    kept_ = FrameRotation::from_angle(theta);
+    return kept_;
   }
-  const double turn_sine = turn * (1.0 - square / 6.0 * (1.0 - square / 20.0));
-  const double versine = 0.5 * square * (1.0 - square / 12.0);  // 1 − cos
-  const double last_cosine = cosine;
-  cosine -= versine * cosine + turn_sine * sine;
-  sine += turn_sine * last_cosine - versine * sine;
+  const double turn_sine = turn * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
+  const double versine = 0.5 * square * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)));
+  return {kept_.cosine - (versine * kept_.cosine + turn_sine * kept_.sine),
+          kept_.sine + (turn_sine * kept_.cosine - versine * kept_.sine)};
 }
 
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta) {
@@ -28,10 +28,16 @@ Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen
 
 void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta,
                       Eigen::Ref<Eigen::MatrixXd> mass) {
-  const int n = body.num_modes();
-  const Eigen::Vector2d M_R_theta = rotation * turned(calc_first_moment(body, eta));
   mass(0, 0) = mass(1, 1) = body.mass;
   mass(0, 1) = mass(1, 0) = 0.0;
+  mass.bottomRightCorner(body.num_modes(), body.num_modes()) = body.M_ff;
+  update_mass_matrix(body, rotation, eta, mass);
+}
+
+void update_mass_matrix(const Body& body, const FrameRotation& rotation,
+                        const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass) {
+  const int n = body.num_modes();
+  const Eigen::Vector2d M_R_theta = rotation * turned(calc_first_moment(body, eta));
   mass(0, 2) = mass(2, 0) = M_R_theta.x();
   mass(1, 2) = mass(2, 1) = M_R_theta.y();
   double inertia = body.second_moment;
@@ -44,7 +50,6 @@ void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eig
     for (int i = 0; i < n; ++i) {
       M_theta_eta += eta[i] * body.B(i, j);
       M_tt_eta += body.M_tt(i, j) * eta[i];
-      mass(3 + i, 3 + j) = body.M_ff(i, j);
     }
     mass(2, 3 + j) = mass(3 + j, 2) = M_theta_eta;
     inertia += (2.0 * body.d[j] + M_tt_eta) * eta[j];

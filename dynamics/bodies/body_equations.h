@@ -12,15 +12,23 @@ struct FrameRotation {
   double sine = 0.0;
 
   static FrameRotation from_angle(double theta);
-  /// From angle `before` to `theta`; a small way by the series of sine and cosine, exact to rounding. Rounding adds
-  /// up over many such turns: for a few in a row, as in an iteration.
-  void turn_to(double theta, double before);
   Eigen::Vector2d operator*(const Eigen::Vector2d& p_B) const {  ///< A p
     return {cosine * p_B.x() - sine * p_B.y(), sine * p_B.x() + cosine * p_B.y()};
   }
   Eigen::Vector2d transposed_times(const Eigen::Vector2d& p_W) const {  ///< Aᵀ p
     return {cosine * p_W.x() + sine * p_W.y(), -sine * p_W.x() + cosine * p_W.y()};
   }
+};
+
+/// The rotation of a frame whose angle is asked for again and again nearby: sine and cosine there come from those at
+/// an angle that is kept, by their series, exact to rounding.
+class NearbyRotation {
+ public:
+  FrameRotation at(double theta);
+
+ private:
+  double kept_angle_ = 0.0;
+  FrameRotation kept_;
 };
 
 /// S p: p turned by +90°.
@@ -33,6 +41,10 @@ inline Eigen::Vector2d turned(const Eigen::Vector2d& p) { return {-p.y(), p.x()}
 /// Source: [Shabana 2013], §5.4, with the invariants of the superelement
 void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta,
                       Eigen::Ref<Eigen::MatrixXd> mass);
+
+/// The same where mass holds that of another state of the body: what no state changes is left as it stands.
+void update_mass_matrix(const Body& body, const FrameRotation& rotation,
+                        const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
 /// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (dynamics/README.md, eq. 4)
 ///

@@ -32,24 +32,25 @@ class BodyMass {
     }
   }
 
-  /// A row G of a Jacobian made ready for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
+  /// Two rows G of a Jacobian made ready for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
   ///
   ///     U = (Y, G_f),   V = (Y C⁻¹, G_f M_ff⁻¹)
   ///
-  /// @param G     3+n values
-  /// @param U, V  3+n values each at every other place, written
-  void reduce_row(const double* G, double* U, double* V) const {
-    double y[3] = {G[0], G[1], G[2]};
-    if (W_.cols() > 0) reduce_modal_part(G + 3, y, U + 6, V + 6);
-    for (int i = 0; i < 3; ++i) {
-      U[2 * i] = y[i];
-      V[2 * i] = C_inverse_(i, 0) * y[0] + C_inverse_(i, 1) * y[1] + C_inverse_(i, 2) * y[2];
+  /// @param upper, lower  3+n values each, the rows
+  /// @param U, V          3+n columns each, written
+  void reduce_rows(const double* upper, const double* lower, Eigen::Vector2d* U, Eigen::Vector2d* V) const {
+    for (int i = 0; i < 3; ++i) U[i] = {upper[i], lower[i]};
+    if (constant_) {
+      for (int i = 0; i < 3; ++i) V[i] = C_inverse_(i, i) * U[i];
+      return;
     }
+    if (W_.cols() > 0) reduce_modal_part(upper + 3, lower + 3, U, V);
+    for (int i = 0; i < 3; ++i) V[i] = U[0] * C_inverse_(0, i) + U[1] * C_inverse_(1, i) + U[2] * C_inverse_(2, i);
   }
 
  private:
   void solve_coupled(double* x) const;
-  void reduce_modal_part(const double* G_f, double* y, double* U, double* V) const;
+  void reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U, Eigen::Vector2d* V) const;
 
   const Body* body_;
   bool constant_;

@@ -17,25 +17,41 @@ struct Marker {
   int body = kGround;
   Eigen::Vector2d p_BP = Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
   double alpha_BP = 0.0;               ///< undeformed angle against the body's axes [rad]
-  Eigen::Matrix2Xd Phi;                ///< displacement per unit modal coordinate, body axes, 2×n [m]
-  Eigen::RowVectorXd Phi_rotation;     ///< rotation per unit modal coordinate, 1×n [rad]
+  Eigen::Matrix3Xd Phi;  ///< displacement and rotation per unit modal coordinate, body axes, 3×n [m, m, rad]
   SecondOrder K;                       ///< of the point where its body stiffens, else empty
 
   bool has_second_order() const { return K[0].size() > 0; }
 };
 
 /// Motion of a marker, world axes; what joints and forces see of the vehicle. What is read together stands
-/// together.
-struct MarkerState {
+/// together, in a cache line: places and velocities, then what accelerations and gradients need.
+struct alignas(64) MarkerState {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();        ///< position [m]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
   double angle = 0.0;                                 ///< θ + Φ_rotation η, and of second order [rad]
   double omega = 0.0;                                 ///< angular velocity [rad/s]
   Eigen::Vector2d v = Eigen::Vector2d::Zero();        ///< velocity [m/s]
   Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
-  Eigen::Matrix2Xd r_eta;                             ///< ∂r/∂η, 2×n [m]
-  Eigen::RowVectorXd angle_eta;                       ///< ∂angle/∂η, 1×n [rad]
   double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
+  FrameRotation rotation;                             ///< A of its body, where that has modes
+  Eigen::Matrix3Xd Phi;                               ///< ∂(Aᵀr, angle)/∂η, 3×n, body axes [m, m, rad]
+
+  /// ∂r/∂η, 2×n [m]
+  Eigen::Matrix2Xd r_eta() const;
+};
+
+/// What multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of a joint's Jacobian.
+struct MarkerRow {
+  double x, y, angle;
+
+  /// (x, y, angle) ∂(r, angle)/∂θ
+  double by_theta(const MarkerState& state) const { return x * state.r_theta.x() + y * state.r_theta.y() + angle; }
+  /// The same in the axes of the marker's body.
+  MarkerRow in_body(const FrameRotation& A) const {
+    return {A.cosine * x + A.sine * y, A.cosine * y - A.sine * x, angle};
+  }
+  /// In the axes of the body: (x, y, angle) times a column of MarkerState::Phi.
+  double by_mode(const double* shape) const { return x * shape[0] + y * shape[1] + angle * shape[2]; }
 };
 
 /// A marker's state with room for its gradients; of a marker on the ground, which stays so, its position too.
@@ -47,10 +63,9 @@ Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<co
 
 /// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and their
 /// gradients; to the acceleration while q̈ = 0.
-void add_second_order_position(const Marker& marker, const FrameRotation& rotation,
-                               const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Vector2d& u, MarkerState& state);
-void add_second_order_bias(const Marker& marker, const FrameRotation& rotation,
-                           const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state);
+void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Vector2d& u,
+                               MarkerState& state);
+void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state);
 
 /// Position of a marker that is at u in its body, as it is deformed, and the gradient of that by the body's
 /// angle.
@@ -77,34 +92,45 @@ inline void move_with_body(const double* v, MarkerState& state) {
 /// Position-level part of a marker's state.                                       (dynamics/README.md, eqs. 1, 41)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
-inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation,
-                                 const Eigen::Ref<const Eigen::VectorXd>& q, MarkerState& state) {
-  Eigen::Vector2d u = marker.p_BP;
-  state.angle = q[2] + marker.alpha_BP;
-  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
-    const Eigen::Vector2d shape = marker.Phi.col(k);
-    u += shape * q[3 + k];
-    state.angle += marker.Phi_rotation[k] * q[3 + k];
-    state.angle_eta[k] = marker.Phi_rotation[k];
-    state.r_eta.col(k) = rotation * shape;
+inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
+                                 MarkerState& state) {
+  const Eigen::Index n = marker.Phi.cols();
+  const double* eta = q + 3;
+  const double* shape = marker.Phi.data();
+  double x = marker.p_BP.x(), y = marker.p_BP.y(), turn = 0.0;
+  for (Eigen::Index k = 0; k < n; ++k, shape += 3) {
+    x += shape[0] * eta[k];
+    y += shape[1] * eta[k];
+    turn += shape[2] * eta[k];
   }
-  if (marker.has_second_order()) add_second_order_position(marker, rotation, q.tail(marker.Phi.cols()), u, state);
-  place_in_body(u, rotation, q.data(), state);
+  state.rotation = rotation;
+  state.angle = q[2] + marker.alpha_BP + turn;
+  Eigen::Vector2d u(x, y);
+  if (marker.has_second_order()) {
+    add_second_order_position(marker, Eigen::Map<const Eigen::VectorXd>(eta, n), u, state);
+  }
+  place_in_body(u, rotation, q, state);
 }
 
 /// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)
 /// @param v  the body's 3+n velocities
-inline void calc_marker_velocity(const Marker& marker, const FrameRotation& rotation,
-                                 const Eigen::Ref<const Eigen::VectorXd>& v, MarkerState& state) {
-  Eigen::Vector2d bending = Eigen::Vector2d::Zero();  // A u̇
-  state.omega = v[2];
-  for (Eigen::Index k = 0; k < marker.Phi.cols(); ++k) {
-    bending += state.r_eta.col(k) * v[3 + k];
-    state.omega += state.angle_eta[k] * v[3 + k];
+inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
+  const Eigen::Index n = marker.Phi.cols();
+  const double* eta_dot = v + 3;
+  const double* shape = state.Phi.data();
+  double x = 0.0, y = 0.0, turn = 0.0;  // u̇, and the rotation that goes with it
+  for (Eigen::Index k = 0; k < n; ++k, shape += 3) {
+    x += shape[0] * eta_dot[k];
+    y += shape[1] * eta_dot[k];
+    turn += shape[2] * eta_dot[k];
   }
-  state.v = v.head<2>() + state.r_theta * v[2] + bending;
-  state.a_bias = v[2] * turned(state.r_theta * v[2] + 2.0 * bending);
-  if (marker.has_second_order()) add_second_order_bias(marker, rotation, v.tail(marker.Phi.cols()), state);
+  const FrameRotation& A = state.rotation;
+  const double bending_x = A.cosine * x - A.sine * y, bending_y = A.sine * x + A.cosine * y;
+  const double across_x = state.r_theta.x() * v[2], across_y = state.r_theta.y() * v[2];
+  state.omega = v[2] + turn;
+  state.v = {v[0] + across_x + bending_x, v[1] + across_y + bending_y};
+  state.a_bias = {-v[2] * (across_y + 2.0 * bending_y), v[2] * (across_x + 2.0 * bending_x)};
+  if (marker.has_second_order()) add_second_order_bias(marker, Eigen::Map<const Eigen::VectorXd>(eta_dot, n), state);
 }
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].

@@ -67,21 +67,19 @@ Marker make_marker(const Vehicle& vehicle, const VehiclePoint& point, const std:
   marker.name = point.name;
   marker.body = point.body;
   marker.p_BP = point.p_BP;
-  marker.Phi = Eigen::Matrix2Xd::Zero(2, num_modes);
-  marker.Phi_rotation = Eigen::RowVectorXd::Zero(num_modes);
+  marker.Phi = Eigen::Matrix3Xd::Zero(3, num_modes);
   if (num_modes == 0) return marker;
   const std::size_t b = static_cast<std::size_t>(point.body);
   const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[b]);
   if (bodies[b].stiffening) marker.K = make_second_order(superelement, point, bodies[b]);
-  if (point.kind == VehiclePoint::Kind::kCenterOfMass) marker.Phi = bodies[b].P / bodies[b].mass;
+  if (point.kind == VehiclePoint::Kind::kCenterOfMass) marker.Phi.topRows<2>() = bodies[b].P / bodies[b].mass;
   if (point.kind != VehiclePoint::Kind::kNode) return marker;
   const Eigen::MatrixXd& shapes = superelement.shapes;
   for (int k = 0; k < num_modes; ++k) {
     const int column = bodies[b].mode_numbers[static_cast<std::size_t>(k)] - 1;
     const Eigen::Vector3d shape = shapes.block<3, 1>(3 * point.node, column);
     // The offset turns with the node: u = φ + (S o) φ_rotation.
-    marker.Phi.col(k) = shape.head<2>() + turned(point.offset) * shape[2];
-    marker.Phi_rotation[k] = shape[2];
+    marker.Phi.col(k) << shape.head<2>() + turned(point.offset) * shape[2], shape[2];
   }
   return marker;
 }

@@ -46,11 +46,10 @@ Elimination eliminate_by_degree(int num_nodes, const std::vector<std::pair<int, 
 // A diagonal block [a b; b c] as its own factors: 1/a, b/a in both other places, and 1/(c − b²/a).
 // @return false where it is not positive definite
 bool factorise_diagonal(Eigen::Matrix2d& block) {
-  const double inverse = 1.0 / block(0, 0), lower = block(1, 0) * inverse;
-  const double left = block(1, 1) - lower * block(1, 0);
-  const bool positive = block(0, 0) > 0.0 && left > 0.0;
-  block << inverse, lower, lower, 1.0 / left;
-  return positive;
+  const double a = block(0, 0), b = block(1, 0), determinant = a * block(1, 1) - b * b;
+  const double inverse = 1.0 / a, lower = b * inverse;
+  block << inverse, lower, lower, a / determinant;  // two divisions that do not wait for each other
+  return a > 0.0 && determinant > 0.0;
 }
 
 // (x, y) ← D⁻¹ (x, y) for two numbers or two columns, by the factors of D.
@@ -118,27 +117,25 @@ bool BlockCholesky::factorise() {
   return positive;
 }
 
-void BlockCholesky::solve(double* x) const {
-  using Pair = Eigen::Map<Eigen::Vector2d>;
+void BlockCholesky::solve(Eigen::Vector2d* x) const {
   const Eigen::Matrix2d* blocks = blocks_.data();
   const int* rows = rows_.data();
   const int* first = first_.data();
   for (int k = 0; k < num_nodes_; ++k) {
-    const double upper = x[2 * k], lower = x[2 * k + 1];
+    const double upper = x[k].x(), lower = x[k].y();
     for (int i = first[k] + 1; i < first[k + 1]; ++i) {
-      Pair(x + 2 * rows[i]) -= blocks[i].col(0) * upper + blocks[i].col(1) * lower;
+      x[rows[i]] -= blocks[i].col(0) * upper + blocks[i].col(1) * lower;
     }
   }
   for (int k = num_nodes_ - 1; k >= 0; --k) {
-    double upper = x[2 * k], lower = x[2 * k + 1];
+    double upper = x[k].x(), lower = x[k].y();
     solve_diagonal(blocks[first[k]], upper, lower);
     for (int i = first[k] + 1; i < first[k + 1]; ++i) {
-      const double* other = x + 2 * rows[i];
-      upper -= blocks[i](0, 0) * other[0] + blocks[i](1, 0) * other[1];
-      lower -= blocks[i](0, 1) * other[0] + blocks[i](1, 1) * other[1];
+      const Eigen::Vector2d& other = x[rows[i]];
+      upper -= blocks[i](0, 0) * other.x() + blocks[i](1, 0) * other.y();
+      lower -= blocks[i](0, 1) * other.x() + blocks[i](1, 1) * other.y();
     }
-    x[2 * k] = upper;
-    x[2 * k + 1] = lower;
+    x[k] = {upper, lower};
   }
 }
 

@@ -26,8 +26,8 @@ class BlockCholesky {
 
   /// @return false where the matrix is not positive definite
   bool factorise();
-  /// x ← A⁻¹ x.  @param x  two values of each node, in the order of elimination
-  void solve(double* x) const;
+  /// x ← A⁻¹ x.  @param x  of each node, in the order of elimination
+  void solve(Eigen::Vector2d* x) const;
   int num_factor_entries() const { return 4 * static_cast<int>(rows_.size()); }
 
  private:

@@ -86,10 +86,10 @@ HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, cons
     if (marker.body == kGround) continue;
     const Split& split = splits[static_cast<std::size_t>(marker.body)];
     Marker& held = model.markers.back();
-    held.p_BP += marker.Phi(Eigen::all, split.held) * split.eta;
-    held.alpha_BP += marker.Phi_rotation(split.held).dot(split.eta);
+    const Eigen::Vector3d bent = marker.Phi(Eigen::all, split.held) * split.eta;
+    held.p_BP += bent.head<2>();
+    held.alpha_BP += bent[2];
     held.Phi = marker.Phi(Eigen::all, split.active);
-    held.Phi_rotation = marker.Phi_rotation(split.active);
   }
   model.joints = full.joints;
   model.forces = full.forces;

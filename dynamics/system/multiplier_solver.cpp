@@ -1,6 +1,7 @@
 #include "dynamics/system/multiplier_solver.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace sprung::dynamics {
@@ -51,54 +52,55 @@ Nodes make_nodes(const std::vector<Block>& blocks, int num_constraints) {
 
 }  // namespace
 
-// What a node has on a body: two rows of U_ and V_.
-struct MultiplierSolver::Member {
-  int node;
-  std::size_t value;
-};
-
 MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constraints) {
   const std::vector<Block>& blocks = jacobian.blocks();
   const Nodes all = make_nodes(blocks, num_constraints);
-  std::vector<std::vector<Member>> members;  // of each part
   std::vector<std::pair<int, int>> couplings;
   const std::vector<std::vector<std::size_t>> groups = group_by_body(blocks);
   for (std::size_t body = 0; body < groups.size(); ++body) {
     if (groups[body].empty()) continue;
     const int num_columns = blocks[groups[body].front()].num_columns;
-    parts_.push_back({.body = body, .num_columns = num_columns, .first_row = rows_.size()});
-    members.emplace_back();
+    BodyPart& part = parts_.emplace_back(
+        BodyPart{.body = body, .num_columns = num_columns, .first_member = members_.size()});
     for (const std::size_t k : groups[body]) {
       for (int i = 0; i < blocks[k].num_rows; ++i) {
         const Place& place = all.places[static_cast<std::size_t>(blocks[k].row + i)];
-        if (place.row == 0) {
-          members.back().push_back({place.node, U_.size()});
-          U_.resize(U_.size() + 2 * static_cast<std::size_t>(num_columns), 0.0);
+        if (place.row == 1) {
+          members_.back().num_rows = 2;
+          continue;
         }
-        rows_.push_back({.source = blocks[k].offset + static_cast<std::size_t>(i * num_columns),
-                         .value = members.back().back().value + static_cast<std::size_t>(place.row)});
+        members_.push_back({.node = place.node,
+                            .num_rows = 1,
+                            .source = blocks[k].offset + static_cast<std::size_t>(i * num_columns),
+                            .value = U_.size()});
+        U_.resize(U_.size() + static_cast<std::size_t>(num_columns), Eigen::Vector2d::Zero());
       }
     }
-    parts_.back().last_row = rows_.size();
-    for (const Member& p : members.back()) {
-      for (const Member& q : members.back()) couplings.emplace_back(p.node, q.node);
+    part.last_member = members_.size();
+    for (std::size_t p = part.first_member; p < part.last_member; ++p) {
+      for (std::size_t q = part.first_member; q < part.last_member; ++q)
+        couplings.emplace_back(members_[p].node, members_[q].node);
     }
+    no_row_.resize(std::max(no_row_.size(), static_cast<std::size_t>(num_columns)), 0.0);
   }
-  V_.resize(U_.size(), 0.0);
+  V_ = U_;
   const int num_nodes = static_cast<int>(all.num_rows.size());
   factor_ = BlockCholesky(num_nodes, couplings);
-  for (std::size_t k = 0; k < parts_.size(); ++k) list_products(members[k], parts_[k]);
+  for (BodyPart& part : parts_) list_products(part);
   for (int node = 0; node < num_nodes; ++node) {
     if (all.num_rows[static_cast<std::size_t>(node)] == 1) lone_.push_back(factor_.place(node, node));
   }
-  for (const Place& place : all.places) {
-    places_.push_back(static_cast<std::size_t>(2 * factor_.step(place.node) + place.row));
+  constraints_.resize(all.num_rows.size(), {-1, -1});
+  for (std::size_t i = 0; i < all.places.size(); ++i) {
+    auto& [upper, lower] = constraints_[static_cast<std::size_t>(factor_.step(all.places[i].node))];
+    (all.places[i].row == 0 ? upper : lower) = static_cast<int>(i);
   }
-  work_.resize(2 * all.num_rows.size());
+  work_.resize(all.num_rows.size());
 }
 
 // Of each pair the one whose rows the factor stores; of one node that is twice on a body, both.
-void MultiplierSolver::list_products(const std::vector<Member>& members, BodyPart& part) {
+void MultiplierSolver::list_products(BodyPart& part) {
+  const std::span members(members_.data() + part.first_member, part.last_member - part.first_member);
   part.first_product = products_.size();
   for (const Member& p : members) {
     for (const Member& q : members) {
@@ -109,19 +111,17 @@ void MultiplierSolver::list_products(const std::vector<Member>& members, BodyPar
   part.last_product = products_.size();
 }
 
-// @tparam num_columns  of the body, where it is known beforehand; −1: any
-template <int num_columns>
 void MultiplierSolver::add_products(const BodyPart& part) {
-  const int columns = num_columns >= 0 ? num_columns : part.num_columns;
   Eigen::Matrix2d* blocks = factor_.blocks().data();
   for (std::size_t k = part.first_product; k < part.last_product; ++k) {
     const Product& product = products_[k];
-    const Eigen::Map<const Eigen::Matrix2Xd> U(U_.data() + product.u, 2, columns);
-    const Eigen::Map<const Eigen::Matrix2Xd> V(V_.data() + product.v, 2, columns);
-    Eigen::Vector2d left = U.col(0) * V(0, 0), right = U.col(0) * V(1, 0);
-    for (int m = 1; m < columns; ++m) {
-      left += U.col(m) * V(0, m);
-      right += U.col(m) * V(1, m);
+    const Eigen::Vector2d* U = U_.data() + product.u;
+    const Eigen::Vector2d* V = V_.data() + product.v;
+    Eigen::Vector2d left = U[0] * V[0].x() + U[1] * V[1].x() + U[2] * V[2].x();
+    Eigen::Vector2d right = U[0] * V[0].y() + U[1] * V[1].y() + U[2] * V[2].y();
+    for (int m = 3; m < part.num_columns; ++m) {
+      left += U[m] * V[m].x();
+      right += U[m] * V[m].y();
     }
     blocks[product.place].col(0) += left;
     blocks[product.place].col(1) += right;
@@ -133,22 +133,28 @@ bool MultiplierSolver::factorise(const BlockJacobian& jacobian, const std::vecto
   for (const int place : lone_) factor_.blocks()[static_cast<std::size_t>(place)](1, 1) = 1.0;
   for (const BodyPart& part : parts_) {
     const BodyMass& mass = masses[part.body];
-    for (std::size_t k = part.first_row; k < part.last_row; ++k) {
-      mass.reduce_row(jacobian.data() + rows_[k].source, U_.data() + rows_[k].value,
-                      V_.data() + rows_[k].value);
+    for (std::size_t k = part.first_member; k < part.last_member; ++k) {
+      const Member& member = members_[k];
+      const double* upper = jacobian.data() + member.source;
+      const double* lower = member.num_rows == 2 ? upper + part.num_columns : no_row_.data();
+      mass.reduce_rows(upper, lower, U_.data() + member.value, V_.data() + member.value);
     }
-    if (part.num_columns == 3)
-      add_products<3>(part);
-    else
-      add_products<-1>(part);
+    add_products(part);
   }
   return factor_.factorise();
 }
 
 void MultiplierSolver::solve(const Eigen::VectorXd& r, Eigen::VectorXd& lambda) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) work_[places_[i]] = r[static_cast<Eigen::Index>(i)];
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const auto [upper, lower] = constraints_[k];
+    work_[k] = {r[upper], lower >= 0 ? r[lower] : 0.0};
+  }
   factor_.solve(work_.data());
-  for (std::size_t i = 0; i < places_.size(); ++i) lambda[static_cast<Eigen::Index>(i)] = work_[places_[i]];
+  for (std::size_t k = 0; k < constraints_.size(); ++k) {
+    const auto [upper, lower] = constraints_[k];
+    lambda[upper] = work_[k].x();
+    if (lower >= 0) lambda[lower] = work_[k].y();
+  }
 }
 
 }  // namespace sprung::dynamics

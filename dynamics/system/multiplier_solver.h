@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "dynamics/bodies/body_mass.h"
@@ -26,35 +27,37 @@ class MultiplierSolver {
   int num_factor_entries() const { return factor_.num_factor_entries(); }
 
  private:
-  // A row of the Jacobian on one body, made ready for products (BodyMass::reduce_row).
-  struct Row {
-    std::size_t source;  // in the Jacobian's values
-    std::size_t value;   // in U_ and V_, where the two rows of a node alternate
+  // What a node has on a body: one or two rows of the Jacobian, made ready for products
+  // (BodyMass::reduce_rows).
+  struct Member {
+    int node;
+    int num_rows;
+    std::size_t source;  // of the first row, in the Jacobian's values
+    std::size_t value;   // in U_ and V_: a column for each of the body's coordinates
   };
-  // Rows and products of nodes on one body.
+  // Members and products of nodes on one body.
   struct BodyPart {
     std::size_t body;
     int num_columns;  // 3 + modes
-    std::size_t first_row, last_row = 0;
+    std::size_t first_member, last_member = 0;
     std::size_t first_product = 0, last_product = 0;
   };
   struct Product {
     std::size_t u, v;  // in U_ and V_
     int place;         // of the block U Vᵀ in the matrix
   };
-  struct Member;
-  void list_products(const std::vector<Member>& members, BodyPart& part);
-  template <int num_columns>
+  void list_products(BodyPart& part);
   void add_products(const BodyPart& part);
 
   std::vector<BodyPart> parts_;
-  std::vector<Row> rows_;
+  std::vector<Member> members_;
   std::vector<Product> products_;
-  std::vector<double> U_, V_;
+  std::vector<Eigen::Vector2d> U_, V_;
+  std::vector<double> no_row_;       // zeros, the second row of a node that has one
   std::vector<int> lone_;            // diagonal blocks of nodes with one constraint
-  std::vector<std::size_t> places_;  // of each constraint in work_
+  std::vector<std::pair<int, int>> constraints_;  // of each node in work_; −1: no second one
   BlockCholesky factor_;
-  mutable std::vector<double> work_;
+  mutable std::vector<Eigen::Vector2d> work_;
 };
 
 }  // namespace sprung::dynamics

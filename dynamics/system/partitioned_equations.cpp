@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kAssemblyTolerance = 1e-12;  // of the model's length scale
 constexpr double kAim = 0.01;  // of the tolerance: what is left would else be noise to a fine integration
+// Of the length scale, (kAim kAssemblyTolerance)^(3/5): after a step d the first residual r is of order d³ and falls by
+// the share d = r^(1/3), so that r d² is left after two iterations.
+constexpr double kLargeFirst = 4e-9;
 constexpr int kMaxNewtonIterations = 12;
 
 }  // namespace
@@ -73,16 +76,15 @@ bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
-    if (iteration == 0) mutable_terms().place_joints(time, q_);
-    else mutable_terms().adjust_joints(q_);
+    mutable_terms().place_joints(time, q_);
     if (num_constraints_ == 0) return true;
     terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
     if (size <= tolerance) return true;
-    // Until it is seen: after a step d the residual is of order d³, and falls by the share d.
-    const double contraction = iteration == 0 ? std::cbrt(size / model_->length_scale) : size / last;
-    if (size * contraction * contraction > kAim * tolerance) refactor();
+    const bool is_slow = iteration == 0 ? size > kLargeFirst * model_->length_scale
+                                        : size * (size / last) * (size / last) > kAim * tolerance;
+    if (is_slow) refactor();
     last = size;
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {

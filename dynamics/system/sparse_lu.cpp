@@ -86,6 +86,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
   const auto size = static_cast<std::size_t>(size_);
   std::vector<int> step_of_row(size), step_of_column(size);
   std::vector<std::vector<int>> upper(size), lower(size);  // columns and rows of A
+  std::vector<std::vector<Product>> forward(size);
   steps_.clear();
   Elimination matrix(size_, entries_, values);
   int num_factors = 0;
@@ -99,8 +100,11 @@ void SparseLu::choose_pivots(std::span<const double> values) {
     }
     step_of_row[static_cast<std::size_t>(pivot.row)] = static_cast<int>(k);
     step_of_column[static_cast<std::size_t>(pivot.column)] = static_cast<int>(k);
-    steps_.push_back({num_factors, static_cast<int>(upper[k].size()), static_cast<int>(lower[k].size()),
-                      pivot.row, pivot.column});
+    steps_.push_back({.first = num_factors,
+                      .num_upper = static_cast<int>(upper[k].size()),
+                      .num_lower = static_cast<int>(lower[k].size()),
+                      .row = pivot.row,
+                      .column = pivot.column});
     num_factors += 1 + steps_.back().num_upper + steps_.back().num_lower;
     matrix.eliminate(pivot);
   }
@@ -108,7 +112,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
   // Places of entries: by the step that comes first of their row's and their column's.
   factors_.assign(static_cast<std::size_t>(num_factors), 0.0);
   forward_.clear();
-  backward_.clear();
+  upper_columns_.clear();
   std::map<std::pair<int, int>, int> places;  // by steps of row and column
   for (std::size_t k = 0; k < size; ++k) {
     const int step = static_cast<int>(k);
@@ -116,16 +120,19 @@ void SparseLu::choose_pivots(std::span<const double> values) {
     places[{step, step}] = place++;
     for (const int j : upper[k]) {
       const int column = step_of_column[static_cast<std::size_t>(j)];
-      backward_.push_back({step, column, place});
+      upper_columns_.push_back(column);
       places[{step, column}] = place++;
     }
     for (const int i : lower[k]) {
       const int row = step_of_row[static_cast<std::size_t>(i)];
-      forward_.push_back({row, step, place});
+      forward[static_cast<std::size_t>(row)].push_back({step, place});
       places[{row, step}] = place++;
     }
   }
-  std::reverse(backward_.begin(), backward_.end());
+  for (std::size_t k = 0; k < size; ++k) {
+    forward_.insert(forward_.end(), forward[k].begin(), forward[k].end());
+    steps_[k].end_of_forward = static_cast<int>(forward_.size());
+  }
   places_.clear();
   for (const Position& entry : entries_) {
     places_.push_back(places.at({step_of_row[static_cast<std::size_t>(entry.row)],
@@ -203,11 +210,23 @@ void SparseLu::solve(double* x) const {
   double* y = work_.data();
   const double* factors = factors_.data();
   const auto size = static_cast<std::size_t>(size_);
-  for (std::size_t k = 0; k < size; ++k) y[k] = x[steps_[k].row];
-  for (const Product& one : forward_) y[one.target] -= factors[one.place] * y[one.source];
-  for (std::size_t k = 0; k < size; ++k) y[k] *= factors[steps_[k].first];
-  for (const Product& one : backward_) y[one.target] -= factors[one.place] * y[one.source];
-  for (std::size_t k = 0; k < size; ++k) x[steps_[k].column] = y[k];
+  const Product* left = forward_.data();
+  for (std::size_t k = 0; k < size; ++k) {
+    double sum = x[steps_[k].row];
+    for (const Product* end = forward_.data() + steps_[k].end_of_forward; left < end; ++left) {
+      sum -= factors[left->place] * y[left->step];
+    }
+    y[k] = sum;
+  }
+  const int* column = upper_columns_.data() + upper_columns_.size();
+  for (std::size_t k = size; k-- > 0;) {
+    const double* pivot = factors + steps_[k].first;
+    double sum = y[k] * *pivot;
+    column -= steps_[k].num_upper;
+    for (int j = 0; j < steps_[k].num_upper; ++j) sum -= pivot[1 + j] * y[column[j]];
+    y[k] = sum;
+    x[steps_[k].column] = sum;
+  }
 }
 
 }  // namespace sprung::dynamics

@@ -37,10 +37,11 @@ class SparseLu {
     int first;  // of its entries in factors_
     int num_upper, num_lower;
     int row, column;  // in A
+    int end_of_forward = 0;  // of its row of L in forward_
   };
-  // y[target] −= factors_[place] y[source], in the order of the list.
+  // What the rows of L take in solving: an entry, times the result of an earlier step.
   struct Product {
-    int target, source, place;
+    int step, place;
   };
   struct Elimination;
 
@@ -54,7 +55,8 @@ class SparseLu {
   std::vector<int> places_;  // of A's entries in factors_
   std::vector<int>
       targets_;  // for every lower entry and every upper one beside it: what their product is taken from
-  std::vector<Product> forward_, backward_;
+  std::vector<Product> forward_;    // row by row, to Step::end_of_forward
+  std::vector<int> upper_columns_;  // beside the upper entries of all steps: the steps of their columns
   std::vector<double> factors_;
   std::vector<double> first_pivots_;  // as they were when they were chosen
   double permutation_sign_ = 1.0;

@@ -6,12 +6,14 @@ namespace sprung::dynamics {
 void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& forces) const {
   const MarkerState& state = markers_[moving.marker];
   double* Q = forces.data() + moving.first_coordinate;
-  Q[0] += wrench.force.x();
-  Q[1] += wrench.force.y();
-  Q[2] += state.r_theta.dot(wrench.force) + wrench.torque;
-  for (int n = 0; n < moving.num_coordinates - 3; ++n) {
-    Q[3 + n] += state.r_eta.col(n).dot(wrench.force) + state.angle_eta[n] * wrench.torque;
-  }
+  const MarkerRow row{wrench.force.x(), wrench.force.y(), wrench.torque};
+  Q[0] += row.x;
+  Q[1] += row.y;
+  Q[2] += row.by_theta(state);
+  if (moving.is_rigid()) return;
+  const MarkerRow in_body = row.in_body(state.rotation);
+  const double* shape = state.Phi.data();
+  for (int k = 3; k < moving.num_coordinates; ++k, shape += 3) Q[k] += in_body.by_mode(shape);
 }
 
 void SystemTerms::update_forces(std::span<const int> branches) {

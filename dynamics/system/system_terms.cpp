@@ -11,6 +11,7 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       v_(Eigen::VectorXd::Zero(model.num_coordinates)),
       Q_(Eigen::VectorXd::Zero(model.num_coordinates)),
       rotations_(model.bodies.size()),
+      nearby_rotations_(model.bodies.size()),
       wrenches_(model.markers.size()),
       changed_wrenches_(model.markers.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
@@ -60,13 +61,7 @@ void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::Ve
 void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
   time_ = time;
   q_ = q;
-  for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = FrameRotation::from_angle(q_[angles_[b]]);
-  for (const MovingMarker& moving : joint_markers_) place_marker(moving);
-}
-
-void SystemTerms::adjust_joints(const Eigen::Ref<const Eigen::VectorXd>& q) {
-  for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b].turn_to(q[angles_[b]], q_[angles_[b]]);
-  q_ = q;
+  for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = nearby_rotations_[b].at(q_[angles_[b]]);
   for (const MovingMarker& moving : joint_markers_) place_marker(moving);
 }
 
@@ -82,8 +77,8 @@ void SystemTerms::place_marker(const MovingMarker& moving) {
     place_in_body(moving.p_BP, rotations_[moving.body], q, state);
     return;
   }
-  calc_marker_position(model_->markers[moving.marker], rotations_[moving.body],
-                       q_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
+  calc_marker_position(model_->markers[moving.marker], rotations_[moving.body], q_.data() + moving.first_coordinate,
+                       markers_[moving.marker]);
 }
 
 void SystemTerms::move_marker(const MovingMarker& moving) {
@@ -91,8 +86,7 @@ void SystemTerms::move_marker(const MovingMarker& moving) {
     move_with_body(v_.data() + moving.first_coordinate, markers_[moving.marker]);
     return;
   }
-  calc_marker_velocity(model_->markers[moving.marker], rotations_[moving.body],
-                       v_.segment(moving.first_coordinate, moving.num_coordinates), markers_[moving.marker]);
+  calc_marker_velocity(model_->markers[moving.marker], v_.data() + moving.first_coordinate, markers_[moving.marker]);
 }
 
 void SystemTerms::update_all_markers() {
@@ -125,11 +119,7 @@ void SystemTerms::add_joint(std::size_t index) {
   if (is_constant) joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
   add_block(terms, terms.a);
   add_block(terms, terms.b);
-  const auto is_rigid = [&](const JointSide& side) {
-    const int body = model_->markers[side.marker].body;
-    return body == kGround || model_->bodies[static_cast<std::size_t>(body)].num_modes() == 0;
-  };
-  if (is_constant && is_rigid(terms.a) && is_rigid(terms.b))
+  if (is_constant)
     fill_once(terms);
   else
     filled_joints_.push_back(joints_.size());
@@ -142,11 +132,9 @@ void SystemTerms::fill_once(const JointTerms& terms) {
     fill_block(*side);
     const BlockJacobian::Block& block = Phi_q_.blocks()[static_cast<std::size_t>(side->block)];
     for (int k = 0; k < block.num_rows; ++k) {
-      turning_entries_.push_back({.value = block.offset + static_cast<std::size_t>(k * block.num_columns + 2),
-                                  .marker = side->marker,
-                                  .along_x = side->G(k, 0),
-                                  .along_y = side->G(k, 1),
-                                  .about = side->G(k, 2)});
+      turning_rows_.push_back({.value = block.offset + static_cast<std::size_t>(k * block.num_columns + 2),
+                               .marker = side->marker,
+                               .G = {side->G(k, 0), side->G(k, 1), side->G(k, 2)}});
     }
   }
 }
@@ -169,28 +157,32 @@ void SystemTerms::add_block(const JointTerms& terms, JointSide& side) {
   }
 }
 
+// What of a row of the Jacobian changes with the state: by the angle, and by the modes.
+void SystemTerms::fill_turning(const MarkerRow& G, const MarkerState& state, double* values) {
+  values[0] = G.by_theta(state);
+  const Eigen::Index n = state.Phi.cols();
+  if (n == 0) return;
+  const MarkerRow in_body = G.in_body(state.rotation);
+  const double* shape = state.Phi.data();
+  for (Eigen::Index k = 1; k <= n; ++k, shape += 3) values[k] = in_body.by_mode(shape);
+}
+
 void SystemTerms::fill_block(const JointSide& side) {
   if (side.block < 0) return;
   const MarkerState& state = markers_[side.marker];
-  const Eigen::Vector2d r_theta = state.r_theta;
-  const Eigen::Index num_modes = state.r_eta.cols();
+  const Eigen::Index num_modes = state.Phi.cols();
   double* value = Phi_q_.values(static_cast<std::size_t>(side.block));
-  for (Eigen::Index k = 0; k < side.G.rows(); ++k) {
-    const double along_x = side.G(k, 0), along_y = side.G(k, 1), about = side.G(k, 2);
-    *value++ = along_x;
-    *value++ = along_y;
-    *value++ = along_x * r_theta.x() + along_y * r_theta.y() + about;
-    for (Eigen::Index n = 0; n < num_modes; ++n) {
-      *value++ = along_x * state.r_eta(0, n) + along_y * state.r_eta(1, n) + about * state.angle_eta[n];
-    }
+  for (Eigen::Index k = 0; k < side.G.rows(); ++k, value += 3 + num_modes) {
+    value[0] = side.G(k, 0);
+    value[1] = side.G(k, 1);
+    fill_turning({side.G(k, 0), side.G(k, 1), side.G(k, 2)}, state, value + 2);
   }
 }
 
 void SystemTerms::update_jacobian() {
   double* values = Phi_q_.data();
-  for (const TurningEntry& entry : turning_entries_) {
-    const Eigen::Vector2d& r_theta = markers_[entry.marker].r_theta;
-    values[entry.value] = entry.along_x * r_theta.x() + entry.along_y * r_theta.y() + entry.about;
+  for (const TurningRow& row : turning_rows_) {
+    fill_turning(row.G, markers_[row.marker], values + row.value);
   }
   for (const std::size_t joint : filled_joints_) {
     JointTerms& terms = joints_[joint];

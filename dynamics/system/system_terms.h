@@ -27,8 +27,6 @@ class SystemTerms {
   void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
   /// Positions of the markers that joints see, all that residual and Jacobian need.
   void place_joints(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
-  /// The same nearby, after `place_joints`: bodies that turned little are turned on instead of placed anew.
-  void adjust_joints(const Eigen::Ref<const Eigen::VectorXd>& q);
   /// Positions of the other markers, where the joints' are now.
   void place_others();
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
@@ -93,12 +91,12 @@ class SystemTerms {
     bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
     JointSide a, b;
   };
-  // Where a joint's Jacobian by its markers is constant, all that changes in its row on a rigid body: by the
-  // angle.
-  struct TurningEntry {
-    std::size_t value;  // its place in φ_q
+  // Where a joint's Jacobian by its markers is constant, all that changes in its row on a body: by the angle and the
+  // modes.
+  struct TurningRow {
+    std::size_t value;  // the first of them in φ_q
     std::size_t marker;
-    double along_x, along_y, about;  // the row of G
+    MarkerRow G;
   };
   MovingMarker find_body(int marker_index) const;
   void place_marker(const MovingMarker& moving);
@@ -106,6 +104,7 @@ class SystemTerms {
   void add_joint(std::size_t joint);
   void add_block(const JointTerms& terms, JointSide& side);
   void fill_once(const JointTerms& terms);
+  static void fill_turning(const MarkerRow& G, const MarkerState& state, double* values);
   void fill_block(const JointSide& side);
   void add_body_forces(std::size_t body);
   void add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& Q) const;
@@ -119,12 +118,13 @@ class SystemTerms {
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;
+  std::vector<NearbyRotation> nearby_rotations_;
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
   std::vector<Wrench> wrenches_, changed_wrenches_;
   std::vector<JointTerms> joints_;
-  std::vector<TurningEntry> turning_entries_;
-  std::vector<std::size_t> filled_joints_;  // whose blocks are filled anew each time
+  std::vector<TurningRow> turning_rows_;
+  std::vector<std::size_t> filled_joints_;  // whose blocks are filled anew each time, as their G is
   BlockJacobian Phi_q_;
   Power power_;
 };

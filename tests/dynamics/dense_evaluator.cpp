@@ -82,10 +82,10 @@ void DenseEvaluator::update_points(const VectorXd& q) {
     const Index n = marker.Phi.cols();
     const double theta = q[point.first + 2];
     Vector2d u = marker.p_BP;
-    u.noalias() += marker.Phi * q.segment(point.first + 3, n);
+    u.noalias() += marker.Phi.topRows<2>() * q.segment(point.first + 3, n);
     point.J.leftCols<2>().setIdentity();
     point.J.col(2) = rotation(theta, 1) * u;
-    point.J.rightCols(n).noalias() = rotation(theta, 0) * marker.Phi;
+    point.J.rightCols(n).noalias() = rotation(theta, 0) * marker.Phi.topRows<2>();
     point.r = q.segment<2>(point.first) + rotation(theta, 0) * u;
     point.bias = u;  // kept for the velocities
   }

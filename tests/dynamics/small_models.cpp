@@ -22,8 +22,7 @@ int add_marker(Model& model, int body, const Eigen::Vector2d& p, const std::stri
   marker.name = (on_ground ? "ground." : model.bodies[static_cast<std::size_t>(body)].name + ".") + name;
   marker.body = body;
   marker.p_BP = p;
-  marker.Phi = Eigen::Matrix2Xd::Zero(2, num_modes);
-  marker.Phi_rotation = Eigen::RowVectorXd::Zero(num_modes);
+  marker.Phi = Eigen::Matrix3Xd::Zero(3, num_modes);
   model.markers.push_back(marker);
   return static_cast<int>(model.markers.size()) - 1;
 }
@@ -36,8 +35,7 @@ int add_node_marker(Model& model, int body, const reduce::Superelement& superele
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Eigen::Vector3d shape = superelement.shapes.block<3, 1>(3 * node, modes[k] - 1);
     const auto column = static_cast<Eigen::Index>(k);
-    marker.Phi.col(column) << shape[0] - shape[2] * offset.y(), shape[1] + shape[2] * offset.x();
-    marker.Phi_rotation[column] = shape[2];
+    marker.Phi.col(column) << shape[0] - shape[2] * offset.y(), shape[1] + shape[2] * offset.x(), shape[2];
   }
   return index;
 }

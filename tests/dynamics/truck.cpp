@@ -74,7 +74,7 @@ void mirror_model(Model& model) {
   for (Marker& marker : model.markers) {
     marker.p_BP.x() *= -1.0;
     marker.Phi.row(0) *= -1.0;
-    marker.Phi_rotation *= -1.0;
+    marker.Phi.row(2) *= -1.0;
   }
 }
 

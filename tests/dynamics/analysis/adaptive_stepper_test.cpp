@@ -111,7 +111,7 @@ TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[ada
   Model model;
   const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
   const dynamics::Marker& near = model.markers[static_cast<std::size_t>(nodes[4])];
-  const double offset = -near.Phi(1, 1) / near.Phi_rotation[1];
+  const double offset = -near.Phi(1, 1) / near.Phi(2, 1);
   const int at_node = test::add_node_marker(model, 0, superelement, 4, {offset, 0.0});
   REQUIRE(std::abs(model.markers[static_cast<std::size_t>(at_node)].Phi(1, 1)) < 1e-12);
   // With the frequencies of modes 2 and 3: by those alone mode 2 would be the first.

@@ -105,7 +105,6 @@ int add_point_at_rest(HeldBeam& beam, int mode) {
     auto& marker = beam.model.markers[static_cast<std::size_t>(first)];
     marker.p_BP = (1.0 - share) * marker.p_BP + share * there.p_BP;
     marker.Phi = (1.0 - share) * marker.Phi + share * there.Phi;
-    marker.Phi_rotation = (1.0 - share) * marker.Phi_rotation + share * there.Phi_rotation;
     REQUIRE(std::abs(marker.Phi(1, mode - 1)) < 1e-12);
     return first;
   }
@@ -182,7 +181,6 @@ TEST_CASE("Modes of one frequency stay together, whichever way their basis is tu
     for (auto& marker : beam.model.markers) {
       if (marker.body == dynamics::kGround) continue;
       marker.Phi *= R;
-      marker.Phi_rotation *= R;
     }
     beam.shake(beam.tip, 0.9 * beam.frequency(1));
     return beam.choose(0.05);

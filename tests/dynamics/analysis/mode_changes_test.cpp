@@ -53,7 +53,7 @@ AdaptiveRun drive(int num_available, int num_start, double recall, double durati
   options.on_output = [&](const dynamics::Snapshot& now) {
     origin.push_back(now.v_dot[body.first_coordinate + 1]);
     const Eigen::Vector2d u =
-        bump.model.markers[front].Phi * now.q.segment(body.first_coordinate + 3, body.num_modes());
+        bump.model.markers[front].Phi.topRows<2>() * now.q.segment(body.first_coordinate + 3, body.num_modes());
     deflection.push_back(u.y());
     closure.add(now.energy);
   };

@@ -3,8 +3,10 @@
 #include "dynamics/bodies/body_equations.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "tests/catch.h"
@@ -182,4 +184,19 @@ TEST_CASE("Turning by a quarter and back", "[bodies]") {
             .norm() < 1e-15);
   CHECK((rotation.transposed_times(rotation * p) - p).norm() < 1e-15);
   CHECK(dynamics::turned(p) == Vector2d(0.4, 1.3));
+}
+
+TEST_CASE("A nearby rotation has the sine and cosine of its angle, wherever it is asked for", "[bodies]") {
+  dynamics::NearbyRotation nearby;
+  test::RandomNumbers random(5);
+  double theta = 0.4;
+  double largest = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    theta += random.size_up_to(i % 100 == 0 ? 3.0 : 0.01);  // mostly near, now and then far
+    const FrameRotation rotation = nearby.at(theta);
+    largest = std::max({largest, std::abs(rotation.cosine - std::cos(theta)), std::abs(rotation.sine - std::sin(theta))});
+  }
+  CHECK(largest < 3e-16);  // one and a half units in the last place of 1
+  CHECK(std::isnan(nearby.at(std::numeric_limits<double>::quiet_NaN()).cosine));
+  CHECK(nearby.at(1.0).sine == std::sin(1.0));
 }

@@ -44,8 +44,8 @@ struct Case {
   MarkerState state(const VectorXd& at, const VectorXd& rate) const {
     MarkerState result = dynamics::make_marker_state(marker());
     const FrameRotation rotation = FrameRotation::from_angle(at[2]);
-    dynamics::calc_marker_position(marker(), rotation, at, result);
-    dynamics::calc_marker_velocity(marker(), rotation, rate, result);
+    dynamics::calc_marker_position(marker(), rotation, at.data(), result);
+    dynamics::calc_marker_velocity(marker(), rate.data(), result);
     return result;
   }
   // Along q(t) = q + v t + ½ a t².
@@ -83,7 +83,7 @@ TEST_CASE("Velocity and acceleration of a marker are derivatives of its position
           kTolerance * std::abs(now.omega));
     const Vector2d acceleration = dynamics::calc_marker_acceleration(now, general.a);
     CHECK((acceleration - (after.v - before.v) / (2.0 * kStep)).norm() < kTolerance * acceleration.norm());
-    const double angular = now.alpha_bias + general.a[2] + now.angle_eta.dot(general.a.tail(3));
+    const double angular = now.alpha_bias + general.a[2] + now.Phi.row(2).dot(general.a.tail(3));
     CHECK(std::abs(angular - (after.omega - before.omega) / (2.0 * kStep)) < kTolerance * std::abs(angular));
   }
 }
@@ -97,9 +97,9 @@ TEST_CASE("Gradients of a marker's position and angle by angle and modes", "[bod
       const MarkerState above = general.state(general.q + e, general.v),
                         below = general.state(general.q - e, general.v);
       const Vector2d difference = (above.r - below.r) / (2.0 * kStep);
-      const Vector2d gradient = i == 2 ? now.r_theta : Vector2d(now.r_eta.col(i - 3));
+      const Vector2d gradient = i == 2 ? now.r_theta : Vector2d(now.r_eta().col(i - 3));
       CHECK((gradient - difference).norm() < kTolerance * (gradient.norm() + 0.01));
-      const double turn = i == 2 ? 1.0 : now.angle_eta[i - 3];
+      const double turn = i == 2 ? 1.0 : now.Phi(2, i - 3);
       CHECK(std::abs(turn - (above.angle - below.angle) / (2.0 * kStep)) < kTolerance * (std::abs(turn) + 0.01));
     }
   }

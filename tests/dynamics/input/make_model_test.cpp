@@ -68,12 +68,12 @@ TEST_CASE("Markers move with the active modes: nodes by their shapes, offsets wi
     const int column = k + 1;  // modes 2 and 3
     const double u = shapes(3 * top, column), w = shapes(3 * top + 1, column),
                  turn = shapes(3 * top + 2, column);
-    CHECK(find(model, "frame.top").Phi.col(k) == Eigen::Vector2d(u, w));
-    CHECK(find(model, "frame.top").Phi_rotation[k] == turn);
+    CHECK(find(model, "frame.top").Phi.col(k).head<2>() == Eigen::Vector2d(u, w));
+    CHECK(find(model, "frame.top").Phi(2, k) == turn);
     // The offset (0.1, 0.4) turned by +90° is (-0.4, 0.1).
-    CHECK((find(model, "frame.seat").Phi.col(k) - Eigen::Vector2d(u - 0.4 * turn, w + 0.1 * turn)).norm() <
+    CHECK((find(model, "frame.seat").Phi.col(k).head<2>() - Eigen::Vector2d(u - 0.4 * turn, w + 0.1 * turn)).norm() <
           1e-15);
-    CHECK(find(model, "frame.seat").Phi_rotation[k] == turn);
+    CHECK(find(model, "frame.seat").Phi(2, k) == turn);
     CHECK(find(model, "frame.origin").Phi.col(k).norm() == 0.0);
   }
 }

@@ -106,8 +106,10 @@ TEST_CASE("Block Cholesky solves, and tells an indefinite matrix", "[system]") {
   load();
   REQUIRE(factor.factorise());
   const VectorXd r = random.vector(2 * kNumNodes, 1.0);
-  VectorXd x = r;
-  factor.solve(x.data());
+  std::vector<Eigen::Vector2d> nodes(kNumNodes);
+  Eigen::Map<VectorXd> x(nodes[0].data(), 2 * kNumNodes);
+  x = r;
+  factor.solve(nodes.data());
   CHECK((dense * x - r).norm() < 1e-13 * x.norm() * dense.norm());
   for (const int row : {0, 1}) {
     const double before = block(5, 5)(row, row);
