@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from progress import Progress
 from results_file import ResultsError
 
 BASELINE = "baseline"  # dense equations under Dormand–Prince 5(4)
@@ -16,6 +17,7 @@ LADDER = (
 )  # fmt: skip
 CONFIRMATIONS = 2  # finer rungs that have to be good enough too
 LONG_RUN, TOO_LONG_RUN = 0.5, 8.0  # s: not repeated; the method is given up
+RUNS_IN_A_ROUND = 3  # the best of them is the round's: the first finds nothing in the caches
 HIGH_PASS = 16.0  # Hz
 ALLOWED_HEIGHT = 1e-4  # m
 ALLOWED_SHARE = 0.01  # of peak and r.m.s. of the acceleration, and of the deflection
@@ -123,6 +125,10 @@ class Case:
         errors = calc_errors(series, self.reference)
         return Rung(tolerance, cost["evaluations"], cost["steps"], float(np.median(seconds)), errors)
 
+    def time(self, method, tolerance):
+        """Seconds of a run, by a program that is started for it."""
+        return min(self._run(method, tolerance, RUNS_IN_A_ROUND)[0]["seconds"])
+
     def climb(self, method, repetitions, ladder=LADDER, whole=False):
         """Returns (rungs, good, first): the rungs from the loosest tolerance to the first that is good enough together
         with the next finer ones, so that it is not so by chance (whole: to the last of the ladder); that good one;
@@ -144,6 +150,31 @@ class Case:
                 if not whole:
                     break
         return rungs, good, first
+
+
+def time_in_rounds(cases, tables, num_rounds):
+    """Takes the times of chosen runs anew, each of them once in every round: the machine's speed drifts, and ratios
+    have to be of one time. Long runs keep theirs.
+
+    cases: {(run, modes): Case}; tables: several {(run, modes, method): Rung or None}. Returns the tables with the medians.
+    """
+    found = {
+        (key, rung.tolerance): []
+        for table in tables
+        for key, rung in table.items()
+        if rung is not None and rung.seconds < LONG_RUN
+    }
+    with Progress("timing in rounds", num_rounds * len(found)) as progress:
+        for _ in range(num_rounds):
+            for ((run, modes, method), tolerance), seconds in found.items():
+                seconds.append(cases[run, modes].time(method, tolerance))
+                progress.step()
+
+    def timed(key, rung):
+        seconds = found.get((key, rung.tolerance)) if rung is not None else None
+        return rung._replace(seconds=float(np.median(seconds))) if seconds else rung
+
+    return [{key: timed(key, rung) for key, rung in table.items()} for table in tables]
 
 
 def measure_evaluations(program, repetitions, min_time):

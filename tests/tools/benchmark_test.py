@@ -58,6 +58,33 @@ class Judging(unittest.TestCase):
         self.assertEqual(self.climb((0.9, 0.9))[1:], (None, 1.0))
         self.assertEqual(self.climb((0.9, 0.9, 0.9), seconds=9.0), ([1.0], None, None))
 
+    def test_chosen_runs_are_timed_in_rounds(self):
+        calls = []
+
+        class Clock:
+            """A machine that becomes slower with every run."""
+
+            def __init__(self, modes):
+                self.modes = modes
+
+            def time(self, method, tolerance):
+                calls.append((self.modes, method, tolerance))
+                return float(len(calls))
+
+        errors = Errors(0.0, 0.0, 0.0, 0.0)
+        results = {
+            ("bump", 0, "adams"): Rung(1e-3, 10, 5, 0.1, errors),
+            ("bump", 2, "adams"): Rung(1e-4, 20, 9, 0.1, errors),
+            ("bump", 2, "bdf"): None,
+            ("bump", 2, "baseline"): Rung(1e-4, 90, 9, 3.0, errors),  # long
+        }
+        firsts = {("bump", 0, "adams"): Rung(1e-3, 10, 5, 0.1, errors), ("bump", 2, "adams"): Rung(1e-2, 12, 6, 0.1, errors)}
+        cases = {("bump", modes): Clock(modes) for modes in (0, 2)}
+        results, firsts = benchmark_runs.time_in_rounds(cases, (results, firsts), 3)
+        self.assertEqual(calls, [(0, "adams", 1e-3), (2, "adams", 1e-4), (2, "adams", 1e-2)] * 3)
+        seconds = [rung and rung.seconds for rung in (*results.values(), *firsts.values())]
+        self.assertEqual(seconds, [4.0, 5.0, None, 3.0, 4.0, 6.0])  # medians: of 1, 4, 7 and so on
+
     def test_ratios_are_to_the_fastest_rigid_run_and_of_the_baseline(self):
         def rung(seconds):
             return Rung(1e-4, 100, 20, seconds, None)
