@@ -56,7 +56,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       bend_contraction_(kFirstContraction),
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
-  y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
+  y_ = y_dot_ = inverse_scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
   end_ = difference_ = between_motion_ = now_.motion;
@@ -101,7 +101,7 @@ void ExponentialIntegrator::linearise() {
 }
 
 void ExponentialIntegrator::begin() {
-  now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
+  basis_.to_pairs(y_.head(2 * f_), now_.motion.u);
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
@@ -111,14 +111,14 @@ void ExponentialIntegrator::begin() {
 }
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
-  y.head(2 * f_).noalias() = basis_.T * motion.u;
+  basis_.to_state(motion.u, y.head(2 * f_));
   y.tail(num_quadratures_) = motion.w;
 }
 
 // Root mean square over the components of y, each by its size that is allowed.
 double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
   to_physical(difference, difference_y_);
-  return std::sqrt((difference_y_.array() / scales_.array()).square().mean());
+  return std::sqrt((difference_y_.array() * inverse_scales_.array()).square().mean());
 }
 
 // The drive at stage_y_, which `motion` stands for.
@@ -126,7 +126,7 @@ bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, in
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
   auto pairs = now_.drive.pairs.col(node);
-  pairs.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+  basis_.to_pairs(y_dot_.head(2 * f_), pairs);
   basis_.blocks.subtract_product(motion.u, pairs);
   now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
   if (num_switches_ == 0) return true;
@@ -211,8 +211,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   }
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();
-  system_.calc_error_scales(y(), span_of(scales_));
-  scales_ *= tolerance_;
+  system_.calc_error_scales(y(), span_of(inverse_scales_));
+  inverse_scales_ = (tolerance_ * inverse_scales_).cwiseInverse();
 
   double factor = 1.0;
   while (true) {

@@ -81,7 +81,7 @@ class ExponentialIntegrator final : public Integrator {
 
   PairedMotion end_, difference_, end_drive_, bend_response_, doubt_;
   Vector end_switches_;
-  Vector y_dot_, scales_, stage_y_, difference_y_;
+  Vector y_dot_, inverse_scales_, stage_y_, difference_y_;
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;
   mutable Vector between_y_;

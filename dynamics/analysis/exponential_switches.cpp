@@ -57,7 +57,7 @@ bool ExponentialIntegrator::find_gains() {
     if (&bend != now_.bends.all().data() && !is_undisturbed(bend.place)) return false;
     if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_)))
       return false;
-    bend.gain.u.noalias() = basis_.inverse * y_dot_.head(2 * f_);
+    basis_.to_pairs(y_dot_.head(2 * f_), bend.gain.u);
     bend.gain.w = y_dot_.tail(num_quadratures_);
     bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
     doubt_.w += bend.calc_doubt(now_.length) * bend.gain.w;

@@ -14,8 +14,9 @@ FrameRotation NearbyRotation::at(double theta) {
     kept_ = FrameRotation::from_angle(theta);
     return kept_;
   }
-  const double turn_sine = turn * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
-  const double versine = 0.5 * square * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)));
+  const double turn_sine = turn - turn * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
+  const double versine =
+      square * (1.0 / 2.0 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40320.0))));
   return {kept_.cosine - (versine * kept_.cosine + turn_sine * kept_.sine),
           kept_.sine + (turn_sine * kept_.cosine - versine * kept_.sine)};
 }
