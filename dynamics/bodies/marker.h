@@ -28,13 +28,13 @@ struct Marker {
 struct alignas(64) MarkerState {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();        ///< position [m]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
-  double angle = 0.0;                                 ///< θ + Φ_rotation η, and of second order [rad]
+  double angle = 0.0;                                 ///< θ, its own, and by the modes [rad]
   double omega = 0.0;                                 ///< angular velocity [rad/s]
   Eigen::Vector2d v = Eigen::Vector2d::Zero();        ///< velocity [m/s]
   Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
   double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
   FrameRotation rotation;                             ///< A of its body, where that has modes
-  Eigen::Matrix3Xd Phi;                               ///< ∂(Aᵀr, angle)/∂η, 3×n, body axes [m, m, rad]
+  Eigen::Matrix3Xd Phi;                               ///< ∂(place in the body, angle)/∂η, 3×n [m, m, rad]
 
   /// ∂r/∂η, 2×n [m]
   Eigen::Matrix2Xd r_eta() const;

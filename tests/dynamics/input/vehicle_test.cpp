@@ -167,8 +167,8 @@ TEST_CASE("References to points that are not there name the nearest one") {
         "mean 'frame'?)");
   CHECK(error_of_cart("a = \"frame.right\"", "a = \"frame.rigth\"") ==
         "cart.toml:27:5: error: 'frame' has no point 'rigth' (did you mean 'right'?)");
-  CHECK(error_of_cart("a = \"frame.right\"", "a = \"frame.steering_gear\"") ==
-        "cart.toml:27:5: error: 'frame' has no point 'steering_gear'; it has origin, center_of_mass, left, "
+  CHECK(error_of_cart("a = \"frame.right\"", "a = \"frame.gearbox\"") ==
+        "cart.toml:27:5: error: 'frame' has no point 'gearbox'; it has origin, center_of_mass, left, "
         "right, top, seat");
   CHECK(error_of_cart("a = \"frame.right\"", "a = \"frame\"") ==
         "cart.toml:27:5: error: 'joints.0.a' must be a point \"body.point\" or \"ground.point\", got "
