@@ -79,7 +79,7 @@ TEST_CASE("What swings faster than the points show may hide a switch", "[analysi
   CHECK(may_hide(20.0, 1.2));
   CHECK(may_hide(200.0, 1.2));
   CHECK_FALSE(may_hide(20.0, 90.0));  // far from zero
-  CHECK_FALSE(may_hide(1.0, 1.2));   // resolved
+  CHECK_FALSE(may_hide(1.0, 1.2));    // resolved
   CHECK_FALSE(may_hide(2.0, 1.2));
 }
 
@@ -116,5 +116,46 @@ TEST_CASE("A stop that is just touched by a free swing is not stepped over", "[a
     const dynamics::TransientStatistics statistics = dynamics::run_transient(model, start, options);
     CHECK(statistics.switches == swing.num_switches(kEnd));
     CHECK(worst < 5.0 * std::pow(tolerance, 0.75));
+  }
+}
+
+TEST_CASE("A stop that a flying body touches for less than a step is found by each method", "[analysis]") {
+  // Thrown up at √2g − it would come 1 m high − under a stop that begins 1 mm lower. The flight up to there,
+  // the swing on the stop and the flight back are known in closed form.
+  using dynamics::PiecewisePolynomial;
+  constexpr double kGravity = 10.0, kClearance = 0.999, kRate = 1e4;
+  const double start_speed = std::sqrt(2.0 * kGravity),
+               speed = std::sqrt(2.0 * kGravity * (1.0 - kClearance));
+  const double rise = (start_speed - speed) / kGravity, omega = std::sqrt(kRate);
+  const double contact = 2.0 * std::atan2(speed, kGravity / omega) / omega;  // it falls off where it hit
+  const double end = 2.0 * rise + contact;
+  dynamics::Model model;
+  model.gravity = {0.0, -kGravity};
+  const int body = test::add_body(model, dynamics::make_rigid_body("body", 1.0, 1.0));
+  PiecewisePolynomial spring(std::vector<double>{0.0});
+  spring.continue_straight(kClearance, kRate, false);
+  model.forces.push_back(std::make_unique<dynamics::SpringDamper>(
+      "stop",
+      dynamics::SpringDamper::Parameters{.marker_a = test::add_marker(model, dynamics::kGround, {0.0, 2.0}),
+                                         .marker_b = test::add_marker(model, body, {0.0, 0.0}),
+                                         .free_length = 2.0,
+                                         .spring = spring,
+                                         .damper = PiecewisePolynomial(std::vector<double>{0.0})}));
+  dynamics::number_model(model);
+  using Method = dynamics::Integrator::Method;
+  for (const Method method :
+       {Method::kExponential, Method::kAdams, Method::kBdf, Method::kGeneralizedAlpha}) {
+    INFO("method " << static_cast<int>(method));
+    dynamics::TransientOptions options;
+    options.end_time = end;
+    options.output_step = end;
+    options.integrator.method = method;
+    Eigen::Vector2d last;
+    options.on_output = [&](const dynamics::Snapshot& now) { last = {now.q[1], now.v[1]}; };
+    const dynamics::State start =
+        test::make_state(model, Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, start_speed, 0.0));
+    CHECK(dynamics::run_transient(model, start, options).switches == 2);
+    CHECK(std::abs(last[0]) < 1e-4);
+    CHECK(std::abs(last[1] + start_speed) < 1e-4);
   }
 }
