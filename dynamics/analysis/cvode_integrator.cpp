@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "dynamics/analysis/touch_search.h"
 #include "tools/support/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -20,6 +22,7 @@ namespace {
 // Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a singular position
 // for ever.
 constexpr double kShortestStep = 1e-12;  // s
+constexpr double kSwitchTolerance = 1e-12;  // s
 
 std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
@@ -88,6 +91,8 @@ struct CvodeIntegrator::Memory {
   SUNNonlinearSolver nonlinear_solver = nullptr;
   Callback callback;
   bool started = false;
+  TouchSearch touch_search{0};
+  Eigen::VectorXd begin_switches, end_switches;  // at the ends of the step
   Integrator::Statistics before;  // of the runs before the last restart
 
   void check(int code, const char* what) const {
@@ -135,6 +140,8 @@ CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options) : me
   if (system.num_switches() > 0) {
     memory.check(CVodeRootInit(memory.cvode, system.num_switches(), evaluate_switches), "CVodeRootInit");
     memory.check(CVodeSetNoInactiveRootWarn(memory.cvode), "CVodeSetNoInactiveRootWarn");
+    memory.touch_search = TouchSearch(system.num_switches());
+    memory.begin_switches = memory.end_switches = Eigen::VectorXd::Zero(system.num_switches());
   }
 }
 
@@ -152,18 +159,57 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
   memory.check(CVodeSetStopTime(memory.cvode, end_time), "CVodeSetStopTime");
   time_ = time;
   end_time_ = end_time;
+  memory.touch_search.forget();
+  calc_switches(time_, memory.end_switches);
+}
+
+// At y.
+void CvodeIntegrator::calc_switches(double time, Eigen::VectorXd& switches) {
+  if (switches.size() == 0) return;
+  if (evaluate_switches(time, memory_->y, switches.data(), &memory_->callback) == 0) return;
+  throw support::NumericalError(
+      fmt::format("integration stopped at t = {:.9g} s: no positions can be found there", time));
+}
+
+// CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found here. y and
+// time_ are there then.
+bool CvodeIntegrator::locate_touch(double from) {
+  Memory& memory = *memory_;
+  if (memory.end_switches.size() == 0) return false;
+  const double to = time_, length = to - from;
+  memory.begin_switches.swap(memory.end_switches);
+  calc_switches(to, memory.end_switches);
+  if (!(length > kShortestStep)) return false;
+  bool has_moved = false;
+  const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(to)) / length;
+  const auto move_to = [&](double time) { interpolate(time, values(memory.y)); };
+  const std::optional<double> theta = memory.touch_search.find(
+      memory.begin_switches, memory.end_switches, length, tolerance, [&](double place, Eigen::VectorXd& switches) {
+        has_moved = true;
+        move_to(from + place * length);
+        calc_switches(from + place * length, switches);
+      });
+  if (theta) {
+    time_ = from + *theta * length;
+    move_to(time_);
+  } else if (has_moved) {
+    move_to(to);
+    calc_switches(to, memory.end_switches);
+  }
+  return theta.has_value();
 }
 
 Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   Memory& memory = *memory_;
   if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;  // started anew by a switch at the very end
   memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0), "CVodeSetMaxStep");
+  const double from = time_;
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {
     throw support::NumericalError(
         fmt::format("integration stopped at t = {:.9g} s: {}", time_, explain_stop(code, memory.callback.message)));
   }
-  if (code == CV_ROOT_RETURN) return StepResult::kSwitched;
+  if (code == CV_ROOT_RETURN || locate_touch(from)) return StepResult::kSwitched;
   return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <span>
 
@@ -23,6 +24,9 @@ class CvodeIntegrator final : public Integrator {
   Statistics statistics() const override;
 
  private:
+  void calc_switches(double time, Eigen::VectorXd& switches);
+  bool locate_touch(double from);
+
   struct Memory;  // SUNDIALS' handles
   std::unique_ptr<Memory> memory_;
   double time_ = 0.0, end_time_ = 0.0;

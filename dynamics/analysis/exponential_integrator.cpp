@@ -37,6 +37,8 @@ constexpr double kMemory =
     0.5;  // share of the last step's error that counts: an estimate may pass through zero
 // A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
 constexpr double kWorthwhile = 1.15;
+// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten slowly.
+constexpr double kOfHiding = 0.5, kForgetting = 1.1;
 constexpr double kTruncationOfFirst =
     0.3;  // part of fourth degree, of that of third, where no step was before
 
@@ -64,6 +66,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   stages_.fill(now_.motion);
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
+  lookers_.fill(between_);
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
   end_switches_ = Vector::Zero(num_switches_);
 }
@@ -96,7 +99,7 @@ void ExponentialIntegrator::linearise() {
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
   failures_ = 0.0;
-  propagator_length_ = 0.0;
+  propagator_length_ = looker_length_ = 0.0;
   past_ = Past::kNone;
 }
 
@@ -198,7 +201,7 @@ double ExponentialIntegrator::calc_truncation() {
 
 double ExponentialIntegrator::choose_length(double longest_step) const {
   const double left = end_time_ - time_;
-  double length = std::min(next_length_, longest_step);
+  double length = std::min({next_length_, longest_step, 0.99 * seen_length_});
   if (propagator_length_ <= length && length < kWorthwhile * propagator_length_) length = propagator_length_;
   if (length >= left * (1.0 - 1e-9)) return left;
   return 2.0 * length > left ? 0.5 * left : length;
@@ -247,11 +250,16 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     factor = kSafety * std::pow(std::max({error, kMemory * last_error_, 1e-10}), -1.0 / kOrder);
     factor = std::clamp(factor, kLeastFactor, kLargestFactor);
     last_error_ = error;
-    if (error <= 1.0) break;
+    if (error <= 1.0) {
+      if (num_switches_ == 0 || !may_hide_switches()) break;
+      seen_length_ = now_.length;
+      factor = kOfHiding;
+    }
     ++statistics_.error_test_failures;
     next_length_ = std::min(factor, 0.9) * now_.length;
   }
   ++statistics_.steps;
+  seen_length_ *= kForgetting;
   failures_ *= kFailureMemory;
   if (contraction_ > kSlowContraction) failures_ += kSlowness;
   if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) wants_linearisation_ = true;

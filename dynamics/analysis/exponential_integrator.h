@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 
 #include "dynamics/analysis/collocation_step.h"
 #include "dynamics/analysis/integrator.h"
@@ -43,6 +44,9 @@ class ExponentialIntegrator final : public Integrator {
   double calc_truncation();
   bool finish_step();
   bool crosses() const;
+  void move_between(const LobattoPropagator& propagator);
+  bool is_surprising(double theta, const LobattoPropagator& propagator);
+  bool may_hide_switches();
   bool is_undisturbed(double place);
   bool find_gains();
   bool pass_bends();
@@ -75,6 +79,12 @@ class ExponentialIntegrator final : public Integrator {
   double last_error_ = 0.0;                               // of the step before, of the tolerance
   std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
+  // Where a step is looked at for switches that its nodes do not show: not both as far from the middle, so that no
+  // swing looks like a cubic at both.
+  static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
+  std::array<LobattoPropagator, kLooks.size()> lookers_;
+  double looker_length_ = 0.0;
+  double seen_length_ = std::numeric_limits<double>::infinity();  // steps of this length may hide switches
   std::array<PairedMotion, kNumNodes> stages_;
   Eigen::MatrixXd switches_;  // num_switches × 4
   SwitchSearch switch_search_;

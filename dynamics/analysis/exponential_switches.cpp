@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dynamics/analysis/exponential_integrator.h"
+#include "dynamics/analysis/hidden_switches.h"
 
 namespace sprung::dynamics {
 
@@ -15,6 +16,9 @@ constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
 constexpr double kDisturbance = 5.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
+constexpr double kSurprise = 100.0;       // of what is allowed: less than that hides no switch worth finding
+constexpr double kShortestHiding = 1e-9;  // s
+
 constexpr double kLeastBendContraction = 0.1, kLargestBendContraction = 0.9;
 
 std::span<double> span_of(Eigen::VectorXd& x) {
@@ -33,6 +37,52 @@ bool ExponentialIntegrator::crosses() const {
     if (SwitchSearch::any_crosses(switches_.col(j - 1), switches_.col(j))) return true;
   }
   return false;
+}
+
+// The motion of now_ at the instant of a propagator, into between_motion_.
+void ExponentialIntegrator::move_between(const LobattoPropagator& propagator) {
+  now_.propagate(propagator, basis_.blocks, between_motion_);
+  now_.add_quartic(propagator, basis_.blocks, between_motion_);
+}
+
+// Whether the motion at θ is another than the cubic through the nodes tells.
+bool ExponentialIntegrator::is_surprising(double theta, const LobattoPropagator& propagator) {
+  const lobatto::NodeWeights weights = lobatto::cubic_weights(theta);
+  move_between(propagator);
+  difference_.u = between_motion_.u - weights[0] * now_.motion.u;
+  for (int j = 1; j < kNumNodes; ++j) difference_.u -= weights[j] * stages_[static_cast<std::size_t>(j)].u;
+  difference_.w.setZero();
+  return calc_norm(difference_) > kSurprise;
+}
+
+// Whether in now_ a switch function may become negative and positive again and no node show it: what vibrates is
+// stepped over exactly, however often.
+bool ExponentialIntegrator::may_hide_switches() {
+  if (now_.length < kShortestHiding) return false;
+  for (Eigen::Index i = 0; i < switches_.rows(); ++i) {
+    if (std::isfinite(SwitchCourse(switches_.row(i).transpose()).dip())) return true;
+  }
+  if (now_.length != looker_length_) {
+    for (std::size_t k = 0; k < kLooks.size(); ++k) lookers_[k].update(kLooks[k], now_.length, basis_.blocks);
+    looker_length_ = now_.length;
+  }
+  bool looks = false;
+  for (std::size_t k = 0; k < kLooks.size(); ++k) looks = looks || is_surprising(kLooks[k], lookers_[k]);
+  if (!looks) return false;
+  for (std::size_t k = 0; k < kLooks.size(); ++k) {
+    move_between(lookers_[k]);
+    to_physical(between_motion_, stage_y_);
+    const double time = now_.start + kLooks[k] * now_.length;
+    if (!system_.calc_switches(time, span_of(stage_y_), span_of(end_switches_))) return true;
+    for (Eigen::Index i = 0; i < switches_.rows(); ++i) {
+      if (SwitchCourse(switches_.row(i).transpose()).may_hide(kLooks[k], end_switches_[i])) return true;
+    }
+  }
+  if (!crosses()) return false;
+  // Bends change the forces at the end: the equations have to be there.
+  constexpr int kEnd = kNumNodes - 1;
+  to_physical(stages_[kEnd], stage_y_);
+  return !evaluate(now_.start + now_.length, stages_[kEnd], kEnd);
 }
 
 // Whether the bends before a place do next to nothing up to there: only then is it where it seems to be, and may what is
@@ -122,8 +172,7 @@ void ExponentialIntegrator::locate_switch() {
   const auto move_to = [&](double theta) {
     place = theta;
     between_.update(theta, now_.length, basis_.blocks);
-    now_.propagate(between_, basis_.blocks, between_motion_);
-    now_.add_quartic(between_, basis_.blocks, between_motion_);
+    move_between(between_);
   };
   const double tolerance =
       std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)}) / now_.length;

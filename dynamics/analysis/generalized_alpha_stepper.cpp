@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <limits>
 
 #include "tools/support/numerical_error.h"
@@ -43,7 +44,8 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integ
       step_(model, piece_, method_, options.relative_tolerance),
       next_length_(kFirstLength),
       switches_(piece_.num_switches(), 2),
-      switch_search_(piece_.num_switches()) {
+      switch_search_(piece_.num_switches()),
+      touch_search_(piece_.num_switches()) {
   q_ = v_ = Vector::Zero(model.num_coordinates);
 }
 
@@ -108,6 +110,7 @@ void GeneralizedAlphaStepper::resume(double end_time) {
                                                   static_cast<std::size_t>(step_.begin().switches.size())});
   // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
   step_.begin().switches = step_.begin().switches.cwiseMax(0.0);
+  touch_search_.forget();
 }
 
 // The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61).
@@ -186,21 +189,34 @@ void GeneralizedAlphaStepper::finish_step(double length) {
 bool GeneralizedAlphaStepper::locate_switch() {
   static constexpr std::array<double, 2> kEnds = {0.0, 1.0};
   const auto span_of = [](Vector& x) { return std::span(x.data(), static_cast<std::size_t>(x.size())); };
-  piece_.calc_switches(step_.residual().terms(), span_of(step_.end().switches));
-  if (!SwitchSearch::any_crosses(step_.begin().switches, step_.end().switches)) return false;
-  const double from = step_.begin().motion.time, length = step_.end().motion.time - from;
+  SystemTerms& terms = step_.residual().terms();
+  piece_.calc_switches(terms, span_of(step_.end().switches));
+  const double from = step_.begin().motion.time, to = step_.end().motion.time, length = to - from;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
-  switches_.col(0) = step_.begin().switches;
-  switches_.col(1) = step_.end().switches;
-  const double theta =
-      switch_search_.locate(kEnds, switches_, 1, tolerance, [&](double place, Vector& values) {
-        step_.interpolate(from + place * length, q_, v_, energy_);
-        step_.residual().terms().update_positions(piece_.evaluation_time(from + place * length), q_);
-        step_.residual().terms().update_velocities(v_);
-        piece_.calc_switches(step_.residual().terms(), span_of(values));
-      });
-  time_ = from + theta * length;
-  return true;
+  bool has_moved = false;
+  const auto evaluate_at = [&](double place, Vector& values) {
+    has_moved = true;
+    step_.interpolate(from + place * length, q_, v_, energy_);
+    terms.update_positions(piece_.evaluation_time(from + place * length), q_);
+    terms.update_velocities(v_);
+    piece_.calc_switches(terms, span_of(values));
+  };
+  const Vector &begin = step_.begin().switches, &end = step_.end().switches;
+  std::optional<double> theta;
+  if (SwitchSearch::any_crosses(begin, end)) {
+    switches_.col(0) = begin;
+    switches_.col(1) = end;
+    theta = switch_search_.locate(kEnds, switches_, 1, tolerance, evaluate_at);
+  } else {
+    theta = touch_search_.find(begin, end, length, tolerance, evaluate_at);
+  }
+  if (theta) {
+    time_ = from + *theta * length;
+  } else if (has_moved) {
+    terms.update_positions(piece_.evaluation_time(to), step_.end().motion.q);
+    terms.update_velocities(step_.end().motion.v);
+  }
+  return theta.has_value();
 }
 
 void GeneralizedAlphaStepper::evaluate(double time) {

@@ -5,6 +5,7 @@
 #include "dynamics/analysis/generalized_alpha_step.h"
 #include "dynamics/analysis/switch_search.h"
 #include "dynamics/analysis/system_stepper.h"
+#include "dynamics/analysis/touch_search.h"
 
 namespace sprung::dynamics {
 
@@ -64,6 +65,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   Pair energy_ = Pair::Zero();
   Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
   SwitchSearch switch_search_;
+  TouchSearch touch_search_;
 };
 
 }  // namespace sprung::dynamics
