@@ -67,6 +67,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
   lookers_.fill(between_);
+  for (std::size_t k = 0; k < kLooks.size(); ++k) look_weights_[k] = cubic_weights(kLooks[k]);
   switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
   end_switches_ = Vector::Zero(num_switches_);
 }
@@ -95,6 +96,8 @@ void ExponentialIntegrator::linearise() {
               Eigen::MatrixXd::Zero(f_, f_)};
   }
   basis_ = make_vibration_basis(motion);
+  pair_sizes_ = (inverse_scales_.head(2 * f_).asDiagonal() * basis_.T).colwise().norm().transpose();
+  pair_sizes_ /= std::sqrt(static_cast<double>(system_.size()));
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
@@ -104,7 +107,7 @@ void ExponentialIntegrator::linearise() {
 }
 
 void ExponentialIntegrator::begin() {
-  basis_.to_pairs(y_.head(2 * f_), now_.motion.u);
+  basis_.to_pairs(y_.data(), now_.motion.u.data());
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
@@ -114,7 +117,7 @@ void ExponentialIntegrator::begin() {
 }
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
-  basis_.to_state(motion.u, y.head(2 * f_));
+  basis_.to_state(motion.u, y.data());
   y.tail(num_quadratures_) = motion.w;
 }
 
@@ -129,7 +132,7 @@ bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, in
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
   auto pairs = now_.drive.pairs.col(node);
-  basis_.to_pairs(y_dot_.head(2 * f_), pairs);
+  basis_.to_pairs(y_dot_.data(), pairs.data());
   basis_.blocks.subtract_product(motion.u, pairs);
   now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
   if (num_switches_ == 0) return true;
@@ -212,10 +215,10 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     time_ = end_time_;
     return StepResult::kEnded;
   }
-  if (wants_linearisation_) linearise();
-  if (!has_begun_) begin();
   system_.calc_error_scales(y(), span_of(inverse_scales_));
   inverse_scales_ = (tolerance_ * inverse_scales_).cwiseInverse();
+  if (wants_linearisation_) linearise();
+  if (!has_begun_) begin();
 
   double factor = 1.0;
   while (true) {

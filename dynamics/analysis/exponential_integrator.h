@@ -45,7 +45,7 @@ class ExponentialIntegrator final : public Integrator {
   bool finish_step();
   bool crosses() const;
   void move_between(const LobattoPropagator& propagator);
-  bool is_surprising(double theta, const LobattoPropagator& propagator);
+  bool is_surprising(std::size_t look);
   bool may_hide_switches();
   bool is_undisturbed(double place);
   bool find_gains();
@@ -83,6 +83,7 @@ class ExponentialIntegrator final : public Integrator {
   // swing looks like a cubic at both.
   static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
   std::array<LobattoPropagator, kLooks.size()> lookers_;
+  std::array<lobatto::NodeWeights, kLooks.size()> look_weights_;
   double looker_length_ = 0.0;
   double seen_length_ = std::numeric_limits<double>::infinity();  // steps of this length may hide switches
   std::array<PairedMotion, kNumNodes> stages_;
@@ -92,6 +93,7 @@ class ExponentialIntegrator final : public Integrator {
   PairedMotion end_, difference_, end_drive_, bend_response_, doubt_;
   Vector end_switches_;
   Vector y_dot_, inverse_scales_, stage_y_, difference_y_;
+  Vector pair_sizes_;  // 2f: what one of each adds to calc_norm, at the linearisation
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;
   mutable Vector between_y_;

@@ -45,14 +45,13 @@ void ExponentialIntegrator::move_between(const LobattoPropagator& propagator) {
   now_.add_quartic(propagator, basis_.blocks, between_motion_);
 }
 
-// Whether the motion at θ is another than the cubic through the nodes tells.
-bool ExponentialIntegrator::is_surprising(double theta, const LobattoPropagator& propagator) {
-  const lobatto::NodeWeights weights = lobatto::cubic_weights(theta);
-  move_between(propagator);
-  difference_.u = between_motion_.u - weights[0] * now_.motion.u;
-  for (int j = 1; j < kNumNodes; ++j) difference_.u -= weights[j] * stages_[static_cast<std::size_t>(j)].u;
-  difference_.w.setZero();
-  return calc_norm(difference_) > kSurprise;
+// Whether the motion at one of kLooks is another than the cubic through the nodes tells.
+bool ExponentialIntegrator::is_surprising(std::size_t look) {
+  move_between(lookers_[look]);
+  const lobatto::NodeWeights& weights = look_weights_[look];
+  const auto difference = between_motion_.u - weights[0] * now_.motion.u - weights[1] * stages_[1].u -
+                          weights[2] * stages_[2].u - weights[3] * stages_[3].u;
+  return pair_sizes_.cwiseProduct(difference).norm() > kSurprise;
 }
 
 // Whether in now_ a switch function may become negative and positive again and no node show it: what vibrates is
@@ -60,14 +59,14 @@ bool ExponentialIntegrator::is_surprising(double theta, const LobattoPropagator&
 bool ExponentialIntegrator::may_hide_switches() {
   if (now_.length < kShortestHiding) return false;
   for (Eigen::Index i = 0; i < switches_.rows(); ++i) {
-    if (std::isfinite(SwitchCourse(switches_.row(i).transpose()).dip())) return true;
+    if (std::isfinite(SwitchCourse(switches_.row(i)).dip())) return true;
   }
   if (now_.length != looker_length_) {
     for (std::size_t k = 0; k < kLooks.size(); ++k) lookers_[k].update(kLooks[k], now_.length, basis_.blocks);
     looker_length_ = now_.length;
   }
   bool looks = false;
-  for (std::size_t k = 0; k < kLooks.size(); ++k) looks = looks || is_surprising(kLooks[k], lookers_[k]);
+  for (std::size_t k = 0; k < kLooks.size(); ++k) looks = looks || is_surprising(k);
   if (!looks) return false;
   for (std::size_t k = 0; k < kLooks.size(); ++k) {
     move_between(lookers_[k]);
@@ -75,7 +74,7 @@ bool ExponentialIntegrator::may_hide_switches() {
     const double time = now_.start + kLooks[k] * now_.length;
     if (!system_.calc_switches(time, span_of(stage_y_), span_of(end_switches_))) return true;
     for (Eigen::Index i = 0; i < switches_.rows(); ++i) {
-      if (SwitchCourse(switches_.row(i).transpose()).may_hide(kLooks[k], end_switches_[i])) return true;
+      if (SwitchCourse(switches_.row(i)).may_hide(kLooks[k], end_switches_[i])) return true;
     }
   }
   if (!crosses()) return false;
@@ -107,7 +106,7 @@ bool ExponentialIntegrator::find_gains() {
     if (&bend != now_.bends.all().data() && !is_undisturbed(bend.place)) return false;
     if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_)))
       return false;
-    basis_.to_pairs(y_dot_.head(2 * f_), bend.gain.u);
+    basis_.to_pairs(y_dot_.data(), bend.gain.u.data());
     bend.gain.w = y_dot_.tail(num_quadratures_);
     bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
     doubt_.w += bend.calc_doubt(now_.length) * bend.gain.w;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -14,24 +15,39 @@ namespace sprung::dynamics {
 /// the true value at a place between the points tells.
 class SwitchCourse {
  public:
-  explicit SwitchCourse(const lobatto::NodeWeights& values);
+  /// @param values  indexed by the number of the point
+  template <class Values>
+  explicit SwitchCourse(const Values& values) : v_{values[0], values[1], values[2], values[3]} {}
 
   /// The cubic at θ.
-  double at(double theta) const { return c_[0] + theta * (c_[1] + theta * (c_[2] + theta * c_[3])); }
+  double at(double theta) const;
   /// Where the cubic is least, if it becomes negative there and positive again before the first point at
   /// which it is negative; else not a number.
-  double dip() const { return is_dip(0.0) ? minimum_ : std::numeric_limits<double>::quiet_NaN(); }
+  double dip() const { return bound() >= 0.0 ? std::numeric_limits<double>::quiet_NaN() : find_dip(0.0); }
   /// Whether there may be a dip that the cubic does not show.
   /// @param value  the true one at θ, between the points
   bool may_hide(double theta, double value) const;
 
  private:
-  bool is_dip(double doubt) const;
+  // Coefficients of the cubic by powers of θ.
+  std::array<double, lobatto::kNumNodes> calc_coefficients() const;
+  // The cubic is nowhere less: the least of its coefficients by Bernstein polynomials, which add up to 1.
+  double bound() const {
+    const double second =
+        kBernstein[0] * v_[0] + kBernstein[1] * v_[1] + kBernstein[2] * v_[2] + kBernstein[3] * v_[3];
+    const double third =
+        kBernstein[3] * v_[0] + kBernstein[2] * v_[1] + kBernstein[1] * v_[2] + kBernstein[0] * v_[3];
+    return std::min(std::min(v_[0], v_[3]), std::min(second, third));
+  }
+  double least() const { return std::min(std::min(v_[0], v_[1]), std::min(v_[2], v_[3])); }
+  double range() const { return std::max(std::max(v_[0], v_[1]), std::max(v_[2], v_[3])) - least(); }
+  double reach() const;
+  double find_dip(double doubt) const;
 
-  std::array<double, lobatto::kNumNodes> c_{};                 // by powers of θ
-  double range_ = 0.0, least_ = 0.0;                           // of the values at the points
-  double reach_ = 1.0;                                         // θ up to which no point is negative
-  double minimum_ = std::numeric_limits<double>::quiet_NaN();  // θ of it, between 0 and reach_
+  static constexpr double kRoot5 = 2.23606797749978969;
+  static constexpr std::array<double, lobatto::kNumNodes> kBernstein = {
+      -1.0, 5.0 / 6.0 * (1.0 + kRoot5), 5.0 / 6.0 * (1.0 - kRoot5), 1.0 / 3.0};
+  std::array<double, lobatto::kNumNodes> v_;
 };
 
 }  // namespace sprung::dynamics

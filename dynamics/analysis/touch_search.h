@@ -78,7 +78,7 @@ class TouchSearch {
   double find_dip() const {
     double first = std::numeric_limits<double>::quiet_NaN();
     for (Eigen::Index i = 0; i < values_.rows(); ++i)
-      first = std::fmin(first, SwitchCourse(values_.row(i).transpose()).dip());
+      first = std::fmin(first, SwitchCourse(values_.row(i)).dip());
     return first;
   }
 

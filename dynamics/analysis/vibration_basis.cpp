@@ -56,7 +56,29 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
   return pairs;
 }
 
+template <int num_rows>
+void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x, double* y) {
+  using Rows = Eigen::Matrix<double, num_rows, 1>;
+  const double* entry = A.data() + first;
+  Rows sum = Rows::Zero();
+  for (Eigen::Index k = 0; k < A.cols(); ++k, entry += A.rows()) sum += x[k] * Eigen::Map<const Rows>(entry);
+  Eigen::Map<Rows>(y + first) = sum;
+}
+
 }  // namespace
+
+// Four rows at a time, in registers: Eigen's product is made for large matrices, and costs small ones more than they take.
+void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
+  constexpr Eigen::Index kSmall = 24;
+  const Eigen::Index size = A.rows();
+  if (size > kSmall) {
+    Eigen::Map<Eigen::VectorXd>(y, size).noalias() = A * Eigen::Map<const Eigen::VectorXd>(x, size);
+    return;
+  }
+  Eigen::Index first = 0;
+  for (; first + 4 <= size; first += 4) multiply_rows<4>(A, first, x, y);
+  if (first < size) multiply_rows<2>(A, first, x, y);  // size is even
+}
 
 VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   const Eigen::Index f = motion.mass.rows();

@@ -29,25 +29,11 @@ struct VibrationBasis {
   PairBlocks blocks;
 
   /// @param u, state  2f
-  template <class In, class Out>
-  void to_state(const In& u, Out&& state) const {
-    multiply(T, u, state);
-  }
-  template <class In, class Out>
-  void to_pairs(const In& state, Out&& u) const {
-    multiply(inverse, state, u);
-  }
+  void to_state(const Eigen::VectorXd& u, double* state) const { multiply(T, u.data(), state); }
+  void to_pairs(const double* state, double* u) const { multiply(inverse, state, u); }
 
  private:
-  // Eigen's product is made for large matrices, and costs small ones more than they take.
-  template <class In, class Out>
-  static void multiply(const Eigen::MatrixXd& A, const In& x, Out& y) {
-    constexpr Eigen::Index kSmall = 24;
-    if (A.cols() <= kSmall)
-      y.noalias() = A.lazyProduct(x);
-    else
-      y.noalias() = A * x;
-  }
+  static void multiply(const Eigen::MatrixXd& A, const double* x, double* y);
 };
 
 /// Modes with a frequency are coupled by damping and become the complex modes of that part, in real form;
