@@ -77,7 +77,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
-  for (int iteration = 0; size > kTolerance * model.length_scale; ++iteration) {
+  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q)); ++iteration) {
     if (iteration == kMaxIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();

@@ -59,7 +59,9 @@ struct Depth {
 void take_deepest(const Depth::Sample& sample, WheelOverlap& overlap) {
   if (sample.value <= overlap.depth) return;
   overlap.depth = sample.value;
-  overlap.depth_slope = sample.road_slope;
+  // Where the deepest place is level the circle slopes as the road does; at a corner of the road, which stays
+  // where it is, the circle's slope alone counts.
+  overlap.depth_slope = std::isfinite(sample.slope) ? sample.road_slope - sample.slope : sample.road_slope;
 }
 
 // The part between two places all of which touches.

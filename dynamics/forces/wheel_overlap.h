@@ -14,7 +14,7 @@ struct WheelOverlap {
   double width = 0.0;        ///< of what touches, along the road [m]
   double rise = 0.0;         ///< of the road over what touches [m]
   double depth = 0.0;        ///< largest e; negative: how far the wheel is above the road [m]
-  double depth_slope = 0.0;  ///< slope of the road there
+  double depth_slope = 0.0;  ///< ∂depth/∂s: slope of the circle there, and of the road unless it has a corner
 };
 
 /// Exact but for what the road hides between samples 2R/num_cells apart, to which the ends of its segments

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kClosed = 1e-12;  // of the model's length scale
 constexpr int kMaxClosings = 12;
+constexpr int kClosingsToRounding = 3;  // after which coordinates are as good as their rounding allows
 
 }  // namespace
 
@@ -93,6 +94,7 @@ bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
     const double size = residual_.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
     if (size <= kClosed * model_->length_scale) return true;
+    if (iteration >= kClosingsToRounding && size <= model_->calc_rounding(moved_)) return true;
     terms_.update_mass();
     if (!factorise()) return false;
     calc_correction();

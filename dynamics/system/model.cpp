@@ -55,6 +55,17 @@ double Model::coordinate_scale(int coordinate) const {
   return local == 2 ? 1.0 : length_scale / body.mode_scale[local - 3];
 }
 
+double Model::calc_rounding(const Eigen::VectorXd& q) const {
+  constexpr double kUnits = 4.0 * std::numeric_limits<double>::epsilon();
+  double place = 0.0, angle = 0.0;
+  for (const Body& body : bodies) {
+    const int i = body.first_coordinate;
+    place = std::max({place, std::abs(q[i]), std::abs(q[i + 1])});
+    angle = std::max(angle, std::abs(q[i + 2]));
+  }
+  return kUnits * (place + std::max(length_scale, 1.0) * angle);
+}
+
 int Model::find_body(const std::string& name) const {
   const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.name == name; });
   return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());

@@ -39,6 +39,10 @@ struct Model {
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what moves
   /// some node by length_scale.
   double coordinate_scale(int coordinate) const;
+  /// What the rounding of coordinates leaves of joints that are closed as well as can be: of bodies far from the
+  /// origin, or turned many times, more than nothing [m, rad].
+  /// @param q  num_coordinates
+  double calc_rounding(const Eigen::VectorXd& q) const;
   int find_body(const std::string& name) const;    ///< -1 if there is none
   int find_marker(const std::string& name) const;  ///< -1 if there is none
 };

@@ -14,6 +14,7 @@ constexpr double kAim = 0.01;  // of the tolerance: what is left would else be n
 // the share d = r^(1/3), so that r d² is left after two iterations.
 constexpr double kLargeFirst = 4e-9;
 constexpr int kMaxNewtonIterations = 12;
+constexpr int kIterationsToRounding = 3;  // after which coordinates are as good as their rounding allows
 
 }  // namespace
 
@@ -82,6 +83,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     const double size = residual_.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(size)) return false;
     if (size <= tolerance) return true;
+    if (iteration >= kIterationsToRounding && size <= model_->calc_rounding(q_)) return true;
     const bool is_slow = iteration == 0 ? size > kLargeFirst * model_->length_scale
                                         : size * (size / last) * (size / last) > kAim * tolerance;
     if (is_slow) refactor();

@@ -92,6 +92,23 @@ TEST_CASE("Width and rise are the derivatives of the area, over bumps, edges and
   }
 }
 
+TEST_CASE("The slope of the depth is its derivative, on corners of the road, too", "[forces]") {
+  const BumpRoad ramp({.shape = BumpShape::kRamp, .start = 5.0, .length = 0.02, .height = -0.1});
+  const BumpRoad triangle({.shape = BumpShape::kTriangle, .start = 5.0, .length = 0.3, .height = 0.1});
+  const BumpRoad bump({.shape = BumpShape::kHalfSine, .start = 5.0, .length = 0.8, .height = 0.1});
+  constexpr double kShift = 1e-5;
+  for (const dynamics::Road* road : {&ramp, &triangle, &bump}) {
+    for (const double s : {4.83, 5.03, 5.139, 5.35}) {
+      CAPTURE(s);
+      for (const double y : {kRadius + 0.05, kRadius + 1e-6, kRadius - 0.02}) {
+        const double slope =
+            (overlap(*road, s + kShift, y).depth - overlap(*road, s - kShift, y).depth) / (2.0 * kShift);
+        CHECK(overlap(*road, s, y).depth_slope == Approx(slope).margin(1e-6));
+      }
+    }
+  }
+}
+
 TEST_CASE("The integral of a road is that of its height", "[road]") {
   const std::vector<double> s{0.0, 0.3, 0.5, 0.9, 1.2, 1.3}, h{0.0, 0.05, -0.06, 0.08, 0.02, 0.04};
   const dynamics::TableRoad table(4.5, s, h);
