@@ -58,6 +58,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       bend_contraction_(kFirstContraction),
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
+  origin_ = Vector::Zero(2 * f_);
   y_ = y_dot_ = scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
@@ -95,6 +96,7 @@ void ExponentialIntegrator::linearise() {
               Eigen::MatrixXd::Zero(f_, f_)};
   }
   basis_ = make_vibration_basis(motion);
+  origin_.head(f_) = y_.head(f_);
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
@@ -104,7 +106,8 @@ void ExponentialIntegrator::linearise() {
 }
 
 void ExponentialIntegrator::begin() {
-  now_.motion.u.noalias() = basis_.inverse * y_.head(2 * f_);
+  difference_y_.head(2 * f_) = y_.head(2 * f_) - origin_;
+  now_.motion.u.noalias() = basis_.inverse * difference_y_.head(2 * f_);
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
@@ -115,12 +118,14 @@ void ExponentialIntegrator::begin() {
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
   y.head(2 * f_).noalias() = basis_.T * motion.u;
+  y.head(2 * f_) += origin_;
   y.tail(num_quadratures_) = motion.w;
 }
 
 // Root mean square over the components of y, each by its size that is allowed.
 double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
-  to_physical(difference, difference_y_);
+  difference_y_.head(2 * f_).noalias() = basis_.T * difference.u;
+  difference_y_.tail(num_quadratures_) = difference.w;
   return std::sqrt((difference_y_.array() / scales_.array()).square().mean());
 }
 

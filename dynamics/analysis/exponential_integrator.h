@@ -62,6 +62,7 @@ class ExponentialIntegrator final : public Integrator {
   Statistics statistics_;
 
   VibrationBasis basis_;
+  Vector origin_;  // of the pairs, 2f: of large positions they would keep no more than is left after rounding
   int version_ = 0;  // of the coordinates that it is for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
