@@ -58,6 +58,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       bend_contraction_(kFirstContraction),
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
+  origin_ = Vector::Zero(f_);
   y_ = y_dot_ = inverse_scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
@@ -98,6 +99,7 @@ void ExponentialIntegrator::linearise() {
   basis_ = make_vibration_basis(motion);
   pair_sizes_ = (inverse_scales_.head(2 * f_).asDiagonal() * basis_.T).colwise().norm().transpose();
   pair_sizes_ /= std::sqrt(static_cast<double>(system_.size()));
+  origin_ = y_.head(f_);
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
@@ -107,7 +109,9 @@ void ExponentialIntegrator::linearise() {
 }
 
 void ExponentialIntegrator::begin() {
-  basis_.to_pairs(y_.data(), now_.motion.u.data());
+  difference_y_ = y_;
+  difference_y_.head(f_) -= origin_;
+  basis_.to_pairs(difference_y_.data(), now_.motion.u.data());
   now_.motion.w = y_.tail(num_quadratures_);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
@@ -118,12 +122,14 @@ void ExponentialIntegrator::begin() {
 
 void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
   basis_.to_state(motion.u, y.data());
+  y.head(f_) += origin_;
   y.tail(num_quadratures_) = motion.w;
 }
 
 // Root mean square over the components of y, each by its size that is allowed.
 double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
-  to_physical(difference, difference_y_);
+  basis_.to_state(difference.u, difference_y_.data());
+  difference_y_.tail(num_quadratures_) = difference.w;
   return std::sqrt((difference_y_.array() * inverse_scales_.array()).square().mean());
 }
 

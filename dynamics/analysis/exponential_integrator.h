@@ -62,6 +62,7 @@ class ExponentialIntegrator final : public Integrator {
   Statistics statistics_;
 
   VibrationBasis basis_;
+  Vector origin_;  // f positions from which the pairs count: large ones would leave them few digits
   int version_ = 0;  // of the coordinates that it is for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step

@@ -1,5 +1,7 @@
 // What every integrator has to do: on ẍ = −x + ε x³, whose linear part alone the exponential one knows
 // beforehand.
+#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -174,6 +176,57 @@ TEST_CASE("A tolerance beyond rounding is told as such", "[analysis]") {
     }
   };
   CHECK_THROWS_WITH(run(), Contains("finer than rounding") && Contains("try a larger one"));
+}
+
+TEST_CASE("Vibration costs the exponential method as much far from the origin as at it", "[analysis]") {
+  // A body that moves freely along x carries two oscillators whose masses it feels. What is known beforehand
+  // is not exact, as the stiffness is that weight gives to an angle.
+  class Carrier final : public dynamics::OdeSystem {
+   public:
+    const Eigen::Matrix3d mass{{1.0, 0.3, 0.27}, {0.3, 1.0, 0.13}, {0.27, 0.13, 1.0}};
+    const Eigen::Vector3d stiffness{0.0, 1.1e6, 3.3e7};
+    long num_evaluations = 0;
+
+    int size() const override { return 6; }
+    int num_freedoms() const override { return 3; }
+    bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override {
+      ++num_evaluations;
+      const Eigen::Vector3d q(y[0], y[1], y[2]), push(std::sin(30.0 * time), 0.0, 0.0);
+      const Eigen::Vector3d v_dot = mass.inverse() * (push - stiffness.cwiseProduct(q));
+      for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        y_dot[k] = y[k + 3];
+        y_dot[k + 3] = v_dot[i];
+      }
+      return true;
+    }
+    int num_switches() const override { return 0; }
+    bool calc_switches(double /*time*/, std::span<const double> /*y*/,
+                       std::span<double> /*values*/) override {
+      return true;
+    }
+    void calc_error_scales(std::span<const double> /*y*/, std::span<double> scales) const override {
+      std::fill(scales.begin(), scales.end(), 1.0);
+    }
+    bool calc_small_motion(double /*time*/, std::span<const double> /*y*/,
+                           dynamics::SmallMotion& motion) override {
+      motion.mass = mass;
+      motion.damping = Eigen::Matrix3d::Zero();
+      motion.stiffness = (stiffness + Eigen::Vector3d(50.0, 0.0, 0.0)).asDiagonal();
+      return true;
+    }
+  };
+  const auto count = [](double place) {
+    Carrier system;
+    const auto integrator = make_integrator(system, {.relative_tolerance = 1e-9});
+    integrator->start(0.0, std::array{place, 1e-3, 1e-3, 7.0, 0.0, 0.0}, 1.0);
+    while (integrator->step(kInfinity) != Integrator::StepResult::kEnded) {
+    }
+    return system.num_evaluations;
+  };
+  const long at_origin = count(0.0), far = count(1e9);
+  CAPTURE(at_origin, far);
+  CHECK(5 * far < 6 * at_origin);
 }
 
 TEST_CASE("The exponential method takes motion that it knows beforehand in a few steps", "[analysis]") {
