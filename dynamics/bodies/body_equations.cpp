@@ -6,19 +6,10 @@ namespace sprung::dynamics {
 
 FrameRotation FrameRotation::from_angle(double theta) { return {std::cos(theta), std::sin(theta)}; }
 
-FrameRotation NearbyRotation::at(double theta) {
-  const double turn = theta - kept_angle_, square = turn * turn;
-  constexpr double kNearby = 0.03;  // rad: what the series leave out is below 1e-18
-  if (!(std::abs(turn) < kNearby)) {
-    kept_angle_ = theta;
-    kept_ = FrameRotation::from_angle(theta);
-    return kept_;
-  }
-  const double turn_sine = turn - turn * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
-  const double versine =
-      square * (1.0 / 2.0 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40320.0))));
-  return {kept_.cosine - (versine * kept_.cosine + turn_sine * kept_.sine),
-          kept_.sine + (turn_sine * kept_.cosine - versine * kept_.sine)};
+FrameRotation NearbyRotation::keep(double theta) {
+  kept_angle_ = theta;
+  kept_ = FrameRotation::from_angle(theta);
+  return kept_;
 }
 
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta) {

@@ -24,9 +24,20 @@ struct FrameRotation {
 /// an angle that is kept, by their series, exact to rounding.
 class NearbyRotation {
  public:
-  FrameRotation at(double theta);
+  FrameRotation at(double theta) {
+    constexpr double kNearby = 0.03;  // rad: what the series leave out is below 1e-18
+    const double turn = theta - kept_angle_, square = turn * turn;
+    if (!(square < kNearby * kNearby)) return keep(theta);
+    const double turn_sine = turn - turn * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
+    const double versine =
+        square * (1.0 / 2.0 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40320.0))));
+    return {kept_.cosine - (versine * kept_.cosine + turn_sine * kept_.sine),
+            kept_.sine + (turn_sine * kept_.cosine - versine * kept_.sine)};
+  }
 
  private:
+  FrameRotation keep(double theta);
+
   double kept_angle_ = 0.0;
   FrameRotation kept_;
 };

@@ -62,39 +62,44 @@ void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::Vector
   time_ = time;
   q_ = q;
   for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = nearby_rotations_[b].at(q_[angles_[b]]);
-  for (const MovingMarker& moving : joint_markers_) place_marker(moving);
+  place_markers(joint_markers_);
 }
 
 void SystemTerms::place_others() {
-  for (const MovingMarker& moving : other_markers_) place_marker(moving);
+  place_markers(other_markers_);
 }
 
-void SystemTerms::place_marker(const MovingMarker& moving) {
-  if (moving.is_rigid()) {
-    MarkerState& state = markers_[moving.marker];
+void SystemTerms::place_markers(std::span<const MovingMarker> markers) {
+  for (const MovingMarker& moving : markers) {
+    const FrameRotation& rotation = rotations_[moving.body];
     const double* q = q_.data() + moving.first_coordinate;
+    MarkerState& state = markers_[moving.marker];
+    if (!moving.is_rigid()) {
+      calc_marker_position(model_->markers[moving.marker], rotation, q, state);
+      continue;
+    }
     state.angle = q[2] + moving.alpha_BP;
-    place_in_body(moving.p_BP, rotations_[moving.body], q, state);
-    return;
+    place_in_body(moving.p_BP, rotation, q, state);
   }
-  calc_marker_position(model_->markers[moving.marker], rotations_[moving.body], q_.data() + moving.first_coordinate,
-                       markers_[moving.marker]);
 }
 
-void SystemTerms::move_marker(const MovingMarker& moving) {
-  if (moving.is_rigid()) {
-    move_with_body(v_.data() + moving.first_coordinate, markers_[moving.marker]);
-    return;
+void SystemTerms::move_markers(std::span<const MovingMarker> markers) {
+  for (const MovingMarker& moving : markers) {
+    const double* v = v_.data() + moving.first_coordinate;
+    MarkerState& state = markers_[moving.marker];
+    if (moving.is_rigid())
+      move_with_body(v, state);
+    else
+      calc_marker_velocity(model_->markers[moving.marker], v, state);
   }
-  calc_marker_velocity(model_->markers[moving.marker], v_.data() + moving.first_coordinate, markers_[moving.marker]);
 }
 
 void SystemTerms::update_all_markers() {
   for (int i = 0; i < static_cast<int>(markers_.size()); ++i) {
     if (model_->markers[static_cast<std::size_t>(i)].body == kGround) continue;
     const MovingMarker moving = find_body(i);
-    place_marker(moving);
-    move_marker(moving);
+    place_markers({&moving, 1});
+    move_markers({&moving, 1});
   }
 }
 
@@ -158,13 +163,15 @@ void SystemTerms::add_block(const JointTerms& terms, JointSide& side) {
 }
 
 // What of a row of the Jacobian changes with the state: by the angle, and by the modes.
-void SystemTerms::fill_turning(const MarkerRow& G, const MarkerState& state, double* values) {
+inline void SystemTerms::fill_turning(const MarkerRow& G, const MarkerState& state, double* values) {
   values[0] = G.by_theta(state);
-  const Eigen::Index n = state.Phi.cols();
-  if (n == 0) return;
+  if (state.Phi.cols() > 0) fill_modal(G, state, values + 1);
+}
+
+void SystemTerms::fill_modal(const MarkerRow& G, const MarkerState& state, double* values) {
   const MarkerRow in_body = G.in_body(state.rotation);
   const double* shape = state.Phi.data();
-  for (Eigen::Index k = 1; k <= n; ++k, shape += 3) values[k] = in_body.by_mode(shape);
+  for (Eigen::Index k = 0; k < state.Phi.cols(); ++k, shape += 3) values[k] = in_body.by_mode(shape);
 }
 
 void SystemTerms::fill_block(const JointSide& side) {
@@ -215,8 +222,8 @@ void SystemTerms::update_mass() {
 
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
   v_ = v;
-  for (const MovingMarker& moving : joint_markers_) move_marker(moving);
-  for (const MovingMarker& moving : other_markers_) move_marker(moving);
+  move_markers(joint_markers_);
+  move_markers(other_markers_);
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {

@@ -99,12 +99,13 @@ class SystemTerms {
     MarkerRow G;
   };
   MovingMarker find_body(int marker_index) const;
-  void place_marker(const MovingMarker& moving);
-  void move_marker(const MovingMarker& moving);
+  void place_markers(std::span<const MovingMarker> markers);
+  void move_markers(std::span<const MovingMarker> markers);
   void add_joint(std::size_t joint);
   void add_block(const JointTerms& terms, JointSide& side);
   void fill_once(const JointTerms& terms);
   static void fill_turning(const MarkerRow& G, const MarkerState& state, double* values);
+  static void fill_modal(const MarkerRow& G, const MarkerState& state, double* values);
   void fill_block(const JointSide& side);
   void add_body_forces(std::size_t body);
   void add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& Q) const;
