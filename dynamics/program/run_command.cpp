@@ -32,6 +32,7 @@ TransientOptions make_options(const Run& run) {
   return options;
 }
 
+constexpr double kSmallestScale = 1e-4;    // m: a hundred thousand dead bands of switches
 constexpr double kAlarmingClosure = 1e-3;  // far above what any usable tolerance gives
 
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
@@ -63,6 +64,12 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
   }
 
+  if (prepared.model.length_scale < kSmallestScale) {
+    fmt::print(stderr,
+               "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so within 1e-9 m, "
+               "which will be seen: give lengths in a larger unit, as mm with g and ms\n",
+               prepared.model.length_scale);
+  }
   TransientOptions options = make_options(run);
   std::optional<Model> full_model;
   options.adaptivity = make_adaptivity(prepared, full_model);

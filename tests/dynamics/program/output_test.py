@@ -51,6 +51,24 @@ class Results(DynamicsTestCase):
             lift += sum(file[f"forces/{end}_suspension/force"][0] for end in ("front", "rear"))
         self.assertAlmostEqual(lift / (11950.0 * 9.80665), 1.0, places=6)
 
+    def test_a_model_near_the_dead_bands_of_switches_is_warned_of(self):
+        (self.folder / "tiny.toml").write_text(
+            'vehicle = "pendulum.toml"\nstart = "as-given"\nduration = 1e-3\noutput_step = 1e-4\n', encoding="utf-8"
+        )
+        for length, is_warned in ((1e-6, True), (1e-3, False)):
+            (self.folder / "pendulum.toml").write_text(
+                'name = "pendulum"\n[bodies.rod]\nmass = 1e-9\ninertia = 1e-21\nposition = [0.0, 0.0]\n'
+                f"[bodies.rod.points]\nend = [{length}, 0.0]\n"
+                '[[joints]]\nname = "pin"\ntype = "revolute"\na = "ground.pin"\nb = "rod.end"\n'
+                f"[ground.points]\npin = [{length}, 0.0]\n",
+                encoding="utf-8",
+            )
+            process = subprocess.run(
+                [PROGRAM, "run", "tiny.toml", "--quiet"], cwd=self.folder, capture_output=True, text=True, check=False
+            )
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertEqual("larger unit" in process.stderr, is_warned, process.stderr)
+
     def test_blocked_by_a_plain_file(self):
         (self.folder / "blocked").write_text("not a folder", encoding="utf-8")
         process = self.run_program("--quiet", "-o", "blocked/results.h5")
