@@ -10,27 +10,29 @@ constexpr double kRateDeadBand = 1e-6;        // m/s or rad/s
 
 }  // namespace
 
-void SpringAndDamper::choose_branches(double deflection, double rate, std::span<int> branches) const {
-  branches[0] = spring.choose_piece(branches[0], deflection, kDeflectionDeadBand);
-  branches[1] = damper.choose_piece(branches[1], rate, kRateDeadBand);
+void SpringAndDamper::choose_branches(const Instant& instant, std::span<int> branches) const {
+  const Deflection d = calc_deflection(instant);
+  branches[0] = spring().choose_piece(branches[0], d.value, kDeflectionDeadBand);
+  branches[1] = damper().choose_piece(branches[1], d.rate, kRateDeadBand);
 }
 
-void SpringAndDamper::calc_switches(double deflection, double rate, std::span<const int> branches,
+void SpringAndDamper::calc_switches(const Instant& instant, std::span<const int> branches,
                                     std::span<double> values) const {
-  spring.calc_piece_switches(branches[0], deflection, kDeflectionDeadBand, values);
-  damper.calc_piece_switches(branches[1], rate, kRateDeadBand,
-                             values.subspan(static_cast<std::size_t>(spring.num_switches())));
+  const Deflection d = calc_deflection(instant);
+  spring().calc_piece_switches(branches[0], d.value, kDeflectionDeadBand, values);
+  damper().calc_piece_switches(branches[1], d.rate, kRateDeadBand,
+                               values.subspan(static_cast<std::size_t>(spring().num_switches())));
 }
 
 // What a spring takes up it stores, so that its power does not count.
 Passage SpringAndDamper::passage(int switch_index, std::span<const int> branches) const {
-  const int of_damper = switch_index - spring.num_switches();
-  if (of_damper < 0 || damper.ends_at_zero(branches[1], of_damper)) return Passage::kBendAtRest;
+  const int of_damper = switch_index - spring().num_switches();
+  if (of_damper < 0 || damper().ends_at_zero(branches[1], of_damper)) return Passage::kBendAtRest;
   return Passage::kBend;
 }
 
 void SpringAndDamper::go_beyond(int switch_index, std::span<int> branches) const {
-  const int of_damper = switch_index - spring.num_switches();
+  const int of_damper = switch_index - spring().num_switches();
   if (of_damper < 0)
     branches[0] += switch_index == 0 ? -1 : 1;
   else

@@ -1,24 +1,33 @@
 #pragma once
 
-#include <span>
-
-#include "dynamics/forces/passage.h"
+#include "dynamics/forces/force_element.h"
 #include "dynamics/forces/piecewise_polynomial.h"
 
 namespace sprung::dynamics {
 
-/// The laws of a spring and a damper that act side by side, seen as pieces: a function of the deflection and
-/// one of its rate. Branches: the pieces in use, 2. Switches: the ends of both, where they have any.
-struct SpringAndDamper {
-  const PiecewisePolynomial& spring;
-  const PiecewisePolynomial& damper;
+/// A spring and a damper side by side, functions of one deflection and of its rate: what the two kinds of
+/// them, along a line and between angles, have in common. Branches: pieces of spring and damper. Switches:
+/// the ends of both, where they have any.
+class SpringAndDamper : public ForceElement {
+ public:
+  using ForceElement::ForceElement;
 
-  void choose_branches(double deflection, double rate, std::span<int> branches) const;
-  int num_switches() const { return spring.num_switches() + damper.num_switches(); }
-  void calc_switches(double deflection, double rate, std::span<const int> branches,
-                     std::span<double> values) const;
-  Passage passage(int switch_index, std::span<const int> branches) const;
-  void go_beyond(int switch_index, std::span<int> branches) const;
+  int num_branches() const final { return 2; }
+  void choose_branches(const Instant& instant, std::span<int> branches) const final;
+  int num_switches() const final { return spring().num_switches() + damper().num_switches(); }
+  Passage passage(int switch_index, std::span<const int> branches) const final;
+  void go_beyond(int switch_index, std::span<int> branches) const final;
+  void calc_switches(const Instant& instant, std::span<const int> branches,
+                     std::span<double> values) const final;
+
+ protected:
+  struct Deflection {
+    double value;  ///< d [m or rad]
+    double rate;   ///< ḋ
+  };
+  virtual Deflection calc_deflection(const Instant& instant) const = 0;
+  virtual const PiecewisePolynomial& spring() const = 0;
+  virtual const PiecewisePolynomial& damper() const = 0;
 };
 
 }  // namespace sprung::dynamics

@@ -42,15 +42,9 @@ double SpringDamper::calc_stored_energy(const Instant& instant, std::span<const 
   return parameters_.multiplicity * parameters_.spring.integral(calc_line(instant).deflection);
 }
 
-void SpringDamper::choose_branches(const Instant& instant, std::span<int> branches) const {
+SpringDamper::Deflection SpringDamper::calc_deflection(const Instant& instant) const {
   const Line line = calc_line(instant);
-  laws().choose_branches(line.deflection, line.rate, branches);
-}
-
-void SpringDamper::calc_switches(const Instant& instant, std::span<const int> branches,
-                                 std::span<double> values) const {
-  const Line line = calc_line(instant);
-  laws().calc_switches(line.deflection, line.rate, branches, values);
+  return {line.deflection, line.rate};
 }
 
 std::span<const Channel> SpringDamper::channels() const {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "dynamics/forces/force_element.h"
-#include "dynamics/forces/piecewise_polynomial.h"
 #include "dynamics/forces/spring_and_damper.h"
 
 namespace sprung::dynamics {
@@ -9,7 +7,7 @@ namespace sprung::dynamics {
 /// Spring and damper along the line between two markers (dynamics/README.md, eq. 9). Deflection d = free
 /// length − length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart
 /// when positive.
-class SpringDamper final : public ForceElement {
+class SpringDamper final : public SpringAndDamper {
  public:
   struct Parameters {
     int marker_a = 0;
@@ -20,7 +18,7 @@ class SpringDamper final : public ForceElement {
     PiecewisePolynomial damper;  ///< F(ḋ) [N]
   };
   SpringDamper(std::string element_name, Parameters parameters)
-      : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {}
+      : SpringAndDamper(std::move(element_name)), parameters_(std::move(parameters)) {}
 
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "spring-damper"; }
@@ -28,19 +26,6 @@ class SpringDamper final : public ForceElement {
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;
-  /// Branches: pieces of spring and damper. Switches: the ends of both, where they have any.
-  int num_branches() const override { return 2; }
-  void choose_branches(const Instant& instant, std::span<int> branches) const override;
-  int num_switches() const override { return laws().num_switches(); }
-  Passage passage(int switch_index, std::span<const int> branches) const override {
-    return laws().passage(switch_index, branches);
-  }
-  void go_beyond(int switch_index, std::span<int> branches) const override {
-    laws().go_beyond(switch_index, branches);
-  }
-  void calc_switches(const Instant& instant, std::span<const int> branches,
-                     std::span<double> values) const override;
-
   std::span<const Channel> channels() const override;
   void calc_channels(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const override;
@@ -48,7 +33,9 @@ class SpringDamper final : public ForceElement {
  private:
   struct Line;
   Line calc_line(const Instant& instant) const;
-  SpringAndDamper laws() const { return {parameters_.spring, parameters_.damper}; }
+  Deflection calc_deflection(const Instant& instant) const override;
+  const PiecewisePolynomial& spring() const override { return parameters_.spring; }
+  const PiecewisePolynomial& damper() const override { return parameters_.damper; }
   Parameters parameters_;
 };
 
