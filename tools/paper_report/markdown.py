@@ -49,8 +49,7 @@ def find_differences(kept, made, relative, absolute_digits=1.5, points=0.0):
     """Where a table as kept differs from one as made: a list of sentences, empty if they agree.
 
     Rows of `made` are looked up in `kept` by their first cell. Words must be equal; numbers may differ by the share
-    `relative`, by `absolute_digits` units of the last digit shown, and those in % by `points` of a per cent; where points
-    are given, by a quarter of themselves too: what is as large hangs the more on what the points are for.
+    `relative`, by `absolute_digits` units of the last digit shown, and those in % by `points` of a per cent.
     """
     headings, rows = kept
     if list(headings) != list(made[0]):
@@ -75,8 +74,7 @@ def cells_agree(old, new, relative, absolute_digits=1.5, points=0.0):
         first, second = (float(text.replace("−", "-")) for text in (one[0], other))
         digits = len(one[0].partition(".")[2].partition("e")[0])
         unit = 10.0**-digits * (10.0 ** int(one[0].partition("e")[2]) if "e" in one[0] else 1.0)
-        is_share = points > 0.0 and old.startswith(" %", one.end())
-        share = max(points, 0.25 * abs(first)) if is_share else 0.0
+        share = points if old.startswith(" %", one.end()) else 0.0
         if abs(first - second) > max(relative * abs(first), absolute_digits * unit, share):
             return False
     return True
