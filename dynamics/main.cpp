@@ -13,10 +13,13 @@ using sprung::dynamics::RunRequest;
 
 void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output) {
   command.add_option("RUN.toml", request.run_file, "run file; it names the vehicle file")->required();
-  command.add_option("--superelements", request.superelement_folder, "folder of the superelements NAME.h5 (default: .)");
-  command.add_option("--set", request.overrides,
-                     "overrides a key: key.path=value of the run file, vehicle.key.path=value of the vehicle file; "
-                     "may be repeated")
+  command.add_option("--superelements", request.superelement_folder,
+                     "folder of the superelements NAME.h5 (default: .)");
+  command
+      .add_option(
+          "--set", request.overrides,
+          "overrides a key: key.path=value of the run file, vehicle.key.path=value of the vehicle file; "
+          "may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_flag("--json", output.json, "prints one JSON object (SI units) in place of tables");
@@ -25,8 +28,10 @@ void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output
 
 // An empty name, as of a shell's variable that is not set, is no wish to have no file.
 void add_output_option(CLI::App& command, RunOutput& output, const char* what) {
-  command.add_option("-o,--output", output.results, fmt::format("{} (HDF5); none is written without it", what))
-      ->check([](const std::string& name) { return name.empty() ? "must name a file, got an empty name" : ""; });
+  command
+      .add_option("-o,--output", output.results, fmt::format("{} (HDF5); none is written without it", what))
+      ->check(
+          [](const std::string& name) { return name.empty() ? "must name a file, got an empty name" : ""; });
 }
 
 int run(int argc, char** argv) {
@@ -48,14 +53,17 @@ int run(int argc, char** argv) {
                 "says what would be run: bodies, modes, joints, freedoms and static balance; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
   add_input_options(*equilibrium, request, output);
-  CLI::App* modes = app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");
+  CLI::App* modes =
+      app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");
   add_input_options(*modes, request, output);
   CLI::App* response = app.add_subcommand(
-      "response", "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
+      "response",
+      "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
   add_input_options(*response, request, output);
   add_output_option(*response, output, "response file");
   CLI::App* select = app.add_subcommand(
-      "select-modes", "what each mode is worth under the run's forcing, and which are kept for modes \"auto\"");
+      "select-modes",
+      "what each mode is worth under the run's forcing, and which are kept for modes \"auto\"");
   add_input_options(*select, request, output);
   add_output_option(*select, output, "file of the choice");
 

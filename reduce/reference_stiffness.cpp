@@ -19,10 +19,11 @@ class ReferenceLoads {
       : model_(model), node_(reference_node), factor_(held_stiffness), shapes_(shapes) {}
 
   // K_G of a load at the nodes, 3N, of which the frame's acceleration is the part spread over the elements.
-  Eigen::MatrixXd calc_stiffness(const Eigen::VectorXd& load, const fem::FrameAcceleration& acceleration) const {
+  Eigen::MatrixXd calc_stiffness(const Eigen::VectorXd& load,
+                                 const fem::FrameAcceleration& acceleration) const {
     const Eigen::VectorXd displacement = insert_node(factor_.solve(remove_node(load, node_)), node_);
-    const std::vector<fem::AxialForce> forces = fem::calc_axial_forces(
-        model_, displacement, acceleration, model_.mesh.node_positions.col(node_));
+    const std::vector<fem::AxialForce> forces =
+        fem::calc_axial_forces(model_, displacement, acceleration, model_.mesh.node_positions.col(node_));
     const Eigen::MatrixXd K =
         shapes_.transpose() * (fem::assemble_geometric_stiffness(model_, forces) * shapes_);
     return 0.5 * (K + K.transpose());

@@ -6,8 +6,8 @@
 
 namespace sprung::reduce {
 
-/// Of bodies with more modes, the lowest ones that geometric stiffness is made for: its matrices are three for
-/// each point.
+/// Of bodies with more modes, the lowest ones that geometric stiffness is made for: its matrices are three
+/// for each point.
 inline constexpr int kMaxStiffenedModes = 200;
 
 /// Geometric stiffness of modes under the reference loads (reduce/README.md, eqs. 20–23): for each, the frame

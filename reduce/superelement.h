@@ -30,9 +30,9 @@ struct InertiaInvariants {
 };
 
 /// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
-/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times minus
-/// one half it is, in the load's direction, the displacement of second order in the modal coordinates that
-/// beams which bend without stretching make (eq. 23).
+/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times
+/// minus one half it is, in the load's direction, the displacement of second order in the modal coordinates
+/// that beams which bend without stretching make (eq. 23).
 struct GeometricStiffness {
   Eigen::MatrixXd centrifugal;           ///< K_ω, of turning at 1 rad/s about the body frame's origin [1]
   Eigen::MatrixXd angular_acceleration;  ///< K_α, of the inertia at 1 rad/s² [1]
@@ -105,8 +105,8 @@ struct Superelement {
 /// Newest version of the file format; every earlier one can be read (reduce/superelement.md).
 inline constexpr std::int64_t kSuperelementVersion = 2;
 
-/// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it is
-/// a file of version 1.
+/// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it
+/// is a file of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

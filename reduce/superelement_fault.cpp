@@ -201,9 +201,9 @@ Fault check_geometric_stiffness(const Superelement& s) {
     if (Fault fault = check_symmetric("/stiffening/acceleration", K, m)) return fault;
   }
   if (geometric.point_loads.size() != s.points.size()) {
-    return SuperelementFault{"/stiffening/point_load",
-                             fmt::format("is of {} points, expected {}", geometric.point_loads.size(),
-                                         s.points.size())};
+    return SuperelementFault{
+        "/stiffening/point_load",
+        fmt::format("is of {} points, expected {}", geometric.point_loads.size(), s.points.size())};
   }
   for (const auto& loads : geometric.point_loads) {
     for (const Eigen::MatrixXd& K : loads) {

@@ -82,9 +82,8 @@ std::string format_summary(const Superelement& s) {
   text += fmt::format("inertia about the centre of mass  {:.6g} kg·m²\n", central);
   text += fmt::format("inertia about the reference node  {:.6g} kg·m²\n\n", inertia.second_moment);
   text += format_points(s) + "\n";
-  text += s.geometric_stiffness
-              ? fmt::format("stiffening  of {} modes\n", s.geometric_stiffness->num_modes())
-              : "stiffening  none: a file of version 1\n";
+  text += s.geometric_stiffness ? fmt::format("stiffening  of {} modes\n", s.geometric_stiffness->num_modes())
+                                : "stiffening  none: a file of version 1\n";
   text += fmt::format("made by     sprung {}, algorithm revision {}\n", s.provenance.program_version,
                       s.provenance.algorithm_revision);
   text += fmt::format("design      sha256 {}\n", s.provenance.design_hash);

@@ -95,7 +95,8 @@ void write_geometric_stiffness(Hdf5Writer& file, const GeometricStiffness& geome
   file.write("/stiffening/angular_acceleration", geometric.angular_acceleration, "1");
   write_matrices(file, "/stiffening/acceleration", geometric.acceleration, m, "1/m");
   std::vector<Eigen::MatrixXd> loads;
-  for (const auto& of_point : geometric.point_loads) loads.insert(loads.end(), of_point.begin(), of_point.end());
+  for (const auto& of_point : geometric.point_loads)
+    loads.insert(loads.end(), of_point.begin(), of_point.end());
   write_matrices(file, "/stiffening/point_load", loads, m, "1/(kg·m), 1/(kg·m), 1/(kg·m^2)");
 }
 

@@ -12,9 +12,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLongestUnseen = 4e-3;    // s between updates of the indicator
-constexpr double kMostParts = 8.0;         // of a step, between which the indicator is updated
-constexpr double kAtRest = 1e-3;           // rate that counts as none, of those at the ends of the step
+constexpr double kLongestUnseen = 4e-3;  // s between updates of the indicator
+constexpr double kMostParts = 8.0;       // of a step, between which the indicator is updated
+constexpr double kAtRest = 1e-3;         // rate that counts as none, of those at the ends of the step
 constexpr int kMaxSearch = 12;
 
 // What the indicator refers to at the start: the full model, in which modes that the run lacks stand at zero.
@@ -38,8 +38,9 @@ void AdaptiveStepper::start(const State& state) {
   const State full = expand(*model_, options_, state);
   modes_.emplace(options_, full);
   motion_.emplace(*options_.full, full);
-  leg_ = make_leg(options_.changes ? motion_->hold(modes_->active(), state.time) : match_modes(*model_, *options_.full),
-                  state.time, state.branches);
+  leg_ = make_leg(
+      options_.changes ? motion_->hold(modes_->active(), state.time) : match_modes(*model_, *options_.full),
+      state.time, state.branches);
   start_time_ = evaluated_time_ = step_start_ = state.time;
 }
 
@@ -160,10 +161,10 @@ bool AdaptiveStepper::follow_step() {
   return misses;
 }
 
-// Before modes join, the run goes on without them for as long as they would stay: so all that will be wanted are found at
-// once, and none that only seems large because what is to come has not come yet. Then they start where the step
-// did, from where they are held, at rest, and the force that held them fades. What those call in turn joins as the step
-// itself tells: how large all becomes is known by then.
+// Before modes join, the run goes on without them for as long as they would stay: so all that will be wanted
+// are found at once, and none that only seems large because what is to come has not come yet. Then they start
+// where the step did, from where they are held, at rest, and the force that held them fades. What those call
+// in turn joins as the step itself tells: how large all becomes is known by then.
 void AdaptiveStepper::take_back(Integrator::StepResult result) {
   evaluate(step_start_);
   motion_->take(leg_->held, equations());
@@ -189,17 +190,20 @@ void AdaptiveStepper::let_join(const std::vector<int>& missed) {
   std::vector<double> forces;
   for (const int coordinate : missed) {
     const ModeShare share = modes_->share_of(coordinate, largest_);
-    listener_.on_change(step_start_, coordinate, fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
-                                                             100.0 * share.deflection, 100.0 * share.acceleration));
+    listener_.on_change(step_start_, coordinate,
+                        fmt::format("joins: {:.3g} % of the deflection, {:.3g} % of the acceleration",
+                                    100.0 * share.deflection, 100.0 * share.acceleration));
     forces.push_back(-modes_->held_force_of(coordinate));
   }
   modes_->activate(missed);
   const double duration = modes_->calc_release_time(missed, forces);
   if (!(duration > 0.0)) return;
-  for (std::size_t i = 0; i < missed.size(); ++i) motion_->let_go(missed[i], forces[i], step_start_, duration);
+  for (std::size_t i = 0; i < missed.size(); ++i)
+    motion_->let_go(missed[i], forces[i], step_start_, duration);
 }
 
-// Steps on from the end of the step that was made, through switches, up to the next break of a function of time.
+// Steps on from the end of the step that was made, through switches, up to the next break of a function of
+// time.
 void AdaptiveStepper::look_ahead(Integrator::StepResult result, double until) {
   SystemStepper& stepper = *leg_->stepper;
   try {
@@ -218,7 +222,8 @@ void AdaptiveStepper::look_ahead(Integrator::StepResult result, double until) {
 }
 
 // From where the motion is.
-void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow, const std::vector<int>& branches) {
+void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
+                            const std::vector<int>& branches) {
   active_time_ += leg_->num_modes * (time - leg_->start);
   work_before_ += leg_->stepper->statistics();
   flow_before_ = flow;
@@ -241,8 +246,8 @@ std::optional<double> AdaptiveStepper::find_rest() {
   return find_rest_of(slowest);
 }
 
-// At rest_. No position jumps; the rates of idle modes other than the slowest, below the drop threshold, are stopped with
-// the momentum kept and the energy booked.
+// At rest_. No position jumps; the rates of idle modes other than the slowest, below the drop threshold, are
+// stopped with the momentum kept and the energy booked.
 void AdaptiveStepper::let_modes_go() {
   const double rest = *rest_;
   rest_.reset();
@@ -261,8 +266,9 @@ void AdaptiveStepper::let_modes_go() {
   const double lost = motion_->stop(leaving, held, rest, piece().branches());
   flow.dissipated += lost;
   for (const int coordinate : leaving) {
-    listener_.on_change(rest, coordinate, fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
-                                                      100.0 * options_.drop, lost));
+    listener_.on_change(rest, coordinate,
+                        fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
+                                    100.0 * options_.drop, lost));
   }
   ++num_changes_;
   const std::vector<int> branches = piece().branches();
@@ -274,8 +280,8 @@ double AdaptiveStepper::rate_of(int coordinate) const {
   return equations().v()[std::lower_bound(places.begin(), places.end(), coordinate) - places.begin()];
 }
 
-// Where a modal rate is zero within the step just made. By the secant, the older value halved where it stays [Dowell &
-// Jarratt 1971].
+// Where a modal rate is zero within the step just made. By the secant, the older value halved where it stays
+// [Dowell & Jarratt 1971].
 std::optional<double> AdaptiveStepper::find_rest_of(int coordinate) {
   double low = step_start_, high = time();
   evaluate(low);

@@ -13,9 +13,9 @@
 
 namespace sprung::dynamics {
 
-/// Steps a system whose modes join and leave, by a stepper of its own for each set of modes; or a fixed set with the
-/// indicator of those left out beside it. A step that missed a mode is taken back and made again with it
-/// (dynamics/README.md, "Modes that join and leave").
+/// Steps a system whose modes join and leave, by a stepper of its own for each set of modes; or a fixed set
+/// with the indicator of those left out beside it. A step that missed a mode is taken back and made again
+/// with it (dynamics/README.md, "Modes that join and leave").
 class AdaptiveStepper final : public SystemStepper {
  public:
   struct Listener {
@@ -48,9 +48,9 @@ class AdaptiveStepper final : public SystemStepper {
   // A stretch of the run with one set of modes.
   struct Leg {
     HeldModes held;
-    double start = 0.0;        // [s]
-    double held_strain = 0.0;  // [J]
-    int num_modes = 0;         // active
+    double start = 0.0;                      // [s]
+    double held_strain = 0.0;                // [J]
+    int num_modes = 0;                       // active
     std::unique_ptr<SystemStepper> stepper;  // of held.model where modes change: gone before it
   };
 
@@ -84,8 +84,8 @@ class AdaptiveStepper final : public SystemStepper {
   Eigen::VectorXd rates_before_, rates_;  // there, and at the last update of the indicator
   ModeAdaptation::Memory memory_;
   ModeAdaptation::LeftOut largest_;  // in it
-  std::vector<int> idle_;       // modes that may leave
-  std::optional<double> rest_;  // where they do, in the last step: it ends there [s]
+  std::vector<int> idle_;            // modes that may leave
+  std::optional<double> rest_;       // where they do, in the last step: it ends there [s]
 
   long num_changes_ = 0;
   double start_time_ = 0.0;

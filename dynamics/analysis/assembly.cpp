@@ -19,7 +19,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;  // of the length scale
+constexpr double kTolerance = 1e-12;       // of the length scale
 constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
@@ -57,7 +57,8 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
   const std::size_t joint = joint_of_constraint(model, static_cast<int>(worst));
   throw support::InputError(
       model.joints[joint]->location,
-      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} {} apart; joints that stay open: "
+      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} {} apart; joints "
+                  "that stay open: "
                   "{}; check positions, angles and points of the bodies they join",
                   model.joints[joint]->name, std::abs(phi[worst]),
                   model.joints[joint]->constraint_unit(static_cast<int>(worst) - model.joint_rows[joint]),
@@ -77,7 +78,8 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
-  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q)); ++iteration) {
+  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q));
+       ++iteration) {
     if (iteration == kMaxIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
@@ -106,10 +108,12 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     const std::size_t last = joint_of_constraint(model, dependent.back());
     throw support::InputError(
         model.joints[last]->location,
-        fmt::format("redundant joints: {} hold the same motion more than once, so that their reactions have no "
-                    "unique value; leave one of them out or free a direction, or, if they do so in this position alone, "
-                    "a change point of the mechanism, draw it a little beside it",
-                    name_constraints(model, dependent)));
+        fmt::format(
+            "redundant joints: {} hold the same motion more than once, so that their reactions have no "
+            "unique value; leave one of them out or free a direction, or, if they do so in this position "
+            "alone, "
+            "a change point of the mechanism, draw it a little beside it",
+            name_constraints(model, dependent)));
   }
 
   AssemblyReport report;
@@ -124,7 +128,8 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   return report;
 }
 
-VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q, Eigen::VectorXd& v) {
+VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q,
+                                  Eigen::VectorXd& v) {
   VelocityReport report;
   if (model.num_constraints == 0) return report;
   const Eigen::VectorXd asked = v;
@@ -132,8 +137,8 @@ VelocityReport project_velocities(const Model& model, double time, const Eigen::
   equations.terms().update_positions(time, q);
   equations.terms().update_jacobian();
   if (!std::isfinite(equations.close_rates(v))) {
-    throw support::NumericalError(
-        fmt::format("the joints allow no velocities at t = {:.9g} s: a singular position; start beside it", time));
+    throw support::NumericalError(fmt::format(
+        "the joints allow no velocities at t = {:.9g} s: a singular position; start beside it", time));
   }
   v = equations.v();
   for (int i = 0; i < model.num_coordinates; ++i) {

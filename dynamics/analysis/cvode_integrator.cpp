@@ -19,9 +19,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a singular position
-// for ever.
-constexpr double kShortestStep = 1e-12;  // s
+// Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a
+// singular position for ever.
+constexpr double kShortestStep = 1e-12;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
 
 std::span<double> values(N_Vector vector) {
@@ -62,13 +62,16 @@ void keep_message(int /*code*/, const char* /*module*/, const char* function, ch
 std::string explain_stop(int code, const std::string& message) {
   switch (code) {
     case CV_TOO_MUCH_ACC:
-      return "the relative tolerance is finer than rounding allows this method; try a larger one, or method = "
+      return "the relative tolerance is finer than rounding allows this method; try a larger one, or method "
+             "= "
              "\"exponential\"";
     case CV_CONV_FAILURE:
-      return "the iteration of a step does not converge; look at forces and positions just before that time, and where "
+      return "the iteration of a step does not converge; look at forces and positions just before that time, "
+             "and where "
              "springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
     case CV_ERR_FAILURE:
-      return "the step has become too short; look at forces and positions just before that time, which may be a singular one";
+      return "the step has become too short; look at forces and positions just before that time, which may "
+             "be a singular one";
     case CV_RHSFUNC_FAIL:
     case CV_FIRST_RHSFUNC_ERR:
     case CV_REPTD_RHSFUNC_ERR:
@@ -93,15 +96,17 @@ struct CvodeIntegrator::Memory {
   bool started = false;
   TouchSearch touch_search{0};
   Eigen::VectorXd begin_switches, end_switches;  // at the ends of the step
-  Integrator::Statistics before;  // of the runs before the last restart
+  Integrator::Statistics before;                 // of the runs before the last restart
 
   void check(int code, const char* what) const {
     if (code >= 0) return;
-    throw support::NumericalError(fmt::format("integrator: {} failed (code {}): {}", what, code, callback.message));
+    throw support::NumericalError(
+        fmt::format("integrator: {} failed (code {}): {}", what, code, callback.message));
   }
   template <class Pointer>
   Pointer require(Pointer pointer, const char* what) const {
-    if (!pointer) throw support::NumericalError(fmt::format("integrator: {} failed: {}", what, callback.message));
+    if (!pointer)
+      throw support::NumericalError(fmt::format("integrator: {} failed: {}", what, callback.message));
     return pointer;
   }
   ~Memory() {
@@ -114,7 +119,8 @@ struct CvodeIntegrator::Memory {
   }
 };
 
-CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options) : memory_(std::make_unique<Memory>()) {
+CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options)
+    : memory_(std::make_unique<Memory>()) {
   Memory& memory = *memory_;
   memory.callback = {&system, options.relative_tolerance, {}};
   memory.check(SUNContext_Create(nullptr, &memory.context), "SUNContext_Create");
@@ -132,10 +138,12 @@ CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options) : me
         memory.require(SUNNonlinSol_FixedPoint(memory.y, 0, memory.context), "SUNNonlinSol_FixedPoint");
     memory.check(CVodeSetNonlinearSolver(memory.cvode, memory.nonlinear_solver), "CVodeSetNonlinearSolver");
   } else {
-    memory.matrix = memory.require(SUNDenseMatrix(system.size(), system.size(), memory.context), "SUNDenseMatrix");
+    memory.matrix =
+        memory.require(SUNDenseMatrix(system.size(), system.size(), memory.context), "SUNDenseMatrix");
     memory.linear_solver =
         memory.require(SUNLinSol_Dense(memory.y, memory.matrix, memory.context), "SUNLinSol_Dense");
-    memory.check(CVodeSetLinearSolver(memory.cvode, memory.linear_solver, memory.matrix), "CVodeSetLinearSolver");
+    memory.check(CVodeSetLinearSolver(memory.cvode, memory.linear_solver, memory.matrix),
+                 "CVodeSetLinearSolver");
   }
   if (system.num_switches() > 0) {
     memory.check(CVodeRootInit(memory.cvode, system.num_switches(), evaluate_switches), "CVodeRootInit");
@@ -171,8 +179,8 @@ void CvodeIntegrator::calc_switches(double time, Eigen::VectorXd& switches) {
       fmt::format("integration stopped at t = {:.9g} s: no positions can be found there", time));
 }
 
-// CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found here. y and
-// time_ are there then.
+// CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found
+// here. y and time_ are there then.
 bool CvodeIntegrator::locate_touch(double from) {
   Memory& memory = *memory_;
   if (memory.end_switches.size() == 0) return false;
@@ -183,12 +191,13 @@ bool CvodeIntegrator::locate_touch(double from) {
   bool has_moved = false;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(to)) / length;
   const auto move_to = [&](double time) { interpolate(time, values(memory.y)); };
-  const std::optional<double> theta = memory.touch_search.find(
-      memory.begin_switches, memory.end_switches, length, tolerance, [&](double place, Eigen::VectorXd& switches) {
-        has_moved = true;
-        move_to(from + place * length);
-        calc_switches(from + place * length, switches);
-      });
+  const std::optional<double> theta =
+      memory.touch_search.find(memory.begin_switches, memory.end_switches, length, tolerance,
+                               [&](double place, Eigen::VectorXd& switches) {
+                                 has_moved = true;
+                                 move_to(from + place * length);
+                                 calc_switches(from + place * length, switches);
+                               });
   if (theta) {
     time_ = from + *theta * length;
     move_to(time_);
@@ -201,19 +210,23 @@ bool CvodeIntegrator::locate_touch(double from) {
 
 Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   Memory& memory = *memory_;
-  if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;  // started anew by a switch at the very end
-  memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0), "CVodeSetMaxStep");
+  if (end_time_ - time_ <= kShortestStep)
+    return StepResult::kEnded;  // started anew by a switch at the very end
+  memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0),
+               "CVodeSetMaxStep");
   const double from = time_;
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {
-    throw support::NumericalError(
-        fmt::format("integration stopped at t = {:.9g} s: {}", time_, explain_stop(code, memory.callback.message)));
+    throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time_,
+                                              explain_stop(code, memory.callback.message)));
   }
   if (code == CV_ROOT_RETURN || locate_touch(from)) return StepResult::kSwitched;
   return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 
-std::span<const double> CvodeIntegrator::y() const { return values(memory_->y); }
+std::span<const double> CvodeIntegrator::y() const {
+  return values(memory_->y);
+}
 
 void CvodeIntegrator::interpolate(double time, std::span<double> y) const {
   Memory& memory = *memory_;

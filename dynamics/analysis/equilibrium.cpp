@@ -24,10 +24,12 @@ constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that i
 constexpr double kLargestStep = 0.05;       // natural sizes per iteration
 constexpr double kFastFall = 0.3;           // of the step before, with the stiffness of the step before
 
-double largest_natural(const Model& model, const std::vector<int>& coordinates, const Eigen::VectorXd& values) {
+double largest_natural(const Model& model, const std::vector<int>& coordinates,
+                       const Eigen::VectorXd& values) {
   double largest = 0.0;
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    largest = std::max(largest, std::abs(values[static_cast<Eigen::Index>(k)]) / model.coordinate_scale(coordinates[k]));
+    largest = std::max(
+        largest, std::abs(values[static_cast<Eigen::Index>(k)]) / model.coordinate_scale(coordinates[k]));
   }
   return largest;
 }
@@ -103,28 +105,30 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
     }
   }
   for (int i = 0; i < model.num_coordinates; ++i) {
-    if (std::abs(neutral.direction[i]) / model.coordinate_scale(i) > 0.1) moving.push_back(model.coordinate_name(i));
+    if (std::abs(neutral.direction[i]) / model.coordinate_scale(i) > 0.1)
+      moving.push_back(model.coordinate_name(i));
   }
   neutral.description = fmt::format("{}", fmt::join(moving, ", "));
   return neutral;
 }
 
-[[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system, const ModalForce& modal,
-                                       double last_step) {
+[[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
+                                       const ModalForce& modal, double last_step) {
   Eigen::Index worst = 0;
   modal.force.cwiseAbs().maxCoeff(&worst);
   const NeutralDirection direction = describe(model, system.directions * modal.V.col(worst));
-  throw support::NumericalError(fmt::format(
-      "no static equilibrium after {} iterations: the last step was {:.3g} of the natural size (tolerance {:.0e}); what "
-      "keeps moving: {}; check that something holds it against gravity, and the start position",
-      kMaxIterations, last_step, kTolerance, direction.description));
+  throw support::NumericalError(
+      fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
+                  "(tolerance {:.0e}); what "
+                  "keeps moving: {}; check that something holds it against gravity, and the start position",
+                  kMaxIterations, last_step, kTolerance, direction.description));
 }
 
 // One accepted step downhill from q_i: the potential energy falls, or the forces do.
 // @param[in,out] damping  kept from step to step
-Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
-                              const ModalForce& modal, const Eigen::VectorXd& q_i, const SteadyMotion& motion,
-                              double& damping) {
+Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations,
+                              const LinearisedSystem& system, const ModalForce& modal,
+                              const Eigen::VectorXd& q_i, const SteadyMotion& motion, double& damping) {
   double potential = 0.0;
   calc_static_force(equations, 0.0, q_i, &potential, motion);
   for (int attempt = 0; attempt < 40; ++attempt) {
@@ -132,9 +136,11 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
     const double size = largest_natural(model, system.partition.independent, step);
     if (size > kLargestStep) step *= kLargestStep / size;
     double trial_potential = 0.0;
-    const Eigen::VectorXd trial_force = calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
+    const Eigen::VectorXd trial_force =
+        calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
     const bool assembled = trial_force.size() == q_i.size();
-    if (assembled && (trial_potential < potential || (modal.V.transpose() * trial_force).norm() < modal.force.norm())) {
+    if (assembled &&
+        (trial_potential < potential || (modal.V.transpose() * trial_force).norm() < modal.force.norm())) {
       damping *= 0.1;
       break;
     }
@@ -145,14 +151,16 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
 
 Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::VectorXd& q) {
   Eigen::VectorXd q_i(static_cast<Eigen::Index>(system.partition.independent.size()));
-  for (Eigen::Index k = 0; k < q_i.size(); ++k) q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
+  for (Eigen::Index k = 0; k < q_i.size(); ++k)
+    q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
   return q_i;
 }
 
-// On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one evaluation, where the
-// stiffness costs four for each freedom. @return positions   @param[in,out] steps  taken
-Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
-                                        const ModalForce& modal, const SteadyMotion& motion, double last_size, int& steps) {
+// On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one
+// evaluation, where the stiffness costs four for each freedom. @return positions   @param[in,out] steps taken
+Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations,
+                                        const LinearisedSystem& system, const ModalForce& modal,
+                                        const SteadyMotion& motion, double last_size, int& steps) {
   while (last_size > kTolerance) {
     Eigen::VectorXd q_i = select_independent(system, equations.q());
     const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
@@ -171,7 +179,8 @@ Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations
 }  // namespace
 
 Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
-                             const std::function<void(int, double)>& on_iteration, const SteadyMotion& motion) {
+                             const std::function<void(int, double)>& on_iteration,
+                             const SteadyMotion& motion) {
   PartitionedEquations equations(model);
   Equilibrium equilibrium;
   equilibrium.q = q;
@@ -186,7 +195,8 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
     const ModalForce modal(model, system);
-    const double newton_step = largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
+    const double newton_step =
+        largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
     const bool is_rounding = newton_step <= kRounding && newton_step > 0.5 * last_step;
     last_step = newton_step;
@@ -205,10 +215,12 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       return equilibrium;
     }
     if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
-    equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q), motion, damping);
+    equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q),
+                                  motion, damping);
     ++equilibrium.iterations;
     if (damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
-      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step, equilibrium.iterations);
+      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step,
+                                              equilibrium.iterations);
     }
   }
 }

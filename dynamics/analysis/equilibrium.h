@@ -18,18 +18,18 @@ struct NeutralDirection {
 
 /// A static equilibrium.
 struct Equilibrium {
-  Eigen::VectorXd q;                       ///< num_coordinates
-  std::vector<NeutralDirection> neutral;   ///< held at their start value
-  double last_step = 0.0;                  ///< size of the last Newton step [natural sizes]
-  int iterations = 0;                      ///< steps taken, each with a new stiffness or the one before
-  bool stable = true;                      ///< no direction with negative stiffness
-  SteadyMotion motion;                     ///< in which it is one; rest in static balance
-  LinearisedSystem linearised;             ///< about it
+  Eigen::VectorXd q;                      ///< num_coordinates
+  std::vector<NeutralDirection> neutral;  ///< held at their start value
+  double last_step = 0.0;                 ///< size of the last Newton step [natural sizes]
+  int iterations = 0;                     ///< steps taken, each with a new stiffness or the one before
+  bool stable = true;                     ///< no direction with negative stiffness
+  SteadyMotion motion;                    ///< in which it is one; rest in static balance
+  LinearisedSystem linearised;            ///< about it
 };
 
 /// Static equilibrium reached from q by following the potential energy downhill (Newton in the modes of the
-/// linearised system, with bounded steps), so that a vehicle put down too high comes to rest on its wheels. Neutral
-/// directions keep their start value.
+/// linearised system, with bounded steps), so that a vehicle put down too high comes to rest on its wheels.
+/// Neutral directions keep their start value.
 /// @param q  assembled positions
 /// @param on_iteration  told the number of the iteration and the Newton step's natural size; may be empty
 /// @param motion  for the balance of what is carried along by a steady motion

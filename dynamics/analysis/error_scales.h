@@ -18,8 +18,8 @@ class ErrorScales {
 
  private:
   std::vector<double> natural_;  // of each coordinate
-  double velocity_scale_;  // [natural sizes/s]
-  double energy_scale_;    // [J]
+  double velocity_scale_;        // [natural sizes/s]
+  double energy_scale_;          // [J]
 };
 
 }  // namespace sprung::dynamics

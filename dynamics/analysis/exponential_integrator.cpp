@@ -37,7 +37,8 @@ constexpr double kMemory =
     0.5;  // share of the last step's error that counts: an estimate may pass through zero
 // A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
 constexpr double kWorthwhile = 1.15;
-// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten slowly.
+// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten
+// slowly.
 constexpr double kOfHiding = 0.5, kForgetting = 1.1;
 constexpr double kTruncationOfFirst =
     0.3;  // part of fourth degree, of that of third, where no step was before
@@ -271,7 +272,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   seen_length_ *= kForgetting;
   failures_ *= kFailureMemory;
   if (contraction_ > kSlowContraction) failures_ += kSlowness;
-  if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) wants_linearisation_ = true;
+  if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps)
+    wants_linearisation_ = true;
   if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
   if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
   if (finish_step()) return StepResult::kSwitched;

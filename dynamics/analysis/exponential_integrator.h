@@ -62,7 +62,7 @@ class ExponentialIntegrator final : public Integrator {
   Statistics statistics_;
 
   VibrationBasis basis_;
-  Vector origin_;  // f positions from which the pairs count: large ones would leave them few digits
+  Vector origin_;    // f positions from which the pairs count: large ones would leave them few digits
   int version_ = 0;  // of the coordinates that it is for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
@@ -80,8 +80,8 @@ class ExponentialIntegrator final : public Integrator {
   double last_error_ = 0.0;                               // of the step before, of the tolerance
   std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
-  // Where a step is looked at for switches that its nodes do not show: not both as far from the middle, so that no
-  // swing looks like a cubic at both.
+  // Where a step is looked at for switches that its nodes do not show: not both as far from the middle, so
+  // that no swing looks like a cubic at both.
   static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
   std::array<LobattoPropagator, kLooks.size()> lookers_;
   std::array<lobatto::NodeWeights, kLooks.size()> look_weights_;

@@ -15,7 +15,8 @@ constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
 constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
-constexpr double kDisturbance = 5.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
+constexpr double kDisturbance =
+    5.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
 constexpr double kSurprise = 100.0;       // of what is allowed: less than that hides no switch worth finding
 constexpr double kShortestHiding = 1e-9;  // s
 
@@ -54,8 +55,8 @@ bool ExponentialIntegrator::is_surprising(std::size_t look) {
   return pair_sizes_.cwiseProduct(difference).norm() > kSurprise;
 }
 
-// Whether in now_ a switch function may become negative and positive again and no node show it: what vibrates is
-// stepped over exactly, however often.
+// Whether in now_ a switch function may become negative and positive again and no node show it: what vibrates
+// is stepped over exactly, however often.
 bool ExponentialIntegrator::may_hide_switches() {
   if (now_.length < kShortestHiding) return false;
   for (Eigen::Index i = 0; i < switches_.rows(); ++i) {
@@ -84,8 +85,8 @@ bool ExponentialIntegrator::may_hide_switches() {
   return !evaluate(now_.start + now_.length, stages_[kEnd], kEnd);
 }
 
-// Whether the bends before a place do next to nothing up to there: only then is it where it seems to be, and may what is
-// called for in turn be found at the end alone.
+// Whether the bends before a place do next to nothing up to there: only then is it where it seems to be, and
+// may what is called for in turn be found at the end alone.
 bool ExponentialIntegrator::is_undisturbed(double place) {
   difference_.set_zero();
   for (const Bend& bend : now_.bends.all()) {

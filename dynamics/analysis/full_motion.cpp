@@ -7,7 +7,11 @@
 namespace sprung::dynamics {
 
 FullMotion::FullMotion(const Model& full, const State& start)
-    : full_(&full), terms_(full), q_(start.q), v_(start.v), v_dot_(Eigen::VectorXd::Zero(full.num_coordinates)) {}
+    : full_(&full),
+      terms_(full),
+      q_(start.q),
+      v_(start.v),
+      v_dot_(Eigen::VectorXd::Zero(full.num_coordinates)) {}
 
 void FullMotion::take(const HeldModes& held, const ConstrainedEquations& equations) {
   v_.setZero();
@@ -65,8 +69,8 @@ void FullMotion::let_go(int coordinate, double force, double time, double durati
   fading_.push_back({coordinate, force, time, duration});
 }
 
-// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, but for what
-// the joints do.
+// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, but
+// for what the joints do.
 double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
                         std::span<const int> branches) {
   update_terms(time);

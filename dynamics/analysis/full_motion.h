@@ -9,8 +9,8 @@
 
 namespace sprung::dynamics {
 
-/// Motion in coordinates of a full model, while models are run in which some of its modes are held: what is carried
-/// over from one to the next. Source: dynamics/README.md, eqs. 71, 75 and 76.
+/// Motion in coordinates of a full model, while models are run in which some of its modes are held: what is
+/// carried over from one to the next. Source: dynamics/README.md, eqs. 71, 75 and 76.
 class FullMotion {
  public:
   /// @param full   has to outlive this
@@ -27,7 +27,8 @@ class FullMotion {
   /// Strain energy of the modes that are not active [J]; the others add theirs, as no stiffness couples them.
   double calc_held_strain(const std::vector<bool>& is_active) const;
 
-  /// A model in which all modes but the active ones are held where they are now; forces being let go act on it.
+  /// A model in which all modes but the active ones are held where they are now; forces being let go act on
+  /// it.
   /// @param is_active  for each coordinate of the full model
   HeldModes hold(const std::vector<bool>& is_active, double time);
   /// The state here for a model made by `hold`.
@@ -39,7 +40,8 @@ class FullMotion {
   /// @param held  made by `hold` without them
   /// @return energy lost by it [J]
   /// @throws support::NumericalError if the joints cannot be closed
-  double stop(const std::vector<int>& coordinates, const HeldModes& held, double time, std::span<const int> branches);
+  double stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
+              std::span<const int> branches);
 
  private:
   void update_terms(double time);

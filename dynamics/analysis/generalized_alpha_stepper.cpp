@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <limits>
+#include <optional>
 
 #include "tools/support/numerical_error.h"
 
@@ -24,7 +24,8 @@ constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFacto
 constexpr double kWorthwhile = 1.2;
 
 [[noreturn]] void throw_stopped(double time, const char* reason, const char* remark = "") {
-  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}{}", time, reason, remark));
+  throw support::NumericalError(
+      fmt::format("integration stopped at t = {:.9g} s: {}{}", time, reason, remark));
 }
 
 // Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
@@ -108,7 +109,8 @@ void GeneralizedAlphaStepper::resume(double end_time) {
   step_.residual().update(motion, piece_.branches());
   piece_.calc_switches(step_.residual().terms(), {step_.begin().switches.data(),
                                                   static_cast<std::size_t>(step_.begin().switches.size())});
-  // What is about to become valid may not be so yet by a rounding error: what it does then must not be missed.
+  // What is about to become valid may not be so yet by a rounding error: what it does then must not be
+  // missed.
   step_.begin().switches = step_.begin().switches.cwiseMax(0.0);
   touch_search_.forget();
 }

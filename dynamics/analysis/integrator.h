@@ -15,14 +15,16 @@ class Integrator {
     kAdams,        ///< CVODE, orders 1–12, functional iteration: smooth motion that is not stiff
     kBdf,          ///< CVODE, orders 1–5, Newton iteration: stiff systems
     kExponential,  ///< exponential collocation: linear vibration exactly, the rest by a quadrature of order 6
-    kGeneralizedAlpha,  ///< on the constrained system itself, without independent coordinates: see make_stepper
+    kGeneralizedAlpha,  ///< on the constrained system itself, without independent coordinates: see
+                        ///< make_stepper
   };
   struct Options {
     Method method = Method::kExponential;
     double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
     // Of generalized-α alone:
     double spectral_radius = 0.8;  ///< 0 to 1, at infinite frequency
-    double fixed_step = 0.0;       ///< all steps at most this long and equal, whatever their error; 0: by the error [s]
+    double fixed_step =
+        0.0;  ///< all steps at most this long and equal, whatever their error; 0: by the error [s]
   };
   enum class StepResult {
     kStepped,   ///< one step taken

@@ -41,8 +41,8 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle);
 /// Reactions of all joints, x, y and torque at their point a.
 LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle);
 
-/// The outputs of motion x of the independent coordinates under generalized forces and what these do to the channels
-/// directly: eq. 44 for k columns at once.
+/// The outputs of motion x of the independent coordinates under generalized forces and what these do to the
+/// channels directly: eq. 44 for k columns at once.
 /// @param x  f×k  @param forces  nq×k  @param channels  of all force elements, ×k  @return p×k
 Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const Eigen::MatrixXcd& x,
                              const Eigen::MatrixXcd& forces, const Eigen::MatrixXcd& channels);

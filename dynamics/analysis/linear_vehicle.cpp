@@ -80,8 +80,8 @@ Eigen::VectorXd LinearVehicle::calc_channels() const {
   return values;
 }
 
-void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave, std::span<WrenchGain> wrenches,
-                                       Eigen::VectorXcd& channels) const {
+void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave,
+                                       std::span<WrenchGain> wrenches, Eigen::VectorXcd& channels) const {
   const auto f = static_cast<std::size_t>(inputs_[input].force);
   const ForceElement& force = *model().forces[f];
   for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};

@@ -57,8 +57,8 @@ class LinearVehicle {
 
   RoadAction calc_road_action(const RoadWave& wave) const;
   /// The same of one input, as force and torque on the markers of its force element.
-  /// @param[out] wrenches  of all markers; those of the element are set, all others left  @param[out] channels  of the
-  /// element's channels, direct part
+  /// @param[out] wrenches  of all markers; those of the element are set, all others left  @param[out]
+  /// channels  of the element's channels, direct part
   void calc_road_wrenches(std::size_t input, const RoadWave& wave, std::span<WrenchGain> wrenches,
                           Eigen::VectorXcd& channels) const;
   /// Motion of the independent coordinates, x of q = x e^{iωt}, f×k.

@@ -29,8 +29,9 @@ Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const
 
 }  // namespace
 
-Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_independent,
-                                  double* potential, const SteadyMotion& motion) {
+Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
+                                  const Eigen::VectorXd& q_independent, double* potential,
+                                  const SteadyMotion& motion) {
   using Outcome = PartitionedEquations::Outcome;
   const auto size = static_cast<std::size_t>(q_independent.size());
   if (equations.update_positions(time, {q_independent.data(), size}) != Outcome::kGood) return {};
@@ -68,7 +69,9 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   // At fixed positions the directions are the same; of moved ones they are their own.
   system.damping = -differentiate_by_velocity(
       equations,
-      [&](const PartitionedEquations& at, auto) { return calc_relative_force(at, system.directions, motion); },
+      [&](const PartitionedEquations& at, auto) {
+        return calc_relative_force(at, system.directions, motion);
+      },
       motion);
   system.stiffness = -differentiate_by_position(
       equations, time, q_i,

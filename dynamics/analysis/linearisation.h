@@ -18,9 +18,9 @@ struct LinearisedSystem {
   Eigen::VectorXd force;                     ///< f, what is left of the forces: 0 at an equilibrium
 };
 
-/// Stiffness from differences of the reduced force, central and extrapolated to fourth order, so that a kink counts
-/// with the mean of its two slopes; damping likewise about rest.
-/// About steady motion, that of the coordinates which are carried along (dynamics/README.md, eqs. 47 and 48).
+/// Stiffness from differences of the reduced force, central and extrapolated to fourth order, so that a kink
+/// counts with the mean of its two slopes; damping likewise about rest. About steady motion, that of the
+/// coordinates which are carried along (dynamics/README.md, eqs. 47 and 48).
 /// @param q  assembled positions; the branches are chosen at each of the points compared
 /// @throws support::NumericalError if the constraints cannot be satisfied around q
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
@@ -29,7 +29,8 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
 /// Reduced force at rest; about steady motion on who stands still in it: M̂ ρ̈_i.
 /// @param[out] potential  potential energy there [J], less the kinetic energy of steady motion, if not null
 /// @return f; empty if the dependents cannot be found for q_independent
-Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_independent,
-                                  double* potential = nullptr, const SteadyMotion& motion = {});
+Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
+                                  const Eigen::VectorXd& q_independent, double* potential = nullptr,
+                                  const SteadyMotion& motion = {});
 
 }  // namespace sprung::dynamics

@@ -136,7 +136,7 @@ void LobattoPropagator::add_response(const PairBlocks& blocks, const Eigen::Vect
 }
 
 void LobattoPropagator::add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients,
-                                      Eigen::VectorXd& u) const {
+                                    Eigen::VectorXd& u) const {
   const Eigen::Index f = blocks.size();
   for (Eigen::Index m = 0; m < f; ++m) {
     const double g1 = coefficients[m], g2 = coefficients[f + m];

@@ -15,7 +15,9 @@ using NodeWeights = Eigen::Vector4d;
 using NodeValues = Eigen::Matrix<double, Eigen::Dynamic, kNumNodes>;  ///< a column for each node
 
 const std::array<double, kNumNodes>& nodes();
-inline double node(int j) { return nodes()[static_cast<std::size_t>(j)]; }
+inline double node(int j) {
+  return nodes()[static_cast<std::size_t>(j)];
+}
 /// Weights of the values at the nodes for the value of the cubic through them at θ.
 NodeWeights cubic_weights(double theta);
 /// (θ − c₀)(θ − c₁)(θ − c₂)(θ − c₃): what a quartic has beyond its cubic.
@@ -51,8 +53,8 @@ class LobattoPropagator {
   void add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
 
   /// u += the response to a drive along `direction`, 2f, times a cubic through `values` at the nodes.
-  void add_response(const PairBlocks& blocks, const Eigen::VectorXd& direction, const lobatto::NodeWeights& values,
-                    Eigen::VectorXd& u) const;
+  void add_response(const PairBlocks& blocks, const Eigen::VectorXd& direction,
+                    const lobatto::NodeWeights& values, Eigen::VectorXd& u) const;
 
   double integral_weight(int j) const {
     return integral_[static_cast<std::size_t>(j)];

@@ -9,7 +9,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLeaveTogether = 0.4;  // of the recall threshold: sum of the shares of those that leave at once
+constexpr double kLeaveTogether =
+    0.4;  // of the recall threshold: sum of the shares of those that leave at once
 constexpr double kPeriodsToStay = 3.0;
 constexpr double kRinging = 0.1;  // of the recall threshold, that a change may leave ringing
 
@@ -102,20 +103,24 @@ void ModeAdaptation::raise(LeftOut& largest) const {
   largest.resize(indicator_.num_modes());
   for (std::size_t j = 0; j < largest.size(); ++j) {
     const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
-    largest[j] = {std::max(largest[j].amplitude, now.amplitude), std::max(largest[j].acceleration, now.acceleration)};
+    largest[j] = {std::max(largest[j].amplitude, now.amplitude),
+                  std::max(largest[j].acceleration, now.acceleration)};
   }
 }
 
 std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
   std::vector<std::pair<double, int>> left_out;
   for (const int coordinate : indicator_.modal_coordinates()) {
-    if (!active_[static_cast<std::size_t>(coordinate)]) left_out.emplace_back(share_of(coordinate, largest).worst(), coordinate);
+    if (!active_[static_cast<std::size_t>(coordinate)])
+      left_out.emplace_back(share_of(coordinate, largest).worst(), coordinate);
   }
   std::sort(left_out.begin(), left_out.end());
   // The smallest stay out as long as they come to less than the threshold together.
   double square = 0.0;
   auto first = left_out.begin();
-  while (first != left_out.end() && (square += first->first * first->first) <= options_.recall * options_.recall) ++first;
+  while (first != left_out.end() &&
+         (square += first->first * first->first) <= options_.recall * options_.recall)
+    ++first;
   std::vector<int> missed;
   for (; first != left_out.end(); ++first) missed.push_back(first->second);
   std::sort(missed.begin(), missed.end());
@@ -146,7 +151,8 @@ std::vector<int> ModeAdaptation::find_idle() const {
   return idle;
 }
 
-std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle, const Eigen::VectorXd& v) const {
+std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle,
+                                                const Eigen::VectorXd& v) const {
   const std::vector<double> shares = indicator_.calc_stopping_shares(idle, v);
   std::vector<std::pair<double, int>> candidates;
   for (std::size_t k = 0; k < idle.size(); ++k) candidates.emplace_back(shares[k], idle[k]);
@@ -175,7 +181,9 @@ ModeShare ModeAdaptation::share_of(int coordinate, const LeftOut& largest) const
 double ModeAdaptation::held_force_of(int coordinate) const {
   return indicator_.held_force(mode_of(coordinate));
 }
-double ModeAdaptation::frequency_of(int coordinate) const { return indicator_.frequency(mode_of(coordinate)); }
+double ModeAdaptation::frequency_of(int coordinate) const {
+  return indicator_.frequency(mode_of(coordinate));
+}
 
 void ModeAdaptation::activate(const std::vector<int>& coordinates) {
   last_change_ = indicator_.time();
@@ -183,7 +191,8 @@ void ModeAdaptation::activate(const std::vector<int>& coordinates) {
   indicator_.set_active(active_);
 }
 
-double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const {
+double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates,
+                                         const std::vector<double>& forces) const {
   return indicator_.calc_release_time(coordinates, forces, kRinging * options_.recall, options_.residence);
 }
 

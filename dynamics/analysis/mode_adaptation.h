@@ -9,17 +9,19 @@
 
 namespace sprung::dynamics {
 
-/// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked points.
+/// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked
+/// points.
 struct AdaptivityOptions {
-  const Model* full = nullptr;          ///< with every mode that is available; has to outlive the run
+  const Model* full = nullptr;  ///< with every mode that is available; has to outlive the run
   /// Of `full` about the start, where it is known; needed until the run has begun.
   const LinearisedSystem* linearised = nullptr;
-  std::vector<bool> active;             ///< at the start, for each coordinate of `full`
-  std::vector<int> points;              ///< markers whose motion is asked for
-  bool changes = true;                  ///< false: modes stay as they are, the indicator alone is followed
-  double recall = 8e-2;                 ///< share of all left out together at which modes join
-  double drop = 2e-3;                   ///< share below which it may leave, < recall
-  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before modes join [s]
+  std::vector<bool> active;  ///< at the start, for each coordinate of `full`
+  std::vector<int> points;   ///< markers whose motion is asked for
+  bool changes = true;       ///< false: modes stay as they are, the indicator alone is followed
+  double recall = 8e-2;      ///< share of all left out together at which modes join
+  double drop = 2e-3;        ///< share below which it may leave, < recall
+  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before
+  /// modes join [s]
   double residence = 0.05;
 };
 
@@ -30,8 +32,8 @@ struct WorstNeglect {
   double time = 0.0;    ///< [s]
 };
 
-/// Decides which modes are active: those left out join when the indicator passes the recall threshold, active ones may
-/// leave when what they do stays below the drop threshold (dynamics/README.md, eq. 74).
+/// Decides which modes are active: those left out join when the indicator passes the recall threshold, active
+/// ones may leave when what they do stays below the drop threshold (dynamics/README.md, eq. 74).
 class ModeAdaptation {
  public:
   /// @param start  in coordinates of `options.full`; what is not active is held at its values
@@ -43,8 +45,8 @@ class ModeAdaptation {
   int num_active_modes() const;
 
   /// Goes on to the next instant, as ModeIndicator::update.
-  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-              const Eigen::VectorXd& v_dot);
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
+              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
 
   /// Whether a mode left out has passed the recall threshold, by the last update.
   bool misses_any() const;
@@ -55,16 +57,17 @@ class ModeAdaptation {
   std::vector<int> find_missed(const LeftOut& largest) const;
   /// Modal coordinates that may leave, once their rate is zero.
   std::vector<int> find_idle() const;
-  /// Of idle ones those that can be stopped at once where they are, leaving no more ringing than modes that join may.
+  /// Of idle ones those that can be stopped at once where they are, leaving no more ringing than modes that
+  /// join may.
   /// @param v  in coordinates of the full model
   std::vector<int> find_stoppable(const std::vector<int>& idle, const Eigen::VectorXd& v) const;
   ModeShare share_of(int coordinate, const LeftOut& largest) const;
 
-  double frequency_of(int coordinate) const;  ///< [Hz], everything else giving way
-  double held_force_of(int coordinate) const;   ///< what has held it until now, without what has just jumped
+  double frequency_of(int coordinate) const;   ///< [Hz], everything else giving way
+  double held_force_of(int coordinate) const;  ///< what has held it until now, without what has just jumped
   void activate(const std::vector<int>& coordinates);
-  /// How long what held modes, which are active now, takes to be let go: it leaves no more than a small part of the recall
-  /// threshold ringing, and ends before they may leave [s].
+  /// How long what held modes, which are active now, takes to be let go: it leaves no more than a small part
+  /// of the recall threshold ringing, and ends before they may leave [s].
   double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces) const;
   void deactivate(const std::vector<int>& coordinates);
 
@@ -89,8 +92,8 @@ class ModeAdaptation {
   void go_back(const Memory& memory);
   /// Takes down what was largest in a step that is final. @param time  its end [s]
   void note(double time, const LeftOut& largest);
-  /// Of what was noted, as shares of what was largest in all of the run: with modes that join and leave never more than
-  /// the recall threshold, as steps in which it was passed have been taken back.
+  /// Of what was noted, as shares of what was largest in all of the run: with modes that join and leave never
+  /// more than the recall threshold, as steps in which it was passed have been taken back.
   WorstNeglect worst() const;
 
  private:
@@ -101,8 +104,8 @@ class ModeAdaptation {
   std::vector<bool> active_;
   std::vector<std::optional<Window>> windows_;  // by mode
   double last_change_;
-  std::vector<Extreme> extremes_;               // by mode
-  ModeIndicator::Reached reached_;              // of one mode
+  std::vector<Extreme> extremes_;   // by mode
+  ModeIndicator::Reached reached_;  // of one mode
 };
 
 }  // namespace sprung::dynamics

@@ -10,14 +10,14 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kSmallestDeflection = 1e-5;     // of the model's length scale, that shares refer to
-constexpr double kSmallestAcceleration = 1e-2;   // of gravity
-constexpr double kSameStep = 1e-9;  // relative: times of equal steps differ by rounding
+constexpr double kSmallestDeflection = 1e-5;    // of the model's length scale, that shares refer to
+constexpr double kSmallestAcceleration = 1e-2;  // of gravity
+constexpr double kSameStep = 1e-9;              // relative: times of equal steps differ by rounding
 
 }  // namespace
 
-ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points,
-                             const LinearisedSystem* linearised)
+ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q,
+                             std::vector<int> points, const LinearisedSystem* linearised)
     : full_(&full), unbalanced_(full), points_(std::move(points)), time_(time) {
   for (const Body& body : full.bodies) {
     for (int k = 0; k < body.num_modes(); ++k) modal_.push_back(body.first_coordinate + 3 + k);
@@ -122,13 +122,14 @@ std::vector<Eigen::Index> ModeIndicator::find_free(const std::vector<bool>& acti
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
     const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (!is_modal || active[static_cast<std::size_t>(found - modal_.begin())]) free.push_back(static_cast<Eigen::Index>(i));
+    if (!is_modal || active[static_cast<std::size_t>(found - modal_.begin())])
+      free.push_back(static_cast<Eigen::Index>(i));
   }
   return free;
 }
 
-// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active
-// one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
+// The rigid motions and the active modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out;
+// for an active one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
 void ModeIndicator::update_effective() {
   const std::vector<Eigen::Index> giving = find_free(active_);
   const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
@@ -170,8 +171,9 @@ void ModeIndicator::update_effective() {
       continue;
     }
     const auto column = static_cast<Eigen::Index>(j);
-    effective_[j] = {
-        .mass = mass[column], .damping = std::max(0.0, damping[column]), .stiffness = std::max(0.0, stiffness[column])};
+    effective_[j] = {.mass = mass[column],
+                     .damping = std::max(0.0, damping[column]),
+                     .stiffness = std::max(0.0, stiffness[column])};
     for (const Eigen::MatrixXd& motion : reach) effective_[j].reach.push_back(motion.col(column).norm());
   }
 }
@@ -183,7 +185,8 @@ ModeIndicator::Effective ModeIndicator::make_alone(int coordinate) const {
   });
   const Eigen::Index k = coordinate - body->first_coordinate - 3;
   Effective effective{body->M_ff(k, k), body->damping(k, k), body->stiffness(k, k)};
-  for (const Eigen::Matrix2Xd& motion : point_motion_) effective.reach.push_back(motion.col(coordinate).norm());
+  for (const Eigen::Matrix2Xd& motion : point_motion_)
+    effective.reach.push_back(motion.col(coordinate).norm());
   return effective;
 }
 
@@ -247,13 +250,15 @@ void ModeIndicator::update(double time, const ConstrainedEquations& run, const E
 }
 
 // Brings the largest deflection and acceleration so far up to date.
-void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                     const Eigen::VectorXd& v_dot) {
   for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
     if (shapes_[b].cols() == 0) continue;
     auto deflections = deflections_.head(shapes_[b].rows());
     deflections.noalias() = shapes_[b] * q.segment(full_->bodies[b].first_coordinate + 3, shapes_[b].cols());
     double square = 0.0;
-    for (Eigen::Index i = 0; i < deflections.size(); i += 2) square = std::max(square, deflections.segment<2>(i).squaredNorm());
+    for (Eigen::Index i = 0; i < deflections.size(); i += 2)
+      square = std::max(square, deflections.segment<2>(i).squaredNorm());
     largest_deflection_ = std::max(largest_deflection_, std::sqrt(square));
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -272,7 +277,8 @@ void ModeIndicator::raise_references(const Eigen::VectorXd& q, const Eigen::Vect
 // One mode left out, over a step in which the force went straight to where it is now.
 void ModeIndicator::follow(std::size_t mode, double step) {
   Effective& effective = effective_[mode];
-  const double mass = effective.mass, decay = 0.5 * effective.damping / mass, stiffness = effective.stiffness / mass;
+  const double mass = effective.mass, decay = 0.5 * effective.damping / mass,
+               stiffness = effective.stiffness / mass;
   Oscillator& one = oscillators_[mode];
   const double before = one.force / mass;
   one.force = unbalanced_.force()[modal_[mode]];
@@ -289,12 +295,13 @@ void ModeIndicator::follow(std::size_t mode, double step) {
     one.place = r.c * place + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
     one.rate = r.c_rate * place + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
   }
-  if (!has_begun_ && stiffness > 0.0) one.place = force / stiffness;  // what is missing from the start on is no vibration
+  if (!has_begun_ && stiffness > 0.0)
+    one.place = force / stiffness;  // what is missing from the start on is no vibration
   // Amplitude rather than instant, which may pass through zero; and what the force would do for good.
-  const double amplitude =
-      stiffness > 0.0
-          ? std::max(std::sqrt(one.place * one.place + one.rate * one.rate / stiffness), std::abs(force) / stiffness)
-          : std::abs(one.place);
+  const double amplitude = stiffness > 0.0
+                               ? std::max(std::sqrt(one.place * one.place + one.rate * one.rate / stiffness),
+                                          std::abs(force) / stiffness)
+                               : std::abs(one.place);
   const double acceleration =
       std::hypot(force - 2.0 * decay * one.rate - stiffness * one.place, std::sqrt(stiffness) * one.rate);
   left_out_[mode] = {amplitude, acceleration};

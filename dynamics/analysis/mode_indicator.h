@@ -22,11 +22,11 @@ struct ModeShare {
   double worst() const { return deflection > acceleration ? deflection : acceleration; }
 };
 
-/// Error indicator of modes that a run leaves out. Each is followed as an oscillator under the force that the run
-/// leaves unbalanced on it,
+/// Error indicator of modes that a run leaves out. Each is followed as an oscillator under the force that the
+/// run leaves unbalanced on it,
 ///     m_j ξ̈ + c_j ξ̇ + k_j ξ = r_j(t),   r = Q − M q̈ − φ_qᵀ λ in its row,
-/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is what the mode
-/// would add to first order, resonance included (dynamics/README.md, eqs. 72–74).
+/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is what
+/// the mode would add to first order, resonance included (dynamics/README.md, eqs. 72–74).
 class ModeIndicator {
  public:
   /// @param full    the model with every mode that could be active; has to outlive this
@@ -36,7 +36,8 @@ class ModeIndicator {
   ModeIndicator(const Model& full, double time, const Eigen::VectorXd& q, std::vector<int> points,
                 const LinearisedSystem* linearised = nullptr);
 
-  /// Small motion about the start where modes are held: that of the full model, without their rows and columns.
+  /// Small motion about the start where modes are held: that of the full model, without their rows and
+  /// columns.
   /// @param held  of `full`, with the modes that are active
   /// @return none where a mode that is held is not independent in the full model
   std::optional<KnownMotion> calc_small_motion(const HeldModes& held) const;
@@ -45,16 +46,17 @@ class ModeIndicator {
   const std::vector<int>& modal_coordinates() const { return modal_; }
   std::size_t num_modes() const { return modal_.size(); }
 
-  /// Says which modes are active from the last update on; those that stop being so begin at rest where they are held.
-  /// What gives way to the others is another then: their vibration about where the force would hold them stays.
+  /// Says which modes are active from the last update on; those that stop being so begin at rest where they
+  /// are held. What gives way to the others is another then: their vibration about where the force would hold
+  /// them stays.
   void set_active(const std::vector<bool>& is_active_coordinate);
   bool is_active(std::size_t mode) const { return active_[mode]; }
 
   /// Goes on to the next instant of the run; at the same instant again, where forces have jumped.
   /// @param run          equations of the model that is run, accelerations up to date
   /// @param q, v, v_dot  in coordinates of `full`, held ones at rest
-  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-              const Eigen::VectorXd& v_dot);
+  void update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
+              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
 
   /// What a mode left out would do: amplitude of its coordinate and of that one's acceleration.
   struct LeftOut {
@@ -77,18 +79,21 @@ class ModeIndicator {
   ModeShare share(const Reached& reached) const;
   /// The force that the run leaves unbalanced on a mode left out, at the last update.
   double unbalanced_force(std::size_t mode) const { return oscillators_[mode].force; }
-  /// The part of it that was there before, without what has jumped at this very instant (or with what the run starts).
+  /// The part of it that was there before, without what has jumped at this very instant (or with what the run
+  /// starts).
   double held_force(std::size_t mode) const { return oscillators_[mode].held_force; }
-  /// Time to let go of what held modes that have just become active: after it each asked point rings by at most a
-  /// share of its largest acceleration so far.
+  /// Time to let go of what held modes that have just become active: after it each asked point rings by at
+  /// most a share of its largest acceleration so far.
   /// @param forces   on `coordinates` [N/kg^½]
   /// @param longest  where that is not enough, or not known [s]
-  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces, double share,
-                           double longest) const;
-  /// What stopping each of the modes sets ringing, where all of them are left out: an impulse on what stays active.
+  double calc_release_time(const std::vector<int>& coordinates, const std::vector<double>& forces,
+                           double share, double longest) const;
+  /// What stopping each of the modes sets ringing, where all of them are left out: an impulse on what stays
+  /// active.
   /// @param v  in coordinates of `full`
   /// @return largest share of any asked point's largest acceleration so far, for each of `coordinates`
-  std::vector<double> calc_stopping_shares(const std::vector<int>& coordinates, const Eigen::VectorXd& v) const;
+  std::vector<double> calc_stopping_shares(const std::vector<int>& coordinates,
+                                           const Eigen::VectorXd& v) const;
   /// Frequency with everything else giving way [Hz].
   double frequency(std::size_t mode) const;
   double time() const { return time_; }  ///< of the last update
@@ -100,8 +105,8 @@ class ModeIndicator {
     double held_force = 0.0;         ///< the same but for what has jumped at that instant; 0 at the start
     bool is_fresh = false;           ///< left out since that instant
   };
-  /// What has to be kept to go back to an instant. The largest that shares refer to stay what they have become: they
-  /// are known then, though they are still to come.
+  /// What has to be kept to go back to an instant. The largest that shares refer to stay what they have
+  /// become: they are known then, though they are still to come.
   struct Memory {
     double time = 0.0;
     bool has_begun = false;
@@ -142,8 +147,9 @@ class ModeIndicator {
   std::vector<Eigen::MatrixXd> reduced_motion_;  // per independent coordinate
 
   std::vector<Effective> effective_;
-  std::vector<Eigen::MatrixXd> shapes_;  // of each body: deflections of its named points, two rows each, by its modes
-  Eigen::VectorXd deflections_;          // of one body
+  std::vector<Eigen::MatrixXd>
+      shapes_;                   // of each body: deflections of its named points, two rows each, by its modes
+  Eigen::VectorXd deflections_;  // of one body
   std::vector<double> bending_;  // largest deflection of a named point per unit of the mode
   std::vector<Oscillator> oscillators_;
   std::vector<LeftOut> left_out_;

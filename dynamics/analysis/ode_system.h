@@ -20,8 +20,8 @@ struct KnownMotion {
   SmallMotion motion;
 };
 
-/// ẏ = f(t, y) with switch functions, as an integrator sees it. y = (q, v, w): f positions with q̇ = v, f velocities,
-/// and quadratures w, on which nothing else depends.
+/// ẏ = f(t, y) with switch functions, as an integrator sees it. y = (q, v, w): f positions with q̇ = v, f
+/// velocities, and quadratures w, on which nothing else depends.
 class OdeSystem {
  public:
   virtual ~OdeSystem() = default;
@@ -31,12 +31,13 @@ class OdeSystem {
   /// @return false where f cannot be evaluated; the integrator then tries a shorter step
   virtual bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) = 0;
   virtual int num_switches() const = 0;
-  /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth in time
+  /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth
+  /// in time
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// How f goes through the zero of a switch function.
   virtual Passage passage(int /*switch_index*/) const { return Passage::kJump; }
-  /// From `time` on, calc_derivative uses the formulas next to the present ones, beyond a switch function that is none
-  /// of a jump. Called in order of time.
+  /// From `time` on, calc_derivative uses the formulas next to the present ones, beyond a switch function
+  /// that is none of a jump. Called in order of time.
   /// @param[out] change  of ẏ, at the arguments that calc_derivative was called with last
   /// @return false, and nothing changed, where that cannot be
   virtual bool pass(int /*switch_index*/, double /*time*/, std::span<double> /*change*/) { return false; }

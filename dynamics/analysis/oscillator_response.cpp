@@ -129,7 +129,8 @@ OscillatorResponse by_two_decays(double stiffness, double decay, double time, in
   OscillatorResponse r{};
   r.s = (slow[0] - fast[0]) / (2.0 * root);
   r.s_rate = (slow_rate * slow[0] - fast_rate * fast[0]) / (2.0 * root);
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k)
+    r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
   return r;
 }
 
@@ -138,7 +139,8 @@ OscillatorResponse by_two_decays(double stiffness, double decay, double time, in
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
   if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
   const double omega = std::sqrt(stiffness);
-  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit ? by_series(stiffness, decay, time, max_power)
+  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit
+                             ? by_series(stiffness, decay, time, max_power)
                          : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time, max_power)
                                                        : by_recurrence(stiffness, decay, time, max_power);
   r.c = r.s_rate + 2.0 * decay * r.s;

@@ -26,7 +26,8 @@ class PartitionedOde final : public OdeSystem {
   void set_state(const State& state, double dissipated, double input);
   std::span<const double> y() const { return y_; }
 
-  /// Small motion for the first time that it is asked for, where the partition is the one that it is known for.
+  /// Small motion for the first time that it is asked for, where the partition is the one that it is known
+  /// for.
   void suggest(KnownMotion known) { known_ = std::move(known); }
 
   /// Brings positions and velocities of `equations()` to y.
@@ -36,8 +37,8 @@ class PartitionedOde final : public OdeSystem {
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
 
-  /// The motion evaluated last, if it was good, belongs to what has really been come to: from there positions are
-  /// searched for where a trial has failed, and dependent angles count their turns.
+  /// The motion evaluated last, if it was good, belongs to what has really been come to: from there positions
+  /// are searched for where a trial has failed, and dependent angles count their turns.
   void mark_motion();
 
   PartitionedEquations& equations() { return equations_; }

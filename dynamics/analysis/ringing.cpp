@@ -18,7 +18,8 @@ constexpr double kShortest = 1e-4;   // of the longest T: as good as at once
 Ringing::Ringing(const SmallMotion& motion, const std::vector<Point>& points) {
   const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> undamped(stiffness, motion.mass);
-  if (undamped.info() != Eigen::Success) throw support::NumericalError("the modes of small motion were not found");
+  if (undamped.info() != Eigen::Success)
+    throw support::NumericalError("the modes of small motion were not found");
   omega_ = undamped.eigenvalues().array().max(0.0).sqrt();
   Phi_ = undamped.eigenvectors();
   reach_.resize(static_cast<Eigen::Index>(points.size()), omega_.size());

@@ -39,9 +39,9 @@ class SmoothPiece {
     std::size_t force;
     std::span<const int> from, to;
   };
-  /// From `time` on, the element of a switch uses the branches next to the present ones; branches() are those.
-  /// Called in order of time. @return none, and nothing changed, where it has done so
-  /// since begin_step, or too many have
+  /// From `time` on, the element of a switch uses the branches next to the present ones; branches() are
+  /// those. Called in order of time. @return none, and nothing changed, where it has done so since
+  /// begin_step, or too many have
   std::optional<Pass> pass(int switch_index, double time);
   void take_back_passes() { num_phases_ = 1, now_ = 0; }
   /// branches() become those of a time since begin_step.

@@ -25,8 +25,8 @@ class SwitchSearch {
   }
 
   /// Where the cubic through the values of one of them becomes negative, between two places.
-  double find_crossing(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values, int after,
-                       Eigen::Index index, double tolerance) {
+  double find_crossing(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values,
+                       int after, Eigen::Index index, double tolerance) {
     begin(places, values, after);
     return predict(index, tolerance);
   }

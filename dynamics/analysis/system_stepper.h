@@ -28,7 +28,8 @@ class SystemStepper {
 
   /// All there is to see at one instant, until the next call of anything else.
   struct Observation {
-    /// The equations of the model that is run: positions, mass, velocities and accelerations up to date, all markers.
+    /// The equations of the model that is run: positions, mass, velocities and accelerations up to date, all
+    /// markers.
     const ConstrainedEquations& equations;
     /// In coordinates of the model that the run was given; modes that are held in the other are at rest.
     const Eigen::VectorXd &q, &v, &v_dot;
@@ -41,7 +42,8 @@ class SystemStepper {
   virtual void suggest(KnownMotion) {}
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
-  /// Goes on from where `evaluate` or `evaluate_motion` was called last with the branches of piece(), up to `end_time`.
+  /// Goes on from where `evaluate` or `evaluate_motion` was called last with the branches of piece(), up to
+  /// `end_time`.
   /// @throws support::NumericalError where there are no accelerations
   virtual void resume(double end_time) = 0;
   /// One step of at most `longest_step`.
@@ -51,14 +53,14 @@ class SystemStepper {
   /// Longest step that the piece would not regret, at the state evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
-  /// Brings equations() and energy_flow() to a time within the last step: joints closed, accelerations and multipliers
-  /// those of the equations; markers that joints and forces see.
+  /// Brings equations() and energy_flow() to a time within the last step: joints closed, accelerations and
+  /// multipliers those of the equations; markers that joints and forces see.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time) = 0;
   /// `evaluate` without accelerations and multipliers, which what comes next need not ask for.
   virtual void evaluate_motion(double time) { evaluate(time); }
-  /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that the
-  /// integrator tried there: for who watches, not for who goes on from it.
+  /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that
+  /// the integrator tried there: for who watches, not for who goes on from it.
   virtual void look() { evaluate(time()); }
   /// `evaluate`, and what it has come to with all markers.
   virtual Observation observe(double time) = 0;

@@ -45,7 +45,8 @@ class TransientRun {
     piece().update_branches(stepper_->equations().terms());
     stepper_->resume(smooth_end_);
     // Modes that join at the very start are there from the first output on.
-    const bool is_settled = !(options_.adaptivity && options_.adaptivity->changes && start.time < options_.end_time);
+    const bool is_settled =
+        !(options_.adaptivity && options_.adaptivity->changes && start.time < options_.end_time);
     if (is_settled) write_outputs(start.time);
     if (start.time < options_.end_time) integrate();
     statistics_.stepper = stepper_->statistics();

@@ -30,9 +30,10 @@ struct Event {
 /// Everything about the vehicle at one output time; valid during the call that gets it.
 struct Snapshot {
   double time = 0.0;
-  /// Of the model that is run, in which modes may be held: positions, velocities and forces up to date, all markers.
+  /// Of the model that is run, in which modes may be held: positions, velocities and forces up to date, all
+  /// markers.
   const ConstrainedEquations& equations;
-  const Eigen::VectorXd& q, &v, &v_dot;  ///< num_coordinates of the model that the run was given
+  const Eigen::VectorXd &q, &v, &v_dot;  ///< num_coordinates of the model that the run was given
   std::span<const int> branches;
   EnergyBook energy;
   const ModeAdaptation* modes;  ///< which modes are active, and what the others miss; null where nobody asked
@@ -47,8 +48,8 @@ struct TransientOptions {
   double output_step = 1e-3;                                      ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
   Integrator::Options integrator;
-  /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the run are
-  /// the full ones.
+  /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the
+  /// run are the full ones.
   std::optional<AdaptivityOptions> adaptivity;
   std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
   std::function<void(const Event&)> on_event;      ///< may be empty
@@ -62,7 +63,7 @@ struct TransientStatistics {
   long mode_changes = 0;
   double mean_active_modes = 0.0;  ///< over time
   WorstNeglect worst_neglect;      ///< where adaptivity was asked for
-  bool completed = false;       ///< false: stopped by on_step
+  bool completed = false;          ///< false: stopped by on_step
 };
 
 /// Runs a state forward in time. The state has to satisfy the constraints; its branches are chosen here.

@@ -13,7 +13,8 @@ UnbalancedForce::UnbalancedForce(const Model& full)
   }
   for (const int i : full.acting_markers) {
     const Marker& marker = full.markers[static_cast<std::size_t>(i)];
-    if (marker.body != kGround && marker.Phi.cols() > 0) acting_[static_cast<std::size_t>(marker.body)].push_back(i);
+    if (marker.body != kGround && marker.Phi.cols() > 0)
+      acting_[static_cast<std::size_t>(marker.body)].push_back(i);
   }
 }
 
@@ -27,7 +28,8 @@ void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lamb
     const FrameRotation rotation = FrameRotation::from_angle(q[first + 2]);
     const Eigen::Vector2d pull = rotation.transposed_times(full_->gravity - v_dot.segment<2>(first));
     const double rate = v[first + 2], turning = v_dot[first + 2];
-    const auto eta = q.segment(first + 3, n), eta_dot = v.segment(first + 3, n), eta_ddot = v_dot.segment(first + 3, n);
+    const auto eta = q.segment(first + 3, n), eta_dot = v.segment(first + 3, n),
+               eta_ddot = v_dot.segment(first + 3, n);
     auto r = force_.segment(first + 3, n);
     r.noalias() = body.P.transpose() * pull;
     r += rate * rate * body.d.transpose() - turning * body.c.transpose();

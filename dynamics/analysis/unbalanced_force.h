@@ -9,20 +9,22 @@
 namespace sprung::dynamics {
 
 /// What the motion of a model in which some modes are held leaves unbalanced on the modes of the full one,
-///     r = Q − M q̈ − φ_qᵀλ   in their rows                                             (dynamics/README.md, eq. 72)
-///     = Σ (Φᵀ Aᵀ F + ψᵀ T) + PᵀAᵀ(g − R̈) − (c + ηᵀB)ᵀ θ̈ + θ̇² (d + M_tt η) + 2 θ̇ B η̇ − M_ff η̈ − C η̇ − K η,
+///     r = Q − M q̈ − φ_qᵀλ   in their rows                                             (dynamics/README.md,
+///     eq. 72) = Σ (Φᵀ Aᵀ F + ψᵀ T) + PᵀAᵀ(g − R̈) − (c + ηᵀB)ᵀ θ̈ + θ̇² (d + M_tt η) + 2 θ̇ B η̇ − M_ff η̈ − C η̇ −
+///     K η,
 /// summed over the markers: of all terms of the full model only these rows. No allocation.
 class UnbalancedForce {
  public:
   /// @param full  has to outlive this
   explicit UnbalancedForce(const Model& full);
 
-  /// @param run     terms of the model that is run, forces and Jacobian up to date; its markers, joints and forces are
+  /// @param run     terms of the model that is run, forces and Jacobian up to date; its markers, joints and
+  /// forces are
   ///                those of the full model
   /// @param lambda  multipliers there
   /// @param q, v, v_dot  in coordinates of the full model, held ones at rest
-  void update(const SystemTerms& run, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-              const Eigen::VectorXd& v_dot);
+  void update(const SystemTerms& run, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
+              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
   /// r at modal coordinates of the full model; the other rows are of no meaning.
   const Eigen::VectorXd& force() const { return force_; }
 

@@ -56,7 +56,9 @@ struct WeighedShapes {
     }
   }
   // Modal assurance criterion, times the size of a.
-  double likeness(const Eigen::VectorXcd& a, std::size_t i) const { return std::norm(a.dot(weighed[i])) / sizes[i]; }
+  double likeness(const Eigen::VectorXcd& a, std::size_t i) const {
+    return std::norm(a.dot(weighed[i])) / sizes[i];
+  }
 
   std::vector<Eigen::VectorXcd> weighed;  // M b
   std::vector<double> sizes;              // bᴴ M b
@@ -74,12 +76,14 @@ std::vector<UndampedMode> calc_undamped_modes(const LinearisedSystem& system) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
   std::vector<UndampedMode> modes;
   for (Eigen::Index k = 0; k < system.mass.rows(); ++k) {
-    modes.push_back({std::sqrt(std::abs(solver.eigenvalues()[k])), solver.eigenvectors().col(k).cast<std::complex<double>>()});
+    modes.push_back({std::sqrt(std::abs(solver.eigenvalues()[k])),
+                     solver.eigenvectors().col(k).cast<std::complex<double>>()});
   }
   return modes;
 }
 
-// With Coriolis forces, the skew part of Ĉ, shapes are complex: of each the phase with the most kinetic energy.
+// With Coriolis forces, the skew part of Ĉ, shapes are complex: of each the phase with the most kinetic
+// energy.
 std::vector<UndampedMode> calc_gyroscopic_modes(const LinearisedSystem& system) {
   const DampedModes complex_modes =
       calc_damped_modes(system, 0.5 * (system.damping - system.damping.transpose()));
@@ -94,7 +98,8 @@ std::vector<UndampedMode> calc_gyroscopic_modes(const LinearisedSystem& system) 
 }
 
 // Which bodies carry the kinetic energy of a shape, largest first; a body's own modes in brackets.
-std::string describe_participants(const Model& model, const SystemTerms& terms, const Eigen::VectorXd& shape) {
+std::string describe_participants(const Model& model, const SystemTerms& terms,
+                                  const Eigen::VectorXd& shape) {
   struct Share {
     std::string text;
     double value;
@@ -114,7 +119,8 @@ std::string describe_participants(const Model& model, const SystemTerms& terms, 
     modal.cwiseAbs().maxCoeff(&largest);
     shares.back().text += fmt::format(" (mode {})", body.mode_numbers[static_cast<std::size_t>(largest)]);
   }
-  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.value > b.value; });
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const Share& a, const Share& b) { return a.value > b.value; });
   std::vector<std::string> words;
   for (const Share& share : shares) {
     if (share.value < 0.05 * total) break;
@@ -151,7 +157,8 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   for (std::size_t k = 0; k < undamped.size(); ++k) {
     VehicleMode mode;
     const Eigen::VectorXd reduced_shape = undamped[k].shape.real();
-    mode.shape = system.directions * reduced_shape / std::sqrt(reduced_shape.dot(system.mass * reduced_shape));
+    mode.shape =
+        system.directions * reduced_shape / std::sqrt(reduced_shape.dot(system.mass * reduced_shape));
     mode.participants = describe_participants(model, terms, mode.shape);
     mode.is_rigid_body = k < num_rigid;
     if (mode.is_rigid_body) {
@@ -170,7 +177,8 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
     }
     const std::complex<double> s = damped.eigenvalues[best];
     mode.damped_frequency_hz = s.imag() / (2.0 * pi);
-    mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / (2.0 * pi * mode.undamped_frequency_hz);
+    mode.damping_ratio =
+        s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / (2.0 * pi * mode.undamped_frequency_hz);
     damped.eigenvalues.erase(damped.eigenvalues.begin() + static_cast<std::ptrdiff_t>(best));
     of_damped.weighed.erase(of_damped.weighed.begin() + static_cast<std::ptrdiff_t>(best));
     of_damped.sizes.erase(of_damped.sizes.begin() + static_cast<std::ptrdiff_t>(best));

@@ -28,7 +28,8 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
   RealPairs pairs{Eigen::MatrixXd::Zero(n, n), {}};
   if (eigen.info() != Eigen::Success) return pairs;
   const Eigen::VectorXcd& values = eigen.eigenvalues();
-  const Eigen::MatrixXd& parts = eigen.pseudoEigenvectors();  // real and imaginary parts side by side, not normalised
+  const Eigen::MatrixXd& parts =
+      eigen.pseudoEigenvectors();  // real and imaginary parts side by side, not normalised
   PairBlocks& B = pairs.blocks;
   B.b11 = B.b12 = B.b21 = B.b22 = Eigen::ArrayXd::Zero(half);
   Eigen::Index next = 0;
@@ -67,7 +68,8 @@ void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x
 
 }  // namespace
 
-// Four rows at a time, in registers: Eigen's product is made for large matrices, and costs small ones more than they take.
+// Four rows at a time, in registers: Eigen's product is made for large matrices, and costs small ones more
+// than they take.
 void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
   constexpr Eigen::Index kSmall = 24;
   const Eigen::Index size = A.rows();

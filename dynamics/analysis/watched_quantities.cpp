@@ -43,9 +43,11 @@ void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
     const std::vector<int> forces = find_outputs(outputs, group, {"force", "longitudinal_force"});
     const std::vector<int> torques = find_outputs(outputs, group, {"torque"});
     if (!forces.empty())
-      watched.list.push_back({"force of " + force->name, Kind::kForce, append(watched, outputs.pick(forces))});
+      watched.list.push_back(
+          {"force of " + force->name, Kind::kForce, append(watched, outputs.pick(forces))});
     if (!torques.empty())
-      watched.list.push_back({"torque of " + force->name, Kind::kTorque, append(watched, outputs.pick(torques))});
+      watched.list.push_back(
+          {"torque of " + force->name, Kind::kTorque, append(watched, outputs.pick(torques))});
   }
 }
 
@@ -55,7 +57,8 @@ void add_reactions(const LinearVehicle& vehicle, WatchedQuantities& watched) {
     const std::string group = "joints/" + joint->name;
     const std::vector<int> forces = find_outputs(outputs, group, {"reaction.x", "reaction.y"});
     const std::vector<int> torques = find_outputs(outputs, group, {"reaction.torque"});
-    watched.list.push_back({"reaction of " + joint->name, Kind::kForce, append(watched, outputs.pick(forces))});
+    watched.list.push_back(
+        {"reaction of " + joint->name, Kind::kForce, append(watched, outputs.pick(forces))});
     if (joint->kind() == "revolute") continue;
     watched.list.push_back(
         {"reaction torque of " + joint->name, Kind::kTorque, append(watched, outputs.pick(torques))});

@@ -11,13 +11,13 @@ namespace sprung::dynamics {
 struct WatchedQuantity {
   enum class Kind { kDisplacement, kAcceleration, kForce, kTorque };
   static constexpr std::size_t kNumKinds = 4;
-  std::string name;       ///< "acceleration of chassis.seat", "reaction of front_long_chassis"
+  std::string name;  ///< "acceleration of chassis.seat", "reaction of front_long_chassis"
   Kind kind = Kind::kForce;
   std::vector<int> rows;  ///< of the outputs; an acceleration's are those of the displacement
 };
 
-/// What a user of a run cares about: displacement and acceleration (x, y) of the points asked for, reactions of all
-/// joints, forces and torques of all force elements that are not given in time.
+/// What a user of a run cares about: displacement and acceleration (x, y) of the points asked for, reactions
+/// of all joints, forces and torques of all force elements that are not given in time.
 struct WatchedQuantities {
   LinearOutputs outputs;
   std::vector<WatchedQuantity> list;

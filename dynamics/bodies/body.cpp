@@ -16,9 +16,9 @@ Eigen::MatrixXd select(const Eigen::MatrixXd& matrix, const std::vector<int>& co
 void check_stiffening(const reduce::Superelement& superelement, int highest_mode) {
   const int available = superelement.geometric_stiffness ? superelement.geometric_stiffness->num_modes() : 0;
   if (highest_mode <= available) return;
-  throw std::invalid_argument(
-      fmt::format("make_flexible_body: superelement '{}' has the geometric stiffness of {} modes, got mode {}",
-                  superelement.name, available, highest_mode));
+  throw std::invalid_argument(fmt::format(
+      "make_flexible_body: superelement '{}' has the geometric stiffness of {} modes, got mode {}",
+      superelement.name, available, highest_mode));
 }
 
 }  // namespace
@@ -29,7 +29,8 @@ double FadingForce::value(double time) const {
 }
 
 Body make_rigid_body(const std::string& name, double mass, double inertia) {
-  if (!(mass > 0.0)) throw std::invalid_argument(fmt::format("make_rigid_body: mass must be > 0 kg, got {}", mass));
+  if (!(mass > 0.0))
+    throw std::invalid_argument(fmt::format("make_rigid_body: mass must be > 0 kg, got {}", mass));
   if (!(inertia > 0.0)) {
     throw std::invalid_argument(fmt::format("make_rigid_body: inertia must be > 0 kg·m², got {}", inertia));
   }
@@ -45,9 +46,11 @@ Body make_flexible_body(const std::string& name, const reduce::Superelement& sup
                         const std::vector<int>& mode_numbers, Stiffening stiffening) {
   std::vector<int> columns;
   for (const int number : mode_numbers) {
-    if (number < 1 || number > superelement.num_modes() || (!columns.empty() && number - 1 <= columns.back())) {
-      throw std::invalid_argument(fmt::format(
-          "make_flexible_body: mode numbers must ascend from 1 to {}, got {}", superelement.num_modes(), number));
+    if (number < 1 || number > superelement.num_modes() ||
+        (!columns.empty() && number - 1 <= columns.back())) {
+      throw std::invalid_argument(
+          fmt::format("make_flexible_body: mode numbers must ascend from 1 to {}, got {}",
+                      superelement.num_modes(), number));
     }
     columns.push_back(number - 1);
   }

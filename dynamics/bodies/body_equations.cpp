@@ -4,7 +4,9 @@
 
 namespace sprung::dynamics {
 
-FrameRotation FrameRotation::from_angle(double theta) { return {std::cos(theta), std::sin(theta)}; }
+FrameRotation FrameRotation::from_angle(double theta) {
+  return {std::cos(theta), std::sin(theta)};
+}
 
 FrameRotation NearbyRotation::keep(double theta) {
   kept_angle_ = theta;
@@ -18,8 +20,8 @@ Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen
   return moment;
 }
 
-void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta,
-                      Eigen::Ref<Eigen::MatrixXd> mass) {
+void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
+                      const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass) {
   mass(0, 0) = mass(1, 1) = body.mass;
   mass(0, 1) = mass(1, 0) = 0.0;
   mass.bottomRightCorner(body.num_modes(), body.num_modes()) = body.M_ff;
@@ -51,7 +53,8 @@ void update_mass_matrix(const Body& body, const FrameRotation& rotation,
 
 void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
                                    const Eigen::Ref<const Eigen::VectorXd>& eta,
-                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot, Eigen::Ref<Eigen::VectorXd> Q) {
+                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
+                                   Eigen::Ref<Eigen::VectorXd> Q) {
   const int n = body.num_modes();
   const double theta_dot_squared = theta_dot * theta_dot;
   Eigen::Vector2d along = theta_dot_squared * calc_first_moment(body, eta);

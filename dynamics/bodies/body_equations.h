@@ -20,15 +20,16 @@ struct FrameRotation {
   }
 };
 
-/// The rotation of a frame whose angle is asked for again and again nearby: sine and cosine there come from those at
-/// an angle that is kept, by their series, exact to rounding.
+/// The rotation of a frame whose angle is asked for again and again nearby: sine and cosine there come from
+/// those at an angle that is kept, by their series, exact to rounding.
 class NearbyRotation {
  public:
   FrameRotation at(double theta) {
     constexpr double kNearby = 0.03;  // rad: what the series leave out is below 1e-18
     const double turn = theta - kept_angle_, square = turn * turn;
     if (!(square < kNearby * kNearby)) return keep(theta);
-    const double turn_sine = turn - turn * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
+    const double turn_sine =
+        turn - turn * square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0)));
     const double versine =
         square * (1.0 / 2.0 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40320.0))));
     return {kept_.cosine - (versine * kept_.cosine + turn_sine * kept_.sine),
@@ -43,28 +44,34 @@ class NearbyRotation {
 };
 
 /// S p: p turned by +90°.
-inline Eigen::Vector2d turned(const Eigen::Vector2d& p) { return {-p.y(), p.x()}; }
+inline Eigen::Vector2d turned(const Eigen::Vector2d& p) {
+  return {-p.y(), p.x()};
+}
 
-/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (dynamics/README.md, eq. 3)
+/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (dynamics/README.md, eq.
+/// 3)
 ///
 /// @param eta   n modal coordinates
 /// @param mass  (3+n)×(3+n), all of it written
 /// Source: [Shabana 2013], §5.4, with the invariants of the superelement
-void calc_mass_matrix(const Body& body, const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta,
-                      Eigen::Ref<Eigen::MatrixXd> mass);
+void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
+                      const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
 /// The same where mass holds that of another state of the body: what no state changes is left as it stands.
 void update_mass_matrix(const Body& body, const FrameRotation& rotation,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
-/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (dynamics/README.md, eq. 4)
+/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (dynamics/README.md,
+/// eq. 4)
 ///
 /// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
 void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
                                    const Eigen::Ref<const Eigen::VectorXd>& eta,
-                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot, Eigen::Ref<Eigen::VectorXd> Q);
+                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
+                                   Eigen::Ref<Eigen::VectorXd> Q);
 
-/// Weight of a body, through its invariants.                                           (dynamics/README.md, eq. 5)
+/// Weight of a body, through its invariants.                                           (dynamics/README.md,
+/// eq. 5)
 /// @param gravity in the world [m/s²]; Q 3+n, added to
 void add_gravity_forces(const Body& body, const FrameRotation& rotation, const Eigen::Vector2d& gravity,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::VectorXd> Q);

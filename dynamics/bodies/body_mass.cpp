@@ -79,7 +79,8 @@ void BodyMass::solve_coupled(double* x) const {
   for (Eigen::Index k = 0; k < n; ++k, W += 3) {
     for (int i = 0; i < 3; ++i) y[i] -= W[i] * modal[k];
   }
-  for (int i = 0; i < 3; ++i) x[i] = C_inverse_(0, i) * y[0] + C_inverse_(1, i) * y[1] + C_inverse_(2, i) * y[2];
+  for (int i = 0; i < 3; ++i)
+    x[i] = C_inverse_(0, i) * y[0] + C_inverse_(1, i) * y[1] + C_inverse_(2, i) * y[2];
   for (Eigen::Index k = 0; k < n; ++k) {
     const double* H = M_.col(3 + k).data();
     modal[k] -= H[0] * x[0] + H[1] * x[1] + H[2] * x[2];

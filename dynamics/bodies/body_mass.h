@@ -7,10 +7,11 @@
 
 namespace sprung::dynamics {
 
-/// The mass matrix of a body, factorised by its blocks. M_ff never changes, so only a 3×3 matrix is left to be
-/// factorised at each state, whatever the number of modes:
+/// The mass matrix of a body, factorised by its blocks. M_ff never changes, so only a 3×3 matrix is left to
+/// be factorised at each state, whatever the number of modes:
 ///
-///     M = [M_r H; Hᵀ M_ff],   C = M_r − H M_ff⁻¹ Hᵀ                                  (dynamics/README.md, eq. 17)
+///     M = [M_r H; Hᵀ M_ff],   C = M_r − H M_ff⁻¹ Hᵀ                                  (dynamics/README.md,
+///     eq. 17)
 class BodyMass {
  public:
   explicit BodyMass(const Body& body);
@@ -19,8 +20,8 @@ class BodyMass {
   void update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta);
   const Eigen::MatrixXd& matrix() const { return M_; }  ///< (3+n)×(3+n)
 
-  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither its weight
-  /// nor its turning make a torque.
+  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither its
+  /// weight nor its turning make a torque.
   bool is_constant() const { return constant_; }
 
   /// x ← M⁻¹ x.  @param x  3+n values
@@ -45,12 +46,14 @@ class BodyMass {
       return;
     }
     if (W_.cols() > 0) reduce_modal_part(upper + 3, lower + 3, U, V);
-    for (int i = 0; i < 3; ++i) V[i] = U[0] * C_inverse_(0, i) + U[1] * C_inverse_(1, i) + U[2] * C_inverse_(2, i);
+    for (int i = 0; i < 3; ++i)
+      V[i] = U[0] * C_inverse_(0, i) + U[1] * C_inverse_(1, i) + U[2] * C_inverse_(2, i);
   }
 
  private:
   void solve_coupled(double* x) const;
-  void reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U, Eigen::Vector2d* V) const;
+  void reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U,
+                         Eigen::Vector2d* V) const;
 
   const Body* body_;
   bool constant_;

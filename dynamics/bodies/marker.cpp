@@ -22,8 +22,8 @@ Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<co
 }
 
 // The gradients of the displacement of second order are −ηᵀK.
-void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Vector2d& u,
-                               MarkerState& state) {
+void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta,
+                               Eigen::Vector2d& u, MarkerState& state) {
   const Eigen::Vector3d back = calc_half_form(marker.K, eta);
   u -= back.head<2>();
   state.angle -= back[2];
@@ -34,14 +34,17 @@ void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eige
   }
 }
 
-void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state) {
+void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
+                           MarkerState& state) {
   const Eigen::Vector3d back = 2.0 * calc_half_form(marker.K, eta_dot);
   state.a_bias -= state.rotation * Eigen::Vector2d(back.head<2>());
   state.alpha_bias = -back[2];
 }
 
-Eigen::Vector2d calc_marker_acceleration(const MarkerState& state, const Eigen::Ref<const Eigen::VectorXd>& v_dot) {
-  const Eigen::Vector2d bending = state.Phi.topRows<2>().lazyProduct(v_dot.tail(state.Phi.cols()));  // body axes
+Eigen::Vector2d calc_marker_acceleration(const MarkerState& state,
+                                         const Eigen::Ref<const Eigen::VectorXd>& v_dot) {
+  const Eigen::Vector2d bending =
+      state.Phi.topRows<2>().lazyProduct(v_dot.tail(state.Phi.cols()));  // body axes
   return state.a_bias + v_dot.head<2>() + state.r_theta * v_dot[2] + state.rotation * bending;
 }
 

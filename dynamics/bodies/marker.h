@@ -10,15 +10,17 @@ namespace sprung::dynamics {
 /// Index of the body that never moves.
 inline constexpr int kGround = -1;
 
-/// A point of a body, with axes, where joints and forces act and results are asked for. On a flexible body it moves
-/// with a node; an offset from the node turns with the node's rotation, so that both together are linear in η.
+/// A point of a body, with axes, where joints and forces act and results are asked for. On a flexible body it
+/// moves with a node; an offset from the node turns with the node's rotation, so that both together are
+/// linear in η.
 struct Marker {
-  std::string name;                    ///< "body.point"
+  std::string name;  ///< "body.point"
   int body = kGround;
-  Eigen::Vector2d p_BP = Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
-  double alpha_BP = 0.0;               ///< undeformed angle against the body's axes [rad]
+  Eigen::Vector2d p_BP =
+      Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
+  double alpha_BP = 0.0;        ///< undeformed angle against the body's axes [rad]
   Eigen::Matrix3Xd Phi;  ///< displacement and rotation per unit modal coordinate, body axes, 3×n [m, m, rad]
-  SecondOrder K;                       ///< of the point where its body stiffens, else empty
+  SecondOrder K;         ///< of the point where its body stiffens, else empty
 
   bool has_second_order() const { return K[0].size() > 0; }
 };
@@ -34,18 +36,21 @@ struct alignas(64) MarkerState {
   Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
   double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
   FrameRotation rotation;                             ///< A of its body, where that has modes
-  Eigen::Matrix3Xd Phi;                               ///< ∂(place in the body, angle)/∂η, 3×n [m, m, rad]
+  Eigen::Matrix3Xd Phi;  ///< ∂(place in the body, angle)/∂η, 3×n [m, m, rad]
 
   /// ∂r/∂η, 2×n [m]
   Eigen::Matrix2Xd r_eta() const;
 };
 
-/// What multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of a joint's Jacobian.
+/// What multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of a joint's
+/// Jacobian.
 struct MarkerRow {
   double x, y, angle;
 
   /// (x, y, angle) ∂(r, angle)/∂θ
-  double by_theta(const MarkerState& state) const { return x * state.r_theta.x() + y * state.r_theta.y() + angle; }
+  double by_theta(const MarkerState& state) const {
+    return x * state.r_theta.x() + y * state.r_theta.y() + angle;
+  }
   /// The same in the axes of the marker's body.
   MarkerRow in_body(const FrameRotation& A) const {
     return {A.cosine * x + A.sine * y, A.cosine * y - A.sine * x, angle};
@@ -61,11 +66,12 @@ MarkerState make_marker_state(const Marker& marker);
 /// @param eta  n
 Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and their
-/// gradients; to the acceleration while q̈ = 0.
-void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Vector2d& u,
-                               MarkerState& state);
-void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot, MarkerState& state);
+/// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and
+/// their gradients; to the acceleration while q̈ = 0.
+void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta,
+                               Eigen::Vector2d& u, MarkerState& state);
+void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
+                           MarkerState& state);
 
 /// Position of a marker that is at u in its body, as it is deformed, and the gradient of that by the body's
 /// angle.
@@ -89,7 +95,8 @@ inline void move_with_body(const double* v, MarkerState& state) {
   state.a_bias = {-omega * across_y, omega * across_x};
 }
 
-/// Position-level part of a marker's state.                                       (dynamics/README.md, eqs. 1, 41)
+/// Position-level part of a marker's state.                                       (dynamics/README.md, eqs.
+/// 1, 41)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
 inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
@@ -112,7 +119,8 @@ inline void calc_marker_position(const Marker& marker, const FrameRotation& rota
   place_in_body(u, rotation, q, state);
 }
 
-/// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs. 2, 41)
+/// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs.
+/// 2, 41)
 /// @param v  the body's 3+n velocities
 inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
   const Eigen::Index n = marker.Phi.cols();
@@ -130,11 +138,13 @@ inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerSt
   state.omega = v[2] + turn;
   state.v = {v[0] + across_x + bending_x, v[1] + across_y + bending_y};
   state.a_bias = {-v[2] * (across_y + 2.0 * bending_y), v[2] * (across_x + 2.0 * bending_x)};
-  if (marker.has_second_order()) add_second_order_bias(marker, Eigen::Map<const Eigen::VectorXd>(eta_dot, n), state);
+  if (marker.has_second_order())
+    add_second_order_bias(marker, Eigen::Map<const Eigen::VectorXd>(eta_dot, n), state);
 }
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
 /// @param v_dot  the body's 3+n accelerations
-Eigen::Vector2d calc_marker_acceleration(const MarkerState& state, const Eigen::Ref<const Eigen::VectorXd>& v_dot);
+Eigen::Vector2d calc_marker_acceleration(const MarkerState& state,
+                                         const Eigen::Ref<const Eigen::VectorXd>& v_dot);
 
 }  // namespace sprung::dynamics

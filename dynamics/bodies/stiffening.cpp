@@ -6,7 +6,8 @@
 
 namespace sprung::dynamics {
 
-BodyStiffening make_body_stiffening(const reduce::Superelement& superelement, const std::vector<int>& columns) {
+BodyStiffening make_body_stiffening(const reduce::Superelement& superelement,
+                                    const std::vector<int>& columns) {
   const reduce::GeometricStiffness& geometric = *superelement.geometric_stiffness;
   const reduce::InertiaInvariants& inertia = superelement.inertia;
   const Eigen::Vector2d moment = inertia.first_moment;
@@ -15,7 +16,8 @@ BodyStiffening make_body_stiffening(const reduce::Superelement& superelement, co
       0.0, inertia.mass, moment.x(),        //
       -moment.y(), moment.x(), inertia.second_moment;
   const Eigen::Matrix3d inverse = rigid.inverse();
-  const SecondOrder inertial{geometric.acceleration[0](columns, columns), geometric.acceleration[1](columns, columns),
+  const SecondOrder inertial{geometric.acceleration[0](columns, columns),
+                             geometric.acceleration[1](columns, columns),
                              geometric.angular_acceleration(columns, columns)};
   BodyStiffening stiffening;
   for (Eigen::Index c = 0; c < 3; ++c) {
@@ -52,7 +54,8 @@ SecondOrder calc_second_order(const reduce::Superelement& superelement, const st
 Eigen::Vector3d calc_half_form(const SecondOrder& K, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   Eigen::Vector3d form = Eigen::Vector3d::Zero();
   for (Eigen::Index k = 0; k < eta.size(); ++k) {
-    for (Eigen::Index c = 0; c < 3; ++c) form[c] += 0.5 * eta[k] * K[static_cast<std::size_t>(c)].col(k).dot(eta);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      form[c] += 0.5 * eta[k] * K[static_cast<std::size_t>(c)].col(k).dot(eta);
   }
   return form;
 }

@@ -8,8 +8,8 @@
 
 namespace sprung::dynamics {
 
-/// Displacement of second order of a point, ½ ηᵀ(K_x, K_y, K_angle)η taken back from its displacement along x, y and
-/// its rotation, body axes; n×n each, symmetric, or empty: none.
+/// Displacement of second order of a point, ½ ηᵀ(K_x, K_y, K_angle)η taken back from its displacement along
+/// x, y and its rotation, body axes; n×n each, symmetric, or empty: none.
 using SecondOrder = std::array<Eigen::MatrixXd, 3>;
 
 /// What axial forces do to the bending of a body, from the geometric stiffness of its superelement
@@ -21,9 +21,11 @@ struct BodyStiffening {
 };
 
 /// @param columns  0-based active modes, each below superelement.geometric_stiffness->num_modes()
-BodyStiffening make_body_stiffening(const reduce::Superelement& superelement, const std::vector<int>& columns);
+BodyStiffening make_body_stiffening(const reduce::Superelement& superelement,
+                                    const std::vector<int>& columns);
 
-/// Displacement of second order of a point fixed to a named node.                    (dynamics/README.md, eqs. 65, 66)
+/// Displacement of second order of a point fixed to a named node.                    (dynamics/README.md,
+/// eqs. 65, 66)
 /// @param point   0-based, of superelement.points
 /// @param offset  of the point from the node, body axes [m]
 SecondOrder calc_second_order(const reduce::Superelement& superelement, const std::vector<int>& columns,
@@ -32,7 +34,8 @@ SecondOrder calc_second_order(const reduce::Superelement& superelement, const st
 /// ½ ηᵀ(K_x, K_y, K_angle)η.
 Eigen::Vector3d calc_half_form(const SecondOrder& K, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// Forces by which turning stiffens a body; they do no work.                           (dynamics/README.md, eq. 68)
+/// Forces by which turning stiffens a body; they do no work.                           (dynamics/README.md,
+/// eq. 68)
 /// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
 void add_stiffening_forces(const BodyStiffening& stiffening, double theta_dot,
                            const Eigen::Ref<const Eigen::VectorXd>& eta,

@@ -154,15 +154,17 @@ void DistributedTyre::add_road_response(const Instant& instant, std::span<const 
   const Wheel wheel = calc_wheel(instant);
   const double half_width = 0.5 * wheel.level_width, angle = wave.wavenumber * half_width;
   const double mean_height = angle > 0.0 ? std::sin(angle) / angle : 1.0;  // over what touches
-  // A higher edge moves outwards, by its height over the slope a/(R − δ) at which the circle leaves the ground.
-  const double lift = (std::cos(angle) - mean_height) * (parameters_.radius - wheel.penetration) /
-                      (half_width * half_width);
+  // A higher edge moves outwards, by its height over the slope a/(R − δ) at which the circle leaves the
+  // ground.
+  const double lift =
+      (std::cos(angle) - mean_height) * (parameters_.radius - wheel.penetration) / (half_width * half_width);
   const std::complex<double> drag = 1i * std::sin(angle) / half_width;
   const std::complex<double> rate = 1i * wave.frequency * mean_height;
   const double standing = parameters_.multiplicity * wheel.elastic;
   const std::complex<double> vertical =
-      standing * lift + parameters_.multiplicity * (parameters_.spring.slope(wheel.penetration) * mean_height +
-                                                    parameters_.damping * rate);
+      standing * lift +
+      parameters_.multiplicity *
+          (parameters_.spring.slope(wheel.penetration) * mean_height + parameters_.damping * rate);
   const std::complex<double> along = -road_.direction * standing * drag;
   wrenches[static_cast<std::size_t>(parameters_.marker)].force += Eigen::Vector2cd(along, vertical);
   channels[0] = vertical;

@@ -23,8 +23,8 @@ struct Wrench {
 
 /// What a force element sees of the vehicle at one instant.
 struct Instant {
-  double time = 0.0;                      ///< [s]
-  std::span<const MarkerState> markers;   ///< all of the model's
+  double time = 0.0;                     ///< [s]
+  std::span<const MarkerState> markers;  ///< all of the model's
 };
 
 /// Power that leaves (dissipated) or enters (input) the mechanical energy through a force element [W].
@@ -41,9 +41,9 @@ struct Channel {
 
 /// A force between markers, or on one. Open to new kinds: the solver knows no more than this.
 ///
-/// Where its law jumps or changes formula, an element declares *branches*: integers that say which smooth formula is
-/// in use. Within a step they stay fixed, so that the integrator sees a smooth function even beyond the switch; the
-/// zero of a *switch function* is located and the branches are chosen anew there.
+/// Where its law jumps or changes formula, an element declares *branches*: integers that say which smooth
+/// formula is in use. Within a step they stay fixed, so that the integrator sees a smooth function even
+/// beyond the switch; the zero of a *switch function* is located and the branches are chosen anew there.
 class ForceElement {
  public:
   explicit ForceElement(std::string element_name) : name(std::move(element_name)) {}
@@ -59,8 +59,11 @@ class ForceElement {
   virtual Power add_wrenches(const Instant& instant, std::span<const int> branches,
                              std::span<Wrench> wrenches) const = 0;
 
-  /// Energy stored [J]; its change is minus the work done by what add_wrenches neither dissipates nor puts in.
-  virtual double calc_stored_energy(const Instant& /*instant*/, std::span<const int> /*branches*/) const { return 0.0; }
+  /// Energy stored [J]; its change is minus the work done by what add_wrenches neither dissipates nor puts
+  /// in.
+  virtual double calc_stored_energy(const Instant& /*instant*/, std::span<const int> /*branches*/) const {
+    return 0.0;
+  }
 
   virtual int num_branches() const { return 0; }
   virtual void choose_branches(const Instant& /*instant*/, std::span<int> /*branches*/) const {}
@@ -69,24 +72,32 @@ class ForceElement {
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
   /// What happens at the zero of a switch function. A bend is nothing that describe_change tells of.
-  virtual Passage passage(int /*switch_index*/, std::span<const int> /*branches*/) const { return Passage::kJump; }
+  virtual Passage passage(int /*switch_index*/, std::span<const int> /*branches*/) const {
+    return Passage::kJump;
+  }
   /// Branches next to the present ones, beyond a switch function at which the force bends.
   virtual void go_beyond(int /*switch_index*/, std::span<int> /*branches*/) const {}
-  /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth telling.
-  virtual std::string describe_change(std::span<const int> /*old_branches*/, std::span<const int> /*new_branches*/) const {
+  /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth
+  /// telling.
+  virtual std::string describe_change(std::span<const int> /*old_branches*/,
+                                      std::span<const int> /*new_branches*/) const {
     return {};
   }
 
-  /// How far the integrator may go in one step without missing something that the element knows is coming [s].
-  virtual double calc_longest_step(const Instant& /*instant*/) const { return std::numeric_limits<double>::infinity(); }
+  /// How far the integrator may go in one step without missing something that the element knows is coming
+  /// [s].
+  virtual double calc_longest_step(const Instant& /*instant*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
 
   /// Where it stands on the road; none for an element that does not see the road.
   virtual std::optional<RoadPlace> find_road_place(const Instant& /*instant*/,
                                                    std::span<const int> /*branches*/) const {
     return std::nullopt;
   }
-  /// What low waves of the road do to it while the vehicle keeps still about its place, on level ground: the linear
-  /// part of wrenches and channels, for an amplitude of 1 m. Called for elements that are pressed to the road only.
+  /// What low waves of the road do to it while the vehicle keeps still about its place, on level ground: the
+  /// linear part of wrenches and channels, for an amplitude of 1 m. Called for elements that are pressed to
+  /// the road only.
   /// @param wrenches  one per marker of the model, added to
   /// @param channels  one per channel [its unit/m], set
   virtual void add_road_response(const Instant& /*instant*/, std::span<const int> /*branches*/,
@@ -97,7 +108,8 @@ class ForceElement {
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
 
   virtual std::span<const Channel> channels() const = 0;
-  virtual void calc_channels(const Instant& instant, std::span<const int> branches, std::span<double> values) const = 0;
+  virtual void calc_channels(const Instant& instant, std::span<const int> branches,
+                             std::span<double> values) const = 0;
 
   const std::string name;
 };

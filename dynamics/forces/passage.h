@@ -6,7 +6,8 @@ namespace sprung::dynamics {
 enum class Passage {
   kJump,        ///< with a jump, or so that more than the force changes
   kBend,        ///< without a jump: force and power bend
-  kBendAtRest,  ///< without a jump, and what is neither stored nor given back goes with the square of the distance
+  kBendAtRest,  ///< without a jump, and what is neither stored nor given back goes with the square of the
+                ///< distance
 };
 
 }  // namespace sprung::dynamics

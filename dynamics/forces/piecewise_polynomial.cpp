@@ -32,12 +32,13 @@ double evaluate_integral(const std::vector<double>& a, double s) {
 
 void check_points(const char* function, std::span<const double> x, std::span<const double> y) {
   if (x.size() < 2 || x.size() != y.size()) {
-    throw std::invalid_argument(
-        fmt::format("{}: needs at least 2 points and as many y as x, got {} and {}", function, x.size(), y.size()));
+    throw std::invalid_argument(fmt::format("{}: needs at least 2 points and as many y as x, got {} and {}",
+                                            function, x.size(), y.size()));
   }
   for (std::size_t i = 1; i < x.size(); ++i) {
     if (!(x[i] > x[i - 1])) {
-      throw std::invalid_argument(fmt::format("{}: x must ascend, got {} after {}", function, x[i], x[i - 1]));
+      throw std::invalid_argument(
+          fmt::format("{}: x must ascend, got {} after {}", function, x[i], x[i - 1]));
     }
   }
 }
@@ -51,7 +52,8 @@ PiecewisePolynomial::PiecewisePolynomial(std::vector<double> coefficients) {
   rebuild_integrals();
 }
 
-PiecewisePolynomial PiecewisePolynomial::through_points(std::span<const double> x, std::span<const double> y) {
+PiecewisePolynomial PiecewisePolynomial::through_points(std::span<const double> x,
+                                                        std::span<const double> y) {
   check_points("PiecewisePolynomial::through_points", x, y);
   PiecewisePolynomial f;
   f.breaks_.assign(x.begin() + 1, x.end() - 1);
@@ -64,10 +66,12 @@ PiecewisePolynomial PiecewisePolynomial::through_points(std::span<const double> 
   return f;
 }
 
-PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> x, std::span<const double> y) {
+PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> x,
+                                                        std::span<const double> y) {
   check_points("PiecewisePolynomial::clamped_spline", x, y);
   const std::size_t n = x.size();
-  // Slopes m at the points from continuity of the second derivative, m₀ = m_{n−1} = 0: tridiagonal, by elimination.
+  // Slopes m at the points from continuity of the second derivative, m₀ = m_{n−1} = 0: tridiagonal, by
+  // elimination.
   std::vector<double> m(n, 0.0), diagonal(n, 1.0), upper(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double left = 1.0 / (x[i] - x[i - 1]);
@@ -86,7 +90,8 @@ PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> 
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double h = x[i + 1] - x[i];
     const double secant = (y[i + 1] - y[i]) / h;
-    f.pieces_.push_back({y[i], m[i], (3.0 * secant - 2.0 * m[i] - m[i + 1]) / h, (m[i] + m[i + 1] - 2.0 * secant) / (h * h)});
+    f.pieces_.push_back(
+        {y[i], m[i], (3.0 * secant - 2.0 * m[i] - m[i + 1]) / h, (m[i] + m[i + 1] - 2.0 * secant) / (h * h)});
   }
   f.rebuild_integrals();
   return f;
@@ -97,14 +102,14 @@ PiecewisePolynomial PiecewisePolynomial::from_pieces(std::vector<double> breaks,
   const bool has_empty =
       std::any_of(pieces.begin(), pieces.end(), [](const std::vector<double>& a) { return a.empty(); });
   if (breaks.empty() || pieces.size() != breaks.size() + 1 || has_empty) {
-    throw std::invalid_argument(
-        fmt::format("PiecewisePolynomial::from_pieces: needs one more piece than breaks and none empty, got {} and {}",
-                    pieces.size(), breaks.size()));
+    throw std::invalid_argument(fmt::format(
+        "PiecewisePolynomial::from_pieces: needs one more piece than breaks and none empty, got {} and {}",
+        pieces.size(), breaks.size()));
   }
   for (std::size_t i = 1; i < breaks.size(); ++i) {
     if (!(breaks[i] > breaks[i - 1])) {
-      throw std::invalid_argument(fmt::format("PiecewisePolynomial::from_pieces: breaks must ascend, got {} after {}",
-                                              breaks[i], breaks[i - 1]));
+      throw std::invalid_argument(fmt::format(
+          "PiecewisePolynomial::from_pieces: breaks must ascend, got {} after {}", breaks[i], breaks[i - 1]));
     }
   }
   PiecewisePolynomial f;
@@ -169,7 +174,8 @@ bool PiecewisePolynomial::ends_at_zero(int piece, int switch_index) const {
   return end >= 0 && end < static_cast<int>(breaks_.size()) && breaks_[static_cast<std::size_t>(end)] == 0.0;
 }
 
-void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const {
+void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_band,
+                                              std::span<double> values) const {
   if (breaks_.empty()) return;
   const auto i = static_cast<std::size_t>(piece);
   values[0] = i == 0 ? 1.0 : x - breaks_[i - 1] + dead_band;
@@ -190,8 +196,10 @@ PiecewisePolynomial PiecewisePolynomial::derivative() const {
   PiecewisePolynomial f = *this;
   for (std::vector<double>& a : f.pieces_) {
     for (std::size_t k = 1; k < a.size(); ++k) a[k - 1] = static_cast<double>(k) * a[k];
-    if (a.size() > 1) a.pop_back();
-    else a[0] = 0.0;
+    if (a.size() > 1)
+      a.pop_back();
+    else
+      a[0] = 0.0;
   }
   f.rebuild_integrals();
   return f;
@@ -212,7 +220,8 @@ void PiecewisePolynomial::rebuild_integrals() {
   // First relative to the origin of piece 0, then shifted so that the integral from 0 is meant.
   integrals_.assign(pieces_.size(), 0.0);
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
-    const double at_break = integrals_[i - 1] + evaluate_integral(pieces_[i - 1], breaks_[i - 1] - origins_[i - 1]);
+    const double at_break =
+        integrals_[i - 1] + evaluate_integral(pieces_[i - 1], breaks_[i - 1] - origins_[i - 1]);
     integrals_[i] = at_break - evaluate_integral(pieces_[i], breaks_[i - 1] - origins_[i]);
   }
   const double at_zero = integral(0.0);

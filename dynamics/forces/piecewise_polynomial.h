@@ -6,8 +6,8 @@
 
 namespace sprung::dynamics {
 
-/// A function of one variable made of polynomials end to end: characteristics of springs, dampers and tyres, tables,
-/// splines. Continuous. The first and the last piece go on for ever.
+/// A function of one variable made of polynomials end to end: characteristics of springs, dampers and tyres,
+/// tables, splines. Continuous. The first and the last piece go on for ever.
 class PiecewisePolynomial {
  public:
   PiecewisePolynomial() : PiecewisePolynomial(std::vector<double>{0.0}) {}
@@ -37,8 +37,8 @@ class PiecewisePolynomial {
   void cut_off_below(double at);
 
   double value(double x) const;
-  double slope(double x) const;  ///< from the right at a break
-  double integral(double x) const;  ///< ∫₀ˣ
+  double slope(double x) const;            ///< from the right at a break
+  double integral(double x) const;         ///< ∫₀ˣ
   PiecewisePolynomial derivative() const;  ///< may jump at the breaks
 
   bool is_zero() const;  ///< everywhere
@@ -47,13 +47,13 @@ class PiecewisePolynomial {
 
   /// A piece's polynomial, at x that may lie beyond its ends.
   double value_in_piece(int piece, double x) const;
-  /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band beyond its
-  /// ends, so that x trembling at a break does not change pieces again and again.
+  /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band
+  /// beyond its ends, so that x trembling at a break does not change pieces again and again.
   int choose_piece(int piece, double x, double dead_band) const;
   /// Two, the ends of the piece in use; none where one piece is all there is.
   int num_switches() const { return breaks_.empty() ? 0 : 2; }
-  /// @param[out] values  num_switches: positive while x has not gone a dead band beyond the lower, the upper end
-  /// of the piece
+  /// @param[out] values  num_switches: positive while x has not gone a dead band beyond the lower, the upper
+  /// end of the piece
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
   /// Whether the end of a piece that a switch function tells, 0 or 1, is at x = 0.
   bool ends_at_zero(int piece, int switch_index) const;

@@ -8,9 +8,11 @@ namespace sprung::dynamics {
 
 namespace {
 
-// A switch is located to about 1e-13 s, on either side of the zero; what counts is where the motion goes from there.
-constexpr double kLookAhead = 1e-9;     // s
-// A pressed tyre lets go a trifle below zero force and presses again a trifle above it, so that the zero is passed once.
+// A switch is located to about 1e-13 s, on either side of the zero; what counts is where the motion goes from
+// there.
+constexpr double kLookAhead = 1e-9;  // s
+// A pressed tyre lets go a trifle below zero force and presses again a trifle above it, so that the zero is
+// passed once.
 constexpr double kDeadBand = 1e-6;  // of the force at a penetration of 1 % of the radius
 
 enum Contact : int { kInAir = 0, kPressed = 1, kTouching = 2 };
@@ -34,7 +36,7 @@ PointContactTyre::PointContactTyre(std::string element_name, Parameters paramete
 }
 
 PointContactTyre::Wheel PointContactTyre::calc_wheel(const Instant& instant,
-                                                         std::span<const int> branches) const {
+                                                     std::span<const int> branches) const {
   const MarkerState& center = instant.markers[static_cast<std::size_t>(parameters_.marker)];
   Wheel wheel{};
   wheel.distance = road_.distance(center.r.x());
@@ -43,7 +45,8 @@ PointContactTyre::Wheel PointContactTyre::calc_wheel(const Instant& instant,
   wheel.road_rate = road.slope * road_.direction * center.v.x();
   wheel.penetration = parameters_.radius - (center.r.y() - road.height);
   wheel.rate = wheel.road_rate - center.v.y();
-  // Where contact ends is located; in a trial beyond, the spring's own formula goes on, so that all stays smooth.
+  // Where contact ends is located; in a trial beyond, the spring's own formula goes on, so that all stays
+  // smooth.
   wheel.elastic = parameters_.spring.value(wheel.penetration);
   wheel.viscous = parameters_.damping * wheel.rate;
   wheel.force = branches[0] == kPressed ? wheel.elastic + wheel.viscous : 0.0;
@@ -95,10 +98,12 @@ void PointContactTyre::calc_switches(const Instant& instant, std::span<const int
     if (branches[0] != kInAir) values[1] = dead_band_ + (branches[0] == kPressed ? force : -force);
   }
   values[2] = segment > 0 ? wheel.distance - road_.road->segment_end(segment - 1) : 1.0;
-  values[3] = segment < road_.road->num_segments() - 1 ? road_.road->segment_end(segment) - wheel.distance : 1.0;
+  values[3] =
+      segment < road_.road->num_segments() - 1 ? road_.road->segment_end(segment) - wheel.distance : 1.0;
 }
 
-// On the ground the force comes from zero and goes to it. What it is in the air at once, when it lands, it is not.
+// On the ground the force comes from zero and goes to it. What it is in the air at once, when it lands, it is
+// not.
 Passage PointContactTyre::passage(int switch_index, std::span<const int> /*branches*/) const {
   return switch_index == 1 ? Passage::kBend : Passage::kJump;
 }
@@ -129,8 +134,8 @@ std::optional<RoadPlace> PointContactTyre::find_road_place(const Instant& instan
   return RoadPlace{.distance = road_.distance(center.r.x()), .is_pressed = branches[0] == kPressed};
 }
 
-void PointContactTyre::add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
-                                         std::span<WrenchGain> wrenches,
+void PointContactTyre::add_road_response(const Instant& instant, std::span<const int> branches,
+                                         const RoadWave& wave, std::span<WrenchGain> wrenches,
                                          std::span<std::complex<double>> channels) const {
   using namespace std::complex_literals;
   const Wheel wheel = calc_wheel(instant, branches);

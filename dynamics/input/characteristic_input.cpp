@@ -16,7 +16,8 @@ namespace {
 
 PiecewisePolynomial read_polynomial(const support::TomlValue& value, const LawUnits& units) {
   const std::vector<double> coefficients = value.numbers(support::any(units.coefficient));
-  if (coefficients.empty()) throw value.error(fmt::format("must have at least one coefficient [{}]", units.coefficient));
+  if (coefficients.empty())
+    throw value.error(fmt::format("must have at least one coefficient [{}]", units.coefficient));
   // The first coefficient that is not zero after the constant decides the stiffness where d is small.
   const auto first =
       std::find_if(coefficients.begin() + 1, coefficients.end(), [](double a) { return a != 0.0; });
@@ -35,8 +36,8 @@ PiecewisePolynomial read_spring_table(const support::TomlValue& value, const Law
   const double step = 1e-9 * (points.x.back() - points.x.front());
   const double softest = std::min(law.slope(-step), law.slope(step));
   if (!(softest >= 0.0)) {
-    throw value.error(
-        fmt::format("has a negative stiffness at deflection 0: {} {}, must be ≥ 0", softest, units.stiffness));
+    throw value.error(fmt::format("has a negative stiffness at deflection 0: {} {}, must be ≥ 0", softest,
+                                  units.stiffness));
   }
   return law;
 }
@@ -51,18 +52,16 @@ PiecewisePolynomial read_damper_table(const support::TomlValue& value, const Law
   const PointList points = read_point_list(value, support::any(units.rate), support::any(units.force));
   for (std::size_t i = 0; i < points.x.size(); ++i) {
     if (!(points.x[i] * points.y[i] >= 0.0)) {
-      throw value.items()[i].error(
-          fmt::format("puts energy in: {} {} at {} {}, the signs must agree", points.y[i], units.force, points.x[i],
-                      units.rate));
+      throw value.items()[i].error(fmt::format("puts energy in: {} {} at {} {}, the signs must agree",
+                                               points.y[i], units.force, points.x[i], units.rate));
     }
   }
   PiecewisePolynomial law = PiecewisePolynomial::through_points(points.x, points.y);
   const double largest = std::max(std::abs(*std::min_element(points.y.begin(), points.y.end())),
                                   std::abs(*std::max_element(points.y.begin(), points.y.end())));
   if (!(std::abs(law.value(0.0)) <= 1e-12 * largest)) {
-    throw value.error(
-        fmt::format("must give no force at rest: {} {} at 0 {}; add the point [0, 0]", law.value(0.0), units.force,
-                    units.rate));
+    throw value.error(fmt::format("must give no force at rest: {} {} at 0 {}; add the point [0, 0]",
+                                  law.value(0.0), units.force, units.rate));
   }
   if (!(law.slope(points.x.front()) >= 0.0) || !(law.slope(points.x.back()) >= 0.0)) {
     throw value.error("must not fall at its ends, which go on straight: the damper would put energy in");
@@ -79,7 +78,8 @@ PiecewisePolynomial read_spring(const support::TomlTable& table, const LawUnits&
   return way == "table" ? read_spring_table(table.at(way), units) : read_polynomial(table.at(way), units);
 }
 
-double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring, const LawUnits& units) {
+double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring,
+                 const LawUnits& units) {
   const double deflection = table.number("deflection", support::any(units.deflection));
   spring.continue_straight(deflection, table.number("rate", support::positive(units.stiffness)), rebound);
   table.reject_unknown_keys();

@@ -12,17 +12,17 @@ struct LawUnits {
   std::string_view deflection, rate, force, coefficient, stiffness, damping;
 };
 inline constexpr LawUnits kTranslation{.deflection = "m",
-                            .rate = "m/s",
-                            .force = "N",
-                            .coefficient = "N/m^k",
-                            .stiffness = "N/m",
-                            .damping = "N·s/m"};
+                                       .rate = "m/s",
+                                       .force = "N",
+                                       .coefficient = "N/m^k",
+                                       .stiffness = "N/m",
+                                       .damping = "N·s/m"};
 inline constexpr LawUnits kRotation{.deflection = "rad",
-                         .rate = "rad/s",
-                         .force = "N·m",
-                         .coefficient = "N·m/rad^k",
-                         .stiffness = "N·m/rad",
-                         .damping = "N·m·s/rad"};
+                                    .rate = "rad/s",
+                                    .force = "N·m",
+                                    .coefficient = "N·m/rad^k",
+                                    .stiffness = "N·m/rad",
+                                    .damping = "N·m·s/rad"};
 
 /// Reads the law of a spring, F(d) in N over the deflection d in m, positive in compression:
 ///

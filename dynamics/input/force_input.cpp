@@ -33,8 +33,8 @@ PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table, cons
     const support::TomlValue at = rebound->at("deflection");
     const double deflection = at.number(support::any(units.deflection));
     if (begins && !(deflection < *begins)) {
-      throw at.error(fmt::format("must lie below the compression stop's {} {}, got {} {}", *begins, units.deflection,
-                                 deflection, units.deflection));
+      throw at.error(fmt::format("must lie below the compression stop's {} {}, got {} {}", *begins,
+                                 units.deflection, deflection, units.deflection));
     }
     read_stop(*rebound, true, spring, units);
   }
@@ -86,7 +86,8 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
   force.points = {read_point(table.at("point"))};
   AppliedForce::Parameters parameters;
   if (const std::optional<support::TomlValue> axes = table.find("axes")) {
-    parameters.axes = axes->one_of(kAxes) == "world" ? AppliedForce::Axes::kWorld : AppliedForce::Axes::kFollowing;
+    parameters.axes =
+        axes->one_of(kAxes) == "world" ? AppliedForce::Axes::kWorld : AppliedForce::Axes::kFollowing;
   }
   const std::optional<support::TomlValue> components = table.find("force");
   if (components) {
@@ -147,13 +148,14 @@ void read_tyre(const support::TomlTable& table, ForceDescription& force) {
   force.make = [name = force.name, parameters, is_distributed](
                    std::span<const int> markers, const PlacedRoad& road) -> std::unique_ptr<ForceElement> {
     if (is_distributed) {
-      return std::make_unique<DistributedTyre>(name,
-                                               DistributedTyre::Parameters{.marker = markers[0],
-                                                                           .radius = parameters.radius,
-                                                                           .multiplicity = parameters.multiplicity,
-                                                                           .spring = parameters.spring,
-                                                                           .damping = parameters.damping},
-                                               road);
+      return std::make_unique<DistributedTyre>(
+          name,
+          DistributedTyre::Parameters{.marker = markers[0],
+                                      .radius = parameters.radius,
+                                      .multiplicity = parameters.multiplicity,
+                                      .spring = parameters.spring,
+                                      .damping = parameters.damping},
+          road);
     }
     PointContactTyre::Parameters placed = parameters;
     placed.marker = markers[0];

@@ -24,7 +24,8 @@ using JointReader = void (*)(const support::TomlTable& table, JointDescription& 
 template <typename MakeParts>
 void make_of_coordinates(JointDescription& joint, MakeParts make_parts) {
   joint.make = [name = joint.name, location = joint.location, make_parts](const JointPlace& place) {
-    return std::make_unique<CoordinateJoint>(name, place.marker_a, place.marker_b, location, make_parts(place));
+    return std::make_unique<CoordinateJoint>(name, place.marker_a, place.marker_b, location,
+                                             make_parts(place));
   };
 }
 
@@ -60,7 +61,8 @@ void read_distance(const support::TomlTable& table, JointDescription& joint) {
   if (!(length.value(0.0) > 0.0)) throw value.error(fmt::format("must be > 0 m, got {}", length.value(0.0)));
   joint.needs_distance = true;
   make_of_coordinates(joint, [length](const JointPlace& place) {
-    return make_distance_joint(place.motions == MotionUse::kMoving ? length : TimeFunction(length.value(0.0)));
+    return make_distance_joint(place.motions == MotionUse::kMoving ? length
+                                                                   : TimeFunction(length.value(0.0)));
   });
 }
 
@@ -72,8 +74,8 @@ void read_pin_in_slot(const support::TomlTable& table, JointDescription& joint) 
 
 const std::vector<std::pair<std::string, JointReader>>& joint_readers() {
   static const std::vector<std::pair<std::string, JointReader>> readers{
-      {"revolute", read_revolute},   {"translational", read_translational}, {"fixed", read_fixed},
-      {"distance", read_distance},   {"pin-in-slot", read_pin_in_slot},
+      {"revolute", read_revolute}, {"translational", read_translational}, {"fixed", read_fixed},
+      {"distance", read_distance}, {"pin-in-slot", read_pin_in_slot},
   };
   return readers;
 }

@@ -28,7 +28,8 @@ struct JointDescription {
   std::string kind;  ///< the file's `type`
   PointReference a, b;
   support::SourceLocation location;
-  std::optional<RelativeCoordinate> coordinate;  ///< that prescribed motion may drive; none: the joint leaves none free
+  std::optional<RelativeCoordinate>
+      coordinate;               ///< that prescribed motion may drive; none: the joint leaves none free
   bool needs_distance = false;  ///< its two points must not coincide
   std::function<std::unique_ptr<Joint>(const JointPlace& place)> make;
 };

@@ -50,9 +50,11 @@ Body make_body(const Vehicle& vehicle, const BodyDescription& description, const
 }
 
 // Where a point's body stiffens, its displacement of second order.
-SecondOrder make_second_order(const reduce::Superelement& superelement, const VehiclePoint& point, const Body& body) {
+SecondOrder make_second_order(const reduce::Superelement& superelement, const VehiclePoint& point,
+                              const Body& body) {
   if (point.kind == VehiclePoint::Kind::kCenterOfMass) return {};
-  if (point.kind == VehiclePoint::Kind::kFixed) return body.stiffening->origin;  // the only one on a superelement
+  if (point.kind == VehiclePoint::Kind::kFixed)
+    return body.stiffening->origin;  // the only one on a superelement
   std::vector<int> columns;
   for (const int number : body.mode_numbers) columns.push_back(number - 1);
   const auto named = std::find_if(superelement.points.begin(), superelement.points.end(),
@@ -88,9 +90,10 @@ double start_angle(const Vehicle& vehicle, const Marker& marker) {
   return marker.body == kGround ? 0.0 : vehicle.bodies[static_cast<std::size_t>(marker.body)].angle;
 }
 
-JointPlace place_joint(const Vehicle& vehicle, const Model& model, const PointReference& a, const PointReference& b,
-                       MotionUse motions) {
-  JointPlace place{.marker_a = model.find_marker(a.name), .marker_b = model.find_marker(b.name), .motions = motions};
+JointPlace place_joint(const Vehicle& vehicle, const Model& model, const PointReference& a,
+                       const PointReference& b, MotionUse motions) {
+  JointPlace place{
+      .marker_a = model.find_marker(a.name), .marker_b = model.find_marker(b.name), .motions = motions};
   place.angle = start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_b)]) -
                 start_angle(vehicle, model.markers[static_cast<std::size_t>(place.marker_a)]);
   return place;

@@ -12,12 +12,14 @@
 namespace sprung::dynamics {
 
 /// The multibody system that a vehicle is with these modes active and on this road. Bodies, joints and forces
-/// stand in the order of the file, prescribed motions as joints behind the others, markers in that of `list_points`, whatever the selection.
+/// stand in the order of the file, prescribed motions as joints behind the others, markers in that of
+/// `list_points`, whatever the selection.
 /// @param road     must outlive the model
 /// @param damping  ratios ζ that replace the superelement's damping by diag(2 ζ ω m)
 /// @param motions  whether prescribed motion goes on, or stands still as at t = 0
 /// @param stiffened  bodies that their axial forces stiffen
-/// @throws std::invalid_argument for modes that a superelement, or its geometric stiffness, lacks; `resolve_modes` and
+/// @throws std::invalid_argument for modes that a superelement, or its geometric stiffness, lacks;
+/// `resolve_modes` and
 ///         `resolve_stiffening` give none
 Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
                  const ModalDamping& damping = {}, MotionUse motions = MotionUse::kMoving,

@@ -82,11 +82,11 @@ std::vector<int> resolve_request(const ModeRequest& request, const reduce::Super
   const bool by_count = request.kind == ModeRequest::Kind::kCount;
   const int highest = by_count ? request.count : request.numbers.empty() ? 0 : request.numbers.back();
   if (highest > available) {
-    const std::string wanted = by_count ? support::format_count(static_cast<std::size_t>(highest), "mode") : fmt::format("mode {}", highest);
-    refuse(
-        request.location, request.key,
-        fmt::format("asks for {}, but superelement '{}' has {}", wanted, superelement.name,
-                    support::format_count(static_cast<std::size_t>(available), "mode")));
+    const std::string wanted = by_count ? support::format_count(static_cast<std::size_t>(highest), "mode")
+                                        : fmt::format("mode {}", highest);
+    refuse(request.location, request.key,
+           fmt::format("asks for {}, but superelement '{}' has {}", wanted, superelement.name,
+                       support::format_count(static_cast<std::size_t>(available), "mode")));
   }
   return by_count ? resolve_count(request, superelement) : request.numbers;
 }

@@ -45,8 +45,9 @@ void read_statistics(const support::TomlTable& root, Run& run) {
   }
   const double first_output = std::ceil(run.statistics_from / run.output_step - 1e-6) * run.output_step;
   if (first_output > run.statistics_to * (1.0 + 1e-12)) {
-    throw table->error(fmt::format("must hold an output; from {} s to {} s there is none at an output_step of {} s",
-                                   run.statistics_from, run.statistics_to, run.output_step));
+    throw table->error(
+        fmt::format("must hold an output; from {} s to {} s there is none at an output_step of {} s",
+                    run.statistics_from, run.statistics_to, run.output_step));
   }
 }
 
@@ -85,22 +86,26 @@ AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
   settings.location = table.location();
   if (const auto enabled = table.find("enabled")) settings.enabled = enabled->boolean();
   if (const auto indicator = table.find("indicator")) settings.indicator = indicator->boolean();
-  settings.recall = table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
-  settings.drop = table.number_or("drop", std::min(settings.drop, 0.2 * settings.recall), support::non_negative(""));
+  settings.recall =
+      table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
+  settings.drop =
+      table.number_or("drop", std::min(settings.drop, 0.2 * settings.recall), support::non_negative(""));
   settings.residence = table.number_or("residence", settings.residence, support::non_negative("s"));
   if (const auto available = table.find_table("available")) {
     settings.available = read_modes(*available);
     for (const auto& [body, request] : settings.available) {
       if (request.kind != ModeRequest::Kind::kAuto) continue;
-      throw support::InputError(request.location,
-                                fmt::format("'{}' must be a number of modes, a list of mode numbers or \"all\"; \"auto\" "
-                                            "chooses from what is available, in [modes]",
-                                            request.key));
+      throw support::InputError(
+          request.location,
+          fmt::format("'{}' must be a number of modes, a list of mode numbers or \"all\"; \"auto\" "
+                      "chooses from what is available, in [modes]",
+                      request.key));
     }
   }
   table.reject_unknown_keys();
   if (!(settings.drop < settings.recall)) {
-    throw table.error(fmt::format("must have 'drop' below 'recall', got {} and {}", settings.drop, settings.recall));
+    throw table.error(
+        fmt::format("must have 'drop' below 'recall', got {} and {}", settings.drop, settings.recall));
   }
   return settings;
 }
@@ -133,7 +138,8 @@ std::vector<PointReference> read_output(const support::TomlTable& table) {
   if (const std::optional<support::TomlValue> list = table.find("points")) {
     for (const support::TomlValue& item : list->items()) points.push_back(read_point(item));
     if (points.empty()) {
-      throw list->error("must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
+      throw list->error(
+          "must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
     }
   }
   table.reject_unknown_keys();
@@ -168,8 +174,7 @@ void add_modal_values(const Body& body, const std::vector<double>& values, const
     throw support::InputError(
         motion.location,
         fmt::format("'initial.{}.{}' must be one number for each of the {}, got {}", body.name, key,
-                    support::format_count(body.mode_numbers.size(), "available mode"),
-                    values.size()));
+                    support::format_count(body.mode_numbers.size(), "available mode"), values.size()));
   }
   coordinates.segment(body.first_coordinate + 3, body.num_modes()) +=
       Eigen::Map<const Eigen::VectorXd>(values.data(), body.num_modes());

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/analysis/integrator.h"
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
-#include "dynamics/analysis/integrator.h"
 #include "dynamics/system/model.h"
 #include "tools/support/toml.h"
 
@@ -33,7 +33,7 @@ struct InitialMotion {
 struct IntegratorSettings {
   std::optional<Integrator::Method> method;  ///< none: default_method()
   double relative_tolerance = 1e-6;
-  std::optional<double> largest_step;  ///< > 0 [s]
+  std::optional<double> largest_step;     ///< > 0 [s]
   std::optional<double> spectral_radius;  ///< 0 to 1; of generalized-α alone
   std::optional<double> fixed_step;       ///< > 0 [s]; of generalized-α alone
 };
@@ -58,10 +58,10 @@ struct Run {
   std::string text;                    ///< the file as read
   std::filesystem::path vehicle_path;  ///< made relative to the working folder
   support::SourceLocation vehicle_location;
-  double speed = 0.0;                  ///< of all bodies along the vehicle's heading at the start [m/s]
+  double speed = 0.0;  ///< of all bodies along the vehicle's heading at the start [m/s]
   support::SourceLocation speed_location;
-  double duration = 0.0;               ///< > 0 [s]
-  double output_step = 1e-3;           ///< > 0, ≤ duration [s]
+  double duration = 0.0;      ///< > 0 [s]
+  double output_step = 1e-3;  ///< > 0, ≤ duration [s]
   Start start = Start::kEquilibrium;
   support::SourceLocation start_location;
   double statistics_from = 0.0;  ///< [s]

@@ -23,9 +23,10 @@ StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const Mod
     if (!superelement.geometric_stiffness) {
       throw support::InputError(
           request.location,
-          fmt::format("'{}' needs the geometric stiffness of superelement '{}', whose file is of version 1 and "
-                      "has none; make it again from its design with sprung-reduce build",
-                      request.key, superelement.name));
+          fmt::format(
+              "'{}' needs the geometric stiffness of superelement '{}', whose file is of version 1 and "
+              "has none; make it again from its design with sprung-reduce build",
+              request.key, superelement.name));
     }
     const auto active = selection.find(body);
     if (active == selection.end()) continue;
@@ -33,9 +34,10 @@ StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const Mod
     if (active->second.back() > available) {
       throw support::InputError(
           request.location,
-          fmt::format("'{}' cannot be true with mode {}: superelement '{}' has geometric stiffness of its lowest "
-                      "{} modes",
-                      request.key, active->second.back(), superelement.name, available));
+          fmt::format(
+              "'{}' cannot be true with mode {}: superelement '{}' has geometric stiffness of its lowest "
+              "{} modes",
+              request.key, active->second.back(), superelement.name, available));
     }
     stiffened.insert(body);
   }

@@ -25,7 +25,8 @@ using StiffeningRequests = std::map<std::string, StiffeningRequest>;  ///< by bo
 StiffeningRequests read_stiffening(const support::TomlTable& table);
 
 /// The bodies that the requests mean; those that move as rigid ones are left out.
-/// @throws support::InputError at the request's place: no such body, a body without superelement, or a superelement
+/// @throws support::InputError at the request's place: no such body, a body without superelement, or a
+/// superelement
 ///         without the geometric stiffness of all active modes
 StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const ModeSelection& selection,
                                    const Vehicle& vehicle);

@@ -45,7 +45,8 @@ std::vector<JointDescription> read_joints(const support::TomlTable& root,
   return joints;
 }
 
-std::vector<MotionDescription> read_motions(const support::TomlTable& root, const std::vector<JointDescription>& joints,
+std::vector<MotionDescription> read_motions(const support::TomlTable& root,
+                                            const std::vector<JointDescription>& joints,
                                             std::span<const std::string> points) {
   std::vector<MotionDescription> motions;
   const std::optional<support::TomlValue> list = root.find("motions");
@@ -55,7 +56,8 @@ std::vector<MotionDescription> read_motions(const support::TomlTable& root, cons
     check_new_name(motions, motion, "motion");
     const auto same = [&](const JointDescription& joint) { return joint.name == motion.name; };
     if (std::any_of(joints.begin(), joints.end(), same)) {
-      throw support::InputError(motion.location, fmt::format("motion '{}' has the name of a joint", motion.name));
+      throw support::InputError(motion.location,
+                                fmt::format("motion '{}' has the name of a joint", motion.name));
     }
     check_point(motion.b, points);
     if (motion.b.name.starts_with("ground.")) {
@@ -94,7 +96,8 @@ std::vector<PointReference> read_monitor(const support::TomlTable& root, const V
     check_point(monitor.back(), points);
   }
   if (monitor.empty()) {
-    throw list->error("must name at least one point \"body.point\"; leave it out for the origin of every body");
+    throw list->error(
+        "must name at least one point \"body.point\"; leave it out for the origin of every body");
   }
   return monitor;
 }
@@ -126,7 +129,8 @@ void check_masses(const Vehicle& vehicle) {
     if (ratio > kMostRatio || ratio < 1.0 / kMostRatio) {
       throw support::InputError(
           body.mass_location,
-          fmt::format("'bodies.{}.mass' is {:g} kg, where half of the bodies have {} {:g} kg: more than a factor of {:g} "
+          fmt::format("'bodies.{}.mass' is {:g} kg, where half of the bodies have {} {:g} kg: more than a "
+                      "factor of {:g} "
                       "apart they cannot be calculated together",
                       body.name, body.mass, ratio > 1.0 ? "at most" : "at least", *middle, kMostRatio));
     }
@@ -134,7 +138,8 @@ void check_masses(const Vehicle& vehicle) {
     if (radius > kMostRadius || radius < 1.0 / kMostRadius) {
       throw support::InputError(
           body.inertia_location,
-          fmt::format("'bodies.{}.inertia' is {:g} kg·m², which for a mass of {:g} kg is a radius of gyration of {:g} m; "
+          fmt::format("'bodies.{}.inertia' is {:g} kg·m², which for a mass of {:g} kg is a radius of "
+                      "gyration of {:g} m; "
                       "expected {:g} to {:g} m",
                       body.name, body.inertia, body.mass, radius, 1.0 / kMostRadius, kMostRadius));
     }

@@ -18,23 +18,26 @@ namespace sprung::dynamics {
 inline constexpr int kMaxJointConstraints = 3;
 
 /// k×3 Jacobian of a joint's constraints with respect to the motion (δx, δy, δangle) of one of its markers.
-using JointJacobian =
-    Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, kMaxJointConstraints, 3>;
+using JointJacobian = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, kMaxJointConstraints, 3>;
 /// k values, one for each constraint.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJointConstraints, 1>;
 
-/// Holds two markers together: φ(a, b, t) = 0. A joint sees markers alone, never coordinates, so that any mix of
-/// rigid bodies, flexible bodies and ground can be joined and a new kind of joint touches nothing else.
+/// Holds two markers together: φ(a, b, t) = 0. A joint sees markers alone, never coordinates, so that any mix
+/// of rigid bodies, flexible bodies and ground can be joined and a new kind of joint touches nothing else.
 class Joint {
  public:
   Joint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where)
-      : name(std::move(joint_name)), marker_a(marker_of_a), marker_b(marker_of_b), location(std::move(where)) {}
+      : name(std::move(joint_name)),
+        marker_a(marker_of_a),
+        marker_b(marker_of_b),
+        location(std::move(where)) {}
   virtual ~Joint() = default;
 
   virtual std::string_view kind() const = 0;
   /// Prescribed motion: moves its markers by a function of time, doing work.
   virtual bool is_motion() const { return false; }
-  /// What the joint leaves free and prescribed motion may drive; none where it leaves nothing, or more than one.
+  /// What the joint leaves free and prescribed motion may drive; none where it leaves nothing, or more than
+  /// one.
   virtual std::optional<RelativeCoordinate> coordinate() const { return std::nullopt; }
 
   virtual int num_constraints() const = 0;
@@ -43,21 +46,25 @@ class Joint {
   virtual std::string_view constraint_unit(int /*k*/) const { return "m"; }
 
   /// @param[out] phi  k residuals [m, rad]
-  virtual void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const = 0;
+  virtual void calc_residual(const MarkerState& a, const MarkerState& b, double time,
+                             JointVector& phi) const = 0;
 
   /// @param[out] Ga, Gb  ∂φ/∂(motion of a), ∂φ/∂(motion of b), k×3; φ̇ = Ga (v_a, ω_a) + Gb (v_b, ω_b) + φ_t
   virtual void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
                              JointJacobian& Gb) const = 0;
-  /// Whether Ga and Gb are the same at all positions. They are then asked for once, and where they are zero nothing is
-  /// eliminated.
+  /// Whether Ga and Gb are the same at all positions. They are then asked for once, and where they are zero
+  /// nothing is eliminated.
   virtual bool has_constant_jacobian() const { return false; }
 
   /// @param[out] phi_t  k partial time derivatives of φ [m/s, rad/s]; zero unless the joint moves by itself
-  virtual void calc_time_rate(const MarkerState& a, const MarkerState& b, double time, JointVector& phi_t) const;
+  virtual void calc_time_rate(const MarkerState& a, const MarkerState& b, double time,
+                              JointVector& phi_t) const;
 
-  /// @param[out] drift  k terms of φ̈ that do not contain accelerations of the markers: Ġa (v_a, ω_a) + Ġb (v_b, ω_b)
+  /// @param[out] drift  k terms of φ̈ that do not contain accelerations of the markers: Ġa (v_a, ω_a) + Ġb
+  /// (v_b, ω_b)
   ///                    + explicit time terms [m/s², rad/s²]
-  virtual void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const = 0;
+  virtual void calc_drift(const MarkerState& a, const MarkerState& b, double time,
+                          JointVector& drift) const = 0;
 
   /// The functions of time in it, whose breaks the integrator has to step to.
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }

@@ -34,7 +34,9 @@ class RelativeCoordinate {
   };
   Gradient gradient(const MarkerState& a, const MarkerState& b) const;
   /// Whether the gradient is the same at all positions: of x, y and angle.
-  bool has_constant_gradient() const { return kind_ == Kind::kX || kind_ == Kind::kY || kind_ == Kind::kAngle; }
+  bool has_constant_gradient() const {
+    return kind_ == Kind::kX || kind_ == Kind::kY || kind_ == Kind::kAngle;
+  }
   /// What c̈ is while no marker accelerates: Ġ_a (v_a, ω_a) + Ġ_b (v_b, ω_b).
   double drift(const MarkerState& a, const MarkerState& b) const;
 

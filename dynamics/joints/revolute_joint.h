@@ -4,7 +4,8 @@
 
 namespace sprung::dynamics {
 
-/// Two markers at one place, free to turn: r_a − r_b = 0, two constraints in world axes (dynamics/README.md, eq. 6).
+/// Two markers at one place, free to turn: r_a − r_b = 0, two constraints in world axes (dynamics/README.md,
+/// eq. 6).
 class RevoluteJoint final : public Joint {
  public:
   using Joint::Joint;
@@ -14,8 +15,10 @@ class RevoluteJoint final : public Joint {
   }
   int num_constraints() const override { return 2; }
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
-  void calc_residual(const MarkerState& a, const MarkerState& b, double time, JointVector& phi) const override;
-  void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga, JointJacobian& Gb) const override;
+  void calc_residual(const MarkerState& a, const MarkerState& b, double time,
+                     JointVector& phi) const override;
+  void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
+                     JointJacobian& Gb) const override;
   bool has_constant_jacobian() const override { return true; }
   void calc_drift(const MarkerState& a, const MarkerState& b, double time, JointVector& drift) const override;
 };

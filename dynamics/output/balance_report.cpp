@@ -24,10 +24,11 @@ struct RestingForces {
     const Model& model = terms.model();
     const ForceElement& force = *model.forces[force_index];
     std::vector<double> values(force.channels().size());
-    force.calc_channels(terms.instant(),
-                        std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force_index]),
-                                                    static_cast<std::size_t>(force.num_branches())),
-                        values);
+    force.calc_channels(
+        terms.instant(),
+        std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force_index]),
+                                    static_cast<std::size_t>(force.num_branches())),
+        values);
     return values;
   }
 };
@@ -42,10 +43,10 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
-  std::string text = fmt::format("{}: {} after {} iterations, last step {:.1e} of the natural size{}\n",
-                                 report.vehicle.name, report.is_steady ? "steady motion" : "static equilibrium",
-                                 equilibrium.iterations, equilibrium.last_step,
-                                 equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
+  std::string text = fmt::format(
+      "{}: {} after {} iterations, last step {:.1e} of the natural size{}\n", report.vehicle.name,
+      report.is_steady ? "steady motion" : "static equilibrium", equilibrium.iterations,
+      equilibrium.last_step, equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
   if (report.assembly.largest_movement > 1e-9) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
                         report.assembly.largest_movement);
@@ -91,7 +92,8 @@ std::string format_equilibrium_json(const BalanceReport& report) {
   for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
     const std::vector<double> values = resting.channels(f);
     JsonObject channels;
-    for (std::size_t c = 0; c < values.size(); ++c) channels.add(report.model.forces[f]->channels()[c].name, values[c]);
+    for (std::size_t c = 0; c < values.size(); ++c)
+      channels.add(report.model.forces[f]->channels()[c].name, values[c]);
     forces.add(report.model.forces[f]->name, channels);
   }
   return JsonObject()
@@ -108,7 +110,8 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
                          bool is_steady) {
   std::string text = fmt::format(
       "{}: modes about {}, {} freedoms\n"
-      "Where a force has two slopes at rest (dampers that differ in compression and rebound), their mean is taken.\n\n",
+      "Where a force has two slopes at rest (dampers that differ in compression and rebound), their mean is "
+      "taken.\n\n",
       vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_freedoms());
   support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
   int number = 0;
@@ -118,8 +121,8 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
       table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + mode.participants});
     } else {
       table.add_row({fmt::format("{}", number), fmt::format("{:.4f}", mode.undamped_frequency_hz),
-                     support::format_fixed(mode.damped_frequency_hz, 4), support::format_fixed(mode.damping_ratio, 4),
-                     mode.participants});
+                     support::format_fixed(mode.damped_frequency_hz, 4),
+                     support::format_fixed(mode.damping_ratio, 4), mode.participants});
     }
   }
   return text + table.str();

@@ -43,8 +43,8 @@ std::string summarise_choice(const BasisChoice& choice) {
 }
 
 std::string format_choice(const BasisChoice& choice) {
-  support::TextTable table({"body", "mode", "Hz", "displacement r.m.s. %", "peak %", "acceleration r.m.s. %", "peak %",
-                            "forces r.m.s. %", "peak %", "static %", "why"});
+  support::TextTable table({"body", "mode", "Hz", "displacement r.m.s. %", "peak %", "acceleration r.m.s. %",
+                            "peak %", "forces r.m.s. %", "peak %", "static %", "why"});
   const bool is_measured = !choice.frequency_hz.empty();
   for (const ModeVerdict& verdict : choice.verdicts) {
     std::vector<std::string> cells{verdict.mode.body, fmt::format("{}", verdict.mode.number),

@@ -11,14 +11,19 @@ namespace {
 std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') result += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20) result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else result += c;
+    if (c == '"' || c == '\\')
+      result += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      result += c;
   }
   return result + "\"";
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null"; }
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "null";
+}
 
 template <class Range, class Format>
 std::string list(const Range& range, Format&& format) {
@@ -34,13 +39,21 @@ JsonObject& JsonObject::add_raw(std::string_view name, const std::string& value)
   return *this;
 }
 
-JsonObject& JsonObject::add(std::string_view name, double value) { return add_raw(name, number(value)); }
+JsonObject& JsonObject::add(std::string_view name, double value) {
+  return add_raw(name, number(value));
+}
 
-JsonObject& JsonObject::add(std::string_view name, std::string_view text) { return add_raw(name, quoted(text)); }
+JsonObject& JsonObject::add(std::string_view name, std::string_view text) {
+  return add_raw(name, quoted(text));
+}
 
-JsonObject& JsonObject::add(std::string_view name, bool value) { return add_raw(name, value ? "true" : "false"); }
+JsonObject& JsonObject::add(std::string_view name, bool value) {
+  return add_raw(name, value ? "true" : "false");
+}
 
-JsonObject& JsonObject::add(std::string_view name, const JsonObject& object) { return add_raw(name, object.str()); }
+JsonObject& JsonObject::add(std::string_view name, const JsonObject& object) {
+  return add_raw(name, object.str());
+}
 
 JsonObject& JsonObject::add(std::string_view name, const std::vector<JsonObject>& objects) {
   return add_raw(name, list(objects, [](const JsonObject& object) { return object.str(); }));

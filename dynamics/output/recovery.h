@@ -7,8 +7,8 @@
 
 namespace sprung::dynamics {
 
-/// Beam resultants of a flexible body from its active modes: one station at each end of each element, elements in the
-/// superelement's order, first end first.
+/// Beam resultants of a flexible body from its active modes: one station at each end of each element,
+/// elements in the superelement's order, first end first.
 class ResultantRecovery {
  public:
   ResultantRecovery(const reduce::Superelement& superelement, const Body& body);

@@ -14,7 +14,7 @@ namespace {
 
 // Heights of the road wherever a wheel may come, and at the ends of its segments.
 void write_road(support::Hdf5Writer& file, const ResultsHeader& header) {
-  constexpr double kSpacing = 0.01;     // m
+  constexpr double kSpacing = 0.01;  // m
   constexpr double kMaxSamples = 20000;
   const Road& road = *header.road.road;
   double rearmost = 0.0;
@@ -57,7 +57,8 @@ void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
       points.push_back(marker.p_BP);
     }
     Eigen::MatrixXd positions(static_cast<Eigen::Index>(points.size()), 2);
-    for (std::size_t i = 0; i < points.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      positions.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
     file.write(group + "/point_names", names);
     file.write(group + "/point_positions", positions, "m");
   }
@@ -79,7 +80,8 @@ void write_superelements(support::Hdf5Writer& file, const Vehicle& vehicle) {
     const auto modes = static_cast<std::size_t>(superelement.num_modes());
     std::vector<double> shapes;
     for (Eigen::Index row = 0; row < superelement.shapes.rows(); ++row) {
-      for (Eigen::Index k = 0; k < superelement.shapes.cols(); ++k) shapes.push_back(superelement.shapes(row, k));
+      for (Eigen::Index k = 0; k < superelement.shapes.cols(); ++k)
+        shapes.push_back(superelement.shapes(row, k));
     }
     file.write(group + "/shapes", shapes, {nodes, 3, modes}, "m, m, rad per unit amplitude");
     file.attribute(group, "content_hash", superelement.content_hash);
@@ -107,7 +109,8 @@ void write_equilibrium(support::Hdf5Writer& file, const ResultsHeader& header) {
   file.attribute("/model/equilibrium", "is_static_equilibrium", std::int64_t{header.equilibrium != nullptr});
   std::vector<std::string> neutral;
   if (header.equilibrium) {
-    for (const NeutralDirection& direction : header.equilibrium->neutral) neutral.push_back(direction.description);
+    for (const NeutralDirection& direction : header.equilibrium->neutral)
+      neutral.push_back(direction.description);
   }
   file.write("/model/equilibrium/neutral", neutral);
 }
@@ -125,7 +128,8 @@ void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
     shapes.col(static_cast<Eigen::Index>(k)) = mode.shape;
   }
   std::vector<std::string> coordinates;
-  for (int i = 0; i < header.model.num_coordinates; ++i) coordinates.push_back(header.model.coordinate_name(i));
+  for (int i = 0; i < header.model.num_coordinates; ++i)
+    coordinates.push_back(header.model.coordinate_name(i));
   file.write("/model/modes/undamped_frequency", undamped, "Hz");
   file.write("/model/modes/damped_frequency", damped, "Hz");
   file.write("/model/modes/damping_ratio", ratio, "1");

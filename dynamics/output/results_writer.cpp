@@ -64,19 +64,17 @@ void ResultsWriter::add_point_series() {
     const std::string group = "/points/" + marker.name;
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
-    add_series(group + "/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.terms().markers()[i].r);
-    });
-    add_series(group + "/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.terms().markers()[i].v);
-    });
-    add_series(group + "/acceleration", 2, "m/s^2", [i](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.calc_acceleration(i));
-    });
+    add_series(group + "/position", 2, "m",
+               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].r); });
+    add_series(group + "/velocity", 2, "m/s",
+               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].v); });
+    add_series(group + "/acceleration", 2, "m/s^2",
+               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.calc_acceleration(i)); });
     if (body.num_modes() == 0) continue;
-    add_series(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
-      put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
-    });
+    add_series(group + "/deflection", 2, "m",
+               [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
+                 put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
+               });
   }
 }
 
@@ -85,40 +83,35 @@ void ResultsWriter::add_body_series() {
     const std::string group = "/bodies/" + body.name;
     const int first = body.first_coordinate, n = body.num_modes();
     const std::string per_second = " 1/s", per_second_squared = " 1/s^2";
-    add_series(group + "/position", 3, "m, m, rad", [first](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.q.segment<3>(first));
-    });
-    add_series(group + "/velocity", 3, "m/s, m/s, rad/s", [first](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.v.segment<3>(first));
-    });
-    add_series(group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
-               [first](const Snapshot& now, std::vector<double>& row) {
-                 put(row, now.v_dot.segment<3>(first));
-               });
+    add_series(group + "/position", 3, "m, m, rad",
+               [first](const Snapshot& now, std::vector<double>& row) { put(row, now.q.segment<3>(first)); });
+    add_series(group + "/velocity", 3, "m/s, m/s, rad/s",
+               [first](const Snapshot& now, std::vector<double>& row) { put(row, now.v.segment<3>(first)); });
+    add_series(
+        group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
+        [first](const Snapshot& now, std::vector<double>& row) { put(row, now.v_dot.segment<3>(first)); });
     const int center = model_->find_marker(body.name + ".center_of_mass");
     if (center >= 0) {
       const auto i = static_cast<std::size_t>(center);
-      add_series(group + "/center_of_mass/position", 2, "m", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.terms().markers()[i].r);
-      });
-      add_series(group + "/center_of_mass/velocity", 2, "m/s", [i](const Snapshot& now, std::vector<double>& row) {
-        put(row, now.terms().markers()[i].v);
-      });
+      add_series(
+          group + "/center_of_mass/position", 2, "m",
+          [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].r); });
+      add_series(
+          group + "/center_of_mass/velocity", 2, "m/s",
+          [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].v); });
       add_series(group + "/center_of_mass/acceleration", 2, "m/s^2",
-                 [i](const Snapshot& now, std::vector<double>& row) {
-                   put(row, now.calc_acceleration(i));
-                 });
+                 [i](const Snapshot& now, std::vector<double>& row) { put(row, now.calc_acceleration(i)); });
     }
     if (n == 0) continue;
     const auto columns = static_cast<std::size_t>(n);
     const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
     file_.write(group + "/modal/mode_number", numbers);
-    add_series(group + "/modal/amplitude", columns, "kg^0.5 m", [first, n](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.q.segment(first + 3, n));
-    });
-    add_series(group + "/modal/rate", columns, "kg^0.5 m/s", [first, n](const Snapshot& now, std::vector<double>& row) {
-      put(row, now.v.segment(first + 3, n));
-    });
+    add_series(
+        group + "/modal/amplitude", columns, "kg^0.5 m",
+        [first, n](const Snapshot& now, std::vector<double>& row) { put(row, now.q.segment(first + 3, n)); });
+    add_series(
+        group + "/modal/rate", columns, "kg^0.5 m/s",
+        [first, n](const Snapshot& now, std::vector<double>& row) { put(row, now.v.segment(first + 3, n)); });
     add_series(group + "/modal/acceleration", columns, "kg^0.5 m/s^2",
                [first, n](const Snapshot& now, std::vector<double>& row) {
                  put(row, now.v_dot.segment(first + 3, n));
@@ -207,7 +200,8 @@ void ResultsWriter::add_force_series() {
       const Channel& channel = force.channels()[c];
       add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
                  [&force, first, count, c, values](const Snapshot& now, std::vector<double>& row) {
-                   if (c == 0) force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
+                   if (c == 0)
+                     force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
                  });
     }

@@ -27,18 +27,18 @@ struct ResultsHeader {
   const Model& model;
   const PlacedRoad& road;
   const State& start;
-  std::vector<std::string> overrides;      ///< assignments of the command line, as given
+  std::vector<std::string> overrides;        ///< assignments of the command line, as given
   const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
-  std::vector<VehicleMode> modes;          ///< about the equilibrium
-  const Model* full = nullptr;             ///< with the modes whose neglect is told, null for none
-  const BasisChoice* choice = nullptr;     ///< of modes "auto"; null where there are none
+  std::vector<VehicleMode> modes;            ///< about the equilibrium
+  const Model* full = nullptr;               ///< with the modes whose neglect is told, null for none
+  const BasisChoice* choice = nullptr;       ///< of modes "auto"; null where there are none
 };
 
 /// Root attribute `format` of a results file.
 inline constexpr std::string_view kResultsFormat = "sprung-results";
 
-/// Writes the results file of a run as it goes (dynamics/output/results.md). It stands as NAME.partial.h5 until the
-/// run is whole.
+/// Writes the results file of a run as it goes (dynamics/output/results.md). It stands as NAME.partial.h5
+/// until the run is whole.
 class ResultsWriter {
  public:
   /// @throws support::InputError if the file cannot be written

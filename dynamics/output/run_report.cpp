@@ -22,7 +22,6 @@ bool is_stiffened(const Model& model) {
 
 }  // namespace
 
-
 namespace {
 
 std::string describe_modes(const Model& model) {
@@ -87,7 +86,8 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
   run.add_row(
       {"largest constraint violation", fmt::format("{:.1e}", summary.statistics.constraint_violation())});
   if (transient.stepper.velocity_violation > 0.0) {
-    run.add_row({"of velocities, closed for output", fmt::format("{:.1e}", transient.stepper.velocity_violation)});
+    run.add_row(
+        {"of velocities, closed for output", fmt::format("{:.1e}", transient.stepper.velocity_violation)});
   }
   run.add_row({"energy balance, relative", fmt::format("{:.1e}", summary.statistics.energy_closure())});
   run.add_row({"steps", fmt::format("{}", transient.stepper.integrator.steps)});
@@ -109,10 +109,10 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
                       100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
       if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
-        warning = fmt::format("\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
-                              "asked for (at t = {:.3g} s); take more modes{}\n",
-                              name, shares, worst.time,
-                              is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
+        warning = fmt::format(
+            "\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
+            "asked for (at t = {:.3g} s); take more modes{}\n",
+            name, shares, worst.time, is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
       }
     }
   }
@@ -127,8 +127,9 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
     const WorstNeglect& worst = summary.transient.worst_neglect;
     modes.add("mean_active", summary.transient.mean_active_modes)
         .add("changes", static_cast<double>(summary.transient.mode_changes))
-        .add("largest_left_out",
-             worst.coordinate >= 0 ? summary.adaptivity->full->coordinate_name(worst.coordinate) : std::string())
+        .add("largest_left_out", worst.coordinate >= 0
+                                     ? summary.adaptivity->full->coordinate_name(worst.coordinate)
+                                     : std::string())
         .add("left_out_of_deflection", worst.share.deflection)
         .add("left_out_of_acceleration", worst.share.acceleration);
   }

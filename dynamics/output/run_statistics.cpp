@@ -41,14 +41,15 @@ void RunStatistics::add(const Snapshot& snapshot) {
   has_first_ = true;
   const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
                         std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
-  // Where next to nothing moves, the changes are themselves rounding errors of the terms; where a mechanism turns
-  // steadily they are errors of its integration.
-  const double size = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
+  // Where next to nothing moves, the changes are themselves rounding errors of the terms; where a mechanism
+  // turns steadily they are errors of its integration.
+  const double size =
+      std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
   largest_change_ = std::max({largest_change_, change, 1e-9 * size, 0.01 * now.kinetic});
   // Term by term, so that a large potential far from the origin does not swallow the digits.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
-                           (now.gravity - first_.gravity) + (now.spring - first_.spring) + snapshot.energy.dissipated -
-                           snapshot.energy.input;
+                           (now.gravity - first_.gravity) + (now.spring - first_.spring) +
+                           snapshot.energy.dissipated - snapshot.energy.input;
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(imbalance));
 
   const double tolerance = 1e-9;

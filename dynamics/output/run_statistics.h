@@ -29,16 +29,17 @@ class RunStatistics {
   /// @param points      names of markers to report, "body.point"
   /// @param reference_q positions that displacements are counted from (static equilibrium)
   /// @param from, to    window of time for the points [s]
-  RunStatistics(const Model& model, const std::vector<std::string>& points, const Eigen::VectorXd& reference_q, double from,
-                double to);
+  RunStatistics(const Model& model, const std::vector<std::string>& points,
+                const Eigen::VectorXd& reference_q, double from, double to);
 
   void add(const Snapshot& snapshot);
 
   std::vector<PointStatistics> point_statistics() const;
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
-  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the stored terms
-  /// (but at least a hundredth of the kinetic energy, for what turns steadily, and a billionth of the terms).
+  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the
+  /// stored terms (but at least a hundredth of the kinetic energy, for what turns steadily, and a billionth
+  /// of the terms).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 

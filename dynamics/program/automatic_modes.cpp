@@ -17,7 +17,8 @@ constexpr double kGrowth = 1e-7;  // real part of an eigenvalue that is no round
 bool is_driven(const Model& moving) {
   return std::any_of(moving.joints.begin(), moving.joints.end(), [](const auto& joint) {
     const std::vector<const TimeFunction*> functions = joint->time_functions();
-    return std::any_of(functions.begin(), functions.end(), [](const TimeFunction* f) { return !f->is_constant(); });
+    return std::any_of(functions.begin(), functions.end(),
+                       [](const TimeFunction* f) { return !f->is_constant(); });
   });
 }
 
@@ -58,7 +59,8 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   const Model model = make_model(vehicle, all, placed, damping, MotionUse::kHeld, stiffened);
   const std::vector<CandidateMode> candidates = list_candidates(run, vehicle, model);
   const double tolerance = run.mode_choice.tolerance;
-  const std::string unknown = find_unknown(run, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
+  const std::string unknown =
+      find_unknown(run, make_model(vehicle, all, placed, damping, MotionUse::kMoving, stiffened));
   if (!unknown.empty()) return keep_all(candidates, tolerance, unknown);
 
   Eigen::VectorXd q = make_start_positions(model, vehicle);
@@ -77,7 +79,9 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   const KnownForcing forcing{.road = &road, .speed = std::max(run.speed, 0.0), .duration = run.duration};
   BasisChoice choice = choose_basis(linear, candidates, points, forcing, tolerance);
   for (const RoadInput& input : linear.inputs()) {
-    if (!input.is_pressed) choice.remarks.push_back("'" + input.name + "' is off the ground in static balance: the road does nothing there");
+    if (!input.is_pressed)
+      choice.remarks.push_back("'" + input.name +
+                               "' is off the ground in static balance: the road does nothing there");
   }
   return choice;
 }

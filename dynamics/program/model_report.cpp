@@ -34,8 +34,12 @@ const std::string& name_of(const Model& model, int marker) {
 }
 
 BalanceReport balance_of(const PreparedRun& prepared) {
-  return {prepared.balance_model, prepared.vehicle, *prepared.equilibrium, prepared.assembly,
-          prepared.run.start == Run::Start::kSteady, make_start_positions(prepared.balance_model, prepared.vehicle)};
+  return {prepared.balance_model,
+          prepared.vehicle,
+          *prepared.equilibrium,
+          prepared.assembly,
+          prepared.run.start == Run::Start::kSteady,
+          make_start_positions(prepared.balance_model, prepared.vehicle)};
 }
 
 }  // namespace

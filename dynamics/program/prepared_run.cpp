@@ -40,9 +40,8 @@ bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   const std::vector<int>& free = equations.partition().independent;
-  return std::all_of(free.begin(), free.end(), [&](int i) {
-    return model.coordinate_name(i).find(".mode ") != std::string::npos;
-  });
+  return std::all_of(free.begin(), free.end(),
+                     [&](int i) { return model.coordinate_name(i).find(".mode ") != std::string::npos; });
 }
 
 // The motion that a run's start is in balance in.
@@ -58,10 +57,11 @@ SteadyMotion find_motion(const Run& run, const Model& model, const Eigen::Vector
 
 void check_steady(const Run& run, const Model& model, const Equilibrium& equilibrium) {
   if (is_steady(model, equilibrium.motion, equilibrium.q)) return;
-  throw support::InputError(run.start_location,
-                            "'start' can be \"steady\" only where what is carried along sees the same forces "
-                            "at all times: not with weight on what turns, springs to the ground, or a motion that "
-                            "changes its rate");
+  throw support::InputError(
+      run.start_location,
+      "'start' can be \"steady\" only where what is carried along sees the same forces "
+      "at all times: not with weight on what turns, springs to the ground, or a motion that "
+      "changes its rate");
 }
 
 // Modes that the start sets in motion take part from there: what is held has no rate.
@@ -105,9 +105,10 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
   StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
   if (run.adaptivity.enabled && !stiffened.empty()) {
-    throw support::InputError(run.adaptivity.location,
-                              "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
-                              "be stiffened; take a fixed set of modes, or leave stiffening out");
+    throw support::InputError(
+        run.adaptivity.location,
+        "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
+        "be stiffened; take a fixed set of modes, or leave stiffening out");
   }
 
   prepared.level_road = std::make_unique<FlatRoad>();
@@ -141,8 +142,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, damping,
-                              MotionUse::kMoving, stiffened);
+  prepared.model =
+      make_model(vehicle, prepared.available, prepared.placed_road, damping, MotionUse::kMoving, stiffened);
   std::optional<Integrator::Method>& method = prepared.run.integrator.method;
   if (!method) method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {
@@ -154,7 +155,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
     assemble_positions(prepared.model, q);
   }
   Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
-  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {  // carried along, in place of the speed
+  if (prepared.equilibrium &&
+      !prepared.equilibrium->motion.is_rest()) {  // carried along, in place of the speed
     for (const Body& body : prepared.model.bodies) v[body.first_coordinate] -= vehicle.direction * run.speed;
     v += prepared.equilibrium->motion.calc_velocity(prepared.model, q);
   }
@@ -208,7 +210,8 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
     }
   }
   if (settings.enabled) activate_moving_modes(prepared.model, prepared.start, options.active);
-  for (const std::string& point : prepared.output_points) options.points.push_back(options.full->find_marker(point));
+  for (const std::string& point : prepared.output_points)
+    options.points.push_back(options.full->find_marker(point));
   return options;
 }
 

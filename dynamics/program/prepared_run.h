@@ -27,8 +27,8 @@ struct RunRequest {
 struct PreparedRun {
   Run run;
   Vehicle vehicle;
-  ModeSelection selection;                 ///< at the start
-  ModeSelection available;                 ///< of the models below: more than `selection` where modes join and leave
+  ModeSelection selection;  ///< at the start
+  ModeSelection available;  ///< of the models below: more than `selection` where modes join and leave
   std::optional<BasisChoice> choice;  ///< of bodies with modes "auto"; none where there are none
   std::vector<std::string> output_points;
   AssemblyReport assembly;
@@ -37,7 +37,7 @@ struct PreparedRun {
   Model balance_model;                     ///< on level ground
   std::optional<Equilibrium> equilibrium;  ///< none for a run that starts as given
   PlacedRoad placed_road;
-  Model model;                             ///< on the run's road
+  Model model;  ///< on the run's road
   State start;
 };
 

@@ -27,7 +27,8 @@ TransientOptions make_options(const Run& run) {
   options.largest_step = run.integrator.largest_step.value_or(std::numeric_limits<double>::infinity());
   options.integrator.relative_tolerance = run.integrator.relative_tolerance;
   options.integrator.method = run.integrator.method.value();
-  options.integrator.spectral_radius = run.integrator.spectral_radius.value_or(options.integrator.spectral_radius);
+  options.integrator.spectral_radius =
+      run.integrator.spectral_radius.value_or(options.integrator.spectral_radius);
   options.integrator.fixed_step = run.integrator.fixed_step.value_or(options.integrator.fixed_step);
   return options;
 }
@@ -37,16 +38,17 @@ constexpr double kAlarmingClosure = 1e-3;  // far above what any usable toleranc
 
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
-  throw support::Interrupted(fmt::format("at t = {:.6g} s; what there is so far: {}", time,
-                                         writer->abandon().string()));
+  throw support::Interrupted(
+      fmt::format("at t = {:.6g} s; what there is so far: {}", time, writer->abandon().string()));
 }
 
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
   if (support::is_foreign_file(output.results, kResultsFormat)) {
-    throw support::InputError({.path = output.results.string()},
-                              "is in the way and is left alone: it is no results file; move it or name another with -o");
+    throw support::InputError(
+        {.path = output.results.string()},
+        "is in the way and is left alone: it is no results file; move it or name another with -o");
   }
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   if (output.dry_run) {
@@ -60,13 +62,15 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   }
   if (!output.json && !request.quiet) {
     fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
-                                  prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+                                  prepared.initial_velocities,
+                                  prepared.equilibrium ? &*prepared.equilibrium : nullptr));
     if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
   }
 
   if (prepared.model.length_scale < kSmallestScale) {
     fmt::print(stderr,
-               "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so within 1e-9 m, "
+               "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so "
+               "within 1e-9 m, "
                "which will be seen: give lengths in a larger unit, as mm with g and ms\n",
                prepared.model.length_scale);
   }
@@ -76,13 +80,15 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   std::unique_ptr<ResultsWriter> writer;
   if (!output.results.empty()) {
     writer = std::make_unique<ResultsWriter>(
-        output.results, ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
-                                      request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr,
-                                      prepared.choice ? &*prepared.choice : nullptr});
+        output.results,
+        ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
+                      request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
+                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr,
+                      prepared.choice ? &*prepared.choice : nullptr});
   }
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
-  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from, run.statistics_to);
+  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
+                           run.statistics_to);
 
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
   double time_reached = 0.0;
@@ -116,12 +122,14 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const RunSummary summary{statistics, transient, run.duration, elapsed,
                            options.adaptivity ? &*options.adaptivity : nullptr};
   if (statistics.energy_closure() > kAlarmingClosure) {
-    fmt::print(stderr,
-               "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
-               "relative tolerance, and look for motion far below the vehicle's size\n",
-               statistics.energy_closure());
+    fmt::print(
+        stderr,
+        "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
+        "relative tolerance, and look for motion far below the vehicle's size\n",
+        statistics.energy_closure());
   }
-  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary) : format_summary(prepared.model, summary));
+  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary)
+                               : format_summary(prepared.model, summary));
   if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
   return support::kGood;
 }

@@ -21,7 +21,9 @@ BumpRoad::BumpRoad(const Parameters& parameters) : parameters_(parameters) {
 }
 
 // Segments: flat, the bump (two for the triangle), flat.
-int BumpRoad::num_segments() const { return parameters_.shape == BumpShape::kTriangle ? 4 : 3; }
+int BumpRoad::num_segments() const {
+  return parameters_.shape == BumpShape::kTriangle ? 4 : 3;
+}
 
 double BumpRoad::segment_end(int k) const {
   if (k == 0) return parameters_.start;
@@ -38,12 +40,14 @@ RoadSample BumpRoad::sample(int segment, double s) const {
   switch (parameters_.shape) {
     case BumpShape::kHalfSine: {
       const double pi = std::numbers::pi;
-      return behind ? RoadSample{} : RoadSample{height * std::sin(pi * u), height * pi * du * std::cos(pi * u)};
+      return behind ? RoadSample{}
+                    : RoadSample{height * std::sin(pi * u), height * pi * du * std::cos(pi * u)};
     }
     case BumpShape::kHaversine: {
       const double tau = 2.0 * std::numbers::pi;
       return behind ? RoadSample{}
-                    : RoadSample{0.5 * height * (1.0 - std::cos(tau * u)), 0.5 * height * tau * du * std::sin(tau * u)};
+                    : RoadSample{0.5 * height * (1.0 - std::cos(tau * u)),
+                                 0.5 * height * tau * du * std::sin(tau * u)};
     }
     case BumpShape::kTriangle:
       if (behind) return {};

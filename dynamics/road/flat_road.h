@@ -13,7 +13,9 @@ class FlatRoad final : public Road {
   double segment_end(int /*k*/) const override { return std::numeric_limits<double>::infinity(); }
   RoadSample sample(int /*segment*/, double /*s*/) const override { return {}; }
   double integral(int /*segment*/, double /*s*/) const override { return 0.0; }
-  double resolution(int /*segment*/, double /*s*/) const override { return std::numeric_limits<double>::infinity(); }
+  double resolution(int /*segment*/, double /*s*/) const override {
+    return std::numeric_limits<double>::infinity();
+  }
 };
 
 }  // namespace sprung::dynamics

@@ -10,9 +10,9 @@ struct RoadSample {
   double slope = 0.0;   ///< dh/ds
 };
 
-/// A road h(s): smooth segments, one after the other, with jumps of slope only between them. s is the distance along
-/// the heading from under the leading axle at the start [m]. A segment can be evaluated beyond its ends, so that a
-/// step of the integrator sees a smooth function until the end is located.
+/// A road h(s): smooth segments, one after the other, with jumps of slope only between them. s is the
+/// distance along the heading from under the leading axle at the start [m]. A segment can be evaluated beyond
+/// its ends, so that a step of the integrator sees a smooth function until the end is located.
 class Road {
  public:
   virtual ~Road() = default;
@@ -24,7 +24,8 @@ class Road {
   virtual RoadSample sample(int segment, double s) const = 0;
   /// ∫ of the height over s, from a place of the segment's own [m²]: differences within a segment count.
   virtual double integral(int segment, double s) const = 0;
-  /// Distance over which the road at s holds nothing finer [m]: an integrator should not go much further in a step.
+  /// Distance over which the road at s holds nothing finer [m]: an integrator should not go much further in a
+  /// step.
   virtual double resolution(int segment, double s) const = 0;
 
   /// The segment at s; at an end, the one that a wheel rolling forward (or backward) comes into.

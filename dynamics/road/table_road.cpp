@@ -30,8 +30,8 @@ struct Cubic {
   double integral(double u) const {  // from u = 0
     const double secant = z1 - z0;
     return h * u *
-           (z0 + u * (h * m0 / 2.0 +
-                      u * ((3.0 * secant - h * (2.0 * m0 + m1)) / 3.0 + u * (h * (m0 + m1) - 2.0 * secant) / 4.0)));
+           (z0 + u * (h * m0 / 2.0 + u * ((3.0 * secant - h * (2.0 * m0 + m1)) / 3.0 +
+                                          u * (h * (m0 + m1) - 2.0 * secant) / 4.0)));
   }
   // How far the cubic goes beyond the heights of its ends.
   double excursion() const {

@@ -11,7 +11,8 @@ std::size_t BlockJacobian::add_block(const Block& block) {
 }
 
 void BlockJacobian::mark_zero(std::size_t block, int row, int column) {
-  always_zero_[blocks_[block].offset + static_cast<std::size_t>(row * blocks_[block].num_columns + column)] = true;
+  always_zero_[blocks_[block].offset + static_cast<std::size_t>(row * blocks_[block].num_columns + column)] =
+      true;
 }
 
 void BlockJacobian::add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const {
@@ -45,7 +46,9 @@ void BlockJacobian::add_transposed_product(const Eigen::VectorXd& lambda, Eigen:
   }
 }
 
-Eigen::MatrixXd BlockJacobian::dense() const { return sparse().toDense(); }
+Eigen::MatrixXd BlockJacobian::dense() const {
+  return sparse().toDense();
+}
 
 Eigen::SparseMatrix<double> BlockJacobian::sparse() const {
   std::vector<Eigen::Triplet<double>> entries;

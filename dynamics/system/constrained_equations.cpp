@@ -64,7 +64,8 @@ bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
 }
 
 // The factors are those of update_accelerations.
-Power ConstrainedEquations::change_branches(std::size_t f, std::span<const int> from, std::span<const int> to) {
+Power ConstrainedEquations::change_branches(std::size_t f, std::span<const int> from,
+                                            std::span<const int> to) {
   const Power power = terms_.change_branches(f, from, to, moved_);
   apply_inverse_mass(moved_);
   if (model_->num_constraints > 0) {

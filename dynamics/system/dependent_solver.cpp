@@ -12,7 +12,8 @@ namespace {
 // For each coordinate its position among those chosen, −1 where it is not one of them.
 std::vector<int> list_positions(const std::vector<int>& chosen, int num_coordinates) {
   std::vector<int> position(static_cast<std::size_t>(num_coordinates), -1);
-  for (std::size_t k = 0; k < chosen.size(); ++k) position[static_cast<std::size_t>(chosen[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    position[static_cast<std::size_t>(chosen[k])] = static_cast<int>(k);
   return position;
 }
 
@@ -94,13 +95,16 @@ const DependentSolver::DiagonalBlock& DependentSolver::add_block(const std::vect
   return blocks_.emplace_back(std::move(block));
 }
 
-void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates) {
+void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partition& partition,
+                                     int num_coordinates) {
   const std::vector<int> position = list_positions(partition.independent, num_coordinates);
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
     for (int j = 0; j < block.num_columns;) {
       const int first = position[static_cast<std::size_t>(block.column + j)];
       int count = 0;  // both ascend: a run of independent coordinates is one of positions
-      while (j + count < block.num_columns && position[static_cast<std::size_t>(block.column + j + count)] >= 0) ++count;
+      while (j + count < block.num_columns &&
+             position[static_cast<std::size_t>(block.column + j + count)] >= 0)
+        ++count;
       if (count > 0) {
         strips_.push_back({.offset = block.offset + static_cast<std::size_t>(j),
                            .row = block.row,
@@ -114,7 +118,8 @@ void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partit
   }
 }
 
-void DependentSolver::add_independent_product(std::span<const double> x_independent, Eigen::VectorXd& r) const {
+void DependentSolver::add_independent_product(std::span<const double> x_independent,
+                                              Eigen::VectorXd& r) const {
   for (const Strip& strip : strips_) {
     const double* value = values_ + strip.offset;
     const double* x = x_independent.data() + strip.first;

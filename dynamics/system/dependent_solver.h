@@ -21,7 +21,8 @@ class DependentSolver {
   DependentSolver() = default;
   DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
 
-  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing but where pivots are chosen, see SparseLu.
+  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing but where pivots are chosen, see
+  /// SparseLu.
   void factorise(const BlockJacobian& jacobian);
   /// r += φ_i x_i, at the present values of the Jacobian that was factorised last.
   /// @param x_independent  in the order of Partition::independent   @param r  num_constraints
@@ -36,8 +37,9 @@ class DependentSolver {
   void set_reference();
   /// Largest factor by which the determinant of a block has fallen since `set_reference`.
   double decay() const;
-  /// Whether the determinant of a block has changed sign since `set_reference`. It cannot while the motion is followed:
-  /// a mechanism goes through det φ_d = 0 only where its independents turn round, and there another partition is due.
+  /// Whether the determinant of a block has changed sign since `set_reference`. It cannot while the motion is
+  /// followed: a mechanism goes through det φ_d = 0 only where its independents turn round, and there another
+  /// partition is due.
   bool is_mirrored() const;
   int num_factor_entries() const;
   int num_blocks() const { return static_cast<int>(singles_.size() + blocks_.size()); }
@@ -87,8 +89,8 @@ class DependentSolver {
   std::vector<Single> singles_;
   std::vector<Coupling> outside_of_singles_;
   std::vector<DiagonalBlock> blocks_;
-  bool is_regular_ = true;  // its pattern
-  const double* values_ = nullptr;  // of the Jacobian that was factorised
+  bool is_regular_ = true;            // its pattern
+  const double* values_ = nullptr;    // of the Jacobian that was factorised
   std::vector<double> entries_;       // of one block
   mutable std::vector<double> work_;  // of the largest block
 };

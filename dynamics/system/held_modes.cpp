@@ -54,7 +54,8 @@ Body hold(const Body& full, const Split& split) {
   body.mass = full.mass;
   body.first_moment = full.first_moment + full.P(Eigen::all, held) * eta;
   const Eigen::MatrixXd M_tt_held = full.M_tt(Eigen::all, held);
-  body.second_moment = full.second_moment + 2.0 * full.d(held).dot(eta) + eta.dot(full.M_tt(held, held) * eta);
+  body.second_moment =
+      full.second_moment + 2.0 * full.d(held).dot(eta) + eta.dot(full.M_tt(held, held) * eta);
   body.P = full.P(Eigen::all, active);
   body.c = full.c(active) + eta.transpose() * full.B(held, active);
   body.d = full.d(active) + eta.transpose() * full.M_tt(held, active);
@@ -109,13 +110,16 @@ HeldModes match_modes(const Model& model, const Model& full) {
       if (found == body.mode_numbers.end() || *found != number) {
         throw std::invalid_argument(fmt::format("match_modes: '{}' has no mode {}", body.name, number));
       }
-      result.coordinates.push_back(body.first_coordinate + 3 + static_cast<int>(found - body.mode_numbers.begin()));
+      result.coordinates.push_back(body.first_coordinate + 3 +
+                                   static_cast<int>(found - body.mode_numbers.begin()));
     }
   }
   return result;
 }
 
-Eigen::VectorXd select_active(const HeldModes& held, const Eigen::VectorXd& full) { return full(held.coordinates); }
+Eigen::VectorXd select_active(const HeldModes& held, const Eigen::VectorXd& full) {
+  return full(held.coordinates);
+}
 
 void put_active(const HeldModes& held, const Eigen::VectorXd& active, Eigen::VectorXd& full) {
   for (std::size_t i = 0; i < held.coordinates.size(); ++i) {

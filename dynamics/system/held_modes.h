@@ -7,8 +7,9 @@
 
 namespace sprung::dynamics {
 
-/// A model in which some modal coordinates of another stand still at a value of their own: their bodies keep that
-/// deformation, with the inertia that belongs to it, and have the remaining modes (dynamics/README.md, eq. 71).
+/// A model in which some modal coordinates of another stand still at a value of their own: their bodies keep
+/// that deformation, with the inertia that belongs to it, and have the remaining modes (dynamics/README.md,
+/// eq. 71).
 struct HeldModes {
   Model model;                   ///< same markers, joints, forces and constraints
   std::vector<int> coordinates;  ///< of `model`: their place in the other model's, ascending
@@ -17,10 +18,12 @@ struct HeldModes {
 /// @param full       has no held modes itself
 /// @param is_active  for each coordinate of `full`; all but modal ones are active whatever it says
 /// @param q          coordinates of `full`; what is held keeps its value there
-/// @throws std::invalid_argument where held and active modes of a body are coupled by stiffness: that would be a force
+/// @throws std::invalid_argument where held and active modes of a body are coupled by stiffness: that would
+/// be a force
 HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, const Eigen::VectorXd& q);
 
-/// A model beside a fuller one of the same vehicle, of whose modes it lacks some: only the places of its coordinates.
+/// A model beside a fuller one of the same vehicle, of whose modes it lacks some: only the places of its
+/// coordinates.
 /// @throws std::invalid_argument for a mode that `full` does not have
 HeldModes match_modes(const Model& model, const Model& full);
 

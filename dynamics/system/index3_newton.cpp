@@ -196,8 +196,10 @@ void Index3Newton::solve(const Eigen::VectorXd& r, const Eigen::VectorXd& phi, E
                          Eigen::VectorXd& delta_lambda) {
   unknowns_.head(num_coordinates_) = -r.cwiseProduct(coordinate_scale_);
   unknowns_.tail(num_constraints_) = -phi.cwiseProduct(constraint_scale_);
-  if (is_dense_) solution_ = dense_factor_.solve(unknowns_);
-  else solution_ = sparse_factor_.solve(unknowns_);
+  if (is_dense_)
+    solution_ = dense_factor_.solve(unknowns_);
+  else
+    solution_ = sparse_factor_.solve(unknowns_);
   delta = solution_.head(num_coordinates_).cwiseProduct(coordinate_scale_);
   delta_lambda = solution_.tail(num_constraints_).cwiseProduct(constraint_scale_);
 }

@@ -36,7 +36,8 @@ void collect_time_functions(Model& model) {
   }
   for (const auto& force : model.forces) add(force->time_functions());
   std::sort(model.time_breaks.begin(), model.time_breaks.end());
-  model.time_breaks.erase(std::unique(model.time_breaks.begin(), model.time_breaks.end()), model.time_breaks.end());
+  model.time_breaks.erase(std::unique(model.time_breaks.begin(), model.time_breaks.end()),
+                          model.time_breaks.end());
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ double Model::calc_rounding(const Eigen::VectorXd& q) const {
 }
 
 int Model::find_body(const std::string& name) const {
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.name == name; });
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const Body& body) { return body.name == name; });
   return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
 }
 

@@ -13,13 +13,14 @@
 
 namespace sprung::dynamics {
 
-/// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes another
-/// model with the same joints and forces, as `hold_modes` does.
+/// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes
+/// another model with the same joints and forces, as `hold_modes` does.
 struct Model {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   std::vector<std::shared_ptr<const Joint>> joints;
-  std::vector<std::shared_ptr<const ForceElement>> forces;  ///< shared with models that differ in their active modes
+  std::vector<std::shared_ptr<const ForceElement>>
+      forces;  ///< shared with models that differ in their active modes
   Eigen::Vector2d gravity = Eigen::Vector2d::Zero();  ///< [m/s²]
 
   int num_coordinates = 0;
@@ -36,19 +37,19 @@ struct Model {
   int num_freedoms() const { return num_coordinates - num_constraints; }
   /// "chassis.x", "chassis.angle", "chassis.mode 3"
   std::string coordinate_name(int coordinate) const;
-  /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what moves
-  /// some node by length_scale.
+  /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what
+  /// moves some node by length_scale.
   double coordinate_scale(int coordinate) const;
-  /// What the rounding of coordinates leaves of joints that are closed as well as can be: of bodies far from the
-  /// origin, or turned many times, more than nothing [m, rad].
+  /// What the rounding of coordinates leaves of joints that are closed as well as can be: of bodies far from
+  /// the origin, or turned many times, more than nothing [m, rad].
   /// @param q  num_coordinates
   double calc_rounding(const Eigen::VectorXd& q) const;
   int find_body(const std::string& name) const;    ///< -1 if there is none
   int find_marker(const std::string& name) const;  ///< -1 if there is none
 };
 
-/// Numbers coordinates, constraints and branches, and measures the model. Call once bodies, markers, joints and
-/// forces are complete.
+/// Numbers coordinates, constraints and branches, and measures the model. Call once bodies, markers, joints
+/// and forces are complete.
 void number_model(Model& model);
 
 /// Positions and velocities of the whole system, with the branches of its force elements.

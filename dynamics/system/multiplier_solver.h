@@ -53,8 +53,8 @@ class MultiplierSolver {
   std::vector<Member> members_;
   std::vector<Product> products_;
   std::vector<Eigen::Vector2d> U_, V_;
-  std::vector<double> no_row_;       // zeros, the second row of a node that has one
-  std::vector<int> lone_;            // diagonal blocks of nodes with one constraint
+  std::vector<double> no_row_;                    // zeros, the second row of a node that has one
+  std::vector<int> lone_;                         // diagonal blocks of nodes with one constraint
   std::vector<std::pair<int, int>> constraints_;  // of each node in work_; −1: no second one
   BlockCholesky factor_;
   mutable std::vector<Eigen::Vector2d> work_;

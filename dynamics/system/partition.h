@@ -13,14 +13,14 @@ struct Partition {
   std::vector<int> dependent;    ///< ascending, num_constraints
 };
 
-/// Chooses the partition by pivoting φ_q with its columns scaled by 1/√M_ii, so that light bodies follow heavy ones
-/// and the largest pivots are taken (dynamics/README.md, eq. 14).
+/// Chooses the partition by pivoting φ_q with its columns scaled by 1/√M_ii, so that light bodies follow
+/// heavy ones and the largest pivots are taken (dynamics/README.md, eq. 14).
 /// @param terms  positions, Jacobian and mass up to date; φ_q of full row rank
 /// Source: [Wehage & Haug 1982]
 Partition choose_partition(const SystemTerms& terms);
 
-/// Constraints that follow from others, and joints that cannot be satisfied together, are found at assembly; this is
-/// the test both use: rows of φ_q whose scaled pivots vanish.
+/// Constraints that follow from others, and joints that cannot be satisfied together, are found at assembly;
+/// this is the test both use: rows of φ_q whose scaled pivots vanish.
 /// @return indices of constraints that take part in a linear dependence, empty where φ_q has full row rank
 std::vector<int> find_dependent_constraints(const SystemTerms& terms);
 

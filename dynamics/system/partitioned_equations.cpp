@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kAssemblyTolerance = 1e-12;  // of the model's length scale
 constexpr double kAim = 0.01;  // of the tolerance: what is left would else be noise to a fine integration
-// Of the length scale, (kAim kAssemblyTolerance)^(3/5): after a step d the first residual r is of order d³ and falls by
-// the share d = r^(1/3), so that r d² is left after two iterations.
+// Of the length scale, (kAim kAssemblyTolerance)^(3/5): after a step d the first residual r is of order d³
+// and falls by the share d = r^(1/3), so that r d² is left after two iterations.
 constexpr double kLargeFirst = 4e-9;
 constexpr int kMaxNewtonIterations = 12;
 constexpr int kIterationsToRounding = 3;  // after which coordinates are as good as their rounding allows
@@ -71,8 +71,8 @@ void PartitionedEquations::refactor() {
   dependents_.factorise(terms().jacobian());
 }
 
-// Newton for the dependents. The factors of φ_d are from the last positions: renewing them costs about as much as an
-// iteration, and is done where more than two would be needed without.
+// Newton for the dependents. The factors of φ_d are from the last positions: renewing them costs about as
+// much as an iteration, and is done where more than two would be needed without.
 bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = 0.0;
@@ -98,8 +98,8 @@ bool PartitionedEquations::solve_dependents(double time) {
 
 PartitionedEquations::Outcome PartitionedEquations::update_positions(double time,
                                                                      std::span<const double> q_independent) {
-  // The dependents go along with the independents by the last factors, and with the last accelerations where those
-  // are known: with both, to second order in time. Then Newton closes the joints.
+  // The dependents go along with the independents by the last factors, and with the last accelerations where
+  // those are known: with both, to second order in time. Then Newton closes the joints.
   const double since = time - terms().instant().time;
   const double bend = has_accelerations_ ? 0.5 * since * since : 0.0;
   has_accelerations_ = false;
@@ -135,7 +135,8 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
 }
 
 void PartitionedEquations::update_velocities(std::span<const double> v_independent) {
-  for (std::size_t k = 0; k < partition_.independent.size(); ++k) v_[partition_.independent[k]] = v_independent[k];
+  for (std::size_t k = 0; k < partition_.independent.size(); ++k)
+    v_[partition_.independent[k]] = v_independent[k];
   if (num_constraints_ > 0) {
     terms().calc_time_rate(residual_);
     dependents_.add_independent_product(v_independent, residual_);

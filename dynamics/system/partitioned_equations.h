@@ -11,32 +11,33 @@
 
 namespace sprung::dynamics {
 
-/// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i and v_i,
-/// finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost grows with the
-/// number of joints and, for each body, with its modes; no allocation in the evaluating functions, but where pivots of
-/// φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
+/// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i
+/// and v_i, finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost
+/// grows with the number of joints and, for each body, with its modes; no allocation in the evaluating
+/// functions, but where pivots of φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
   enum class Outcome {
     kGood,
-    kNotAssembled,  ///< the dependent coordinates did not converge, or to another way of assembling the mechanism:
-                    ///< too far a step, or near a singular position
-    kNotFinite,     ///< NaN or infinity came out
+    kNotAssembled,  ///< the dependent coordinates did not converge, or to another way of assembling the
+                    ///< mechanism: too far a step, or near a singular position
+    kNotFinite,  ///< NaN or infinity came out
   };
 
   explicit PartitionedEquations(const Model& model);
 
-  /// Chooses the partition at q, which must satisfy the constraints closely; positions q become the start of the
-  /// next search for dependents.
+  /// Chooses the partition at q, which must satisfy the constraints closely; positions q become the start of
+  /// the next search for dependents.
   void choose_partition_at(double time, const Eigen::VectorXd& q);
   const Partition& partition() const { return partition_; }
   /// Marks a motion as one that has really been come to.
   void mark(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  /// The next search for dependents starts at the marked positions, and not where a trial too far away has ended.
+  /// The next search for dependents starts at the marked positions, and not where a trial too far away has
+  /// ended.
   void return_to_mark();
-  /// Whether a dependent angle has turned by half a turn more or less since the mark than its velocities then and now
-  /// tell: Newton may find the mechanism assembled, but full turns off. After update_velocities.
+  /// Whether a dependent angle has turned by half a turn more or less since the mark than its velocities then
+  /// and now tell: Newton may find the mechanism assembled, but full turns off. After update_velocities.
   bool has_lost_turns(double time) const;
   int num_freedoms() const { return num_freedoms_; }
 
@@ -52,7 +53,8 @@ class PartitionedEquations {
     return full_.change_branches(f, from, to);
   }
 
-  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (dynamics/README.md, eq. 29).
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (dynamics/README.md, eq.
+  /// 29).
   double calc_motion_power() { return full_.calc_motion_power(); }
 
   /// Brings the markers that only results ask for up to date as well.

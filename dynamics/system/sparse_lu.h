@@ -36,7 +36,7 @@ class SparseLu {
   struct Step {
     int first;  // of its entries in factors_
     int num_upper, num_lower;
-    int row, column;  // in A
+    int row, column;         // in A
     int end_of_forward = 0;  // of its row of L in forward_
   };
   // What the rows of L take in solving: an entry, times the result of an earlier step.

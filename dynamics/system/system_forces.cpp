@@ -3,7 +3,8 @@
 
 namespace sprung::dynamics {
 
-void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench, Eigen::VectorXd& forces) const {
+void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench,
+                             Eigen::VectorXd& forces) const {
   const MarkerState& state = markers_[moving.marker];
   double* Q = forces.data() + moving.first_coordinate;
   const MarkerRow row{wrench.force.x(), wrench.force.y(), wrench.torque};
@@ -22,9 +23,11 @@ void SystemTerms::update_forces(std::span<const int> branches) {
   const Instant now = instant();
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
-    const Power power = force.add_wrenches(
-        now, branches.subspan(static_cast<std::size_t>(model_->force_branches[f]), static_cast<std::size_t>(force.num_branches())),
-        wrenches_);
+    const Power power =
+        force.add_wrenches(now,
+                           branches.subspan(static_cast<std::size_t>(model_->force_branches[f]),
+                                            static_cast<std::size_t>(force.num_branches())),
+                           wrenches_);
     power_.dissipated += power.dissipated;
     power_.input += power.input;
   }

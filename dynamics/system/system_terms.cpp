@@ -121,7 +121,8 @@ void SystemTerms::add_joint(std::size_t index) {
                    .drifts = !is_constant || !joint.time_functions().empty(),
                    .a = {static_cast<std::size_t>(joint.marker_a), {}, -1},
                    .b = {static_cast<std::size_t>(joint.marker_b), {}, -1}};
-  if (is_constant) joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
+  if (is_constant)
+    joint.calc_jacobian(markers_[terms.a.marker], markers_[terms.b.marker], terms.a.G, terms.b.G);
   add_block(terms, terms.a);
   add_block(terms, terms.b);
   if (is_constant)
@@ -232,9 +233,9 @@ void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
     const MarkerState& a = markers_[terms.a.marker];
     const MarkerState& b = markers_[terms.b.marker];
     for (int k = 0; k < terms.num_rows; ++k) {
-      gamma[terms.row + k] = -(terms.a.G(k, 0) * a.a_bias.x() + terms.a.G(k, 1) * a.a_bias.y() +
-                               terms.a.G(k, 2) * a.alpha_bias + terms.b.G(k, 0) * b.a_bias.x() +
-                               terms.b.G(k, 1) * b.a_bias.y() + terms.b.G(k, 2) * b.alpha_bias);
+      gamma[terms.row + k] =
+          -(terms.a.G(k, 0) * a.a_bias.x() + terms.a.G(k, 1) * a.a_bias.y() + terms.a.G(k, 2) * a.alpha_bias +
+            terms.b.G(k, 0) * b.a_bias.x() + terms.b.G(k, 1) * b.a_bias.y() + terms.b.G(k, 2) * b.alpha_bias);
     }
     if (!terms.drifts) continue;
     terms.joint->calc_drift(a, b, time_, drift);

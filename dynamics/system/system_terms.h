@@ -11,9 +11,9 @@
 
 namespace sprung::dynamics {
 
-/// The terms of the constrained equations M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at one state, in preallocated storage: the
-/// workspace beside the immutable model. Call the functions in the order they stand in; each needs those before it.
-/// nq coordinates, m constraints.
+/// The terms of the constrained equations M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at one state, in preallocated storage:
+/// the workspace beside the immutable model. Call the functions in the order they stand in; each needs those
+/// before it. nq coordinates, m constraints.
 class SystemTerms {
  public:
   /// Which markers are kept up to date.
@@ -31,7 +31,7 @@ class SystemTerms {
   void place_others();
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
   void update_jacobian();
-  const BlockJacobian& jacobian() const { return Phi_q_; }  ///< φ_q, m×nq
+  const BlockJacobian& jacobian() const { return Phi_q_; }       ///< φ_q, m×nq
   void calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const;  ///< m
 
   void update_mass();
@@ -47,7 +47,8 @@ class SystemTerms {
   void update_forces(std::span<const int> branches);
   /// Takes force element f from some of its branches to others, after `update_forces` with those.
   /// @param[out] change  of forces(), nq   @return the change of power()
-  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to, Eigen::VectorXd& change);
+  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to,
+                        Eigen::VectorXd& change);
   const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
   const Power& power() const { return power_; }
   /// What force elements, and joints under multipliers λ, do to each marker; after `update_jacobian` and
@@ -91,8 +92,8 @@ class SystemTerms {
     bool is_constant, drifts;  // its Jacobian; whether φ̈ has terms without accelerations
     JointSide a, b;
   };
-  // Where a joint's Jacobian by its markers is constant, all that changes in its row on a body: by the angle and the
-  // modes.
+  // Where a joint's Jacobian by its markers is constant, all that changes in its row on a body: by the angle
+  // and the modes.
   struct TurningRow {
     std::size_t value;  // the first of them in φ_q
     std::size_t marker;

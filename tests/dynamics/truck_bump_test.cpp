@@ -61,7 +61,8 @@ TEST_CASE("The truck with 4 chassis modes over the bump", "[truck]") {
 
 TEST_CASE("Three integrators take the truck over the bump alike", "[truck]") {
   for (const int num_modes : {0, 4}) {
-    const test::BumpResult exponential = test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
+    const test::BumpResult exponential =
+        test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
     for (const auto method : {dynamics::Integrator::Method::kAdams, dynamics::Integrator::Method::kBdf}) {
       const test::BumpResult other =
           test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0, .method = method});
@@ -73,7 +74,8 @@ TEST_CASE("Three integrators take the truck over the bump alike", "[truck]") {
 
 TEST_CASE("Generalized-α without a partition takes the truck over the bump alike", "[truck]") {
   for (const int num_modes : {2, 4}) {
-    const test::BumpResult exponential = test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
+    const test::BumpResult exponential =
+        test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
     double last = 1.0;
     for (const double tolerance : {1e-4, 1e-6}) {
       const test::BumpResult other =
@@ -94,7 +96,8 @@ TEST_CASE("Generalized-α without a partition takes the truck over the bump alik
 
 TEST_CASE("Stiff modes cost few evaluations more: steps follow what excites them", "[truck]") {
   const auto evaluations = [](int num_modes) {
-    const test::BumpResult run = test::drive_over_bump({.num_chassis_modes = num_modes, .relative_tolerance = 1e-3});
+    const test::BumpResult run =
+        test::drive_over_bump({.num_chassis_modes = num_modes, .relative_tolerance = 1e-3});
     return static_cast<double>(run.statistics.stepper.evaluations);
   };
   const double rigid = evaluations(0);

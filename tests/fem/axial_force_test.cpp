@@ -25,7 +25,8 @@ Eigen::VectorXd solve_held(const BeamModel& model, const Eigen::VectorXd& load) 
 }  // namespace
 
 TEST_CASE("The inertia load of a frame is minus its mass times the acceleration of its nodes") {
-  // Positions are linear along elements, so that consistent mass has the accelerations of a rigid body exactly.
+  // Positions are linear along elements, so that consistent mass has the accelerations of a rigid body
+  // exactly.
   const BeamModel model = test::make_general_frame();
   const Eigen::Vector2d origin(0.94, 1.37);
   const FrameAcceleration acceleration{.linear = {1.7, -2.3}, .angular = 0.9, .omega_squared = 3.1};
@@ -40,13 +41,12 @@ TEST_CASE("The inertia load of a frame is minus its mass times the acceleration 
 }
 
 TEST_CASE("A clamped beam that turns about its root and falls has the force of what is beyond") {
-  // By hand: N(s) = ρA [ω² (L² − s²)/2 − a_t (L − s)] + m [ω² L − a_t] with a point mass m at the end, whatever the
-  // number of elements; across the axis nothing.
+  // By hand: N(s) = ρA [ω² (L² − s²)/2 − a_t (L − s)] + m [ω² L − a_t] with a point mass m at the end,
+  // whatever the number of elements; across the axis nothing.
   const BeamProperties properties = test::make_thick_properties();
   const Eigen::Vector2d root(0.3, -0.2), end(1.9, 1.0), axis(0.8, 0.6);
   const double L = 2.0, m = 7.3, omega_squared = 5.0;
-  const FrameAcceleration acceleration{
-      .linear = {-1.1, 2.9}, .angular = 4.0, .omega_squared = omega_squared};
+  const FrameAcceleration acceleration{.linear = {-1.1, 2.9}, .angular = 4.0, .omega_squared = omega_squared};
   const double along = axis.dot(acceleration.linear);
   for (const int num_elements : {1, 3}) {
     BeamModel model = test::make_straight_beam(root, end, num_elements, properties);
@@ -57,9 +57,9 @@ TEST_CASE("A clamped beam that turns about its root and falls has the force of w
     for (int e = 0; e < num_elements; ++e) {
       for (const double xi : {0.0, 0.3, 1.0}) {
         const double s = L * (e + xi) / num_elements;
-        const double expected = properties.mass_per_length *
-                                    (omega_squared * (L * L - s * s) / 2.0 - along * (L - s)) +
-                                m * (omega_squared * L - along);
+        const double expected =
+            properties.mass_per_length * (omega_squared * (L * L - s * s) / 2.0 - along * (L - s)) +
+            m * (omega_squared * L - along);
         CHECK(forces[static_cast<std::size_t>(e)].at(xi) == Approx(expected).epsilon(kSolution));
       }
     }
@@ -67,8 +67,8 @@ TEST_CASE("A clamped beam that turns about its root and falls has the force of w
 }
 
 TEST_CASE("Axial forces of a bent frame under loads at its end, by hand") {
-  // An arm along x carries one along y: a force (F, G) at the end is the second's (shear, tension) and the first's
-  // (tension, shear).
+  // An arm along x carries one along y: a force (F, G) at the end is the second's (shear, tension) and the
+  // first's (tension, shear).
   BeamModel model = test::make_straight_beam({0.0, 0.0}, {1.3, 0.0}, 1, test::make_thin_properties());
   model.mesh.node_ids.push_back(3);
   model.mesh.node_positions.conservativeResize(2, 3);

@@ -55,9 +55,9 @@ TEST_CASE("Geometric stiffness under a constant force is the closed form of the 
   const double N = 731.0, L = kLength;
   Matrix6 expected = Matrix6::Zero();
   Eigen::Matrix4d bending;
-  bending << 36, 3 * L, -36, 3 * L,             //
-      3 * L, 4 * L * L, -3 * L, -L * L,         //
-      -36, -3 * L, 36, -3 * L,                  //
+  bending << 36, 3 * L, -36, 3 * L,      //
+      3 * L, 4 * L * L, -3 * L, -L * L,  //
+      -36, -3 * L, 36, -3 * L,           //
       3 * L, -L * L, -3 * L, 4 * L * L;
   const std::vector<int> dofs{1, 2, 4, 5};
   expected(dofs, dofs) = N / (30.0 * L) * bending;

@@ -1,5 +1,5 @@
-// Geometric stiffness under reference loads against inextensible kinematics: what a load's stiffness times −½ is must
-// be the displacement, in the load's direction, that bending without stretching makes.
+// Geometric stiffness under reference loads against inextensible kinematics: what a load's stiffness times −½
+// is must be the displacement, in the load's direction, that bending without stretching makes.
 #include "reduce/reference_stiffness.h"
 
 #include <Eigen/Cholesky>
@@ -21,12 +21,13 @@ fem::BeamModel make_bent_arm() {
   testing::add_line(model, {0.3, -0.2}, {1.5, 0.4}, 3, 0);
   testing::add_line(model, {1.5, 0.4}, {1.1, 1.7}, 2, 1);
   model.point_masses = {{.node = 5, .mass = 2.3, .inertia = 0.1}};
-  model.mesh.named_nodes = {{.name = "foot", .node = 0}, {.name = "knee", .node = 3}, {.name = "tip", .node = 5}};
+  model.mesh.named_nodes = {
+      {.name = "foot", .node = 0}, {.name = "knee", .node = 3}, {.name = "tip", .node = 5}};
   return model;
 }
 
-// Displacement of second order of a beam that bends without stretching: −½∫w'² ds along each element, from the held
-// end on, summed over small pieces; and its moments over the mass.
+// Displacement of second order of a beam that bends without stretching: −½∫w'² ds along each element, from
+// the held end on, summed over small pieces; and its moments over the mass.
 struct Shortening {
   Eigen::Vector2d at_knee = Eigen::Vector2d::Zero(), at_tip = Eigen::Vector2d::Zero();
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  // ∫u dm
@@ -74,7 +75,8 @@ Shortening calc_shortening(const fem::BeamModel& model, const Eigen::VectorXd& s
 }
 
 Superelement make_arm_superelement(int num_modes) {
-  return make_superelement(testing::make_design(make_bent_arm(), {0.3, -0.2}, {.wanted = ModeCount{num_modes}}));
+  return make_superelement(
+      testing::make_design(make_bent_arm(), {0.3, -0.2}, {.wanted = ModeCount{num_modes}}));
 }
 
 }  // namespace
@@ -106,9 +108,10 @@ TEST_CASE("a moment on an open frame strains no axis, and a load on the held nod
 
 TEST_CASE("a moment on a closed frame strains its axes") {
   fem::BeamModel model = testing::make_spoked_square(0.3);
-  model.mesh.named_nodes = {{.name = "corner", .node = testing::find_node_at(
-                                                   model, 0.5 * Eigen::Vector2d(std::cos(0.3) + std::sin(0.3),
-                                                                                std::sin(0.3) - std::cos(0.3)))}};
+  model.mesh.named_nodes = {
+      {.name = "corner",
+       .node = testing::find_node_at(
+           model, 0.5 * Eigen::Vector2d(std::cos(0.3) + std::sin(0.3), std::sin(0.3) - std::cos(0.3)))}};
   REQUIRE(model.mesh.named_nodes[0].node >= 0);
   const Superelement s = make_superelement(testing::make_design(model, {0.0, 0.0}, {.wanted = AllModes{}}));
   const auto& loads = s.geometric_stiffness->point_loads[0];
@@ -118,8 +121,7 @@ TEST_CASE("a moment on a closed frame strains its axes") {
 TEST_CASE("reference stiffness does not depend on the number or direction of a straight arm's elements") {
   // The same shape, a cubic, is in the modes of any mesh: compared by its tip's shortening under a tip force.
   const auto shorten = [](const fem::BeamModel& model) {
-    const Superelement s =
-        make_superelement(testing::make_design(model, {0.0, 0.0}, {.wanted = AllModes{}}));
+    const Superelement s = make_superelement(testing::make_design(model, {0.0, 0.0}, {.wanted = AllModes{}}));
     const int tip = find_point(s, "tip");
     // Modal coordinates of the static deflection under a unit force across at the tip.
     const Eigen::Vector2d across(-0.6, 0.8);

@@ -36,7 +36,8 @@ fem::BeamModel renumber(const fem::BeamModel& model, std::uint64_t seed);
 /// A design that holds a model at a place. Damping 2 %.
 Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference, const ModeRequest& modes);
 
-/// Two unlike arms with shear and rotary inertia, seven modes, two named points, a mesh file in its provenance.
+/// Two unlike arms with shear and rotary inertia, seven modes, two named points, a mesh file in its
+/// provenance.
 Superelement make_two_armed_body();
 
 /// A file's bytes; empty if there is none.

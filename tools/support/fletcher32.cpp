@@ -9,10 +9,11 @@ namespace sprung::support {
 
 namespace {
 
-constexpr std::size_t kWords = sizeof(double) / sizeof(std::uint16_t);  // of a value, each with sums of its own
-constexpr std::size_t kMostRows = 256;                                  // of values, whose sums fit in 32 bits
+constexpr std::size_t kWords =
+    sizeof(double) / sizeof(std::uint16_t);  // of a value, each with sums of its own
+constexpr std::size_t kMostRows = 256;       // of values, whose sums fit in 32 bits
 constexpr std::uint64_t kHalf = 0xffff'ffff;
-constexpr std::uint64_t kEven = 0x0000'ffff'0000'ffff;                  // words 0 and 2, each with room for its sums
+constexpr std::uint64_t kEven = 0x0000'ffff'0000'ffff;  // words 0 and 2, each with room for its sums
 
 // x mod 65535, which stands for zero only if x is zero.
 std::uint32_t reduce(std::uint64_t x) {
@@ -35,7 +36,8 @@ std::uint32_t calc_fletcher32(std::span<const double> values) {
       odd_twice += odd;
     }
     const std::array<std::uint64_t, kWords> once{even & kHalf, odd & kHalf, even >> 32U, odd >> 32U};
-    const std::array<std::uint64_t, kWords> twice{even_twice & kHalf, odd_twice & kHalf, even_twice >> 32U, odd_twice >> 32U};
+    const std::array<std::uint64_t, kWords> twice{even_twice & kHalf, odd_twice & kHalf, even_twice >> 32U,
+                                                  odd_twice >> 32U};
     weighted += rows * kWords * sum;
     for (std::size_t k = 0; k < kWords; ++k) {
       sum += once[k];

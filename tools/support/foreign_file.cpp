@@ -21,7 +21,8 @@ bool has_hdf5_signature(const std::filesystem::path& path) {
 
 bool is_foreign_file(const std::filesystem::path& path, std::string_view format) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) == 0) return false;
+  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) == 0)
+    return false;
   if (!has_hdf5_signature(path)) return true;
   try {
     const Hdf5Reader file(path);

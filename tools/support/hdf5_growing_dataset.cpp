@@ -64,7 +64,8 @@ void Hdf5GrowingDataset::append_row(const double* values) {
 
 void Hdf5GrowingDataset::write_pending() {
   if (filled_ == 0) return;
-  std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(), 0.0);  // rows of the chunk before
+  std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(),
+            0.0);  // rows of the chunk before
   write_chunk();
 }
 
@@ -78,8 +79,8 @@ void Hdf5GrowingDataset::write_chunk() {
   const std::uint32_t checksum = calc_fletcher32(std::span(chunk_).first(size));
   std::memcpy(chunk_.data() + size, &checksum, sizeof checksum);
   hdf5::check(H5Dset_extent(dataset_.get(), shape.data()), what);
-  hdf5::check(H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, start.data(), size * sizeof(double) + sizeof checksum,
-                             chunk_.data()),
+  hdf5::check(H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, start.data(),
+                             size * sizeof(double) + sizeof checksum, chunk_.data()),
               what);
 }
 

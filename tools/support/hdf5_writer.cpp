@@ -76,7 +76,9 @@ void write_scalar_attribute(hid_t object, const std::string& name, hid_t file_ty
 }
 
 // The same path for each way of writing it.
-std::string from_root(const std::string& path) { return path.starts_with('/') ? path.substr(1) : path; }
+std::string from_root(const std::string& path) {
+  return path.starts_with('/') ? path.substr(1) : path;
+}
 
 void reject_nul(std::string_view text, const std::string& place) {
   if (text.find('\0') != std::string_view::npos) {
@@ -112,7 +114,9 @@ void Hdf5Writer::attempt(Function&& function) {
   }
 }
 
-bool Hdf5Writer::has(const std::string& path) const { return objects_.contains(from_root(path)); }
+bool Hdf5Writer::has(const std::string& path) const {
+  return objects_.contains(from_root(path));
+}
 
 // Makes each group on the path that is not there.
 void Hdf5Writer::make_groups(const std::string& path) {
@@ -122,7 +126,8 @@ void Hdf5Writer::make_groups(const std::string& path) {
     if (!has(prefix)) {
       const std::string what = fmt::format("group '{}' cannot be made", prefix);
       const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
-      hdf5::own(H5Gcreate2(file_.get(), prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose, what);
+      hdf5::own(H5Gcreate2(file_.get(), prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
+                what);
       objects_.insert(from_root(prefix));
     }
     if (end == std::string::npos) return;
@@ -238,7 +243,8 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   });
 }
 
-Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns, std::string_view unit) {
+Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns,
+                                             std::string_view unit) {
   attempt([&] {
     prepare_dataset(dataset);
     growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);

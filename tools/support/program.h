@@ -16,8 +16,8 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Set by SIGINT, SIGTERM and SIGHUP (unless that was ignored from the start, as by nohup) once `run_program` has
-/// started; long work polls it.
+/// Set by SIGINT, SIGTERM and SIGHUP (unless that was ignored from the start, as by nohup) once `run_program`
+/// has started; long work polls it.
 bool interrupt_requested();
 
 /// Runs a program's body: installs the signal handlers, turns exceptions into one message on stderr and an

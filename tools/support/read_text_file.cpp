@@ -13,7 +13,8 @@ namespace sprung::support {
 
 std::string read_text_file(const std::filesystem::path& path) {
   const auto fail = [&path](int reason) {
-    return InputError({.path = path.empty() ? "''" : path.string()}, fmt::format("cannot be read: {}", std::strerror(reason)));
+    return InputError({.path = path.empty() ? "''" : path.string()},
+                      fmt::format("cannot be read: {}", std::strerror(reason)));
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw fail(EISDIR);

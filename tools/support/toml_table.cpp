@@ -44,11 +44,13 @@ TomlValue TomlTable::at(std::string_view key) const {
   // A required key that was misspelt is there under another name.
   std::vector<std::string> unasked;
   for (const auto& [name, node] : table_->entries) {
-    if (std::find(table_->asked.begin(), table_->asked.end(), name) == table_->asked.end()) unasked.push_back(name);
+    if (std::find(table_->asked.begin(), table_->asked.end(), name) == table_->asked.end())
+      unasked.push_back(name);
   }
   const std::string misspelt = key.size() > 3 ? find_nearest_name(key, unasked) : "";
-  throw InputError(location(), fmt::format("missing key '{}'{}{}", key, within(node_->key),
-                                           misspelt.empty() ? "" : fmt::format("; is '{}' meant to be it?", misspelt)));
+  throw InputError(location(),
+                   fmt::format("missing key '{}'{}{}", key, within(node_->key),
+                               misspelt.empty() ? "" : fmt::format("; is '{}' meant to be it?", misspelt)));
 }
 
 std::vector<std::pair<std::string, TomlValue>> TomlTable::entries() const {

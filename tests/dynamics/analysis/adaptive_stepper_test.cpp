@@ -1,5 +1,5 @@
-// Modes that join and leave on models small enough to know what each mode does: beams held at their root, where modes of
-// small motion do not feel each other.
+// Modes that join and leave on models small enough to know what each mode does: beams held at their root,
+// where modes of small motion do not feel each other.
 #include "dynamics/analysis/adaptive_stepper.h"
 
 #include <algorithm>
@@ -49,16 +49,19 @@ TEST_CASE("A mode that is excited only late joins then, by its resonance, and in
   CHECK(before == 0);
   REQUIRE(joinings.size() == 1);
   CHECK(joinings[0] < 1.4);
-  // What mode 2 does to the tip's acceleration is more than what mode 1 does: the force alone, without resonance, does a
-  // fiftieth of that, 1/(2ζ).
+  // What mode 2 does to the tip's acceleration is more than what mode 1 does: the force alone, without
+  // resonance, does a fiftieth of that, 1/(2ζ).
   const Run one = drive(model, {.watched = nodes[5], .active = {0}, .changes = false});
-  CHECK(largest_difference(one.tip_acceleration, full.tip_acceleration) > 0.4 * largest(full.tip_acceleration));
-  CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) < kRecall * largest(full.tip_acceleration));
+  CHECK(largest_difference(one.tip_acceleration, full.tip_acceleration) >
+        0.4 * largest(full.tip_acceleration));
+  CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) <
+        kRecall * largest(full.tip_acceleration));
   CHECK(largest_difference(adaptive.tip, full.tip) < kRecall * largest(full.tip));
   CHECK(one.statistics.worst_neglect.share.acceleration > 0.3);
 }
 
-TEST_CASE("A mode that hovers at the threshold joins at most once, and is not missed beyond it", "[adaptivity]") {
+TEST_CASE("A mode that hovers at the threshold joins at most once, and is not missed beyond it",
+          "[adaptivity]") {
   // The second mode is called again and again by forces ever closer to where it just joins.
   double below = 1e-3, above = 6.0;
   for (int i = 0; i < 12; ++i) {
@@ -67,7 +70,8 @@ TEST_CASE("A mode that hovers at the threshold joins at most once, and is not mi
     Model model;
     const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
     push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
-    for (int k = 0; k < 4; ++k) push(model, nodes[2], burst(frequency(2), amplitude, 1.2 + 0.8 * k, 1.8 + 0.8 * k));
+    for (int k = 0; k < 4; ++k)
+      push(model, nodes[2], burst(frequency(2), amplitude, 1.2 + 0.8 * k, 1.8 + 0.8 * k));
     dynamics::number_model(model);
     const Run run = drive(model, {.watched = nodes[5], .active = {0}, .duration = 4.5});
     long joinings = 0, leavings = 0;
@@ -80,12 +84,14 @@ TEST_CASE("A mode that hovers at the threshold joins at most once, and is not mi
     if (i == 1) CHECK(joinings == 1);
     (joinings > 0 ? above : below) = amplitude;
     const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 4.5});
-    CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) < 1.2 * kRecall * largest(full.tip_acceleration));
+    CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) <
+          1.2 * kRecall * largest(full.tip_acceleration));
   }
   CHECK(above < 1.02 * below);
 }
 
-TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does not come back", "[adaptivity]") {
+TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does not come back",
+          "[adaptivity]") {
   double stays = 6.0, leaves = 1e-3;
   for (int i = 0; i < 14; ++i) {
     const double amplitude = i == 0 ? stays : i == 1 ? leaves : std::sqrt(stays * leaves);
@@ -94,7 +100,8 @@ TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does
     const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
     push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
     push(model, nodes[2], burst(frequency(2), amplitude, 0.01, 0.6));
-    for (int k = 0; k < 4; ++k) push(model, nodes[2], burst(frequency(2), amplitude, 0.7 + 0.3 * k, 1.2 + 0.3 * k));
+    for (int k = 0; k < 4; ++k)
+      push(model, nodes[2], burst(frequency(2), amplitude, 0.7 + 0.3 * k, 1.2 + 0.3 * k));
     dynamics::number_model(model);
     const Run run = drive(model, {.watched = nodes[5], .active = {0, 1}, .duration = 2.0});
     CHECK(run.count("beam.mode 2", true) == 0);
@@ -106,7 +113,8 @@ TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does
 }
 
 TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[adaptivity]") {
-  // Right there: a point rigidly offset from a node by o along the beam moves by φ_y + o ψ in a mode, ψ its rotation.
+  // Right there: a point rigidly offset from a node by o along the beam moves by φ_y + o ψ in a mode, ψ its
+  // rotation.
   const reduce::Superelement superelement = make_cantilever().superelement;
   Model model;
   const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, -0.2});
@@ -123,10 +131,12 @@ TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[ada
   CHECK(run.count("beam.mode 3", true) >= 1);
   CHECK(run.count("beam.mode 2", true) == 0);
   const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.0});
-  CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) < kRecall * largest(full.tip_acceleration));
+  CHECK(largest_difference(run.tip_acceleration, full.tip_acceleration) <
+        kRecall * largest(full.tip_acceleration));
 }
 
-TEST_CASE("A load that is there at once sets modes off that join then as if they had been there", "[adaptivity]") {
+TEST_CASE("A load that is there at once sets modes off that join then as if they had been there",
+          "[adaptivity]") {
   Model model;
   const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, 0.0});
   push(model, nodes[5], TimeFunction(1.0));
@@ -152,8 +162,10 @@ TEST_CASE("What an impact sets off joins with its vibration", "[adaptivity]") {
   push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
   model.forces.push_back(std::make_unique<dynamics::PointContactTyre>(
       "stop",
-      dynamics::PointContactTyre::Parameters{
-          .marker = nodes[5], .radius = 0.3, .spring = dynamics::PiecewisePolynomial({0.0, 1.0}), .damping = 20.0},
+      dynamics::PointContactTyre::Parameters{.marker = nodes[5],
+                                             .radius = 0.3,
+                                             .spring = dynamics::PiecewisePolynomial({0.0, 1.0}),
+                                             .damping = 20.0},
       dynamics::PlacedRoad{&ground, 1.0, 0.0}));
   dynamics::number_model(model);
   const Run full = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.2});
@@ -165,7 +177,8 @@ TEST_CASE("What an impact sets off joins with its vibration", "[adaptivity]") {
   CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) < 0.02 * size);
 }
 
-TEST_CASE("Of two like bodies only the one that is excited calls its modes, whichever comes first", "[adaptivity]") {
+TEST_CASE("Of two like bodies only the one that is excited calls its modes, whichever comes first",
+          "[adaptivity]") {
   for (const bool loaded_first : {true, false}) {
     Model model;
     std::vector<int> loaded, idle;
@@ -181,15 +194,21 @@ TEST_CASE("Of two like bodies only the one that is excited calls its modes, whic
 }
 
 TEST_CASE("What leaving modes take with them is told and booked", "[adaptivity]") {
-  // Two beams that ring down a little out of step, so that one is at rest where the other is not, and leave together at
-  // a threshold so high that what is lost can be seen.
+  // Two beams that ring down a little out of step, so that one is at rest where the other is not, and leave
+  // together at a threshold so high that what is lost can be seen.
   Model model;
   const std::vector<int> nodes = add_cantilever(model, "first", {0.0, 0.0});
   const std::vector<int> others = add_cantilever(model, "second", {0.0, 2.0});
   push(model, nodes[5], burst(frequency(1), 50.0, 0.01, 0.8));
   push(model, others[5], burst(frequency(1), 49.0, 0.02, 0.81));
   dynamics::number_model(model);
-  const Run run = drive(model, {.watched = nodes[5], .active = kAll, .duration = 1.0, .recall = 0.9, .drop = 0.08, .tolerance = 1e-9, .may_leave = true});
+  const Run run = drive(model, {.watched = nodes[5],
+                                .active = kAll,
+                                .duration = 1.0,
+                                .recall = 0.9,
+                                .drop = 0.08,
+                                .tolerance = 1e-9,
+                                .may_leave = true});
   double lost = 0.0, time = -1.0;
   for (const Change& change : run.changes) {
     if (change.joins || change.time == time) continue;  // one number for all that leave together
@@ -201,7 +220,8 @@ TEST_CASE("What leaving modes take with them is told and booked", "[adaptivity]"
   double open = 0.0;
   for (const dynamics::EnergyBook& book : run.energy) {
     const dynamics::EnergyBook& first = run.energy.front();
-    open = std::max(open, std::abs(book.stored.total() - first.stored.total() + book.dissipated - book.input));
+    open =
+        std::max(open, std::abs(book.stored.total() - first.stored.total() + book.dissipated - book.input));
   }
   CHECK(lost > 1e-6);  // J
   CHECK(open < 0.01 * lost);

@@ -39,7 +39,8 @@ struct HeldBeam {
   int tip = 0;
 
   explicit HeldBeam(const std::vector<double>& nodes, double gravity = 0.0)
-      : beam(test::make_beam_superelement(test::make_straight_beam("beam", nodes, 8e6, 300.0, 6.0), kNumModes)) {
+      : beam(test::make_beam_superelement(test::make_straight_beam("beam", nodes, 8e6, 300.0, 6.0),
+                                          kNumModes)) {
     model.gravity = {0.0, -gravity};
     test::add_body(model, dynamics::make_flexible_body("beam", beam.superelement, {1, 2, 3, 4, 5, 6}));
     const int frame = test::add_marker(model, 0, {0.0, 0.0}, "frame");
@@ -61,7 +62,8 @@ struct HeldBeam {
                                                    .torque = TimeFunction(0.0)}));
   }
   void shake(int marker, double frequency_hz) {
-    push(marker, TimeFunction::harmonic({.mean = 0.0, .amplitude = 5.0, .frequency_hz = frequency_hz, .phase = 0.0}));
+    push(marker,
+         TimeFunction::harmonic({.mean = 0.0, .amplitude = 5.0, .frequency_hz = frequency_hz, .phase = 0.0}));
   }
 
   BasisChoice choose(double tolerance, double duration = 2.0) {
@@ -71,8 +73,8 @@ struct HeldBeam {
     for (int k = 0; k < kNumModes; ++k) {
       candidates.push_back({"beam", k + 1, frequency(k + 1), beam.superelement.cluster[k], 3 + k});
     }
-    return dynamics::choose_basis(vehicle, candidates, {tip}, {.road = nullptr, .speed = 0.0, .duration = duration},
-                                  tolerance);
+    return dynamics::choose_basis(vehicle, candidates, {tip},
+                                  {.road = nullptr, .speed = 0.0, .duration = duration}, tolerance);
   }
 };
 
@@ -138,8 +140,10 @@ TEST_CASE("The higher the frequencies of the load, the more modes are kept", "[c
   HeldBeam slow(kOneSided), middle(kOneSided), fast(kOneSided);
   for (HeldBeam* beam : {&slow, &middle, &fast}) {
     const int highest = beam == &slow ? 1 : beam == &middle ? 3 : 5;
-    beam->push(beam->tip, TimeFunction::smooth_step({.before = 0.0, .after = 50.0, .start = 0.1,
-                                                     .end = 0.1 + 2.0 / beam->frequency(highest)}));
+    beam->push(
+        beam->tip,
+        TimeFunction::smooth_step(
+            {.before = 0.0, .after = 50.0, .start = 0.1, .end = 0.1 + 2.0 / beam->frequency(highest)}));
     const std::size_t number = beam->choose(0.01).num_kept();
     CHECK(number > last);
     last = number;
@@ -211,8 +215,8 @@ TEST_CASE("What bends under the weight alone is kept where nothing else moves", 
   const LinearVehicle vehicle(beam.model, q);
   std::vector<CandidateMode> candidates;
   for (int k = 0; k < kNumModes; ++k) candidates.push_back({"beam", k + 1, beam.frequency(k + 1), k, 3 + k});
-  const BasisChoice choice =
-      dynamics::choose_basis(vehicle, candidates, {beam.tip}, {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.05);
+  const BasisChoice choice = dynamics::choose_basis(vehicle, candidates, {beam.tip},
+                                                    {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.05);
   // The tip's sag by mode 1 alone, of the whole: φ₁ η₁ / Σ φ η.
   const Eigen::RowVectorXd tip = beam.model.markers[static_cast<std::size_t>(beam.tip)].Phi.row(1);
   const double whole = tip.dot(q.tail(kNumModes));
@@ -227,7 +231,8 @@ TEST_CASE("What is beyond the lines of a very long run is kept", "[choice]") {
   beam.shake(beam.tip, beam.frequency(3));
   const BasisChoice choice = beam.choose(0.01, 40000.0 / beam.frequency(3));
   REQUIRE(choice.remarks.size() == 1);
-  CHECK_THAT(choice.remarks[0], Contains("are left out of the prediction: ") && Contains(", so that all modes above "));
+  CHECK_THAT(choice.remarks[0],
+             Contains("are left out of the prediction: ") && Contains(", so that all modes above "));
   for (int k = 2; k < kNumModes; ++k) {
     CHECK(choice.verdicts[static_cast<std::size_t>(k)].is_kept);
     CHECK(choice.verdicts[static_cast<std::size_t>(k)].reason == "kept: beyond what the prediction looks at");
@@ -236,8 +241,9 @@ TEST_CASE("What is beyond the lines of a very long run is kept", "[choice]") {
 
 TEST_CASE("Modes measured in thinned lines have the shares of all lines", "[choice]") {
   HeldBeam beam(kOneSided);
-  beam.push(beam.tip, TimeFunction::smooth_step({.before = 0.0, .after = 50.0, .start = 0.1,
-                                                 .end = 0.1 + 2.0 / beam.frequency(5)}));
+  beam.push(beam.tip,
+            TimeFunction::smooth_step(
+                {.before = 0.0, .after = 50.0, .start = 0.1, .end = 0.1 + 2.0 / beam.frequency(5)}));
   dynamics::number_model(beam.model);
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
   const dynamics::WatchedQuantities watched = dynamics::make_watched_quantities(vehicle, {beam.tip});
@@ -261,10 +267,14 @@ TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]"
   // Not fixed to the ground but on springs, where the modes are coupled through the frame's motion.
   test::BeamSuperelement frame = test::make_beam_superelement(test::make_crooked_frame(), 5);
   Model model;
-  const int body = test::add_body(model, dynamics::make_flexible_body("frame", frame.superelement, {1, 2, 3, 4, 5}));
-  const int tip = test::add_node_marker(model, body, frame.superelement, reduce::find_point(frame.superelement, "tip"));
-  const int foot = test::add_node_marker(model, body, frame.superelement, reduce::find_point(frame.superelement, "foot"));
-  for (const auto& [name, marker, x, y] : {std::tuple{"a", tip, 1.3, -1.1}, {"b", foot, -0.6, -0.2}, {"c", tip, 2.3, 0.4}}) {
+  const int body =
+      test::add_body(model, dynamics::make_flexible_body("frame", frame.superelement, {1, 2, 3, 4, 5}));
+  const int tip =
+      test::add_node_marker(model, body, frame.superelement, reduce::find_point(frame.superelement, "tip"));
+  const int foot =
+      test::add_node_marker(model, body, frame.superelement, reduce::find_point(frame.superelement, "foot"));
+  for (const auto& [name, marker, x, y] :
+       {std::tuple{"a", tip, 1.3, -1.1}, {"b", foot, -0.6, -0.2}, {"c", tip, 2.3, 0.4}}) {
     test::add_spring(model, name, marker, test::add_marker(model, dynamics::kGround, {x, y}), 1.0, 7e3, 90.0);
   }
   dynamics::number_model(model);
@@ -273,7 +283,8 @@ TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]"
   const dynamics::LinearOutputs outputs = dynamics::make_point_outputs(vehicle, tip);
   const dynamics::HeldResponseSolver solver(vehicle, outputs, coordinates);
   const std::complex<double> s(0.0, 2.0 * pi * 7.0);
-  const Eigen::VectorXcd force = VectorXd::LinSpaced(model.num_coordinates, -1.0, 2.0).cast<std::complex<double>>();
+  const Eigen::VectorXcd force =
+      VectorXd::LinSpaced(model.num_coordinates, -1.0, 2.0).cast<std::complex<double>>();
   const Eigen::VectorXcd channels = Eigen::VectorXcd::Zero(vehicle.channel_rows().back());
   const dynamics::HeldResponse response = solver.solve(s.imag(), force, channels);
 
@@ -289,26 +300,30 @@ TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]"
     }
     Eigen::VectorXcd x = Eigen::VectorXcd::Zero(Z.rows());
     const Eigen::VectorXcd right = system.directions.transpose() * force;
-    const Eigen::Map<const Eigen::VectorX<Eigen::Index>> places(free.data(), static_cast<Eigen::Index>(free.size()));
+    const Eigen::Map<const Eigen::VectorX<Eigen::Index>> places(free.data(),
+                                                                static_cast<Eigen::Index>(free.size()));
     const Eigen::MatrixXcd Z_free = Z(places, places);
     const Eigen::VectorXcd right_free = right(places), x_free = Z_free.partialPivLu().solve(right_free);
     x(places) = x_free;
-    const Eigen::VectorXcd change = dynamics::sum_outputs(outputs, s.imag(), x, force, channels) - response.outputs;
+    const Eigen::VectorXcd change =
+        dynamics::sum_outputs(outputs, s.imag(), x, force, channels) - response.outputs;
     CHECK(change.norm() > 1e-3 * response.outputs.norm());
     CHECK((dynamics::calc_change(response, held) - change).norm() < 1e-10 * change.norm());
   }
 }
 
-TEST_CASE("The forcing's lines are the closed transform of a bump, and add up to the road again", "[choice]") {
+TEST_CASE("The forcing's lines are the closed transform of a bump, and add up to the road again",
+          "[choice]") {
   HeldBeam beam(kOneSided);
   dynamics::number_model(beam.model);
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
-  const dynamics::BumpRoad road({.shape = dynamics::BumpShape::kHalfSine, .start = 1.0, .length = 0.4, .height = 0.2});
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = 1.0, .length = 0.4, .height = 0.2});
   const dynamics::ForcingSpectrum forcing =
       dynamics::calc_forcing_spectrum(vehicle, {.road = &road, .speed = 4.0, .duration = 1.0}, 0.5, 60.0);
   CHECK(forcing.period == 1.5);
-  // ∫ sin(πt/τ) e^{−iωt} dt over its half wave, τ = 0.1 s, from t = 0.25 s on. The sum over samples differs by the
-  // kinks' lines beyond the highest frequency sampled: (60/480)² of their own.
+  // ∫ sin(πt/τ) e^{−iωt} dt over its half wave, τ = 0.1 s, from t = 0.25 s on. The sum over samples differs
+  // by the kinks' lines beyond the highest frequency sampled: (60/480)² of their own.
   const double tau = 0.1;
   for (const Eigen::Index line : {0, 6, 40}) {
     const double omega = 2.0 * pi * forcing.frequency(line);
@@ -331,7 +346,9 @@ TEST_CASE("What makes no forcing or tolerance is the caller's mistake", "[choice
   HeldBeam beam(kOneSided);
   CHECK_THROWS_WITH(beam.choose(1.0), Contains("choose_basis: tolerance must be from 0 to below 1, got 1"));
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
-  CHECK_THROWS_WITH(dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 1.0, .duration = 0.0}, 1.0, 9.0),
-                    Contains("needs duration > 0 s"));
-  CHECK_THROWS_WITH(dynamics::calc_history(Eigen::RowVectorXcd::Zero(4), 8), Contains("8 times are too few for 4"));
+  CHECK_THROWS_WITH(
+      dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 1.0, .duration = 0.0}, 1.0, 9.0),
+      Contains("needs duration > 0 s"));
+  CHECK_THROWS_WITH(dynamics::calc_history(Eigen::RowVectorXcd::Zero(4), 8),
+                    Contains("8 times are too few for 4"));
 }

@@ -155,7 +155,6 @@ TEST_CASE("A Lobatto step is exact for a drive of third degree, and knows what a
     propagator.apply(basis.blocks, start, nodes, u);
     // p has 50 t⁴ = 50 h⁴ θ⁴ beyond the cubics
     propagator.add_quartic(basis.blocks, basis.inverse * Eigen::Vector2d(0.0, 50.0 * std::pow(h, 4)), u);
-    CHECK((basis.T * u)[0] ==
-          Approx(1.0 + t - 2.0 * t * t + 3.0 * t * t * t + t * t * t * t).epsilon(1e-13));
+    CHECK((basis.T * u)[0] == Approx(1.0 + t - 2.0 * t * t + 3.0 * t * t * t + t * t * t * t).epsilon(1e-13));
   }
 }

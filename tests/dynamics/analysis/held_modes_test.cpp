@@ -1,4 +1,5 @@
-// Models of the truck with held modes against the full one: motion, forces, what leaving modes take with them.
+// Models of the truck with held modes against the full one: motion, forces, what leaving modes take with
+// them.
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <vector>
@@ -30,7 +31,8 @@ TEST_CASE("A model with held modes moves as the full one whose modes stand still
   Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(full.num_coordinates, -0.5, 0.8);
   for (const int k : {1, 2, 5}) v[body.first_coordinate + 3 + k] = 0.0;
   dynamics::SystemTerms of_full(full), of_held(held.model);
-  const auto update = [](dynamics::SystemTerms& terms, const Eigen::VectorXd& at, const Eigen::VectorXd& rate) {
+  const auto update = [](dynamics::SystemTerms& terms, const Eigen::VectorXd& at,
+                         const Eigen::VectorXd& rate) {
     terms.update_positions(0.0, at);
     terms.update_jacobian();
     terms.update_mass();
@@ -53,7 +55,8 @@ TEST_CASE("A model with held modes moves as the full one whose modes stand still
   CHECK((gamma_full - gamma_held).norm() < 1e-10 * gamma_full.norm());
   const auto chassis = static_cast<std::size_t>(full.find_body("chassis"));
   const std::vector<int> rows{0, 1, 2, 3, 6, 7};
-  CHECK((of_held.mass(chassis) - of_full.mass(chassis)(rows, rows)).norm() < 1e-12 * of_full.mass(chassis).norm());
+  CHECK((of_held.mass(chassis) - of_full.mass(chassis)(rows, rows)).norm() <
+        1e-12 * of_full.mass(chassis).norm());
 }
 
 TEST_CASE("Small motion with held modes is that of the full model without them", "[truck]") {
@@ -68,7 +71,8 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   REQUIRE(known);
 
   dynamics::PartitionedEquations equations(held.model);
-  const dynamics::LinearisedSystem expected = linearise(equations, 0.0, select_active(held, rest.equilibrium.q));
+  const dynamics::LinearisedSystem expected =
+      linearise(equations, 0.0, select_active(held, rest.equilibrium.q));
   REQUIRE(known->independent == expected.partition.independent);
   CHECK((known->motion.mass - expected.mass).norm() < 1e-9 * expected.mass.norm());
   CHECK((known->motion.damping - expected.damping).norm() < 1e-6 * expected.damping.norm());
@@ -86,7 +90,8 @@ namespace {
 
 // The truck bent and moving at random, joints closed, with some modes of the chassis held.
 struct MovingTruck {
-  explicit MovingTruck(const std::vector<int>& held_modes) : rest(6), full(&rest.model), is_active(rest.model.num_coordinates, true) {
+  explicit MovingTruck(const std::vector<int>& held_modes)
+      : rest(6), full(&rest.model), is_active(rest.model.num_coordinates, true) {
     dynamics::ConstrainedEquations equations(*full, dynamics::SystemTerms::Markers::kAll);
     const dynamics::Body& body = full->bodies[static_cast<std::size_t>(full->find_body("chassis"))];
     Eigen::VectorXd bent = rest.equilibrium.q;
@@ -107,7 +112,8 @@ struct MovingTruck {
   Eigen::VectorXd q, v;
 };
 
-Eigen::VectorXd multiply_mass(const dynamics::Model& model, const dynamics::SystemTerms& terms, const Eigen::VectorXd& x) {
+Eigen::VectorXd multiply_mass(const dynamics::Model& model, const dynamics::SystemTerms& terms,
+                              const Eigen::VectorXd& x) {
   Eigen::VectorXd product(x.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const dynamics::Body& body = model.bodies[b];
@@ -177,7 +183,8 @@ TEST_CASE("Modes that leave take only their own momentum with them, and the ener
   CHECK(opening.norm() < 1e-10 * momentum.norm());
 
   // What changed the momentum of the others is an impulse of the joints: in the range of φ_qᵀ on their rows.
-  const Eigen::VectorXd change = select_active(held, momentum - multiply_mass(*truck.full, terms, motion.v()));
+  const Eigen::VectorXd change =
+      select_active(held, momentum - multiply_mass(*truck.full, terms, motion.v()));
   Eigen::MatrixXd joints(change.size(), truck.full->num_constraints);
   for (Eigen::Index k = 0; k < joints.cols(); ++k) {
     Eigen::VectorXd column = Eigen::VectorXd::Zero(truck.full->num_coordinates);

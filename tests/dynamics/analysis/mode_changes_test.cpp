@@ -20,13 +20,15 @@ using namespace sprung;
 namespace {
 
 struct AdaptiveRun {
-  Eigen::VectorXd origin, deflection;  // vertical acceleration of the middle, of the front end's deflection [m/s², m]
+  Eigen::VectorXd origin,
+      deflection;  // vertical acceleration of the middle, of the front end's deflection [m/s², m]
   std::vector<dynamics::Event> changes;
   dynamics::TransientStatistics statistics;
   double closure = 0.0;
 };
 
-// The bump with all modes of the chassis at hand; num_start of them at the start, none joining where recall is 0.
+// The bump with all modes of the chassis at hand; num_start of them at the start, none joining where recall
+// is 0.
 AdaptiveRun drive(int num_available, int num_start, double recall, double duration) {
   const test::BumpStart bump({.num_chassis_modes = num_available, .duration = duration});
   AdaptiveRun run;
@@ -42,7 +44,8 @@ AdaptiveRun drive(int num_available, int num_start, double recall, double durati
     for (int k = num_start; k < num_available; ++k) {
       adaptivity.active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] = false;
     }
-    adaptivity.points = {bump.model.find_marker("chassis.origin"), bump.model.find_marker("chassis.front_end")};
+    adaptivity.points = {bump.model.find_marker("chassis.origin"),
+                         bump.model.find_marker("chassis.front_end")};
     adaptivity.recall = recall;
     adaptivity.drop = std::min(2e-3, 0.2 * recall);
     options.adaptivity = adaptivity;
@@ -52,8 +55,8 @@ AdaptiveRun drive(int num_available, int num_start, double recall, double durati
   const auto front = static_cast<std::size_t>(bump.model.find_marker("chassis.front_end"));
   options.on_output = [&](const dynamics::Snapshot& now) {
     origin.push_back(now.v_dot[body.first_coordinate + 1]);
-    const Eigen::Vector2d u =
-        bump.model.markers[front].Phi.topRows<2>() * now.q.segment(body.first_coordinate + 3, body.num_modes());
+    const Eigen::Vector2d u = bump.model.markers[front].Phi.topRows<2>() *
+                              now.q.segment(body.first_coordinate + 3, body.num_modes());
     deflection.push_back(u.y());
     closure.add(now.energy);
   };
@@ -62,12 +65,15 @@ AdaptiveRun drive(int num_available, int num_start, double recall, double durati
   };
   run.statistics = dynamics::run_transient(bump.model, bump.state, options);
   run.origin = Eigen::Map<Eigen::VectorXd>(origin.data(), static_cast<Eigen::Index>(origin.size()));
-  run.deflection = Eigen::Map<Eigen::VectorXd>(deflection.data(), static_cast<Eigen::Index>(deflection.size()));
+  run.deflection =
+      Eigen::Map<Eigen::VectorXd>(deflection.data(), static_cast<Eigen::Index>(deflection.size()));
   run.closure = closure.value();
   return run;
 }
 
-double peak(const Eigen::VectorXd& x) { return x.cwiseAbs().maxCoeff(); }
+double peak(const Eigen::VectorXd& x) {
+  return x.cwiseAbs().maxCoeff();
+}
 
 }  // namespace
 
@@ -95,7 +101,8 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
     CHECK((closer.origin - full.origin).norm() < 0.5 * (adaptive.origin - full.origin).norm());
     CHECK(closer.statistics.worst_neglect.share.worst() <= 1e-2 * (1.0 + 1e-9));
   }
-  SECTION("what is left out for good is told as it was then, not as it would be with what is active at the end") {
+  SECTION(
+      "what is left out for good is told as it was then, not as it would be with what is active at the end") {
     const AdaptiveRun whole = drive(36, 2, 2e-2, 5.0);
     CHECK(whole.statistics.worst_neglect.share.worst() <= 2e-2 * (1.0 + 1e-9));
   }
@@ -108,36 +115,41 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
 
 TEST_CASE("Of a pair of equal frequency only the member joins that the load excites", "[truck]") {
   const dynamics::Vehicle vehicle = test::read_truck();
-  const auto chassis = std::find_if(vehicle.bodies.begin(), vehicle.bodies.end(),
-                                    [](const dynamics::BodyDescription& body) { return body.name == "chassis"; });
+  const auto chassis =
+      std::find_if(vehicle.bodies.begin(), vehicle.bodies.end(),
+                   [](const dynamics::BodyDescription& body) { return body.name == "chassis"; });
   const reduce::Superelement& superelement = *vehicle.superelement_of(*chassis);
   constexpr int kNumModes = 12;
   std::vector<int> modes(kNumModes);
   for (int k = 0; k < kNumModes; ++k) modes[static_cast<std::size_t>(k)] = k + 1;
   REQUIRE(superelement.cluster[0] == superelement.cluster[1]);
 
-  // The chassis alone, held at its middle where the modes are clamped, both ends pushed: alike, then against each other.
+  // The chassis alone, held at its middle where the modes are clamped, both ends pushed: alike, then against
+  // each other.
   for (const double sign : {1.0, -1.0}) {
     dynamics::Model model;
     const int body = test::add_body(model, dynamics::make_flexible_body("chassis", superelement, modes));
     const int ground = test::add_marker(model, dynamics::kGround, {0.4, 0.1});
     model.joints.push_back(std::make_unique<dynamics::CoordinateJoint>(
-        "root", ground, test::add_marker(model, body, {0.0, 0.0}), support::SourceLocation{}, dynamics::make_fixed_joint(0.0)));
+        "root", ground, test::add_marker(model, body, {0.0, 0.0}), support::SourceLocation{},
+        dynamics::make_fixed_joint(0.0)));
     std::vector<int> ends;
     for (const double towards : {-1.0, 1.0}) {
       int end = 0;
       for (int node = 0; node < superelement.num_nodes(); ++node) {
-        if (towards * (superelement.node_positions(0, node) - superelement.node_positions(0, end)) > 0.0) end = node;
+        if (towards * (superelement.node_positions(0, node) - superelement.node_positions(0, end)) > 0.0)
+          end = node;
       }
       ends.push_back(test::add_node_marker(model, body, superelement, end));
       const double size = towards < 0.0 ? 1e4 : sign * 1e4;
       model.forces.push_back(std::make_unique<dynamics::AppliedForce>(
-          "push", dynamics::AppliedForce::Parameters{
-                      .marker = ends.back(),
-                      .axes = dynamics::AppliedForce::Axes::kWorld,
-                      .force_x = dynamics::TimeFunction(0.0),
-                      .force_y = dynamics::TimeFunction::smooth_step({.before = 0.0, .after = size, .start = 0.05, .end = 0.06}),
-                      .torque = dynamics::TimeFunction(0.0)}));
+          "push",
+          dynamics::AppliedForce::Parameters{.marker = ends.back(),
+                                             .axes = dynamics::AppliedForce::Axes::kWorld,
+                                             .force_x = dynamics::TimeFunction(0.0),
+                                             .force_y = dynamics::TimeFunction::smooth_step(
+                                                 {.before = 0.0, .after = size, .start = 0.05, .end = 0.06}),
+                                             .torque = dynamics::TimeFunction(0.0)}));
     }
     dynamics::number_model(model);
     dynamics::AdaptivityOptions adaptivity;
@@ -154,14 +166,16 @@ TEST_CASE("Of a pair of equal frequency only the member joins that the load exci
     };
     Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates);
     q.head<2>() << 0.4, 0.1;
-    dynamics::run_transient(model, test::make_state(model, q, Eigen::VectorXd::Zero(model.num_coordinates)), options);
+    dynamics::run_transient(model, test::make_state(model, q, Eigen::VectorXd::Zero(model.num_coordinates)),
+                            options);
 
     CHECK(joined.size() >= 2);
     const auto shape = [&](int end, int mode) {
       return model.markers[static_cast<std::size_t>(ends[static_cast<std::size_t>(end)])].Phi(1, mode);
     };
     for (int k = 0; k < kNumModes; ++k) {
-      if (std::find(joined.begin(), joined.end(), "chassis.mode " + std::to_string(k + 1)) == joined.end()) continue;
+      if (std::find(joined.begin(), joined.end(), "chassis.mode " + std::to_string(k + 1)) == joined.end())
+        continue;
       const double alike = shape(0, k) + sign * shape(1, k), against = shape(0, k) - sign * shape(1, k);
       INFO("mode " << k + 1);
       CHECK(std::abs(against) < 1e-6 * std::abs(alike));

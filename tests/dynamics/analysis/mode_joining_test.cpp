@@ -1,5 +1,5 @@
-// How modes join and leave among others that feel it: bending modes of a beam on a pin, held at that end, are coupled by
-// its turning.
+// How modes join and leave among others that feel it: bending modes of a beam on a pin, held at that end, are
+// coupled by its turning.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -43,20 +43,21 @@ Beam add_beam(Model& model, const std::string& name, const Eigen::Vector2d& root
   if (is_pinned) {
     test::add_pin(model, name + " root", ground, node);
   } else {
-    model.joints.push_back(std::make_unique<dynamics::CoordinateJoint>(name + " root", ground, node, support::SourceLocation{},
-                                                                       dynamics::make_fixed_joint(0.0)));
+    model.joints.push_back(std::make_unique<dynamics::CoordinateJoint>(
+        name + " root", ground, node, support::SourceLocation{}, dynamics::make_fixed_joint(0.0)));
   }
   return {body, test::add_node_marker(model, body, superelement, 5)};
 }
 
 void push(Model& model, int marker, double force, double start, double end) {
   model.forces.push_back(std::make_unique<dynamics::AppliedForce>(
-      "push", dynamics::AppliedForce::Parameters{
-                  .marker = marker,
-                  .axes = dynamics::AppliedForce::Axes::kFollowing,
-                  .force_x = TimeFunction(0.0),
-                  .force_y = TimeFunction::smooth_step({.before = 0.0, .after = force, .start = start, .end = end}),
-                  .torque = TimeFunction(0.0)}));
+      "push",
+      dynamics::AppliedForce::Parameters{
+          .marker = marker,
+          .axes = dynamics::AppliedForce::Axes::kFollowing,
+          .force_x = TimeFunction(0.0),
+          .force_y = TimeFunction::smooth_step({.before = 0.0, .after = force, .start = start, .end = end}),
+          .torque = TimeFunction(0.0)}));
 }
 
 struct Run {
@@ -87,7 +88,8 @@ struct Turning {
     adaptivity.points = {beam.tip};
     adaptivity.active.assign(static_cast<std::size_t>(model.num_coordinates), true);
     const int first = model.bodies[static_cast<std::size_t>(beam.body)].first_coordinate;
-    for (std::size_t k = 0; k < left_out.size(); ++k) adaptivity.active[static_cast<std::size_t>(first) + 3 + k] = !left_out[k];
+    for (std::size_t k = 0; k < left_out.size(); ++k)
+      adaptivity.active[static_cast<std::size_t>(first) + 3 + k] = !left_out[k];
     dynamics::TransientOptions options;
     options.end_time = duration;
     options.output_step = 2e-4;
@@ -122,8 +124,10 @@ double largest_difference(const Run& a, const Run& b, double since) {
 
 }  // namespace
 
-TEST_CASE("A mode lower than those that are active joins without ringing, by itself and with others", "[adaptivity]") {
-  // With everything else giving way by its inertia the first mode seems to vibrate far faster than what its joining adds.
+TEST_CASE("A mode lower than those that are active joins without ringing, by itself and with others",
+          "[adaptivity]") {
+  // With everything else giving way by its inertia the first mode seems to vibrate far faster than what its
+  // joining adds.
   const std::vector<std::vector<int>> cases{{0}, {0, 1}, {0, 3}};
   for (const std::vector<int>& joining : cases) {
     std::vector<bool> left_out(kNumModes, false);
@@ -135,8 +139,8 @@ TEST_CASE("A mode lower than those that are active joins without ringing, by its
     const Run full = turning.drive(false), adaptive = turning.drive(true);
     REQUIRE(!adaptive.joinings.empty());
     CHECK(adaptive.joinings.front() > 0.2);
-    // A tenth of the threshold, and what a push that slow has set off by then; let go too fast it was three to ten times as
-    // much.
+    // A tenth of the threshold, and what a push that slow has set off by then; let go too fast it was three
+    // to ten times as much.
     const double largest = kSpin * kSpin * 1.0;  // acceleration of the tip, 1 m from the pin
     CHECK(largest_difference(full, adaptive, 0.0) < 1.3 * 0.1 * 0.08 * largest);
   }
@@ -154,8 +158,10 @@ TEST_CASE("How many modes are active at an output is what the events have told u
   CHECK(run.leavings.size() >= 4);
   for (std::size_t i = 0; i < run.time.size(); ++i) {
     INFO("at " << run.time[i] << " s");
-    const int before = 2 * kNumModes + count(run.joinings, run.time[i] - 1e-9) - count(run.leavings, run.time[i] - 1e-9);
-    const int after = 2 * kNumModes + count(run.joinings, run.time[i] + 1e-9) - count(run.leavings, run.time[i] + 1e-9);
+    const int before =
+        2 * kNumModes + count(run.joinings, run.time[i] - 1e-9) - count(run.leavings, run.time[i] - 1e-9);
+    const int after =
+        2 * kNumModes + count(run.joinings, run.time[i] + 1e-9) - count(run.leavings, run.time[i] + 1e-9);
     if (before == after) REQUIRE(run.num_active[i] == after);  // at the very instant either is right
   }
 }
@@ -183,7 +189,8 @@ TEST_CASE("What is let go 2 ms later does not touch what is being let go", "[ada
   CHECK(motion.hold(active, 0.1065).model.bodies[0].fading.size() == 1);
 }
 
-TEST_CASE("Modes are stopped together only where the impulse leaves little ringing, as much as was foretold", "[adaptivity]") {
+TEST_CASE("Modes are stopped together only where the impulse leaves little ringing, as much as was foretold",
+          "[adaptivity]") {
   Turning turning(std::vector<bool>(kNumModes, false));
   dynamics::number_model(turning.model);
   const Model& model = turning.model;
@@ -214,7 +221,8 @@ TEST_CASE("Modes are stopped together only where the impulse leaves little ringi
 
   v[fast] = 0.01;
   const double share = adaptation.indicator().calc_stopping_shares({fast}, v)[0];
-  // Stopped, the motion goes on without the mode: what rings at the tip is normal to the beam, the spin along it.
+  // Stopped, the motion goes on without the mode: what rings at the tip is normal to the beam, the spin along
+  // it.
   std::vector<bool> active = options.active;
   active[static_cast<std::size_t>(fast)] = false;
   dynamics::FullMotion motion(model, test::make_state(model, q, v));

@@ -101,7 +101,8 @@ TEST_CASE("A pendulum going round keeps its period while its partition changes o
   // [Landau & Lifshitz 1976], §11: T = 2 k K(k)/√(g/l) for one turn, k = 2√(g/l)/rate
   const double k = 2.0 * std::sqrt(kGravity / kLength) / bottom_rate;
   const double turn = 2.0 * k * std::comp_ellint_1(k) / std::sqrt(kGravity / kLength);
-  for (const auto method : {Integrator::Method::kAdams, Integrator::Method::kBdf, Integrator::Method::kExponential}) {
+  for (const auto method :
+       {Integrator::Method::kAdams, Integrator::Method::kBdf, Integrator::Method::kExponential}) {
     const Motion motion = run(model, test::place_pendulum(kArm, -0.5 * pi), turning(-0.5 * pi, bottom_rate),
                               10.0 * turn, turn / 20.0, 1e-9, method);
     CHECK(motion.statistics.stepper.repartitions >= 10);
@@ -230,8 +231,8 @@ TEST_CASE("A closed chain turning fully takes the time that its energy and inert
 }
 
 TEST_CASE("Mechanisms move the same where they have turned often or stand far away", "[analysis]") {
-  // Coordinates are rounded more coarsely there, and joints can be closed no better. The angle becomes a dependent one on
-  // the way.
+  // Coordinates are rounded more coarsely there, and joints can be closed no better. The angle becomes a
+  // dependent one on the way.
   const Model model = test::make_pendulum(1.0, kArm, kLength, kGravity);
   const Model far = [] {
     Model moved = test::make_pendulum(1.0, kArm, kLength, kGravity);

@@ -35,8 +35,8 @@ double release(const dynamics::SmallMotion& motion, const VectorXd& force, doubl
   return largest;
 }
 
-// Two springs in a row, the second far stiffer: seen from the light mass between them everything is fast, and yet what is
-// slow has a part of it.
+// Two springs in a row, the second far stiffer: seen from the light mass between them everything is fast, and
+// yet what is slow has a part of it.
 dynamics::SmallMotion make_chain() {
   MatrixXd M(2, 2), K(2, 2);
   M << 1.0, 0.9, 0.9, 1.0;
@@ -48,11 +48,13 @@ dynamics::SmallMotion make_chain() {
 
 TEST_CASE("An oscillator is let go over the time that its closed form asks for", "[adaptivity]") {
   const double m = 2.0, k = 800.0, F = 3.0, reference = 5.0;  // ω = 20 rad/s; at once: 0.3 of the reference
-  const dynamics::Ringing ringing({MatrixXd::Constant(1, 1, m), MatrixXd::Zero(1, 1), MatrixXd::Constant(1, 1, k)},
-                                  {{Matrix2Xd::Identity(2, 1), reference}});
+  const dynamics::Ringing ringing(
+      {MatrixXd::Constant(1, 1, m), MatrixXd::Zero(1, 1), MatrixXd::Constant(1, 1, k)},
+      {{Matrix2Xd::Identity(2, 1), reference}});
   const VectorXd force = VectorXd::Constant(1, F);
   CHECK(ringing.calc_share_of_release(force, 0.0) == Approx(F / m / reference).epsilon(1e-12));
-  CHECK(ringing.calc_share_of_impulse(VectorXd::Constant(1, 0.1)) == Approx(20.0 * 0.1 / m / reference).epsilon(1e-12));
+  CHECK(ringing.calc_share_of_impulse(VectorXd::Constant(1, 0.1)) ==
+        Approx(20.0 * 0.1 / m / reference).epsilon(1e-12));
   const double x = std::sqrt(1.0 + 0.3 / 0.01);  // x² − 1 = 0.3 / 0.01
   CHECK(ringing.calc_release_time(force, 0.01, 10.0) == Approx(x * kPi / 20.0).epsilon(0.011));
   CHECK(ringing.calc_release_time(force, 0.31, 10.0) == 0.0);
@@ -64,11 +66,13 @@ TEST_CASE("What no point shows is let go as slowly as may be", "[adaptivity]") {
   CHECK(ringing.calc_release_time(Eigen::Vector2d(1.0, 0.0), 0.01, 0.05) == 0.05);
 }
 
-TEST_CASE("Nothing rings by more than it was to after a release, also where vibrations are far apart", "[adaptivity]") {
+TEST_CASE("Nothing rings by more than it was to after a release, also where vibrations are far apart",
+          "[adaptivity]") {
   const dynamics::SmallMotion chain = make_chain();
   const double slowest = 31.2;  // Hz; the other one is at 374 Hz
   const dynamics::Ringing ringing(chain, {{Matrix2Xd::Identity(2, 2), 1.0}});
-  for (const Eigen::Vector2d& force : {Eigen::Vector2d(0.02, 0.0), Eigen::Vector2d(0.1, 0.1), Eigen::Vector2d(0.02, -0.3)}) {
+  for (const Eigen::Vector2d& force :
+       {Eigen::Vector2d(0.02, 0.0), Eigen::Vector2d(0.1, 0.1), Eigen::Vector2d(0.02, -0.3)}) {
     const double share = 0.05 * ringing.calc_share_of_release(force, 0.0);
     const double time = ringing.calc_release_time(force, share, 10.0);
     INFO("force " << force.transpose() << ", released over " << time << " s");

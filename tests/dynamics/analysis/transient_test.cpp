@@ -105,9 +105,7 @@ TEST_CASE("A wheel dropped on the ground touches and leaves it at the instants t
     options.end_time = expected.back() + fall;  // at the top of the second bounce
     options.integrator = {.method = method, .relative_tolerance = 1e-10};
     options.on_event = [&](const dynamics::Event& event) { events.push_back(event); };
-    options.on_output = [&](const dynamics::Snapshot& snapshot) {
-      highest = snapshot.q[1] - kRadius;
-    };
+    options.on_output = [&](const dynamics::Snapshot& snapshot) { highest = snapshot.q[1] - kRadius; };
     options.output_step = options.end_time;
     dynamics::run_transient(model, drop(model, height, 3.0), options);
     REQUIRE(events.size() == 4);

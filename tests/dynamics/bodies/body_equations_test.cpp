@@ -194,7 +194,8 @@ TEST_CASE("A nearby rotation has the sine and cosine of its angle, wherever it i
   for (int i = 0; i < 20000; ++i) {
     theta += random.size_up_to(i % 100 == 0 ? 3.0 : 0.01);  // mostly near, now and then far
     const FrameRotation rotation = nearby.at(theta);
-    largest = std::max({largest, std::abs(rotation.cosine - std::cos(theta)), std::abs(rotation.sine - std::sin(theta))});
+    largest = std::max(
+        {largest, std::abs(rotation.cosine - std::cos(theta)), std::abs(rotation.sine - std::sin(theta))});
   }
   CHECK(largest < 3e-16);  // one and a half units in the last place of 1
   CHECK(std::isnan(nearby.at(std::numeric_limits<double>::quiet_NaN()).cosine));

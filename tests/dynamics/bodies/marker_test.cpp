@@ -100,7 +100,8 @@ TEST_CASE("Gradients of a marker's position and angle by angle and modes", "[bod
       const Vector2d gradient = i == 2 ? now.r_theta : Vector2d(now.r_eta().col(i - 3));
       CHECK((gradient - difference).norm() < kTolerance * (gradient.norm() + 0.01));
       const double turn = i == 2 ? 1.0 : now.Phi(2, i - 3);
-      CHECK(std::abs(turn - (above.angle - below.angle) / (2.0 * kStep)) < kTolerance * (std::abs(turn) + 0.01));
+      CHECK(std::abs(turn - (above.angle - below.angle) / (2.0 * kStep)) <
+            kTolerance * (std::abs(turn) + 0.01));
     }
   }
 }

@@ -1,4 +1,5 @@
-// What axial forces do to bending, against d'Alembert's loads of the body as it moves and against differences.
+// What axial forces do to bending, against d'Alembert's loads of the body as it moves and against
+// differences.
 #include "dynamics/bodies/stiffening.h"
 
 #include <Eigen/Core>
@@ -37,7 +38,8 @@ struct Case {
     return matrix + matrix.transpose();
   }
   Case() {
-    reduce::GeometricStiffness geometric{make_symmetric(), make_symmetric(), {make_symmetric(), make_symmetric()}, {}};
+    reduce::GeometricStiffness geometric{
+        make_symmetric(), make_symmetric(), {make_symmetric(), make_symmetric()}, {}};
     for (std::size_t i = 0; i < superelement.points.size(); ++i) {
       geometric.point_loads.push_back({make_symmetric(), make_symmetric(), make_symmetric()});
     }
@@ -51,8 +53,9 @@ struct Case {
 }  // namespace
 
 TEST_CASE("In quasi-static motion a body stiffens as under its loads and d'Alembert's", "[bodies]") {
-  // Forces and moments on the named nodes and ω² give the frame of the undeformed body the accelerations a and α by
-  // Newton's and Euler's laws; the sum of all reference loads must then be what the points' K and K_ω have.
+  // Forces and moments on the named nodes and ω² give the frame of the undeformed body the accelerations a
+  // and α by Newton's and Euler's laws; the sum of all reference loads must then be what the points' K and
+  // K_ω have.
   Case general;
   const reduce::GeometricStiffness& reference = *general.superelement.geometric_stiffness;
   const reduce::InertiaInvariants& inertia = general.superelement.inertia;
@@ -84,13 +87,14 @@ TEST_CASE("In quasi-static motion a body stiffens as under its loads and d'Alemb
 TEST_CASE("A point beside a node goes round it: second order of the offset by finite rotation", "[bodies]") {
   Case general;
   const Vector2d offset(0.3, -0.2);
-  const dynamics::SecondOrder node =
-      dynamics::calc_second_order(general.superelement, general.columns, general.stiffening(), 1, Vector2d::Zero());
+  const dynamics::SecondOrder node = dynamics::calc_second_order(general.superelement, general.columns,
+                                                                 general.stiffening(), 1, Vector2d::Zero());
   const dynamics::SecondOrder point =
       dynamics::calc_second_order(general.superelement, general.columns, general.stiffening(), 1, offset);
   const int row = 3 * general.superelement.points[1].node + 2;
   const VectorXd direction = general.random.vector(3, 1.0);
-  // Second derivative of the turned offset along η = s · direction at s = 0, by differences: error s², rounding 1e-16/s².
+  // Second derivative of the turned offset along η = s · direction at s = 0, by differences: error s²,
+  // rounding 1e-16/s².
   const auto turned_offset = [&](double s) -> Vector2d {
     const VectorXd eta = s * direction;
     const double psi = general.superelement.shapes(row, general.columns).dot(eta.transpose()) -
@@ -100,7 +104,8 @@ TEST_CASE("A point beside a node goes round it: second order of the offset by fi
   constexpr double kStep = 1e-4;
   const Vector2d curvature =
       (turned_offset(kStep) - 2.0 * turned_offset(0.0) + turned_offset(-kStep)) / (kStep * kStep);
-  const Vector3d difference = dynamics::calc_half_form(point, direction) - dynamics::calc_half_form(node, direction);
+  const Vector3d difference =
+      dynamics::calc_half_form(point, direction) - dynamics::calc_half_form(node, direction);
   CHECK((difference.head<2>() + 0.5 * curvature).norm() < 1e-6 * curvature.norm());
   CHECK(std::abs(difference[2]) < kRounding);
 }
@@ -114,7 +119,8 @@ TEST_CASE("The mean rotation is that of the angular momentum about the centre of
   const double about_center =
       momentum.angular - center.x() * momentum.linear.y() + center.y() * momentum.linear.x();
   const double central = inertia.second_moment - inertia.mass * center.squaredNorm();
-  CHECK(v[2] + general.stiffening().mean_rotation.dot(v.tail(3)) == Approx(about_center / central).epsilon(kRounding));
+  CHECK(v[2] + general.stiffening().mean_rotation.dot(v.tail(3)) ==
+        Approx(about_center / central).epsilon(kRounding));
 }
 
 TEST_CASE("Stiffening by turning does no work, and at steady rotation is −ω² K_ω η", "[bodies]") {

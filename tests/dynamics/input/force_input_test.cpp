@@ -197,7 +197,8 @@ TEST_CASE("A tyre begins to push where it touches") {
 }
 
 TEST_CASE("A rotational spring-damper's laws are over angles") {
-  const std::string head = "name = \"r\"\ntype = \"rotational-spring-damper\"\na = \"p.origin\"\nb = \"q.origin\"\n";
+  const std::string head =
+      "name = \"r\"\ntype = \"rotational-spring-damper\"\na = \"p.origin\"\nb = \"q.origin\"\n";
   const std::unique_ptr<dynamics::ForceElement> force =
       read(head + "free_angle = 0.2\nspring = { polynomial = [0.0, 50.0] }\ndamper = { coefficient = 3.0 }")
           .make(std::array{0, 1}, {});
@@ -232,6 +233,8 @@ TEST_CASE("An applied force has components in time, in the world's axes or follo
 }
 
 TEST_CASE("A tyre of distributed contact cannot pull") {
-  CHECK(error_of(tyre("contact = \"distributed\"\nspring = { polynomial = [0.0, 5.0] }\none_sided = false")) ==
-        "f.toml:8:13: error: 'forces.0.one_sided' must be true of a tyre with distributed contact, which cannot pull");
+  CHECK(
+      error_of(tyre("contact = \"distributed\"\nspring = { polynomial = [0.0, 5.0] }\none_sided = false")) ==
+      "f.toml:8:13: error: 'forces.0.one_sided' must be true of a tyre with distributed contact, which "
+      "cannot pull");
 }

@@ -71,8 +71,8 @@ TEST_CASE("Markers move with the active modes: nodes by their shapes, offsets wi
     CHECK(find(model, "frame.top").Phi.col(k).head<2>() == Eigen::Vector2d(u, w));
     CHECK(find(model, "frame.top").Phi(2, k) == turn);
     // The offset (0.1, 0.4) turned by +90° is (-0.4, 0.1).
-    CHECK((find(model, "frame.seat").Phi.col(k).head<2>() - Eigen::Vector2d(u - 0.4 * turn, w + 0.1 * turn)).norm() <
-          1e-15);
+    CHECK((find(model, "frame.seat").Phi.col(k).head<2>() - Eigen::Vector2d(u - 0.4 * turn, w + 0.1 * turn))
+              .norm() < 1e-15);
     CHECK(find(model, "frame.seat").Phi(2, k) == turn);
     CHECK(find(model, "frame.origin").Phi.col(k).norm() == 0.0);
   }

@@ -80,7 +80,9 @@ TEST_CASE("Keys of a road that are missing, unknown or unfit are refused") {
 }
 
 TEST_CASE("A road table may begin with the mark of byte order that spreadsheets write") {
-  CHECK(make_table("\xEF\xBB\xBF" "0,0\r\n1,0.1\r\n")->height(3.0) == Approx(0.1).epsilon(1e-12));
+  CHECK(make_table("\xEF\xBB\xBF"
+                   "0,0\r\n1,0.1\r\n")
+            ->height(3.0) == Approx(0.1).epsilon(1e-12));
 }
 
 TEST_CASE("A fault in a road table is found at its line and column") {

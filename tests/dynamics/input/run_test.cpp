@@ -121,7 +121,8 @@ TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
         "runs/first.toml:31:1: error: 'initial.frame.modal_amplitude' must be one number for each of the 0 "
         "available modes, got 2");
   CHECK(input_error_of([&] { dynamics::make_start_velocities(read(kText), cart, rigid); }) ==
-        "runs/first.toml:31:1: error: 'initial.frame.modal_rate' must be one number for each of the 0 available "
+        "runs/first.toml:31:1: error: 'initial.frame.modal_rate' must be one number for each of the 0 "
+        "available "
         "modes, got 2");
   const dynamics::Run other = read(test::with_change(kText, "[initial.frame]", "[initial.frome]"));
   CHECK(
@@ -133,10 +134,12 @@ TEST_CASE("Modes to join of a body that is not there are refused, also where non
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   const std::string text = test::with_change(kText, "[modes]", "[adaptivity.available]\nframo = 1\n[modes]");
   for (const char* enabled : {"", "[adaptivity]\nenabled = true\n"}) {
-    const dynamics::Run run = read(test::with_change(text, "[adaptivity.available]", enabled + std::string("[adaptivity.available]")));
+    const dynamics::Run run = read(
+        test::with_change(text, "[adaptivity.available]", enabled + std::string("[adaptivity.available]")));
     const std::string error = input_error_of([&] { dynamics::resolve_available_modes(run, {}, cart); });
-    CHECK(error.ends_with("error: 'adaptivity.available.framo' is about no body of the vehicle: there is no 'framo' (did you "
-                          "mean 'frame'?)"));
+    CHECK(error.ends_with(
+        "error: 'adaptivity.available.framo' is about no body of the vehicle: there is no 'framo' (did you "
+        "mean 'frame'?)"));
   }
 }
 
@@ -144,17 +147,20 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
   CHECK(error_of("vehicle = \"cart.toml\"\n", "") == "runs/first.toml: error: missing key 'vehicle'");
   CHECK(error_of("duration = 5.0\n", "") == "runs/first.toml: error: missing key 'duration'");
   CHECK(error_of("[modes]", "[adaptivity.available]\nframe = \"auto\"\n[modes]") ==
-        "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of mode numbers or "
+        "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of mode "
+        "numbers or "
         "\"all\"; \"auto\" chooses from what is available, in [modes]");
   CHECK(error_of("speed =", "sped =") ==
         "runs/first.toml:2:1: error: unknown key 'sped' (did you mean 'speed'?)");
   CHECK(error_of("speed = 3.0", "speed = \"3 m/s\"") ==
         "runs/first.toml:2:9: error: 'speed' must be a number [m/s], got a string \"3 m/s\"");
   CHECK(error_of("start = \"as-given\"", "start = \"as_given\"") ==
-        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a string "
+        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a "
+        "string "
         "\"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
-        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", \"generalized-alpha\", \"adams\", \"bdf\"; got "
+        "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", "
+        "\"generalized-alpha\", \"adams\", \"bdf\"; got "
         "a string \"bfd\" (did you mean 'bdf'?)");
   CHECK(error_of("from = 0.5", "form = 0.5") ==
         "runs/first.toml:14:1: error: unknown key 'form' in 'statistics' (did you mean 'from'?)");
@@ -198,12 +204,14 @@ TEST_CASE("Settings of the integrator out of range are refused") {
   CHECK(error_of("method = \"bdf\"\n", alpha + "fixed_step = 0\n") ==
         "runs/first.toml:25:14: error: 'integrator.fixed_step' must be > 0 s, got 0");
   CHECK(error_of("largest_step = 0.01", "fixed_step = 0.01") ==
-        "runs/first.toml:26:14: error: 'integrator.fixed_step' has a meaning with method = \"generalized-alpha\" alone");
+        "runs/first.toml:26:14: error: 'integrator.fixed_step' has a meaning with method = "
+        "\"generalized-alpha\" alone");
 }
 
 TEST_CASE("Generalized-α takes a spectral radius and a fixed step") {
-  const dynamics::Run run = read(test::with_change(
-      kText, "method = \"bdf\"\n", "method = \"generalized-alpha\"\nspectral_radius = 0.6\nfixed_step = 1e-4\n"));
+  const dynamics::Run run =
+      read(test::with_change(kText, "method = \"bdf\"\n",
+                             "method = \"generalized-alpha\"\nspectral_radius = 0.6\nfixed_step = 1e-4\n"));
   CHECK(run.integrator.method == dynamics::Integrator::Method::kGeneralizedAlpha);
   CHECK(run.integrator.spectral_radius == 0.6);
   CHECK(run.integrator.fixed_step == 1e-4);
@@ -215,5 +223,6 @@ TEST_CASE("Output points that the vehicle lacks are refused") {
   CHECK(input_error_of([&] { dynamics::resolve_output_points(run, cart); }) ==
         "runs/first.toml:29:22: error: 'frame' has no point 'tob' (did you mean 'top'?)");
   CHECK(error_of("[\"arm.tip\", \"frame.top\", \"arm.tip\"]", "[]") ==
-        "runs/first.toml:29:10: error: 'output.points' must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
+        "runs/first.toml:29:10: error: 'output.points' must name at least one point \"body.point\"; leave it "
+        "out for those of the vehicle's 'monitor'");
 }

@@ -28,8 +28,8 @@ dynamics::Vehicle read_stiffening_cart(int num_modes) {
 dynamics::StiffenedBodies resolve(const std::string& line, const dynamics::ModeSelection& selection,
                                   const dynamics::Vehicle& vehicle) {
   const support::TomlDocument document = support::TomlDocument::parse("[stiffening]\n" + line, "run.toml");
-  return dynamics::resolve_stiffening(
-      dynamics::read_stiffening(document.root().at("stiffening").table()), selection, vehicle);
+  return dynamics::resolve_stiffening(dynamics::read_stiffening(document.root().at("stiffening").table()),
+                                      selection, vehicle);
 }
 
 }  // namespace
@@ -46,14 +46,17 @@ TEST_CASE("Bodies with active modes stiffen where the run file says so") {
 TEST_CASE("Stiffening that cannot be is refused") {
   const dynamics::ModeSelection selection{{"frame", {1, 2, 4}}};
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_cart()); }) ==
-        "run.toml:2:9: error: 'stiffening.frame' needs the geometric stiffness of superelement 'frame', whose file is "
+        "run.toml:2:9: error: 'stiffening.frame' needs the geometric stiffness of superelement 'frame', "
+        "whose file is "
         "of version 1 and has none; make it again from its design with sprung-reduce build");
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_stiffening_cart(3)); }) ==
-        "run.toml:2:9: error: 'stiffening.frame' cannot be true with mode 4: superelement 'frame' has geometric "
+        "run.toml:2:9: error: 'stiffening.frame' cannot be true with mode 4: superelement 'frame' has "
+        "geometric "
         "stiffness of its lowest 3 modes");
   CHECK(input_error_of([&] { resolve("arm = true", selection, read_cart()); }) ==
         "run.toml:2:7: error: 'stiffening.arm' is about the modes of body 'arm', which has no superelement");
-  CHECK(input_error_of([&] { resolve("frame = 1", selection, read_cart()); }).find("run.toml:2:9: error:") == 0);
+  CHECK(input_error_of([&] { resolve("frame = 1", selection, read_cart()); }).find("run.toml:2:9: error:") ==
+        0);
   // Off, an old file serves as ever.
   CHECK(resolve("frame = false", selection, read_cart()).empty());
 }
@@ -62,8 +65,8 @@ TEST_CASE("Every point of a stiffening body moves by second order, its centre of
   const dynamics::Vehicle cart = read_stiffening_cart(4);
   const dynamics::FlatRoad flat;
   const auto make = [&](const dynamics::StiffenedBodies& stiffened) {
-    return dynamics::make_model(cart, {{"frame", {1, 2, 4}}}, {.road = &flat}, {}, dynamics::MotionUse::kMoving,
-                                stiffened);
+    return dynamics::make_model(cart, {{"frame", {1, 2, 4}}}, {.road = &flat}, {},
+                                dynamics::MotionUse::kMoving, stiffened);
   };
   const dynamics::Model on = make({"frame"}), off = make({});
   CHECK(on.bodies[0].stiffening);

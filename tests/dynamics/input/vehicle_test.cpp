@@ -61,9 +61,8 @@ TEST_CASE(
     "The points of a vehicle are origins, centres of mass, named nodes, given points and the ground's") {
   const std::vector<dynamics::VehiclePoint> points = dynamics::list_points(read_cart(cart_text()));
   const std::vector<std::string> expected{
-      "frame.origin", "frame.center_of_mass", "frame.left", "frame.right", "frame.top", "frame.seat",
-      "arm.origin",   "arm.center_of_mass",   "arm.tip",    "arm.root",    "ground.peg",
-      "ground.origin"};
+      "frame.origin", "frame.center_of_mass", "frame.left", "frame.right", "frame.top",  "frame.seat",
+      "arm.origin",   "arm.center_of_mass",   "arm.tip",    "arm.root",    "ground.peg", "ground.origin"};
   CHECK(dynamics::point_names(read_cart(cart_text())) == expected);
   // Σ m r / Σ m of the frame's four point masses.
   const Eigen::Vector2d center((2.0 * -1.2 + 4.0 * 1.3 + 1.5 * 0.2) / 10.5,
@@ -108,10 +107,12 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
   CHECK(error_of_cart("inertia = 0.7", "inertia = 1e-320") ==
         "cart.toml:15:11: error: 'bodies.arm.inertia' must be ≥ 1e-30 and ≤ 1e+30 kg·m², got 1e-320");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 7e19") ==
-        "cart.toml:15:11: error: 'bodies.arm.inertia' is 7e+19 kg·m², which for a mass of 4 kg is a radius of gyration of "
+        "cart.toml:15:11: error: 'bodies.arm.inertia' is 7e+19 kg·m², which for a mass of 4 kg is a radius "
+        "of gyration of "
         "4.1833e+09 m; expected 1e-09 to 1e+09 m");
   CHECK(error_of_cart("mass = 4.0", "mass = 4e-25")
-            .starts_with("cart.toml:14:8: error: 'bodies.arm.mass' is 4e-25 kg, where half of the bodies have at least "));
+            .starts_with("cart.toml:14:8: error: 'bodies.arm.mass' is 4e-25 kg, where half of the bodies "
+                         "have at least "));
   CHECK(error_of_cart("position = [3.5, 0.9]", "position = [inf, 0.9]") ==
         "cart.toml:16:13: error: 'bodies.arm.position.0' must be a finite number [m], got inf");
   CHECK(error_of_cart("free_length = 5.5", "free_length = 0.0") ==

@@ -90,7 +90,8 @@ TEST_CASE("Light bodies follow heavy ones", "[system]") {
   CHECK(partition.dependent == std::vector<int>{0, 1});
 }
 
-TEST_CASE("The dependents of a long chain follow the independents as closely as those of a short one", "[system]") {
+TEST_CASE("The dependents of a long chain follow the independents as closely as those of a short one",
+          "[system]") {
   // 70 and 80 links have 142 and 162 constraints, on both sides of where the rule of the choice changes.
   const auto smallest_share = [](int num_links) {
     const test::Chain chain = test::make_closed_chain(num_links);
