@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/support/input_error.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::fem {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fem/mesh.h"
-#include "tools/support/input_error.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::fem {
 

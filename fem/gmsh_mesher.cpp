@@ -12,7 +12,7 @@
 
 #include "fem/gmsh_contents.h"
 #include "fem/msh_file.h"
-#include "tools/support/read_text_file.h"
+#include "tools/support/files/read_text_file.h"
 
 namespace sprung::fem {
 

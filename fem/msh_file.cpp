@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "tools/support/input_error.h"
-#include "tools/support/read_text_file.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/files/read_text_file.h"
 
 namespace sprung::fem {
 

@@ -19,7 +19,7 @@ MOMENTS = (2, 5)  # of the resultants N, Q, M at both ends of an element
 
 
 class Superelement(NamedTuple):
-    """What (1) needs of a file (reduce/superelement.md): n modes, N nodes, E elements."""
+    """What (1) needs of a file (reduce/superelement/superelement.md): n modes, N nodes, E elements."""
 
     path: str
     content_hash: str

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/bodies/stiffening.h"
-#include "reduce/superelement.h"
+#include "reduce/superelement/superelement.h"
 
 namespace sprung::dynamics {
 

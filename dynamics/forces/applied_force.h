@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dynamics/forces/force_element.h"
-#include "dynamics/forces/time_function.h"
+#include "dynamics/functions/time_function.h"
 
 namespace sprung::dynamics {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "dynamics/forces/force_element.h"
-#include "dynamics/forces/piecewise_polynomial.h"
 #include "dynamics/forces/wheel_overlap.h"
+#include "dynamics/functions/piecewise_polynomial.h"
 #include "dynamics/road/road.h"
 
 namespace sprung::dynamics {

@@ -11,7 +11,7 @@
 #include "dynamics/bodies/marker.h"
 #include "dynamics/forces/passage.h"
 #include "dynamics/forces/road_response.h"
-#include "dynamics/forces/time_function.h"
+#include "dynamics/functions/time_function.h"
 
 namespace sprung::dynamics {
 

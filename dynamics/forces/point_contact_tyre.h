@@ -1,7 +1,7 @@
 #pragma once
 
 #include "dynamics/forces/force_element.h"
-#include "dynamics/forces/piecewise_polynomial.h"
+#include "dynamics/functions/piecewise_polynomial.h"
 #include "dynamics/road/road.h"
 
 namespace sprung::dynamics {

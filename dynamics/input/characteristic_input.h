@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "dynamics/forces/piecewise_polynomial.h"
-#include "tools/support/toml.h"
+#include "dynamics/functions/piecewise_polynomial.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

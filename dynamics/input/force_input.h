@@ -9,7 +9,7 @@
 #include "dynamics/forces/force_element.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/road/road.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

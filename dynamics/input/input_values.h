@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

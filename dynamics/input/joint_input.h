@@ -7,7 +7,7 @@
 
 #include "dynamics/input/point_reference.h"
 #include "dynamics/joints/joint.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/input/vehicle.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

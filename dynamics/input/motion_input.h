@@ -6,7 +6,7 @@
 
 #include "dynamics/input/joint_input.h"
 #include "dynamics/input/point_reference.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -5,7 +5,7 @@
 
 #include "dynamics/input/point_reference.h"
 #include "dynamics/road/road_spectrum.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -11,7 +11,7 @@
 #include "dynamics/road/bump_road.h"
 #include "dynamics/road/flat_road.h"
 #include "dynamics/road/table_road.h"
-#include "tools/support/read_text_file.h"
+#include "tools/support/files/read_text_file.h"
 
 namespace sprung::dynamics {
 

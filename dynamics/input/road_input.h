@@ -5,7 +5,7 @@
 #include <string>
 
 #include "dynamics/road/road.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

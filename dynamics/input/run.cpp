@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/integrator.h"
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/integration/integrator.h"
 #include "dynamics/system/model.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -6,7 +6,7 @@
 
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/vehicle.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

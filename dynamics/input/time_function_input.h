@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "dynamics/forces/time_function.h"
-#include "tools/support/toml.h"
+#include "dynamics/functions/time_function.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

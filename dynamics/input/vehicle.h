@@ -10,8 +10,8 @@
 #include "dynamics/input/joint_input.h"
 #include "dynamics/input/motion_input.h"
 #include "dynamics/input/point_reference.h"
-#include "reduce/superelement.h"
-#include "tools/support/toml.h"
+#include "reduce/superelement/superelement.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/forces/time_function.h"
+#include "dynamics/functions/time_function.h"
 #include "dynamics/joints/joint.h"
 
 namespace sprung::dynamics {

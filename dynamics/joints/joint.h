@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
-#include "dynamics/forces/time_function.h"
+#include "dynamics/functions/time_function.h"
 #include "dynamics/joints/relative_coordinate.h"
-#include "tools/support/input_error.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::dynamics {
 

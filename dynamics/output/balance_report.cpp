@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/output/json.h"
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

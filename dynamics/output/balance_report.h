@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/assembly.h"
-#include "dynamics/analysis/equilibrium.h"
-#include "dynamics/analysis/vehicle_modes.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
+#include "dynamics/linear/vehicle_modes.h"
 
 namespace sprung::dynamics {
 

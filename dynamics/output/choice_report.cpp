@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "dynamics/analysis/basis_choice.h"
+#include "dynamics/mode_choice/basis_choice.h"
 #include "dynamics/output/json.h"
-#include "tools/support/hdf5_file.h"
+#include "tools/support/hdf5/hdf5_file.h"
 
 namespace sprung::dynamics {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/bodies/body.h"
-#include "reduce/superelement.h"
+#include "reduce/superelement/superelement.h"
 
 namespace sprung::dynamics {
 

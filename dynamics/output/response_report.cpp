@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "dynamics/output/json.h"
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

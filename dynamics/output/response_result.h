@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/linear_outputs.h"
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/linear/linear_outputs.h"
 
 namespace sprung::dynamics {
 

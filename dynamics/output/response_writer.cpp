@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "tools/support/hdf5_file.h"
+#include "tools/support/hdf5/hdf5_file.h"
 
 namespace sprung::dynamics {
 

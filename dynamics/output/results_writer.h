@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/analysis/basis_choice.h"
-#include "dynamics/analysis/equilibrium.h"
-#include "dynamics/analysis/transient.h"
-#include "dynamics/analysis/vehicle_modes.h"
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/linear/equilibrium.h"
+#include "dynamics/linear/vehicle_modes.h"
+#include "dynamics/mode_choice/basis_choice.h"
 #include "dynamics/output/recovery.h"
 #include "dynamics/output/run_statistics.h"
-#include "tools/support/hdf5_file.h"
+#include "dynamics/simulation/transient.h"
+#include "tools/support/hdf5/hdf5_file.h"
 
 namespace sprung::dynamics {
 

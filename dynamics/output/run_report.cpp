@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "dynamics/output/json.h"
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "dynamics/analysis/assembly.h"
-#include "dynamics/analysis/equilibrium.h"
 #include "dynamics/input/run.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
 #include "dynamics/output/run_statistics.h"
 
 namespace sprung::dynamics {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/transient.h"
+#include "dynamics/simulation/transient.h"
 
 namespace sprung::dynamics {
 

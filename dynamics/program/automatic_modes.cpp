@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "dynamics/analysis/assembly.h"
-#include "dynamics/analysis/equilibrium.h"
 #include "dynamics/input/make_model.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {

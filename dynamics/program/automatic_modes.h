@@ -1,8 +1,8 @@
 #pragma once
 
-#include "dynamics/analysis/basis_choice.h"
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/mode_choice/basis_choice.h"
 
 namespace sprung::dynamics {
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/program/commands.h"
-#include "tools/support/program.h"
+#include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
 

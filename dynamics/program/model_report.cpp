@@ -7,7 +7,7 @@
 #include "dynamics/output/choice_report.h"
 #include "dynamics/output/json.h"
 #include "dynamics/output/run_report.h"
-#include "tools/support/text_table.h"
+#include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
 

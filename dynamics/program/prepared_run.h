@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/assembly.h"
-#include "dynamics/analysis/basis_choice.h"
-#include "dynamics/analysis/equilibrium.h"
-#include "dynamics/analysis/mode_adaptation.h"
+#include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/input/run.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
+#include "dynamics/mode_choice/basis_choice.h"
 
 namespace sprung::dynamics {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/analysis/linear_outputs.h"
+#include "dynamics/linear/linear_outputs.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
 #include "dynamics/program/commands.h"
-#include "tools/support/foreign_file.h"
-#include "tools/support/numerical_error.h"
-#include "tools/support/program.h"
+#include "tools/support/errors/numerical_error.h"
+#include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
 

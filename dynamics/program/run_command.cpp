@@ -4,17 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/analysis/transient.h"
-#include "dynamics/analysis/vehicle_modes.h"
+#include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/choice_report.h"
 #include "dynamics/output/results_writer.h"
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
-#include "tools/support/foreign_file.h"
-#include "tools/support/numerical_error.h"
-#include "tools/support/program.h"
-#include "tools/support/progress_bar.h"
+#include "dynamics/simulation/transient.h"
+#include "tools/support/errors/numerical_error.h"
+#include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/program.h"
+#include "tools/support/terminal/progress_bar.h"
 
 namespace sprung::dynamics {
 

@@ -2,8 +2,8 @@
 
 #include "dynamics/output/choice_report.h"
 #include "dynamics/program/commands.h"
-#include "tools/support/foreign_file.h"
-#include "tools/support/program.h"
+#include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
 

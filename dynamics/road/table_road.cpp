@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dynamics/forces/piecewise_polynomial.h"
+#include "dynamics/functions/piecewise_polynomial.h"
 
 namespace sprung::dynamics {
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/linear_algebra/block_triangular_form.h"
+#include "dynamics/linear_algebra/sparse_lu.h"
 #include "dynamics/system/block_jacobian.h"
-#include "dynamics/system/block_triangular_form.h"
 #include "dynamics/system/partition.h"
-#include "dynamics/system/sparse_lu.h"
 
 namespace sprung::dynamics {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/bodies/body_mass.h"
-#include "dynamics/system/block_cholesky.h"
+#include "dynamics/linear_algebra/block_cholesky.h"
 #include "dynamics/system/block_jacobian.h"
 
 namespace sprung::dynamics {

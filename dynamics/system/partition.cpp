@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/system/column_pivoting.h"
+#include "dynamics/linear_algebra/column_pivoting.h"
 
 namespace sprung::dynamics {
 

@@ -22,7 +22,7 @@ class PartitionedEquations {
     kGood,
     kNotAssembled,  ///< the dependent coordinates did not converge, or to another way of assembling the
                     ///< mechanism: too far a step, or near a singular position
-    kNotFinite,  ///< NaN or infinity came out
+    kNotFinite,     ///< NaN or infinity came out
   };
 
   explicit PartitionedEquations(const Model& model);

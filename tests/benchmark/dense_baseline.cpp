@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/support/numerical_error.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::benchmark {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/integration/partitioned/partitioned_ode.h"
 #include "tests/dynamics/dense_evaluator.h"
 
 namespace sprung::benchmark {

@@ -11,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/integrator.h"
-#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/integration/integrator.h"
+#include "dynamics/integration/partitioned/make_integrator.h"
+#include "dynamics/integration/partitioned/partitioned_ode.h"
 #include "tests/dynamics/chains.h"
-#include "tools/support/program.h"
+#include "tools/support/terminal/program.h"
 
 namespace {
 

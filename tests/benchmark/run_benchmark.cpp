@@ -19,10 +19,10 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/analysis/transient.h"
 #include "dynamics/program/prepared_run.h"
+#include "dynamics/simulation/transient.h"
 #include "tests/benchmark/dense_baseline.h"
-#include "tools/support/program.h"
+#include "tools/support/terminal/program.h"
 
 namespace {
 

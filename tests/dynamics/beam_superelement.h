@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reduce/superelement.h"
+#include "reduce/superelement/superelement.h"
 
 namespace sprung::test {
 

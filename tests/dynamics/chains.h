@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/analysis/transient.h"
+#include "dynamics/simulation/transient.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::test {

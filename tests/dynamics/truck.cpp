@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "dynamics/analysis/assembly.h"
+#include "dynamics/linear/assembly.h"
 #include "dynamics/road/bump_road.h"
 #include "dynamics/road/flat_road.h"
 #include "dynamics/system/system_terms.h"

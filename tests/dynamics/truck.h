@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/analysis/equilibrium.h"
-#include "dynamics/analysis/transient.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/input/vehicle.h"
+#include "dynamics/linear/equilibrium.h"
 #include "dynamics/road/road.h"
+#include "dynamics/simulation/transient.h"
 
 namespace sprung::test {
 

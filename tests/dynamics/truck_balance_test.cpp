@@ -2,13 +2,13 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/analysis/assembly.h"
-#include "dynamics/analysis/vehicle_modes.h"
 #include "dynamics/forces/point_contact_tyre.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/vehicle_modes.h"
 #include "tests/catch.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/truck.h"
-#include "tools/support/numerical_error.h"
+#include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
 

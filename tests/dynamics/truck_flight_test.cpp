@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "dynamics/analysis/assembly.h"
 #include "dynamics/bodies/body_equations.h"
+#include "dynamics/linear/assembly.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
 #include "tests/dynamics/random_numbers.h"

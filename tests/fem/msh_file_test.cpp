@@ -2,7 +2,7 @@
 
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
-#include "tools/support/input_error.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::fem {
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "reduce/reduction.h"
+#include "reduce/reduction/reduction.h"
 
 namespace sprung::reduce::testing {
 

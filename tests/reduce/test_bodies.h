@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fem/beam_model.h"
-#include "reduce/design.h"
-#include "reduce/superelement.h"
+#include "reduce/design/design.h"
+#include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce::testing {
 

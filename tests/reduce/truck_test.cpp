@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "reduce/reduction.h"
+#include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
 #include "tests/reduce/test_bodies.h"
 

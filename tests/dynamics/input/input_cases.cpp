@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include "tests/dynamics/input/lumped_superelement.h"
-#include "tools/support/input_error.h"
-#include "tools/support/toml.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::test {
 

@@ -10,7 +10,7 @@
 #include "dynamics/input/vehicle.h"
 #include "tests/catch.h"
 #include "tests/dynamics/input/input_cases.h"
-#include "tools/support/read_text_file.h"
+#include "tools/support/files/read_text_file.h"
 
 using namespace sprung;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reduce/superelement.h"
+#include "reduce/superelement/superelement.h"
 
 namespace sprung::test {
 

@@ -6,7 +6,7 @@
 #include "dynamics/system/system_terms.h"
 #include "tests/catch.h"
 #include "tests/dynamics/input/lumped_superelement.h"
-#include "tools/support/toml.h"
+#include "tools/support/toml/toml.h"
 
 using namespace sprung;
 

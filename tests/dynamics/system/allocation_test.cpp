@@ -4,8 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "dynamics/analysis/generalized_alpha_stepper.h"
-#include "dynamics/analysis/partitioned_ode.h"
+#include "dynamics/integration/generalized_alpha/generalized_alpha_stepper.h"
+#include "dynamics/integration/partitioned/make_integrator.h"
+#include "dynamics/integration/partitioned/partitioned_ode.h"
 #include "dynamics/road/bump_road.h"
 #include "tests/catch.h"
 #include "tests/dynamics/allocation_counter.h"

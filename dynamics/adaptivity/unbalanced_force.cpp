@@ -1,0 +1,61 @@
+#include "dynamics/adaptivity/unbalanced_force.h"
+
+namespace sprung::dynamics {
+
+UnbalancedForce::UnbalancedForce(const Model& full)
+    : full_(&full),
+      acting_(full.bodies.size()),
+      loads_(full.markers.size()),
+      spin_(Eigen::VectorXd::Zero(full.num_coordinates)),
+      force_(Eigen::VectorXd::Zero(full.num_coordinates)) {
+  for (const Body& body : full.bodies) {
+    is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
+  }
+  for (const int i : full.acting_markers) {
+    const Marker& marker = full.markers[static_cast<std::size_t>(i)];
+    if (marker.body != kGround && marker.Phi.cols() > 0)
+      acting_[static_cast<std::size_t>(marker.body)].push_back(i);
+  }
+}
+
+void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+  run.calc_loads(lambda, loads_);
+  for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
+    const Body& body = full_->bodies[b];
+    const Eigen::Index n = body.num_modes(), first = body.first_coordinate;
+    if (n == 0) continue;
+    const FrameRotation rotation = FrameRotation::from_angle(q[first + 2]);
+    const Eigen::Vector2d pull = rotation.transposed_times(full_->gravity - v_dot.segment<2>(first));
+    const double rate = v[first + 2], turning = v_dot[first + 2];
+    const auto eta = q.segment(first + 3, n), eta_dot = v.segment(first + 3, n),
+               eta_ddot = v_dot.segment(first + 3, n);
+    auto r = force_.segment(first + 3, n);
+    r.noalias() = body.P.transpose() * pull;
+    r += rate * rate * body.d.transpose() - turning * body.c.transpose();
+    r.noalias() += rate * rate * (body.M_tt * eta);
+    // B is skew: −(ηᵀB)ᵀ = B η.
+    auto spin = spin_.head(n);
+    spin = turning * eta + 2.0 * rate * eta_dot;
+    r.noalias() += body.B * spin;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (eta_ddot[k] != 0.0) r -= eta_ddot[k] * body.M_ff.col(k);  // most are held, at rest
+    }
+    if (is_uncoupled_[b]) {
+      r -= body.damping.diagonal().cwiseProduct(eta_dot) + body.stiffness.diagonal().cwiseProduct(eta);
+    } else {
+      r.noalias() -= body.damping * eta_dot;
+      r.noalias() -= body.stiffness * eta;
+    }
+    for (const int i : acting_[b]) {
+      const Marker& marker = full_->markers[static_cast<std::size_t>(i)];
+      const Wrench& load = loads_[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d force = rotation.transposed_times(load.force);
+      for (Eigen::Index k = 0; k < n; ++k) {
+        r[k] += marker.Phi(0, k) * force.x() + marker.Phi(1, k) * force.y() + marker.Phi(2, k) * load.torque;
+      }
+    }
+  }
+}
+
+}  // namespace sprung::dynamics

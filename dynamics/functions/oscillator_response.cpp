@@ -1,0 +1,151 @@
+#include "dynamics/functions/oscillator_response.h"
+
+#include <cmath>
+#include <iterator>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kTop = OscillatorResponse::kMaxPower;
+constexpr double kInverseFactorial[] = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0};
+static_assert(kTop + 2 < static_cast<int>(std::size(kInverseFactorial)));
+
+// Scaled time below which the power series is used; its terms then fall from the first on.
+constexpr double kSeriesLimit = 1.5;
+// d/ω above which the two decays of an overdamped oscillator are far enough apart to be told from each other,
+// and below which the recurrence divides by no small number.
+constexpr double kOverdamped = 1.2;
+
+// 1/m and 1/(m(m−1)).
+constexpr int kMaxTerms = 60;
+constexpr auto kSeriesDivisors = [] {
+  std::array<std::array<double, 2>, kMaxTerms> divisors{};
+  for (std::size_t m = 2; m < kMaxTerms; ++m) {
+    const auto value = static_cast<double>(m);
+    divisors[m] = {1.0 / value, 1.0 / (value * (value - 1.0))};
+  }
+  return divisors;
+}();
+
+double sinc(double x) {
+  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
+}
+double sinhc(double x) {
+  return std::abs(x) < 1e-4 ? 1.0 + x * x / 6.0 : std::sinh(x) / x;
+}
+
+double power_term(int k, double time) {
+  double value = kInverseFactorial[k];
+  for (int i = 0; i < k; ++i) value *= time;
+  return value;
+}
+
+// Highest two forced responses by their power series, the lower ones by the equation itself, which only
+// multiplies.
+OscillatorResponse by_series(double stiffness, double decay, double time, int top) {
+  // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
+  double before = 0.0, term = power_term(top + 2, time);
+  double value = term, rate = (top + 2) * term;
+  const double damping = -2.0 * decay * time, spring = -stiffness * time * time;
+  for (int m = top + 3; m < kMaxTerms; ++m) {
+    const auto& [once, twice] = kSeriesDivisors[static_cast<std::size_t>(m)];
+    const double next = damping * once * term + spring * twice * before;
+    before = term;
+    term = next;
+    value += term;
+    rate += m * term;
+    if (std::abs(term) + std::abs(before) < 1e-18 * std::abs(value)) break;
+  }
+  OscillatorResponse r{};
+  std::array<double, kTop + 3> X{};  // X_{−2} … X_top
+  X[static_cast<std::size_t>(top) + 2] = value;
+  X[static_cast<std::size_t>(top) + 1] = rate / time;
+  for (int k = top; k >= 0; --k) {
+    const auto i = static_cast<std::size_t>(k);
+    X[i] = power_term(k, time) - 2.0 * decay * X[i + 1] - stiffness * X[i + 2];
+  }
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = X[k + 2];
+  r.s = X[1];
+  r.s_rate = X[0];
+  return r;
+}
+
+OscillatorResponse by_recurrence(double stiffness, double decay, double time, int top) {
+  OscillatorResponse r{};
+  const double discriminant = stiffness - decay * decay;
+  const double mu = std::sqrt(std::abs(discriminant));
+  const double envelope = std::exp(-decay * time);
+  if (discriminant >= 0.0) {
+    r.s = envelope * time * sinc(mu * time);
+    r.s_rate = envelope * std::cos(mu * time) - decay * r.s;
+  } else if (mu * time < 1.0) {
+    r.s = envelope * time * sinhc(mu * time);
+    r.s_rate = envelope * std::cosh(mu * time) - decay * r.s;
+  } else {
+    const double slow = std::exp((mu - decay) * time), fast = std::exp(-(mu + decay) * time);
+    r.s = (slow - fast) / (2.0 * mu);
+    r.s_rate = 0.5 * (slow + fast) - decay * r.s;
+  }
+  double last = r.s_rate, current = r.s;
+  for (int k = 0; k <= top; ++k) {
+    const double next = (power_term(k, time) - 2.0 * decay * current - last) / stiffness;
+    r.forced[static_cast<std::size_t>(k)] = next;
+    last = current;
+    current = next;
+  }
+  return r;
+}
+
+// ∫ e^{r(t−σ)} σ^k/k! dσ for k = −1 … top, where k = −1 stands for the response to an impulse.
+std::array<double, kTop + 2> exponential_responses(double rate, double time, int top) {
+  std::array<double, kTop + 2> Y{};
+  const double z = rate * time;
+  if (std::abs(z) < 1.0) {
+    double term = power_term(top + 1, time), sum = term;
+    for (int m = top + 2; m < 40; ++m) {
+      term *= z / m;
+      sum += term;
+    }
+    Y[static_cast<std::size_t>(top) + 1] = sum;
+    for (int k = top; k >= 0; --k) {
+      Y[static_cast<std::size_t>(k)] = power_term(k, time) + rate * Y[static_cast<std::size_t>(k) + 1];
+    }
+  } else {
+    Y[0] = std::exp(z);
+    for (int k = 0; k <= top; ++k) {
+      Y[static_cast<std::size_t>(k) + 1] = (Y[static_cast<std::size_t>(k)] - power_term(k, time)) / rate;
+    }
+  }
+  return Y;
+}
+
+// Far beyond critical damping: the difference of two decays, which are far apart.
+OscillatorResponse by_two_decays(double stiffness, double decay, double time, int top) {
+  const double root = std::sqrt(decay * decay - stiffness);
+  const double slow_rate = -stiffness / (decay + root), fast_rate = -(decay + root);
+  const auto slow = exponential_responses(slow_rate, time, top);
+  const auto fast = exponential_responses(fast_rate, time, top);
+  OscillatorResponse r{};
+  r.s = (slow[0] - fast[0]) / (2.0 * root);
+  r.s_rate = (slow_rate * slow[0] - fast_rate * fast[0]) / (2.0 * root);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k)
+    r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
+  return r;
+}
+
+}  // namespace
+
+OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
+  if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
+  const double omega = std::sqrt(stiffness);
+  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit
+                             ? by_series(stiffness, decay, time, max_power)
+                         : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time, max_power)
+                                                       : by_recurrence(stiffness, decay, time, max_power);
+  r.c = r.s_rate + 2.0 * decay * r.s;
+  r.c_rate = -stiffness * r.s;
+  return r;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,252 @@
+#include "dynamics/integration/cvode/cvode_integrator.h"
+
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamics/integration/touch_search.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a
+// singular position for ever.
+constexpr double kShortestStep = 1e-12;     // s
+constexpr double kSwitchTolerance = 1e-12;  // s
+
+std::span<double> values(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
+}
+
+struct Callback {
+  OdeSystem* system;
+  double relative_tolerance;
+  std::string message;  // what CVODE said last
+};
+
+int evaluate_derivative(realtype time, N_Vector y, N_Vector y_dot, void* data) {
+  const auto* callback = static_cast<Callback*>(data);
+  return callback->system->calc_derivative(time, values(y), values(y_dot)) ? 0 : 1;
+}
+
+int evaluate_switches(realtype time, N_Vector y, realtype* switches, void* data) {
+  const auto* callback = static_cast<Callback*>(data);
+  const std::span<double> result(switches, static_cast<std::size_t>(callback->system->num_switches()));
+  return callback->system->calc_switches(time, values(y), result) ? 0 : -1;
+}
+
+int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
+  const auto* callback = static_cast<Callback*>(data);
+  callback->system->calc_error_scales(values(y), values(weights));
+  for (double& w : values(weights)) {
+    if (!(w > 0.0)) return -1;
+    w = 1.0 / (callback->relative_tolerance * w);
+  }
+  return 0;
+}
+
+void keep_message(int /*code*/, const char* /*module*/, const char* function, char* message, void* data) {
+  static_cast<Callback*>(data)->message = fmt::format("{}: {}", function, message);
+}
+
+std::string explain_stop(int code, const std::string& message) {
+  switch (code) {
+    case CV_TOO_MUCH_ACC:
+      return "the relative tolerance is finer than rounding allows this method; try a larger one, or method "
+             "= "
+             "\"exponential\"";
+    case CV_CONV_FAILURE:
+      return "the iteration of a step does not converge; look at forces and positions just before that time, "
+             "and where "
+             "springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
+    case CV_ERR_FAILURE:
+      return "the step has become too short; look at forces and positions just before that time, which may "
+             "be a singular one";
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+    case CV_RTFUNC_FAIL:
+      return "no accelerations can be found there; look at forces and positions just before that time";
+    default:
+      return fmt::format("code {}: {}", code, message);
+  }
+}
+
+}  // namespace
+
+struct CvodeIntegrator::Memory {
+  SUNContext context = nullptr;
+  void* cvode = nullptr;
+  N_Vector y = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver linear_solver = nullptr;
+  SUNNonlinearSolver nonlinear_solver = nullptr;
+  Callback callback;
+  bool started = false;
+  TouchSearch touch_search{0};
+  Eigen::VectorXd begin_switches, end_switches;  // at the ends of the step
+  Integrator::Statistics before;                 // of the runs before the last restart
+
+  void check(int code, const char* what) const {
+    if (code >= 0) return;
+    throw support::NumericalError(
+        fmt::format("integrator: {} failed (code {}): {}", what, code, callback.message));
+  }
+  template <class Pointer>
+  Pointer require(Pointer pointer, const char* what) const {
+    if (!pointer)
+      throw support::NumericalError(fmt::format("integrator: {} failed: {}", what, callback.message));
+    return pointer;
+  }
+  ~Memory() {
+    if (cvode) CVodeFree(&cvode);
+    if (nonlinear_solver) SUNNonlinSolFree(nonlinear_solver);
+    if (linear_solver) SUNLinSolFree(linear_solver);
+    if (matrix) SUNMatDestroy(matrix);
+    if (y) N_VDestroy(y);
+    if (context) SUNContext_Free(&context);
+  }
+};
+
+CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options)
+    : memory_(std::make_unique<Memory>()) {
+  Memory& memory = *memory_;
+  memory.callback = {&system, options.relative_tolerance, {}};
+  memory.check(SUNContext_Create(nullptr, &memory.context), "SUNContext_Create");
+  const bool adams = options.method == Method::kAdams;
+  memory.y = memory.require(N_VNew_Serial(system.size(), memory.context), "N_VNew_Serial");
+  N_VConst(0.0, memory.y);
+  memory.cvode = memory.require(CVodeCreate(adams ? CV_ADAMS : CV_BDF, memory.context), "CVodeCreate");
+  memory.check(CVodeSetErrHandlerFn(memory.cvode, keep_message, &memory.callback), "CVodeSetErrHandlerFn");
+  memory.check(CVodeInit(memory.cvode, evaluate_derivative, 0.0, memory.y), "CVodeInit");
+  memory.check(CVodeSetUserData(memory.cvode, &memory.callback), "CVodeSetUserData");
+  memory.check(CVodeSetMinStep(memory.cvode, kShortestStep), "CVodeSetMinStep");
+  memory.check(CVodeWFtolerances(memory.cvode, evaluate_weights), "CVodeWFtolerances");
+  if (adams) {
+    memory.nonlinear_solver =
+        memory.require(SUNNonlinSol_FixedPoint(memory.y, 0, memory.context), "SUNNonlinSol_FixedPoint");
+    memory.check(CVodeSetNonlinearSolver(memory.cvode, memory.nonlinear_solver), "CVodeSetNonlinearSolver");
+  } else {
+    memory.matrix =
+        memory.require(SUNDenseMatrix(system.size(), system.size(), memory.context), "SUNDenseMatrix");
+    memory.linear_solver =
+        memory.require(SUNLinSol_Dense(memory.y, memory.matrix, memory.context), "SUNLinSol_Dense");
+    memory.check(CVodeSetLinearSolver(memory.cvode, memory.linear_solver, memory.matrix),
+                 "CVodeSetLinearSolver");
+  }
+  if (system.num_switches() > 0) {
+    memory.check(CVodeRootInit(memory.cvode, system.num_switches(), evaluate_switches), "CVodeRootInit");
+    memory.check(CVodeSetNoInactiveRootWarn(memory.cvode), "CVodeSetNoInactiveRootWarn");
+    memory.touch_search = TouchSearch(system.num_switches());
+    memory.begin_switches = memory.end_switches = Eigen::VectorXd::Zero(system.num_switches());
+  }
+}
+
+CvodeIntegrator::~CvodeIntegrator() = default;
+
+void CvodeIntegrator::start(double time, std::span<const double> y, double end_time) {
+  Memory& memory = *memory_;
+  if (memory.started) {
+    memory.before = statistics();
+    ++memory.before.restarts;
+  }
+  memory.started = true;
+  std::copy(y.begin(), y.end(), values(memory.y).begin());
+  memory.check(CVodeReInit(memory.cvode, time, memory.y), "CVodeReInit");
+  memory.check(CVodeSetStopTime(memory.cvode, end_time), "CVodeSetStopTime");
+  time_ = time;
+  end_time_ = end_time;
+  memory.touch_search.forget();
+  calc_switches(time_, memory.end_switches);
+}
+
+// At y.
+void CvodeIntegrator::calc_switches(double time, Eigen::VectorXd& switches) {
+  if (switches.size() == 0) return;
+  if (evaluate_switches(time, memory_->y, switches.data(), &memory_->callback) == 0) return;
+  throw support::NumericalError(
+      fmt::format("integration stopped at t = {:.9g} s: no positions can be found there", time));
+}
+
+// CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found
+// here. y and time_ are there then.
+bool CvodeIntegrator::locate_touch(double from) {
+  Memory& memory = *memory_;
+  if (memory.end_switches.size() == 0) return false;
+  const double to = time_, length = to - from;
+  memory.begin_switches.swap(memory.end_switches);
+  calc_switches(to, memory.end_switches);
+  if (!(length > kShortestStep)) return false;
+  bool has_moved = false;
+  const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(to)) / length;
+  const auto move_to = [&](double time) { interpolate(time, values(memory.y)); };
+  const std::optional<double> theta =
+      memory.touch_search.find(memory.begin_switches, memory.end_switches, length, tolerance,
+                               [&](double place, Eigen::VectorXd& switches) {
+                                 has_moved = true;
+                                 move_to(from + place * length);
+                                 calc_switches(from + place * length, switches);
+                               });
+  if (theta) {
+    time_ = from + *theta * length;
+    move_to(time_);
+  } else if (has_moved) {
+    move_to(to);
+    calc_switches(to, memory.end_switches);
+  }
+  return theta.has_value();
+}
+
+Integrator::StepResult CvodeIntegrator::step(double longest_step) {
+  Memory& memory = *memory_;
+  if (end_time_ - time_ <= kShortestStep)
+    return StepResult::kEnded;  // started anew by a switch at the very end
+  memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0),
+               "CVodeSetMaxStep");
+  const double from = time_;
+  const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
+  if (code < 0) {
+    throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time_,
+                                              explain_stop(code, memory.callback.message)));
+  }
+  if (code == CV_ROOT_RETURN || locate_touch(from)) return StepResult::kSwitched;
+  return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
+}
+
+std::span<const double> CvodeIntegrator::y() const {
+  return values(memory_->y);
+}
+
+void CvodeIntegrator::interpolate(double time, std::span<double> y) const {
+  Memory& memory = *memory_;
+  N_Vector target = memory.require(
+      N_VMake_Serial(static_cast<sunindextype>(y.size()), y.data(), memory.context), "N_VMake_Serial");
+  const int code = CVodeGetDky(memory.cvode, time, 0, target);
+  N_VDestroy(target);
+  memory.check(code, "CVodeGetDky");
+}
+
+Integrator::Statistics CvodeIntegrator::statistics() const {
+  Statistics total = memory_->before;
+  long steps = 0, error_failures = 0, iteration_failures = 0;
+  CVodeGetNumSteps(memory_->cvode, &steps);
+  CVodeGetNumErrTestFails(memory_->cvode, &error_failures);
+  CVodeGetNumNonlinSolvConvFails(memory_->cvode, &iteration_failures);
+  total.steps += steps;
+  total.error_test_failures += error_failures;
+  total.iteration_failures += iteration_failures;
+  return total;
+}
+
+}  // namespace sprung::dynamics

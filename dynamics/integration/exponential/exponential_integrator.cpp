@@ -1,0 +1,322 @@
+#include "dynamics/integration/exponential/exponential_integrator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+using lobatto::combine;
+using lobatto::cubic_weights;
+using lobatto::node_polynomial;
+
+constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
+constexpr double kShortestStep = 1e-12;  // s
+
+constexpr int kMaxSweeps = 6;
+constexpr double kIterationShare = 0.3;    // error of the iteration, of what is allowed
+constexpr double kFirstContraction = 0.3;  // until it is known
+constexpr double kLeastContraction = 0.02;
+constexpr double kUselessContraction = 0.9;
+constexpr double kHopelessError =
+    2.0;  // of what is allowed, at which a step is given up before its iteration ends
+// The oscillators may be those of a state long past: iterations that fail, or are slow step after step, tell.
+constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
+constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
+
+// Step control: the truncation within a step is of order 5.
+constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
+constexpr double kMemory =
+    0.5;  // share of the last step's error that counts: an estimate may pass through zero
+// A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
+constexpr double kWorthwhile = 1.15;
+// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten
+// slowly.
+constexpr double kOfHiding = 0.5, kForgetting = 1.1;
+constexpr double kTruncationOfFirst =
+    0.3;  // part of fourth degree, of that of third, where no step was before
+
+std::span<double> span_of(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
+}
+
+}  // namespace
+
+ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_tolerance)
+    : system_(system),
+      tolerance_(relative_tolerance),
+      f_(system.num_freedoms()),
+      num_quadratures_(system.size() - 2 * system.num_freedoms()),
+      num_switches_(system.num_switches()),
+      contraction_(kFirstContraction),
+      bend_contraction_(kFirstContraction),
+      switch_search_(num_switches_) {
+  if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
+  origin_ = Vector::Zero(f_);
+  y_ = y_dot_ = inverse_scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
+  now_ = last_ = CollocationStep(f_, num_quadratures_);
+  prediction_ = DrivePrediction(f_, num_quadratures_);
+  end_ = difference_ = between_motion_ = now_.motion;
+  end_drive_ = bend_response_ = doubt_ = now_.motion;
+  stages_.fill(now_.motion);
+  between_ = LobattoPropagator(f_);
+  propagators_.fill(between_);
+  lookers_.fill(between_);
+  for (std::size_t k = 0; k < kLooks.size(); ++k) look_weights_[k] = cubic_weights(kLooks[k]);
+  switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
+  end_switches_ = Vector::Zero(num_switches_);
+}
+
+void ExponentialIntegrator::throw_stopped(double time, const char* reason) {
+  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
+}
+
+void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
+  if (statistics_.steps > 0) ++statistics_.restarts;
+  const bool follows = last_.length > 0.0 && time == time_;
+  time_ = time;
+  end_time_ = end_time;
+  std::copy(y.begin(), y.end(), y_.data());
+  has_begun_ = false;
+  past_ = follows ? Past::kSwitched : Past::kNone;
+  if (version_ != system_.coordinate_version()) wants_linearisation_ = true;
+  if (next_length_ == 0.0) next_length_ = kFirstLength;
+}
+
+// Any basis is right: what it leaves out of the accelerations stays in the drive.
+void ExponentialIntegrator::linearise() {
+  SmallMotion motion;
+  if (!system_.calc_small_motion(time_, y(), motion)) {
+    motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_),
+              Eigen::MatrixXd::Zero(f_, f_)};
+  }
+  basis_ = make_vibration_basis(motion);
+  pair_sizes_ = (inverse_scales_.head(2 * f_).asDiagonal() * basis_.T).colwise().norm().transpose();
+  pair_sizes_ /= std::sqrt(static_cast<double>(system_.size()));
+  origin_ = y_.head(f_);
+  version_ = system_.coordinate_version();
+  wants_linearisation_ = has_begun_ = false;
+  last_linearisation_ = statistics_.steps;
+  failures_ = 0.0;
+  propagator_length_ = looker_length_ = 0.0;
+  past_ = Past::kNone;
+}
+
+void ExponentialIntegrator::begin() {
+  difference_y_ = y_;
+  difference_y_.head(f_) -= origin_;
+  basis_.to_pairs(difference_y_.data(), now_.motion.u.data());
+  now_.motion.w = y_.tail(num_quadratures_);
+  stage_y_ = y_;
+  if (!evaluate(time_, now_.motion, 0))
+    throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
+  begin_switches(0);
+  has_begun_ = true;
+}
+
+void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
+  basis_.to_state(motion.u, y.data());
+  y.head(f_) += origin_;
+  y.tail(num_quadratures_) = motion.w;
+}
+
+// Root mean square over the components of y, each by its size that is allowed.
+double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
+  basis_.to_state(difference.u, difference_y_.data());
+  difference_y_.tail(num_quadratures_) = difference.w;
+  return std::sqrt((difference_y_.array() * inverse_scales_.array()).square().mean());
+}
+
+// The drive at stage_y_, which `motion` stands for.
+bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
+  if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
+    return false;
+  auto pairs = now_.drive.pairs.col(node);
+  basis_.to_pairs(y_dot_.data(), pairs.data());
+  basis_.blocks.subtract_product(motion.u, pairs);
+  now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
+  if (num_switches_ == 0) return true;
+  return system_.calc_switches(time, span_of(stage_y_),
+                               {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
+}
+
+// Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
+bool ExponentialIntegrator::iterate() {
+  double last_change = 0.0;
+  for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
+    for (int i = 1; i < kNumNodes; ++i) {
+      const auto node = static_cast<std::size_t>(i);
+      now_.propagate(propagators_[node], basis_.blocks, stages_[node]);
+      to_physical(stages_[node], stage_y_);
+      if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
+      if (sweep == 1) prediction_.learn(i, now_);
+    }
+    double change = 0.0;
+    for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
+      now_.propagate(propagators_[node], basis_.blocks, end_);
+      difference_.u = end_.u - stages_[node].u;
+      difference_.w.setZero();
+      change = std::max(change, calc_norm(difference_));
+    }
+    if (!std::isfinite(change)) return false;
+    if (sweep > 1 && last_change > 0.0) {
+      contraction_ = std::max(kLeastContraction, 0.5 * (contraction_ + change / last_change));
+      if (sweep > 2 && contraction_ > kUselessContraction) return false;
+    }
+    last_change = change;
+    const double rate = std::min(kUselessContraction, contraction_);
+    if (change * rate / (1.0 - rate) <= kIterationShare || calc_truncation() > kHopelessError) return true;
+  }
+  return false;
+}
+
+// Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
+// before.
+void ExponentialIntegrator::estimate_quartic() {
+  now_.has_quartic = past_ == Past::kSmooth;
+  if (!now_.has_quartic) {
+    const lobatto::NodeWeights third = kTruncationOfFirst * lobatto::third_degree_weights();
+    combine(now_.drive.pairs, third, now_.quartic.u);
+    combine(now_.drive.rates, third, now_.quartic.w);
+    return;
+  }
+  last_.calc_drive(lobatto::node(2), difference_);
+  const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
+  const lobatto::NodeWeights weights = cubic_weights(theta);
+  combine(now_.drive.pairs, weights, now_.quartic.u);
+  combine(now_.drive.rates, weights, now_.quartic.w);
+  const double divisor = node_polynomial(theta);
+  now_.quartic.u = (difference_.u - now_.quartic.u) / divisor;
+  now_.quartic.w = (difference_.w - now_.quartic.w) / divisor;
+}
+
+// What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
+double ExponentialIntegrator::calc_truncation() {
+  estimate_quartic();
+  double sum = 0.0;
+  for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
+    now_.propagate_quartic(propagators_[node], basis_.blocks, difference_);
+    const double size = calc_norm(difference_);
+    sum += size * size;
+  }
+  return std::sqrt(sum);
+}
+
+double ExponentialIntegrator::choose_length(double longest_step) const {
+  const double left = end_time_ - time_;
+  double length = std::min({next_length_, longest_step, 0.99 * seen_length_});
+  if (propagator_length_ <= length && length < kWorthwhile * propagator_length_) length = propagator_length_;
+  if (length >= left * (1.0 - 1e-9)) return left;
+  return 2.0 * length > left ? 0.5 * left : length;
+}
+
+Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
+  if (end_time_ - time_ <= kShortestStep) {
+    time_ = end_time_;
+    return StepResult::kEnded;
+  }
+  system_.calc_error_scales(y(), span_of(inverse_scales_));
+  inverse_scales_ = (tolerance_ * inverse_scales_).cwiseInverse();
+  if (wants_linearisation_) linearise();
+  if (!has_begun_) begin();
+
+  double factor = 1.0;
+  while (true) {
+    now_.start = time_;
+    now_.length = choose_length(longest_step);
+    if (now_.length < kShortestStep) {
+      throw_stopped(
+          time_,
+          "the step has become too short; look at forces and positions just before that time, which "
+          "may be a singular one");
+    }
+    if (now_.length != propagator_length_) {
+      for (int i = 1; i < kNumNodes; ++i) {
+        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, basis_.blocks);
+      }
+      propagator_length_ = now_.length;
+    }
+    prediction_.predict(last_, past_, now_);
+    if (!iterate()) {
+      ++statistics_.iteration_failures;
+      contraction_ = kFirstContraction;
+      past_ = Past::kNone;
+      next_length_ = 0.5 * now_.length;
+      failures_ += 1.0;
+      if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
+        linearise();
+        begin();
+      }
+      continue;
+    }
+    const double error = calc_truncation();
+    factor = kSafety * std::pow(std::max({error, kMemory * last_error_, 1e-10}), -1.0 / kOrder);
+    factor = std::clamp(factor, kLeastFactor, kLargestFactor);
+    last_error_ = error;
+    if (error <= 1.0) {
+      if (num_switches_ == 0 || !may_hide_switches()) break;
+      seen_length_ = now_.length;
+      factor = kOfHiding;
+    }
+    ++statistics_.error_test_failures;
+    next_length_ = std::min(factor, 0.9) * now_.length;
+  }
+  ++statistics_.steps;
+  seen_length_ *= kForgetting;
+  failures_ *= kFailureMemory;
+  if (contraction_ > kSlowContraction) failures_ += kSlowness;
+  if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps)
+    wants_linearisation_ = true;
+  if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
+  if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
+  if (finish_step()) return StepResult::kSwitched;
+  return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
+}
+
+// now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true
+// if a switch cut it off
+bool ExponentialIntegrator::finish_step() {
+  now_.bends.clear();
+  const bool switches = num_switches_ > 0 && crosses();
+  if (switches && !pass_bends()) {
+    locate_switch();
+    std::swap(now_, last_);
+    to_physical(between_motion_, y_);
+    has_begun_ = false;
+    return true;
+  }
+  time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
+  now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
+  if (switches) {
+    end_.u += bend_response_.u;
+    end_.w += bend_response_.w;
+  }
+  to_physical(end_, y_);
+  std::swap(now_, last_);
+  std::swap(now_.motion, end_);
+  last_.calc_drive(1.0, difference_);
+  now_.drive.set(0, difference_);
+  if (num_switches_ > 0) begin_switches(kNumNodes - 1);
+  past_ = Past::kSmooth;
+  return false;
+}
+
+void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
+  const double theta = (time - last_.start) / last_.length;
+  between_.update(theta, last_.length, basis_.blocks);
+  last_.propagate(between_, basis_.blocks, between_motion_);
+  last_.add_quartic(between_, basis_.blocks, between_motion_);
+  for (const Bend& bend : last_.bends.all())
+    bend.add_response(theta, last_.length, basis_.blocks, between_, between_motion_);
+  to_physical(between_motion_, between_y_);
+  std::copy(between_y_.begin(), between_y_.end(), y.begin());
+}
+
+}  // namespace sprung::dynamics

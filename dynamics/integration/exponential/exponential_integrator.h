@@ -1,0 +1,103 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+
+#include "dynamics/integration/exponential/collocation_step.h"
+#include "dynamics/integration/integrator.h"
+#include "dynamics/integration/switch_search.h"
+
+namespace sprung::dynamics {
+
+/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
+/// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
+/// the step through its values at the four Lobatto points, found by iteration. So the step follows what
+/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Steps go on through forces
+/// that only bend. Nothing from before a switch is needed behind it: the step stays as long as it was.
+/// Source: variation of constants; [Hochbruck & Ostermann 2010] (dynamics/README.md, eqs. 51–56a).
+class ExponentialIntegrator final : public Integrator {
+ public:
+  /// @param system  f > 0 freedoms; has to outlive this
+  ExponentialIntegrator(OdeSystem& system, double relative_tolerance);
+
+  void start(double time, std::span<const double> y, double end_time) override;
+  StepResult step(double longest_step) override;
+  double largest_gap() const override { return lobatto::node(2) - lobatto::node(1); }
+  double time() const override { return time_; }
+  std::span<const double> y() const override { return {y_.data(), static_cast<std::size_t>(y_.size())}; }
+  void interpolate(double time, std::span<double> y) const override;
+  Statistics statistics() const override { return statistics_; }
+
+ private:
+  static constexpr int kNumNodes = lobatto::kNumNodes;
+  using Vector = Eigen::VectorXd;
+
+  [[noreturn]] static void throw_stopped(double time, const char* reason);
+
+  void linearise();
+  void begin();
+  double choose_length(double longest_step) const;
+  bool evaluate(double time, const PairedMotion& motion, int node);
+  void estimate_quartic();
+  bool iterate();
+  double calc_truncation();
+  bool finish_step();
+  bool crosses() const;
+  void move_between(const LobattoPropagator& propagator);
+  bool is_surprising(std::size_t look);
+  bool may_hide_switches();
+  bool is_undisturbed(double place);
+  bool find_gains();
+  bool pass_bends();
+  void begin_switches(int node);
+  void locate_switch();
+  void to_physical(const PairedMotion& motion, Vector& y) const;
+  double calc_norm(const PairedMotion& difference);
+
+  OdeSystem& system_;
+  double tolerance_;
+  Eigen::Index f_, num_quadratures_;
+  int num_switches_;
+  Statistics statistics_;
+
+  VibrationBasis basis_;
+  Vector origin_;    // f positions from which the pairs count: large ones would leave them few digits
+  int version_ = 0;  // of the coordinates that it is for
+  bool wants_linearisation_ = true;
+  long last_linearisation_ = 0;  // step
+  double failures_ = 0.0;        // of the iteration, those of earlier steps counting less and less
+
+  double time_ = 0.0, end_time_ = 0.0;
+  double next_length_ = 0.0;
+  Vector y_;                    // at time_
+  CollocationStep now_, last_;  // being made; finished
+  DrivePrediction prediction_;
+  bool has_begun_ = false;
+  Past past_ = Past::kNone;
+  double contraction_;                                    // of the iteration, from sweep to sweep
+  double bend_contraction_;                               // of what bends call for in turn
+  double last_error_ = 0.0;                               // of the step before, of the tolerance
+  std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
+  double propagator_length_ = 0.0;
+  // Where a step is looked at for switches that its nodes do not show: not both as far from the middle, so
+  // that no swing looks like a cubic at both.
+  static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
+  std::array<LobattoPropagator, kLooks.size()> lookers_;
+  std::array<lobatto::NodeWeights, kLooks.size()> look_weights_;
+  double looker_length_ = 0.0;
+  double seen_length_ = std::numeric_limits<double>::infinity();  // steps of this length may hide switches
+  std::array<PairedMotion, kNumNodes> stages_;
+  Eigen::MatrixXd switches_;  // num_switches × 4
+  SwitchSearch switch_search_;
+
+  PairedMotion end_, difference_, end_drive_, bend_response_, doubt_;
+  Vector end_switches_;
+  Vector y_dot_, inverse_scales_, stage_y_, difference_y_;
+  Vector pair_sizes_;  // 2f: what one of each adds to calc_norm, at the linearisation
+  mutable LobattoPropagator between_;
+  mutable PairedMotion between_motion_;
+  mutable Vector between_y_;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "dynamics/integration/exponential/vibration_basis.h"
+#include "dynamics/integration/lobatto_points.h"
+
+namespace sprung::dynamics {
+
+/// What pairs and plain integrals do from the start of a step up to one instant of it, exactly, under a drive
+/// that is the cubic through its values at the Lobatto points (dynamics/README.md, eq. 54). f pairs.
+class LobattoPropagator {
+ public:
+  LobattoPropagator() = default;
+  explicit LobattoPropagator(Eigen::Index num_pairs);
+
+  /// @param theta  the instant, 0 to 1
+  /// @param length  of the step [s]
+  /// @param blocks  as many as when it was made
+  void update(double theta, double length, const PairBlocks& blocks);
+
+  /// u ← e^{Bt} u₀ + the response to the drive. @param start, u  2f @param drive  2f×4
+  void apply(const PairBlocks& blocks, const Eigen::VectorXd& start, const lobatto::NodeValues& drive,
+             Eigen::VectorXd& u) const;
+  /// u += the response to a drive of node_polynomial(θ) times `coefficients`, 2f.
+  void add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
+
+  /// u += the response to a drive along `direction`, 2f, times a cubic through `values` at the nodes.
+  void add_response(const PairBlocks& blocks, const Eigen::VectorXd& direction,
+                    const lobatto::NodeWeights& values, Eigen::VectorXd& u) const;
+
+  double integral_weight(int j) const {
+    return integral_[static_cast<std::size_t>(j)];
+  }                                                              ///< of the rate at a node [s]
+  double integral_quartic() const { return integral_quartic_; }  ///< [s]
+
+ private:
+  // Each function of B is α I + β B, by Cayley and Hamilton; f.
+  Eigen::ArrayXd alpha_start_, beta_start_, alpha_quartic_, beta_quartic_;
+  std::array<Eigen::ArrayXd, lobatto::kNumNodes> alpha_, beta_;
+  std::array<double, lobatto::kNumNodes> integral_{};
+  double integral_quartic_ = 0.0;
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,144 @@
+#include "dynamics/integration/exponential/vibration_basis.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr Eigen::Index kMostCoupled = 80;  // modes; the effort grows with the cube
+constexpr double kFree = 1e-6;  // frequency, of the highest, below which a mode counts as free motion
+constexpr double kIllConditioned = 1e6;
+
+// Columns that span the invariant subspaces of two dimensions of a real matrix, and the blocks on them. Pair
+// k has columns k and n/2 + k.
+struct RealPairs {
+  Eigen::MatrixXd vectors;
+  PairBlocks blocks;
+};
+
+RealPairs pair_up(const Eigen::MatrixXd& matrix) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(matrix);
+  const Eigen::Index n = matrix.rows(), half = n / 2;
+  RealPairs pairs{Eigen::MatrixXd::Zero(n, n), {}};
+  if (eigen.info() != Eigen::Success) return pairs;
+  const Eigen::VectorXcd& values = eigen.eigenvalues();
+  const Eigen::MatrixXd& parts =
+      eigen.pseudoEigenvectors();  // real and imaginary parts side by side, not normalised
+  PairBlocks& B = pairs.blocks;
+  B.b11 = B.b12 = B.b21 = B.b22 = Eigen::ArrayXd::Zero(half);
+  Eigen::Index next = 0;
+  std::vector<Eigen::Index> real;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (values[i].imag() == 0.0) {
+      real.push_back(i);
+    } else if (values[i].imag() > 0.0) {
+      // A (x + iy) = (a + ib)(x + iy): A [x y] = [x y] (a b; −b a).
+      const double length = parts.middleCols<2>(i).norm();
+      pairs.vectors.col(next) = parts.col(i) / length;
+      pairs.vectors.col(half + next) = parts.col(i + 1) / length;
+      B.b11[next] = B.b22[next] = values[i].real();
+      B.b12[next] = values[i].imag();
+      B.b21[next] = -values[i].imag();
+      ++next;
+    }
+  }
+  for (std::size_t i = 0; i + 1 < real.size(); i += 2, ++next) {
+    pairs.vectors.col(next) = parts.col(real[i]).normalized();
+    pairs.vectors.col(half + next) = parts.col(real[i + 1]).normalized();
+    B.b11[next] = values[real[i]].real();
+    B.b22[next] = values[real[i + 1]].real();
+  }
+  return pairs;
+}
+
+template <int num_rows>
+void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x, double* y) {
+  using Rows = Eigen::Matrix<double, num_rows, 1>;
+  const double* entry = A.data() + first;
+  Rows sum = Rows::Zero();
+  for (Eigen::Index k = 0; k < A.cols(); ++k, entry += A.rows()) sum += x[k] * Eigen::Map<const Rows>(entry);
+  Eigen::Map<Rows>(y + first) = sum;
+}
+
+}  // namespace
+
+// Four rows at a time, in registers: Eigen's product is made for large matrices, and costs small ones more
+// than they take.
+void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
+  constexpr Eigen::Index kSmall = 24;
+  const Eigen::Index size = A.rows();
+  if (size > kSmall) {
+    Eigen::Map<Eigen::VectorXd>(y, size).noalias() = A * Eigen::Map<const Eigen::VectorXd>(x, size);
+    return;
+  }
+  Eigen::Index first = 0;
+  for (; first + 4 <= size; first += 4) multiply_rows<4>(A, first, x, y);
+  if (first < size) multiply_rows<2>(A, first, x, y);  // size is even
+}
+
+VibrationBasis make_vibration_basis(const SmallMotion& motion) {
+  const Eigen::Index f = motion.mass.rows();
+  const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> undamped(stiffness, motion.mass);
+  if (undamped.info() != Eigen::Success)
+    throw support::NumericalError("the modes of small motion were not found");
+  const Eigen::MatrixXd& Phi = undamped.eigenvectors();  // ascending frequencies
+  const Eigen::MatrixXd inverse_Phi = Phi.transpose() * motion.mass;
+  const Eigen::MatrixXd damping = Phi.transpose() * motion.damping * Phi;
+  const Eigen::ArrayXd omega = undamped.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+
+  VibrationBasis basis;
+  PairBlocks& B = basis.blocks;
+  B.b11 = Eigen::ArrayXd::Zero(f);
+  B.b12 = Eigen::ArrayXd::Ones(f);
+  B.b21 = -omega.square();
+  B.b22 = -damping.diagonal().array().max(0.0);
+  Eigen::MatrixXd U = Eigen::MatrixXd::Identity(2 * f, 2 * f);  // (x, ẋ) = U u
+  Eigen::MatrixXd inverse_U = U;
+
+  Eigen::Index first = 0;  // mode with a frequency
+  while (first < f && omega[first] <= kFree * omega[f - 1]) ++first;
+  const Eigen::Index n = f - first;
+  if (n > 0 && n <= kMostCoupled) {
+    // With ωx and ẋ as unknowns all entries are of one size.
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    const Eigen::ArrayXd w = omega.tail(n);
+    A.topRightCorner(n, n).diagonal() = w;
+    A.bottomLeftCorner(n, n).diagonal() = -w;
+    A.bottomRightCorner(n, n) = -damping.bottomRightCorner(n, n);
+    const RealPairs pairs = pair_up(A);
+    const Eigen::MatrixXd inverse = pairs.vectors.partialPivLu().inverse();
+    if (inverse.allFinite() && inverse.norm() * pairs.vectors.norm() < kIllConditioned) {
+      const auto scatter = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
+        to.block(first, first, n, n) = from.topLeftCorner(n, n);
+        to.block(first, f + first, n, n) = from.topRightCorner(n, n);
+        to.block(f + first, first, n, n) = from.bottomLeftCorner(n, n);
+        to.block(f + first, f + first, n, n) = from.bottomRightCorner(n, n);
+      };
+      Eigen::MatrixXd vectors = pairs.vectors, back = inverse;
+      vectors.topRows(n) = w.inverse().matrix().asDiagonal() * vectors.topRows(n);
+      back.leftCols(n) = back.leftCols(n) * w.matrix().asDiagonal();
+      scatter(vectors, U);
+      scatter(back, inverse_U);
+      B.b11.tail(n) = pairs.blocks.b11;
+      B.b12.tail(n) = pairs.blocks.b12;
+      B.b21.tail(n) = pairs.blocks.b21;
+      B.b22.tail(n) = pairs.blocks.b22;
+    }
+  }
+  basis.T.resize(2 * f, 2 * f);
+  basis.inverse.resize(2 * f, 2 * f);
+  basis.T.topRows(f) = Phi * U.topRows(f);
+  basis.T.bottomRows(f) = Phi * U.bottomRows(f);
+  basis.inverse.leftCols(f) = inverse_U.leftCols(f) * inverse_Phi;
+  basis.inverse.rightCols(f) = inverse_U.rightCols(f) * inverse_Phi;
+  return basis;
+}
+
+}  // namespace sprung::dynamics

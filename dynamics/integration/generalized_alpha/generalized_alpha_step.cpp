@@ -1,0 +1,210 @@
+#include "dynamics/integration/generalized_alpha/generalized_alpha_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMaxIterations = 8;
+constexpr double kIterationShare = 0.05;   // error of the iteration, of what is allowed
+constexpr double kNothingLeft = 1e-3;      // of what is allowed
+constexpr double kSlowContraction = 0.15;  // beyond it another matrix is cheaper than the iterations
+constexpr double kUselessContraction = 0.7;
+constexpr double kRounding =
+    64.0 * std::numeric_limits<double>::epsilon();  // of a coordinate and its natural size
+
+}  // namespace
+
+GeneralizedAlphaStep::End::End(const Model& model, int num_switches)
+    : motion(model),
+      lead(motion.q),
+      jerk(motion.q),
+      lambda_rate(motion.lambda),
+      energy(Pair::Zero()),
+      power(Pair::Zero()),
+      power_rate(Pair::Zero()),
+      switches(Vector::Zero(num_switches)) {}
+
+GeneralizedAlphaStep::GeneralizedAlphaStep(const Model& model, const SmoothPiece& piece,
+                                           const GeneralizedAlpha& method, double tolerance)
+    : model_(&model),
+      piece_(&piece),
+      method_(method),
+      tolerance_(tolerance),
+      scales_(model),
+      residual_(model),
+      newton_(model),
+      begin_(model, piece.num_switches()),
+      end_(begin_) {
+  auxiliary_begin_ = auxiliary_end_ = delta_ = error_q_ = error_v_ = work_ = begin_.motion.q;
+  delta_lambda_ = scaled_phi_ = begin_.motion.lambda;
+}
+
+void GeneralizedAlphaStep::reset() {
+  begin_ = End(*model_, piece_->num_switches());
+}
+
+void GeneralizedAlphaStep::advance() {
+  std::swap(begin_, end_);
+}
+
+Index3Newton::Weights GeneralizedAlphaStep::weights(double length) const {
+  return {.acceleration = (1.0 - method_.alpha_m) / (1.0 - method_.alpha_f),
+          .velocity = method_.gamma * length,
+          .position = method_.beta * length * length};
+}
+
+void GeneralizedAlphaStep::predict(double length) {
+  const ConstrainedMotion& from = begin_.motion;
+  auxiliary_begin_ = from.v_dot + length * begin_.lead;
+  auxiliary_end_ = auxiliary_begin_ + length * begin_.jerk;
+  end_.motion.lambda = from.lambda + length * begin_.lambda_rate;
+  end_.motion.time = piece_->evaluation_time(from.time + length);
+  apply_auxiliary(length);
+}
+
+// q, v and v̇ at the end by the auxiliary accelerations (eqs. 58 and 59).
+void GeneralizedAlphaStep::apply_auxiliary(double length) {
+  const ConstrainedMotion& from = begin_.motion;
+  ConstrainedMotion& to = end_.motion;
+  to.q = from.q + length * from.v +
+         length * length * ((0.5 - method_.beta) * auxiliary_begin_ + method_.beta * auxiliary_end_);
+  to.v = from.v + length * ((1.0 - method_.gamma) * auxiliary_begin_ + method_.gamma * auxiliary_end_);
+  to.v_dot = ((1.0 - method_.alpha_m) * auxiliary_end_ + method_.alpha_m * auxiliary_begin_ -
+              method_.alpha_f * from.v_dot) /
+             (1.0 - method_.alpha_f);
+}
+
+void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
+  if (renewal_ == Renewal::kAll) newton_.linearise(residual_, end_.motion, piece_->branches());
+  newton_.factorise(residual_.terms(), weights);  // a singular one gives infinities
+  renewal_ = Renewal::kNone;
+  is_fresh_ = true;
+}
+
+// What an error may be; not below what rounding of positions does, which over a short step is much in
+// velocities.
+double GeneralizedAlphaStep::allowed_position(int i) const {
+  return std::max(tolerance_ * scales_.position(i), rounding(i));
+}
+
+double GeneralizedAlphaStep::allowed_velocity(int i, double length) const {
+  return std::max(tolerance_ * scales_.velocity(i, begin_.motion.v[i]),
+                  rounding(i) * method_.gamma / (method_.beta * length));
+}
+
+double GeneralizedAlphaStep::rounding(int i) const {
+  return kRounding * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
+}
+
+// Root mean square of what the iteration has changed in q and v, of what is allowed.
+double GeneralizedAlphaStep::calc_iteration_norm(double length) const {
+  const Index3Newton::Weights change = weights(length);
+  double sum = 0.0;
+  for (int i = 0; i < model_->num_coordinates; ++i) {
+    sum += std::pow(change.position * delta_[i] / allowed_position(i), 2) +
+           std::pow(change.velocity * delta_[i] / allowed_velocity(i, length), 2);
+  }
+  return std::sqrt(sum / (2.0 * model_->num_coordinates));
+}
+
+bool GeneralizedAlphaStep::iterate(double length) {
+  const Index3Newton::Weights step_weights = weights(length);
+  predict(length);
+  contraction_ = 0.0;
+  double last = 0.0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    residual_.update(end_.motion, piece_->branches());
+    if (renewal_ != Renewal::kNone) renew_matrix(step_weights);
+    scaled_phi_ = residual_.phi() / step_weights.position;
+    newton_.solve(residual_.force(), scaled_phi_, delta_, delta_lambda_);
+    auxiliary_end_ += delta_;
+    end_.motion.lambda += delta_lambda_;
+    apply_auxiliary(length);
+    const double norm = calc_iteration_norm(length);
+    if (!std::isfinite(norm)) return false;
+    if (norm <= kNothingLeft) return true;
+    if (iteration > 0) {
+      contraction_ = norm / last;
+      if (contraction_ >= kUselessContraction) return norm <= kIterationShare;
+      if (norm <= 1.0 && norm * contraction_ / (1.0 - contraction_) <= kIterationShare) return true;
+    }
+    last = norm;
+  }
+  return false;
+}
+
+// Newton's iteration, once more with a matrix of this very step where the one at hand does not do.
+bool GeneralizedAlphaStep::solve(double length) {
+  is_fresh_ = false;
+  if (!iterate(length)) {
+    ++iteration_failures_;
+    if (is_fresh_) return false;
+    renewal_ = Renewal::kAll;
+    if (!iterate(length)) {
+      renewal_ = Renewal::kAll;
+      return false;
+    }
+  }
+  // Positions and masses change the matrix first; where they are new and it is slow still, it is the forces.
+  if (contraction_ > kSlowContraction) renewal_ = is_fresh_ ? Renewal::kAll : Renewal::kFactors;
+  return true;
+}
+
+// e ← the part of an error in the coordinates that counts, by Newton's matrix: without what the constraints
+// take away again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
+void GeneralizedAlphaStep::filter_error(Vector& error) {
+  scaled_phi_.setZero();
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
+    work_.segment(first, size).noalias() = residual_.terms().mass(b) * error.segment(first, size);
+  }
+  work_ *= -(1.0 - method_.alpha_m) / (1.0 - method_.alpha_f);
+  newton_.solve(work_, scaled_phi_, error, delta_lambda_);
+}
+
+// Root mean square over q, v and the energies of what the step has made wrong, of what is allowed (eq. 62).
+double GeneralizedAlphaStep::calc_error(double length) {
+  const double between = 0.5 * (length + begin_.step_before);  // of the middles of this step and the last
+  const double cubed = std::pow(length, 3);
+  error_q_ = auxiliary_end_ - auxiliary_begin_;
+  error_v_ = (method_.velocity_error() * cubed / between) * (error_q_ / length - begin_.jerk);
+  error_q_ *= method_.position_error() * length * length;
+  filter_error(error_q_);
+  filter_error(error_v_);
+  double sum = 0.0;
+  for (int i = 0; i < model_->num_coordinates; ++i) {
+    sum += std::pow(error_q_[i] / allowed_position(i), 2) +
+           std::pow(error_v_[i] / allowed_velocity(i, length), 2);
+  }
+  const Pair curvature = ((end_.power - begin_.power) / length - begin_.power_rate) / between;
+  sum += (cubed / 12.0 * curvature / (tolerance_ * scales_.energy())).squaredNorm();
+  return std::sqrt(sum / (2.0 * model_->num_coordinates + 2.0));
+}
+
+void GeneralizedAlphaStep::finish(double length, double end_time) {
+  end_.motion.time = end_time;
+  end_.step_before = length;
+  end_.lead = (auxiliary_end_ - end_.motion.v_dot) / length;
+  end_.jerk = (auxiliary_end_ - auxiliary_begin_) / length;
+  end_.lambda_rate = (end_.motion.lambda - begin_.motion.lambda) / length;
+  end_.power_rate = (end_.power - begin_.power) / length;
+  end_.energy = begin_.energy + 0.5 * length * (begin_.power + end_.power);
+}
+
+// Cubic through positions and velocities, velocities and accelerations, energies and powers of both ends.
+void GeneralizedAlphaStep::interpolate(double time, Vector& q, Vector& v, Pair& energy) const {
+  const ConstrainedMotion &a = begin_.motion, &b = end_.motion;
+  const double length = b.time - a.time, s = (time - a.time) / length;
+  const double of_b = s * s * (3.0 - 2.0 * s), of_a = 1.0 - of_b;
+  const double rate_of_a = length * s * (1.0 - s) * (1.0 - s), rate_of_b = -length * s * s * (1.0 - s);
+  q = of_a * a.q + of_b * b.q + rate_of_a * a.v + rate_of_b * b.v;
+  v = of_a * a.v + of_b * b.v + rate_of_a * a.v_dot + rate_of_b * b.v_dot;
+  energy = of_a * begin_.energy + of_b * end_.energy + rate_of_a * begin_.power + rate_of_b * end_.power;
+}
+
+}  // namespace sprung::dynamics

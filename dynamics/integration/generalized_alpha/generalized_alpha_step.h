@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/integration/error_scales.h"
+#include "dynamics/integration/generalized_alpha/generalized_alpha.h"
+#include "dynamics/integration/smooth_piece.h"
+#include "dynamics/system/index3_newton.h"
+#include "dynamics/system/index3_residual.h"
+
+namespace sprung::dynamics {
+
+/// One step of generalized-α on the index-3 system: what holds at its two ends, Newton's iteration between
+/// them and the error that it makes (dynamics/README.md, eqs. 57–60 and 62). Allocates nothing where
+/// Index3Newton does not.
+class GeneralizedAlphaStep {
+ public:
+  using Vector = Eigen::VectorXd;
+  using Pair = Eigen::Vector2d;  ///< of dissipated energy and of what is put in
+
+  /// One end of a step.
+  struct End {
+    End(const Model& model, int num_switches);
+    ConstrainedMotion motion;
+    Vector lead;  ///< (a − v̇) over the step's length: the same for the next step, whatever its length
+    Vector jerk;  ///< of a, over the step that ended here; at a start that of the motion
+    Vector lambda_rate;              ///< likewise
+    Pair energy, power, power_rate;  ///< [J, W, W/s]
+    double step_before = 0.0;        ///< length of the step that ended here, 0 at a start [s]
+    Vector switches;
+  };
+
+  /// @param model, piece  have to outlive this
+  /// @param tolerance     relative, of ErrorScales
+  GeneralizedAlphaStep(const Model& model, const SmoothPiece& piece, const GeneralizedAlpha& method,
+                       double tolerance);
+
+  End& begin() { return begin_; }
+  const End& begin() const { return begin_; }
+  End& end() { return end_; }
+  const End& end() const { return end_; }
+  void reset();    ///< forgets both ends
+  void advance();  ///< the end becomes the beginning
+
+  /// Finds the motion at the end of a step of this length. @return false where the iteration does not
+  /// converge
+  bool solve(double length);
+  /// Of the step solved last, of what is allowed; its end has to have its power.
+  double calc_error(double length);
+  /// Has the matrix made of the positions of the next step.
+  void renew_factors() {
+    if (renewal_ == Renewal::kNone) renewal_ = Renewal::kFactors;
+  }
+  /// Completes the end for the step after it.
+  void finish(double length, double end_time);
+  /// Positions, velocities and energies within the step.
+  void interpolate(double time, Vector& q, Vector& v, Pair& energy) const;
+
+  Index3Residual& residual() { return residual_; }  ///< of the motion before the last change of the iteration
+  const Index3Residual& residual() const { return residual_; }
+  long iteration_failures() const { return iteration_failures_; }
+
+ private:
+  void predict(double length);
+  void apply_auxiliary(double length);
+  bool iterate(double length);
+  void renew_matrix(const Index3Newton::Weights& weights);
+  Index3Newton::Weights weights(double length) const;
+  double rounding(int i) const;
+  double allowed_position(int i) const;
+  double allowed_velocity(int i, double length) const;
+  double calc_iteration_norm(double length) const;
+  void filter_error(Vector& error);
+
+  const Model* model_;
+  const SmoothPiece* piece_;
+  GeneralizedAlpha method_;
+  double tolerance_;
+  ErrorScales scales_;
+  Index3Residual residual_;
+  Index3Newton newton_;
+  End begin_, end_;
+
+  // What of Newton's matrix is renewed before the next iteration.
+  enum class Renewal { kNone, kFactors, kAll };
+  Renewal renewal_ = Renewal::kAll;
+  bool is_fresh_ = false;     // renewed in this step
+  double contraction_ = 0.0;  // of the last iteration
+  long iteration_failures_ = 0;
+
+  Vector auxiliary_begin_, auxiliary_end_;   // a, nq
+  Vector delta_, error_q_, error_v_, work_;  // nq
+  Vector delta_lambda_, scaled_phi_;         // m
+};
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,255 @@
+#include "dynamics/integration/generalized_alpha/generalized_alpha_stepper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kFirstLength = 1e-4;       // s; too long a step is found out
+constexpr double kShortestStep = 1e-10;     // s
+constexpr double kSwitchTolerance = 1e-12;  // s
+constexpr double kProbe = 1e-5;             // of a step, for rates at a start
+
+constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
+// A step is kept as it is where a better one would hardly be longer: equal steps make the smoother
+// multipliers.
+constexpr double kWorthwhile = 1.2;
+
+[[noreturn]] void throw_stopped(double time, const char* reason, const char* remark = "") {
+  throw support::NumericalError(
+      fmt::format("integration stopped at t = {:.9g} s: {}{}", time, reason, remark));
+}
+
+// Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
+const char* remark_on_radius(double spectral_radius) {
+  return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
+}
+
+}  // namespace
+
+GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integrator::Options& options)
+    : model_(&model),
+      method_(options.spectral_radius),
+      spectral_radius_(options.spectral_radius),
+      fixed_step_(options.fixed_step),
+      piece_(model),
+      equations_(model, SystemTerms::Markers::kActing),
+      step_(model, piece_, method_, options.relative_tolerance),
+      next_length_(kFirstLength),
+      switches_(piece_.num_switches(), 2),
+      switch_search_(piece_.num_switches()),
+      touch_search_(piece_.num_switches()) {
+  q_ = v_ = Vector::Zero(model.num_coordinates);
+}
+
+void GeneralizedAlphaStepper::start(const State& state) {
+  step_.reset();
+  step_.begin().motion.time = time_ = state.time;
+  step_.begin().motion.q = state.q;
+  step_.begin().motion.v = state.v;
+  piece_.set_branches(state.branches);
+  has_step_ = false;
+}
+
+// The equations at a motion that need not satisfy the constraints of the velocities.
+bool GeneralizedAlphaStepper::evaluate_equations(const ConstrainedMotion& motion) {
+  ++num_evaluations_;
+  SystemTerms& terms = equations_.terms();
+  terms.update_positions(motion.time, motion.q);
+  terms.update_jacobian();
+  terms.update_velocities(motion.v);
+  return equations_.update_accelerations(piece_.branches());
+}
+
+// Dissipated, and put in, where the equations are.
+GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power() {
+  const Power& power = equations_.terms().power();
+  return {power.dissipated, power.input + equations_.calc_motion_power()};
+}
+
+// Prescribed motion works with the multipliers that belong to the motion: those of the step jump where its
+// length does.
+bool GeneralizedAlphaStepper::update_end_power() {
+  if (model_->has_motions) {
+    if (!evaluate_equations(step_.end().motion)) return false;
+    step_.end().power = calc_power();
+    return true;
+  }
+  // The residual is of the motion before the last change, by much less than the tolerance.
+  const Power& power = step_.residual().terms().power();
+  step_.end().power = {power.dissipated, power.input};
+  return true;
+}
+
+void GeneralizedAlphaStepper::resume(double end_time) {
+  if (statistics_.integrator.steps > 0) ++statistics_.integrator.restarts;
+  end_time_ = end_time;
+  time_ = evaluated_time_;
+  if (!equations_.update_accelerations(piece_.branches())) {
+    throw_stopped(time_, "no accelerations can be found there");
+  }
+  ConstrainedMotion& motion = step_.begin().motion;
+  motion.time = time_;
+  motion.q = equations_.q();
+  motion.v = equations_.v();
+  motion.v_dot = equations_.v_dot();
+  motion.lambda = equations_.multipliers();
+  step_.begin().energy = energy_;
+  step_.begin().step_before = 0.0;
+  has_step_ = false;
+  if (end_time_ - time_ > kShortestStep) find_rates();
+  step_.residual().update(motion, piece_.branches());
+  piece_.calc_switches(step_.residual().terms(), {step_.begin().switches.data(),
+                                                  static_cast<std::size_t>(step_.begin().switches.size())});
+  // What is about to become valid may not be so yet by a rounding error: what it does then must not be
+  // missed.
+  step_.begin().switches = step_.begin().switches.cwiseMax(0.0);
+  touch_search_.forget();
+}
+
+// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61).
+// It is found from the accelerations a little later.
+void GeneralizedAlphaStepper::find_rates() {
+  const ConstrainedMotion& motion = step_.begin().motion;
+  step_.begin().power = calc_power();
+  const double shift = kProbe * std::min(next_length_, end_time_ - time_);
+  step_.end().motion = motion;
+  step_.end().motion.time = motion.time + shift;
+  step_.end().motion.q += shift * motion.v + 0.5 * shift * shift * motion.v_dot;
+  step_.end().motion.v += shift * motion.v_dot;
+  if (!evaluate_equations(step_.end().motion)) throw_stopped(time_, "no accelerations can be found there");
+  step_.begin().jerk = (equations_.v_dot() - motion.v_dot) / shift;
+  step_.begin().lambda_rate = (equations_.multipliers() - motion.lambda) / shift;
+  step_.begin().lead = method_.offset() * step_.begin().jerk;
+  step_.begin().power_rate = (calc_power() - step_.begin().power) / shift;
+}
+
+double GeneralizedAlphaStepper::choose_length(double longest_step) const {
+  const double left = end_time_ - time_;
+  const double length = std::min(fixed_step_ > 0.0 ? fixed_step_ : next_length_, longest_step);
+  if (fixed_step_ > 0.0) return left / std::ceil(left / length - 1e-6);
+  if (length >= left * (1.0 - 1e-9)) return left;
+  return 2.0 * length > left ? 0.5 * left : length;
+}
+
+Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
+  if (end_time_ - time_ <= kShortestStep) {
+    time_ = end_time_;
+    return Integrator::StepResult::kEnded;
+  }
+  if (has_step_) step_.advance();
+  has_step_ = false;
+  double length, factor = 1.0;
+  while (true) {
+    length = choose_length(longest_step);
+    if (length < kShortestStep) {
+      throw_stopped(
+          time_,
+          "the step has become too short; look at forces and positions just before that time, which may be "
+          "a singular one",
+          remark_on_radius(spectral_radius_));
+    }
+    if (!step_.solve(length) || !update_end_power()) {
+      if (fixed_step_ > 0.0)
+        throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step",
+                      remark_on_radius(spectral_radius_));
+      next_length_ = 0.25 * length;
+      continue;
+    }
+    if (fixed_step_ > 0.0) break;
+    const double error = step_.calc_error(length);
+    factor =
+        std::clamp(kSafety * std::pow(std::max(error, 1e-10), -1.0 / kOrder), kLeastFactor, kLargestFactor);
+    if (error <= 1.0) break;
+    ++statistics_.integrator.error_test_failures;
+    next_length_ = std::min(factor, 0.9) * length;
+    step_.renew_factors();
+  }
+  if (factor < 1.0 / kWorthwhile) next_length_ = factor * length;
+  if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * length);
+  finish_step(length);
+  if (piece_.num_switches() > 0 && locate_switch()) return Integrator::StepResult::kSwitched;
+  return time_ >= end_time_ ? Integrator::StepResult::kEnded : Integrator::StepResult::kStepped;
+}
+
+void GeneralizedAlphaStepper::finish_step(double length) {
+  ++statistics_.integrator.steps;
+  const double from = step_.begin().motion.time;
+  time_ = end_time_ - from <= length * (1.0 + 1e-12) ? end_time_ : from + length;
+  step_.finish(length, time_);
+  has_step_ = true;
+}
+
+bool GeneralizedAlphaStepper::locate_switch() {
+  static constexpr std::array<double, 2> kEnds = {0.0, 1.0};
+  const auto span_of = [](Vector& x) { return std::span(x.data(), static_cast<std::size_t>(x.size())); };
+  SystemTerms& terms = step_.residual().terms();
+  piece_.calc_switches(terms, span_of(step_.end().switches));
+  const double from = step_.begin().motion.time, to = step_.end().motion.time, length = to - from;
+  const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
+  bool has_moved = false;
+  const auto evaluate_at = [&](double place, Vector& values) {
+    has_moved = true;
+    step_.interpolate(from + place * length, q_, v_, energy_);
+    terms.update_positions(piece_.evaluation_time(from + place * length), q_);
+    terms.update_velocities(v_);
+    piece_.calc_switches(terms, span_of(values));
+  };
+  const Vector &begin = step_.begin().switches, &end = step_.end().switches;
+  std::optional<double> theta;
+  if (SwitchSearch::any_crosses(begin, end)) {
+    switches_.col(0) = begin;
+    switches_.col(1) = end;
+    theta = switch_search_.locate(kEnds, switches_, 1, tolerance, evaluate_at);
+  } else {
+    theta = touch_search_.find(begin, end, length, tolerance, evaluate_at);
+  }
+  if (theta) {
+    time_ = from + *theta * length;
+  } else if (has_moved) {
+    terms.update_positions(piece_.evaluation_time(to), step_.end().motion.q);
+    terms.update_velocities(step_.end().motion.v);
+  }
+  return theta.has_value();
+}
+
+void GeneralizedAlphaStepper::evaluate(double time) {
+  if (has_step_) {
+    step_.interpolate(time, q_, v_, energy_);
+  } else {
+    q_ = step_.begin().motion.q;
+    v_ = step_.begin().motion.v;
+    energy_ = step_.begin().energy;
+  }
+  evaluated_time_ = time;
+  const bool is_closed = equations_.close_joints(piece_.evaluation_time(time), q_);
+  const double violation = is_closed ? equations_.close_rates(v_) : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(violation) || !equations_.update_accelerations(piece_.branches())) {
+    throw support::NumericalError(fmt::format(
+        "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+  }
+  statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
+}
+
+SystemStepper::Observation GeneralizedAlphaStepper::observe(double time) {
+  evaluate(time);
+  equations_.terms().update_all_markers();
+  return {.equations = equations_, .q = equations_.q(), .v = equations_.v(), .v_dot = equations_.v_dot()};
+}
+
+SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {
+  Statistics statistics = statistics_;
+  statistics.integrator.iteration_failures = step_.iteration_failures();
+  statistics.evaluations = step_.residual().num_updates() + num_evaluations_;
+  return statistics;
+}
+
+}  // namespace sprung::dynamics

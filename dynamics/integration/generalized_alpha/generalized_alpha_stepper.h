@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/integration/generalized_alpha/generalized_alpha_step.h"
+#include "dynamics/integration/switch_search.h"
+#include "dynamics/integration/system_stepper.h"
+#include "dynamics/integration/touch_search.h"
+
+namespace sprung::dynamics {
+
+/// Generalized-α on the constrained system as it stands: positions, velocities, accelerations and multipliers
+/// of all coordinates, the constraints on the level of positions, no partition (dynamics/README.md, eqs.
+/// 57–62). Second order. Velocities and accelerations satisfy their constraints to the order of the method
+/// only: `evaluate` closes positions and velocities and finds accelerations and multipliers from them,
+/// without touching what is integrated. Source: [Arnold & Brüls 2007]; variable step as in [Jay & Negrut
+/// 2009]
+class GeneralizedAlphaStepper final : public SystemStepper {
+ public:
+  /// @param model  has to outlive this
+  /// @throws std::invalid_argument for a spectral radius outside 0 … 1
+  GeneralizedAlphaStepper(const Model& model, const Integrator::Options& options);
+
+  void start(const State& state) override;
+  void resume(double end_time) override;
+  Integrator::StepResult step(double longest_step) override;
+  double time() const override { return time_; }
+  double calc_longest_step() const override { return piece_.calc_longest_step(step_.residual().terms()); }
+  void evaluate(double time) override;
+  Observation observe(double time) override;
+  const ConstrainedEquations& equations() const override { return equations_; }
+  EnergyFlow energy_flow() const override { return {energy_.x(), energy_.y()}; }
+  SmoothPiece& piece() override { return piece_; }
+  Statistics statistics() const override;
+
+  /// What is integrated, at the end of the last step: before anything is closed.
+  const ConstrainedMotion& motion() const { return has_step_ ? step_.end().motion : step_.begin().motion; }
+
+ private:
+  using Vector = Eigen::VectorXd;
+  using Pair = GeneralizedAlphaStep::Pair;
+
+  double choose_length(double longest_step) const;
+  void finish_step(double length);
+  bool locate_switch();
+  bool evaluate_equations(const ConstrainedMotion& motion);
+  Pair calc_power();
+  bool update_end_power();
+  void find_rates();
+
+  const Model* model_;
+  GeneralizedAlpha method_;
+  double spectral_radius_, fixed_step_;
+  SmoothPiece piece_;
+  ConstrainedEquations equations_;  // at the state evaluated last; `step` takes them elsewhere
+  Statistics statistics_;
+  long num_evaluations_ = 0;  // of the equations
+
+  GeneralizedAlphaStep step_;  // being made, or made last
+  bool has_step_ = false;
+  double time_ = 0.0, end_time_ = 0.0, next_length_;
+  double evaluated_time_ = 0.0;
+
+  Vector q_, v_;  // within a step
+  Pair energy_ = Pair::Zero();
+  Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
+  SwitchSearch switch_search_;
+  TouchSearch touch_search_;
+};
+
+}  // namespace sprung::dynamics

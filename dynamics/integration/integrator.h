@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "dynamics/integration/ode_system.h"
+
+namespace sprung::dynamics {
+
+/// Integration of an OdeSystem step by step, with location of the zeros of its switch functions.
+class Integrator {
+ public:
+  enum class Method {
+    kAdams,        ///< CVODE, orders 1–12, functional iteration: smooth motion that is not stiff
+    kBdf,          ///< CVODE, orders 1–5, Newton iteration: stiff systems
+    kExponential,  ///< exponential collocation: linear vibration exactly, the rest by a quadrature of order 6
+    kGeneralizedAlpha,  ///< on the constrained system itself, without independent coordinates: see
+                        ///< make_stepper
+  };
+  struct Options {
+    Method method = Method::kExponential;
+    double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
+    // Of generalized-α alone:
+    double spectral_radius = 0.8;  ///< 0 to 1, at infinite frequency
+    double fixed_step =
+        0.0;  ///< all steps at most this long and equal, whatever their error; 0: by the error [s]
+  };
+  enum class StepResult {
+    kStepped,   ///< one step taken
+    kSwitched,  ///< a switch function has a zero at time(); `start` has to be called before the next step
+    kEnded,     ///< the end time is reached
+  };
+  struct Statistics {
+    long steps = 0, error_test_failures = 0, iteration_failures = 0, restarts = 0;
+    long bends = 0;  ///< switches that steps were carried through
+  };
+
+  virtual ~Integrator() = default;
+
+  /// Starts, or starts anew, at (time, y).
+  virtual void start(double time, std::span<const double> y, double end_time) = 0;
+  /// One step of at most `longest_step`.
+  /// @throws support::NumericalError with the time and the reason
+  virtual StepResult step(double longest_step) = 0;
+  /// Share of a step in which no forces are looked at.
+  virtual double largest_gap() const { return 1.0; }
+
+  virtual double time() const = 0;                ///< end of the last step, or of its part up to a switch
+  virtual std::span<const double> y() const = 0;  ///< at time()
+  /// Solution at a time within the last step.
+  virtual void interpolate(double time, std::span<double> y) const = 0;
+  virtual Statistics statistics() const = 0;
+};
+
+/// As in run files: "exponential".
+std::string_view method_name(Integrator::Method method);
+/// The method for who does not choose: exponential where there are vibrations to be known beforehand, and not
+/// so many freedoms that its full matrices, 2f×2f, cost more than the equations.
+Integrator::Method default_method(int num_freedoms);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,166 @@
+#include "dynamics/integration/partitioned/partitioned_ode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+PartitionedOde::PartitionedOde(const Model& model)
+    : model_(&model), equations_(model), piece_(model), scales_(model) {
+  y_.resize(static_cast<std::size_t>(size()));
+  evaluated_y_.resize(2 * static_cast<std::size_t>(num_freedoms()));
+}
+
+void PartitionedOde::set_state(const State& state, double dissipated, double input) {
+  equations_.choose_partition_at(state.time, state.q);
+  ++coordinate_version_;
+  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
+  equations_.mark(state.time, state.q, state.v);
+  piece_.set_branches(state.branches);
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  natural_sizes_.clear();
+  for (const int i : independent) natural_sizes_.push_back(model_->coordinate_scale(i));
+  for (std::size_t k = 0; k < f; ++k) {
+    y_[k] = state.q[independent[k]];
+    y_[f + k] = state.v[independent[k]];
+  }
+  y_[2 * f] = dissipated;
+  y_[2 * f + 1] = input;
+}
+
+bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
+  const auto f = static_cast<std::size_t>(equations_.num_freedoms());
+  const double formula_time = piece_.evaluation_time(time);
+  if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin()))
+    return true;
+  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
+  const bool is_good =
+      equations_.update_positions(formula_time, y.first(f)) == PartitionedEquations::Outcome::kGood;
+  if (is_good) equations_.update_velocities(y.subspan(f, f));
+  if (!is_good || equations_.has_lost_turns(formula_time)) {
+    equations_.return_to_mark();
+    return false;
+  }
+  evaluated_time_ = formula_time;
+  std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(2 * f), evaluated_y_.begin());
+  return true;
+}
+
+void PartitionedOde::throw_not_closed(double time) {
+  throw support::NumericalError(fmt::format(
+      "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
+}
+
+void PartitionedOde::close_joints(double time, std::span<const double> y) {
+  if (!evaluate_motion(time, y)) throw_not_closed(time);
+}
+
+State PartitionedOde::make_state(double time, std::span<const double> y) {
+  close_joints(time, y);
+  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
+    throw_not_closed(time);
+  }
+  accelerated_time_ = evaluated_time_;
+  return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = piece_.branches()};
+}
+
+void PartitionedOde::mark_motion() {
+  if (std::isfinite(evaluated_time_)) equations_.mark(evaluated_time_, equations_.q(), equations_.v());
+}
+
+// What is known; else differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
+bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
+  if (known_ && known_->independent == equations_.partition().independent) {
+    motion = std::move(known_->motion);
+    known_.reset();
+    return true;
+  }
+  constexpr double kShift = 1e-6;  // of the natural size
+  const Eigen::Index f = num_freedoms();
+  std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
+  if (!calc_derivative(time, moved, y_dot)) return false;
+  motion.mass = equations_.calc_reduced_mass(equations_.calc_directions());
+  const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f);
+  Eigen::MatrixXd gradient(f, 2 * f);
+  for (Eigen::Index k = 0; k < 2 * f; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const double shift = kShift * natural_sizes_[static_cast<std::size_t>(k % f)];
+    moved[i] = y[i] + shift;
+    const bool good = calc_derivative(time, moved, y_dot);
+    moved[i] = y[i];
+    if (!good) return false;
+    gradient.col(k) = (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base) / shift;
+  }
+  motion.stiffness = -motion.mass * gradient.leftCols(f);
+  motion.damping = -motion.mass * gradient.rightCols(f);
+  return true;
+}
+
+bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) {
+  ++num_derivatives_;
+  if (!evaluate_motion(time, y)) return false;
+  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood)
+    return false;
+  accelerated_time_ = evaluated_time_;
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    y_dot[k] = y[f + k];
+    y_dot[f + k] = equations_.v_dot()[independent[k]];
+  }
+  y_dot[2 * f] = equations_.terms().power().dissipated;
+  y_dot[2 * f + 1] = equations_.terms().power().input;
+  y_dot[2 * f + 1] += equations_.calc_motion_power();
+  return true;
+}
+
+bool PartitionedOde::calc_switches(double time, std::span<const double> y, std::span<double> values) {
+  if (!evaluate_motion(time, y)) return false;
+  piece_.calc_switches(equations_.terms(), values);
+  return true;
+}
+
+// The power of a prescribed motion bends with the force, wherever the force's own is at rest.
+Passage PartitionedOde::passage(int switch_index) const {
+  const Passage passage = piece_.passage(switch_index);
+  return passage == Passage::kBendAtRest && model_->has_motions ? Passage::kBend : passage;
+}
+
+bool PartitionedOde::pass(int switch_index, double time, std::span<double> change) {
+  if (accelerated_time_ != evaluated_time_) return false;  // nor if they are not numbers
+  const auto pass = piece_.pass(switch_index, time);
+  if (!pass) return false;
+  const double motion_power = equations_.calc_motion_power();
+  const Power power = equations_.change_branches(pass->force, pass->from, pass->to);
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    change[k] = 0.0;
+    change[f + k] = equations_.change_of_v_dot()[independent[k]];
+  }
+  change[2 * f] = power.dissipated;
+  change[2 * f + 1] = power.input + equations_.calc_motion_power() - motion_power;
+  return true;
+}
+
+void PartitionedOde::take_back_passes() {
+  piece_.take_back_passes();
+  accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+void PartitionedOde::calc_error_scales(std::span<const double> y, std::span<double> scales) const {
+  const std::vector<int>& independent = equations_.partition().independent;
+  const std::size_t f = independent.size();
+  for (std::size_t k = 0; k < f; ++k) {
+    scales[k] = scales_.position(independent[k]);
+    scales[f + k] = scales_.velocity(independent[k], y[f + k]);
+  }
+  scales[2 * f] = scales[2 * f + 1] = scales_.energy();
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dynamics/integration/error_scales.h"
+#include "dynamics/integration/ode_system.h"
+#include "dynamics/integration/smooth_piece.h"
+#include "dynamics/system/partitioned_equations.h"
+
+namespace sprung::dynamics {
+
+/// The partitioned equations in first-order form, with the energy book as quadratures:
+/// y = (q_i, v_i, dissipated energy, energy put in), 2f + 2 components (dynamics/README.md, eqs. 20 and 25).
+class PartitionedOde final : public OdeSystem {
+ public:
+  /// @param model has to outlive this
+  explicit PartitionedOde(const Model& model);
+
+  /// Takes over a state that satisfies the constraints: chooses the partition and makes y from it.
+  /// @param dissipated, input  energy so far [J]
+  void set_state(const State& state, double dissipated, double input);
+  std::span<const double> y() const { return y_; }
+
+  /// Small motion for the first time that it is asked for, where the partition is the one that it is known
+  /// for.
+  void suggest(KnownMotion known) { known_ = std::move(known); }
+
+  /// Brings positions and velocities of `equations()` to y.
+  /// @throws support::NumericalError if the constraints cannot be satisfied
+  void close_joints(double time, std::span<const double> y);
+  /// The state that y stands for; all terms of `equations()` are evaluated there.
+  /// @throws support::NumericalError if the constraints cannot be satisfied
+  State make_state(double time, std::span<const double> y);
+
+  /// The motion evaluated last, if it was good, belongs to what has really been come to: from there positions
+  /// are searched for where a trial has failed, and dependent angles count their turns.
+  void mark_motion();
+
+  PartitionedEquations& equations() { return equations_; }
+  const PartitionedEquations& equations() const { return equations_; }
+  SmoothPiece& piece() { return piece_; }
+  const SmoothPiece& piece() const { return piece_; }
+  double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
+  double input(std::span<const double> y) const { return y[y.size() - 1]; }
+
+  /// Whether the equations were evaluated last at that time, accelerations included.
+  bool has_accelerations(double time) const { return piece_.evaluation_time(time) == accelerated_time_; }
+
+  long num_derivatives() const { return num_derivatives_; }
+
+  int size() const override { return 2 * equations_.num_freedoms() + 2; }
+  int num_freedoms() const override { return equations_.num_freedoms(); }
+  bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) override;
+  int coordinate_version() const override { return coordinate_version_; }
+  bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
+  int num_switches() const override { return piece_.num_switches(); }
+  bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
+  Passage passage(int switch_index) const override;
+  bool pass(int switch_index, double time, std::span<double> change) override;
+  void take_back_passes() override;
+  void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
+
+ private:
+  bool evaluate_motion(double time, std::span<const double> y);
+  [[noreturn]] static void throw_not_closed(double time);
+
+  const Model* model_;
+  PartitionedEquations equations_;
+  SmoothPiece piece_;
+  ErrorScales scales_;
+  long num_derivatives_ = 0;
+  std::vector<double> y_;
+  int coordinate_version_ = 0;
+  std::optional<KnownMotion> known_;
+  std::vector<double> natural_sizes_;  // of the independents
+  // The arguments at which the motion of the equations was evaluated last.
+  double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
+  double accelerated_time_ = std::numeric_limits<double>::quiet_NaN();  // and the accelerations, if they were
+  std::vector<double> evaluated_y_;
+};
+
+}  // namespace sprung::dynamics

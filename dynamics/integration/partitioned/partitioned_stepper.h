@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "dynamics/integration/partitioned/partitioned_ode.h"
+#include "dynamics/integration/system_stepper.h"
+
+namespace sprung::dynamics {
+
+/// Steps in independent coordinates, by any Integrator. Chooses other coordinates where those at hand grow
+/// bad.
+class PartitionedStepper final : public SystemStepper {
+ public:
+  PartitionedStepper(const Model& model, const Integrator::Options& options,
+                     std::function<void(double time)> on_repartition);
+
+  void suggest(KnownMotion known) override { ode_.suggest(std::move(known)); }
+  void start(const State& state) override;
+  void resume(double end_time) override;
+  Integrator::StepResult step(double longest_step) override;
+  double time() const override { return is_running_ ? integrator_->time() : start_time_; }
+  double calc_longest_step() const override {
+    return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
+  }
+  void evaluate(double time) override;
+  void evaluate_motion(double time) override;
+  void look() override;
+  Observation observe(double time) override;
+  const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
+  EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
+  SmoothPiece& piece() override { return ode_.piece(); }
+  Statistics statistics() const override;
+
+ private:
+  void choose_partition();
+  void go_to(double time);
+
+  PartitionedOde ode_;
+  std::unique_ptr<Integrator> integrator_;
+  std::function<void(double)> on_repartition_;
+  std::vector<double> y_;  // evaluated last
+  double evaluated_time_ = 0.0;
+  double start_time_ = 0.0, end_time_ = 0.0;
+  bool is_running_ = false;
+  double last_rescue_ = -std::numeric_limits<double>::infinity();
+  long repartitions_ = 0;
+};
+
+}  // namespace sprung::dynamics

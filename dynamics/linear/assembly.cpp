@@ -1,0 +1,152 @@
+#include "dynamics/linear/assembly.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dynamics/system/constrained_equations.h"
+#include "dynamics/system/partition.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMaxIterations = 60;
+constexpr double kTolerance = 1e-12;       // of the length scale
+constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
+
+Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
+  Eigen::VectorXd inverse(terms.model().num_coordinates);
+  for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
+    const Body& body = terms.model().bodies[b];
+    inverse.segment(body.first_coordinate, body.num_coordinates()) = terms.mass(b).diagonal().cwiseInverse();
+  }
+  return inverse;
+}
+
+std::size_t joint_of_constraint(const Model& model, int constraint) {
+  std::size_t joint = model.joints.size() - 1;
+  while (model.joint_rows[joint] > constraint) --joint;
+  return joint;
+}
+
+std::string name_constraints(const Model& model, const std::vector<int>& constraints) {
+  std::vector<std::string> names;
+  for (const int i : constraints) {
+    const std::size_t joint = joint_of_constraint(model, i);
+    names.push_back(fmt::format("'{}' ({})", model.joints[joint]->name,
+                                model.joints[joint]->constraint_name(i - model.joint_rows[joint])));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+[[noreturn]] void throw_cannot_close(const Model& model, const Eigen::VectorXd& phi) {
+  Eigen::Index worst = 0;
+  phi.cwiseAbs().maxCoeff(&worst);
+  std::vector<int> open;
+  for (Eigen::Index i = 0; i < phi.size(); ++i) {
+    if (std::abs(phi[i]) > 0.1 * std::abs(phi[worst])) open.push_back(static_cast<int>(i));
+  }
+  const std::size_t joint = joint_of_constraint(model, static_cast<int>(worst));
+  throw support::InputError(
+      model.joints[joint]->location,
+      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} {} apart; joints "
+                  "that stay open: "
+                  "{}; check positions, angles and points of the bodies they join",
+                  model.joints[joint]->name, std::abs(phi[worst]),
+                  model.joints[joint]->constraint_unit(static_cast<int>(worst) - model.joint_rows[joint]),
+                  name_constraints(model, open)));
+}
+
+}  // namespace
+
+AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, q);
+  terms.update_mass();
+  const Eigen::VectorXd inverse_mass = inverse_masses(terms);
+  std::vector<Eigen::Vector2d> start;
+  for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
+
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
+  terms.calc_residual(phi);
+  double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
+  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q));
+       ++iteration) {
+    if (iteration == kMaxIterations) throw_cannot_close(model, phi);
+    terms.update_jacobian();
+    const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
+    const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
+    Eigen::SparseMatrix<double> normal = Phi_q * weighted;
+    // Redundant joints are told of below; until then they must not be in the way.
+    const double shift = kRegularisation * normal.diagonal().maxCoeff();
+    for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+    Eigen::VectorXd step = -(weighted * factor.solve(phi));
+    double largest = 0.0;
+    for (int i = 0; i < model.num_coordinates; ++i) {
+      largest = std::max(largest, std::abs(step[i]) / model.coordinate_scale(i));
+    }
+    if (largest > 0.3) step *= 0.3 / largest;  // far from closed, small steps stay on the right branch
+    q += step;
+    terms.update_positions(0.0, q);
+    terms.calc_residual(phi);
+    size = phi.lpNorm<Eigen::Infinity>();
+  }
+
+  terms.update_jacobian();
+  terms.update_mass();
+  const std::vector<int> dependent = find_dependent_constraints(terms);
+  if (!dependent.empty()) {
+    const std::size_t last = joint_of_constraint(model, dependent.back());
+    throw support::InputError(
+        model.joints[last]->location,
+        fmt::format(
+            "redundant joints: {} hold the same motion more than once, so that their reactions have no "
+            "unique value; leave one of them out or free a direction, or, if they do so in this position "
+            "alone, "
+            "a change point of the mechanism, draw it a little beside it",
+            name_constraints(model, dependent)));
+  }
+
+  AssemblyReport report;
+  report.residual = size;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const double movement = (terms.markers()[i].r - start[i]).norm();
+    if (movement > report.largest_movement) {
+      report.largest_movement = movement;
+      report.moved_marker = model.markers[i].name;
+    }
+  }
+  return report;
+}
+
+VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q,
+                                  Eigen::VectorXd& v) {
+  VelocityReport report;
+  if (model.num_constraints == 0) return report;
+  const Eigen::VectorXd asked = v;
+  ConstrainedEquations equations(model, SystemTerms::Markers::kActing);
+  equations.terms().update_positions(time, q);
+  equations.terms().update_jacobian();
+  if (!std::isfinite(equations.close_rates(v))) {
+    throw support::NumericalError(fmt::format(
+        "the joints allow no velocities at t = {:.9g} s: a singular position; start beside it", time));
+  }
+  v = equations.v();
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    const double relative = std::abs(v[i] - asked[i]) / model.coordinate_scale(i);
+    if (relative <= report.largest_change) continue;
+    report = {relative, model.coordinate_name(i)};
+  }
+  return report;
+}
+
+}  // namespace sprung::dynamics

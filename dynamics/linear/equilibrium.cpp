@@ -1,0 +1,228 @@
+#include "dynamics/linear/equilibrium.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/linear/frequency_solver.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMaxIterations = 200;
+constexpr double kTolerance = 1e-12;        // last step, natural sizes
+constexpr double kRounding = 1e-10;         // steps below that no longer fall are made by rounding
+constexpr double kNeutralStiffness = 1e-9;  // of the largest stiffness-to-mass ratio
+constexpr double kNeutralForce = 1e-7;      // acceleration along a neutral direction, natural sizes/s²
+constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that is rounding, of the largest
+constexpr double kLargestStep = 0.05;       // natural sizes per iteration
+constexpr double kFastFall = 0.3;           // of the step before, with the stiffness of the step before
+
+double largest_natural(const Model& model, const std::vector<int>& coordinates,
+                       const Eigen::VectorXd& values) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    largest = std::max(
+        largest, std::abs(values[static_cast<Eigen::Index>(k)]) / model.coordinate_scale(coordinates[k]));
+  }
+  return largest;
+}
+
+// The linearised system in its own modes: mass-normalised shapes V, stiffness-to-mass ratios ω², forces r.
+struct ModalForce {
+  Eigen::MatrixXd V;
+  Eigen::VectorXd omega_squared, force;
+  double stiffest = 0.0;         // largest |ω²|; where nothing is stiff, what bounds a step by force alone
+  std::vector<bool> is_neutral;  // neither held nor pushed: left where it is
+  bool is_falling = false;       // pushed, but not held
+
+  ModalForce(const Model& model, const LinearisedSystem& system) {
+    const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
+    V = solver.eigenvectors();
+    omega_squared = solver.eigenvalues();
+    force = V.transpose() * system.force;
+    const double largest_acceleration = largest_natural(model, system.partition.independent, V * force);
+    stiffest = std::max(omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);
+    const double loose = kNeutralStiffness * omega_squared.cwiseAbs().maxCoeff();
+    for (Eigen::Index k = 0; k < force.size(); ++k) {
+      const bool is_loose = std::abs(omega_squared[k]) <= loose;
+      const bool is_pushed =
+          largest_natural(model, system.partition.independent, V.col(k) * force[k]) > kNeutralForce;
+      is_neutral.push_back(is_loose && !is_pushed);
+      is_falling |= is_loose && is_pushed;
+    }
+  }
+
+  /// Downhill step under forces r, each direction's stiffness raised by `damping`; neutral directions stay.
+  Eigen::VectorXd calc_step(const Eigen::VectorXd& r, double damping) const {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(r.size());
+    const double least = kNeutralStiffness * stiffest;
+    for (Eigen::Index k = 0; k < force.size(); ++k) {
+      if (is_neutral[static_cast<std::size_t>(k)]) continue;
+      step += V.col(k) * (r[k] / (std::max(std::abs(omega_squared[k]), least) + damping));
+    }
+    return step;
+  }
+};
+
+bool is_stable(const LinearisedSystem& system) {
+  const FrequencySolver solver(system.mass, system.damping, system.stiffness);
+  const Eigen::VectorXcd eigenvalues = solver.eigenvalues();
+  return eigenvalues.real().maxCoeff() <= kGrowth * eigenvalues.cwiseAbs().maxCoeff();
+}
+
+NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
+  NeutralDirection neutral;
+  std::vector<std::string> moving;
+  double largest = 0.0;
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    largest = std::max(largest, std::abs(direction[i]) / model.coordinate_scale(i));
+  }
+  direction /= largest;
+  const double sign = [&] {
+    Eigen::Index i = 0;
+    direction.cwiseAbs().maxCoeff(&i);
+    return direction[i] < 0.0 ? -1.0 : 1.0;
+  }();
+  neutral.direction = sign * direction;
+  for (int axis = 0; axis < 2; ++axis) {
+    bool translation = true;
+    for (int i = 0; i < model.num_coordinates; ++i) {
+      const std::string name = model.coordinate_name(i);
+      const bool along = name.ends_with(axis == 0 ? ".x" : ".y");
+      translation &= std::abs(neutral.direction[i] / model.coordinate_scale(i) - (along ? 1.0 : 0.0)) < 1e-4;
+    }
+    if (translation) {
+      neutral.description = fmt::format("all bodies along {}", axis == 0 ? "x" : "y");
+      return neutral;
+    }
+  }
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    if (std::abs(neutral.direction[i]) / model.coordinate_scale(i) > 0.1)
+      moving.push_back(model.coordinate_name(i));
+  }
+  neutral.description = fmt::format("{}", fmt::join(moving, ", "));
+  return neutral;
+}
+
+[[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
+                                       const ModalForce& modal, double last_step) {
+  Eigen::Index worst = 0;
+  modal.force.cwiseAbs().maxCoeff(&worst);
+  const NeutralDirection direction = describe(model, system.directions * modal.V.col(worst));
+  throw support::NumericalError(
+      fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
+                  "(tolerance {:.0e}); what "
+                  "keeps moving: {}; check that something holds it against gravity, and the start position",
+                  kMaxIterations, last_step, kTolerance, direction.description));
+}
+
+// One accepted step downhill from q_i: the potential energy falls, or the forces do.
+// @param[in,out] damping  kept from step to step
+Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations,
+                              const LinearisedSystem& system, const ModalForce& modal,
+                              const Eigen::VectorXd& q_i, const SteadyMotion& motion, double& damping) {
+  double potential = 0.0;
+  calc_static_force(equations, 0.0, q_i, &potential, motion);
+  for (int attempt = 0; attempt < 40; ++attempt) {
+    Eigen::VectorXd step = modal.calc_step(modal.force, damping);
+    const double size = largest_natural(model, system.partition.independent, step);
+    if (size > kLargestStep) step *= kLargestStep / size;
+    double trial_potential = 0.0;
+    const Eigen::VectorXd trial_force =
+        calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
+    const bool assembled = trial_force.size() == q_i.size();
+    if (assembled &&
+        (trial_potential < potential || (modal.V.transpose() * trial_force).norm() < modal.force.norm())) {
+      damping *= 0.1;
+      break;
+    }
+    damping = std::max(10.0 * damping, 1e-6 * modal.stiffest);
+  }
+  return equations.q();
+}
+
+Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::VectorXd& q) {
+  Eigen::VectorXd q_i(static_cast<Eigen::Index>(system.partition.independent.size()));
+  for (Eigen::Index k = 0; k < q_i.size(); ++k)
+    q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
+  return q_i;
+}
+
+// On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one
+// evaluation, where the stiffness costs four for each freedom. @return positions   @param[in,out] steps taken
+Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations,
+                                        const LinearisedSystem& system, const ModalForce& modal,
+                                        const SteadyMotion& motion, double last_size, int& steps) {
+  while (last_size > kTolerance) {
+    Eigen::VectorXd q_i = select_independent(system, equations.q());
+    const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
+    if (force.size() == 0) break;
+    const Eigen::VectorXd step = modal.calc_step(modal.V.transpose() * force, 0.0);
+    const double size = largest_natural(model, system.partition.independent, step);
+    if (!(size < kFastFall * last_size)) break;
+    q_i += step;
+    if (calc_static_force(equations, 0.0, q_i, nullptr, motion).size() == 0) break;
+    ++steps;
+    last_size = size;
+  }
+  return equations.q();
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
+                             const std::function<void(int, double)>& on_iteration,
+                             const SteadyMotion& motion) {
+  PartitionedEquations equations(model);
+  Equilibrium equilibrium;
+  equilibrium.q = q;
+  equilibrium.motion = motion;
+  if (model.num_freedoms() == 0) {  // nothing is left to come to rest
+    equations.choose_partition_at(0.0, q);
+    equilibrium.linearised.partition = equations.partition();
+    return equilibrium;
+  }
+  double damping = 0.0, last_step = std::numeric_limits<double>::infinity();
+  for (int iteration = 0;; ++iteration) {
+    LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
+    equilibrium.q = equations.q();
+    const ModalForce modal(model, system);
+    const double newton_step =
+        largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
+    if (on_iteration) on_iteration(iteration, newton_step);
+    const bool is_rounding = newton_step <= kRounding && newton_step > 0.5 * last_step;
+    last_step = newton_step;
+    if (!modal.is_falling && (newton_step <= kTolerance || is_rounding)) {
+      equilibrium.last_step = newton_step;
+      for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
+        if (modal.is_neutral[static_cast<std::size_t>(k)]) {
+          equilibrium.neutral.push_back(describe(model, system.directions * modal.V.col(k)));
+        } else if (modal.omega_squared[k] < 0.0) {
+          equilibrium.stable = false;
+        }
+      }
+      // What turns may stand on its Coriolis forces where its stiffness alone would not hold it.
+      if (motion.omega != 0.0) equilibrium.stable = is_stable(system);
+      equilibrium.linearised = std::move(system);
+      return equilibrium;
+    }
+    if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
+    equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q),
+                                  motion, damping);
+    ++equilibrium.iterations;
+    if (damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
+      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step,
+                                              equilibrium.iterations);
+    }
+  }
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,222 @@
+#include "dynamics/linear/harmonic_sweep.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+using RealRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr double kFree = 1e-6;          // frequency that is none, of the highest
+constexpr double kWorstVectors = 1e-9;  // reciprocal condition of eigenvectors that are still good to 1e-6
+constexpr Eigen::Index kAtOnce = 256;   // frequencies
+
+// Eigenvectors in real form, both of a pair to the same scale.
+Eigen::MatrixXd normalise(const Eigen::EigenSolver<Eigen::MatrixXd>& eigen) {
+  Eigen::MatrixXd T = eigen.pseudoEigenvectors();
+  for (Eigen::Index i = 0; i < T.cols(); ++i) {
+    const Eigen::Index count = eigen.eigenvalues()[i].imag() == 0.0 ? 1 : 2;
+    T.middleCols(i, count) /= T.middleCols(i, count).norm();
+    i += count - 1;
+  }
+  return T;
+}
+
+// Solves (s − [a b; −b a]) u = r in place, in the rows from `row` on: for each column's s = iω, or for one of
+// all; one row where b = 0.
+void solve_block(double a, double b, const Eigen::VectorXd& omega, RowsXcd& r, Eigen::Index row) {
+  std::complex<double> difference, inverse;
+  const auto set_frequency = [&](double w) {
+    difference = {-a, w};
+    // Of (s − a)² + b², or of s − a alone.
+    const double re = b == 0.0 ? -a : a * a - w * w + b * b, im = b == 0.0 ? w : -2.0 * a * w;
+    const double size = re * re + im * im;
+    inverse = {re / size, -im / size};
+  };
+  const auto times = [](std::complex<double> x, std::complex<double> y) {  // finite, so without a check
+    return std::complex<double>(x.real() * y.real() - x.imag() * y.imag(),
+                                x.real() * y.imag() + x.imag() * y.real());
+  };
+  if (omega.size() == 1) set_frequency(omega[0]);
+  for (Eigen::Index i = 0; i < r.cols(); ++i) {
+    if (omega.size() > 1) set_frequency(omega[i]);
+    const std::complex<double> first = r(row, i);
+    if (b == 0.0) {
+      r(row, i) = times(first, inverse);
+      continue;
+    }
+    const std::complex<double> second = r(row + 1, i);
+    r(row, i) = times(times(difference, first) + b * second, inverse);
+    r(row + 1, i) = times(times(difference, second) - b * first, inverse);
+  }
+}
+
+}  // namespace
+
+RowsXcd multiply(const Eigen::MatrixXd& A, const RowsXcd& X) {
+  RowsXcd product(A.rows(), X.cols());
+  if (A.size() == 0 || X.size() == 0) {
+    product.setZero();
+    return product;
+  }
+  const Eigen::Map<const RealRows> right(reinterpret_cast<const double*>(X.data()), X.rows(), 2 * X.cols());
+  Eigen::Map<RealRows>(reinterpret_cast<double*>(product.data()), A.rows(), 2 * X.cols()).noalias() =
+      A * right;
+  return product;
+}
+
+DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs& outputs,
+                              const std::vector<int>& coordinates) {
+  const LinearisedSystem& full = vehicle.system();
+  const Eigen::Index f = full.mass.rows();
+  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(f, f);  // what holding leaves free, f×g
+  Eigen::MatrixXd by_acceleration = outputs.by_acceleration;
+  DrivenSystem held;
+  held.by_position = outputs.by_position;
+  held.by_velocity = outputs.by_velocity;
+  if (!coordinates.empty()) {
+    // D_Sᵀ λ = (K̂ + sĈ + s²M̂) x − F: the holding forces and what they do to the outputs.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> holding(
+        full.directions(coordinates, Eigen::all).transpose());
+    const Eigen::MatrixXd Q = holding.householderQ() * Eigen::MatrixXd::Identity(f, f);
+    free = Q.rightCols(f - holding.rank());
+    const Eigen::MatrixXd G =
+        outputs.by_force(Eigen::all, coordinates) * holding.solve(Eigen::MatrixXd::Identity(f, f));
+    held.by_position += G * full.stiffness;
+    held.by_velocity += G * full.damping;
+    by_acceleration += G * full.mass;
+    held.by_force = -G;
+  }
+  held.mass = free.transpose() * full.mass * free;
+  held.damping = free.transpose() * full.damping * free;
+  held.stiffness = free.transpose() * full.stiffness * free;
+  held.input = free.transpose();
+  held.by_position *= free;
+  held.by_velocity *= free;
+  by_acceleration *= free;
+  if (by_acceleration.size() > 0 && !by_acceleration.isZero(0.0)) {
+    const Eigen::MatrixXd by_inertia =  // of forces on the free coordinates
+        Eigen::LLT<Eigen::MatrixXd>(held.mass).solve(by_acceleration.transpose()).transpose();
+    held.by_position -= by_inertia * held.stiffness;
+    held.by_velocity -= by_inertia * held.damping;
+    if (held.by_force.size() == 0) held.by_force = Eigen::MatrixXd::Zero(by_acceleration.rows(), f);
+    held.by_force += by_inertia * held.input;
+  }
+  return held;
+}
+
+HarmonicSweep::HarmonicSweep(DrivenSystem system) : system_(std::move(system)) {
+  uncouple();
+}
+
+void HarmonicSweep::uncouple() {
+  const Eigen::Index g = system_.mass.rows(), p = system_.by_position.rows();
+  input_.resize(0, system_.input.cols());
+  state_outputs_.resize(p, 0);
+  if (g == 0) return;
+  if (Eigen::LLT<Eigen::MatrixXd>(system_.mass).info() != Eigen::Success) {
+    throw support::NumericalError("frequency response: the mass matrix is not positive definite");
+  }
+  // Undamped modes, those without stiffness first; states √|k| y of the others, then ẏ of all.
+  const Eigen::MatrixXd symmetric = 0.5 * (system_.stiffness + system_.stiffness.transpose());
+  Eigen::MatrixXd V =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, system_.mass).eigenvectors();
+  Eigen::MatrixXd K = V.transpose() * system_.stiffness * V;
+  const double stiffest = K.diagonal().cwiseAbs().maxCoeff();
+  std::vector<Eigen::Index> order, bound;
+  for (Eigen::Index k = 0; k < g; ++k) {
+    (std::abs(K(k, k)) <= kFree * kFree * stiffest ? order : bound).push_back(k);
+  }
+  const auto num_free = static_cast<Eigen::Index>(order.size()), num_bound = g - num_free;
+  order.insert(order.end(), bound.begin(), bound.end());
+  V = V(Eigen::all, order).eval();
+  K = K(order, order).eval();
+  const Eigen::VectorXd scale = K.diagonal().tail(num_bound).cwiseAbs().cwiseSqrt();
+
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(num_bound + g, num_bound + g);
+  A.block(0, num_bound + num_free, num_bound, num_bound) = scale.asDiagonal();
+  A.bottomLeftCorner(g, num_bound) = -K.rightCols(num_bound) * scale.cwiseInverse().asDiagonal();
+  A.bottomRightCorner(g, g) = -V.transpose() * system_.damping * V;
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
+  Eigen::MatrixXd T;
+  if (eigen.info() == Eigen::Success) T = normalise(eigen);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(T);
+  if (T.size() == 0 || !(inverse.rcond() > kWorstVectors)) {
+    solver_ = std::make_unique<FrequencySolver>(system_.mass, system_.damping, system_.stiffness);
+    input_ = system_.input;
+    state_outputs_.resize(p, 2 * g);
+    state_outputs_ << system_.by_position, system_.by_velocity;
+    return;
+  }
+  real_ = eigen.eigenvalues().real();
+  imaginary_ = eigen.eigenvalues().imag();
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(num_bound + g, system_.input.cols());
+  force.bottomRows(g) = V.transpose() * system_.input;
+  input_ = inverse.solve(force);
+  state_outputs_.resize(p, num_bound + g + num_free);
+  state_outputs_.leftCols(num_bound + g) =
+      system_.by_velocity * V * T.bottomRows(g) +
+      system_.by_position * V.rightCols(num_bound) * scale.cwiseInverse().asDiagonal() * T.topRows(num_bound);
+  state_outputs_.rightCols(num_free) = system_.by_position * V.leftCols(num_free);
+  free_rates_ = T.middleRows(num_bound, num_free);
+}
+
+RowsXcd HarmonicSweep::project(const Eigen::MatrixXcd& forces) const {
+  if (forces.rows() != system_.input.cols()) {
+    throw std::invalid_argument(fmt::format("HarmonicSweep: needs forces on {} coordinates, got {}",
+                                            system_.input.cols(), forces.rows()));
+  }
+  return multiply(input_, forces);
+}
+
+RowsXcd HarmonicSweep::calc_states(const Eigen::VectorXd& omega, const RowsXcd& projected) const {
+  const Eigen::Index num_states = projected.rows(), k = projected.cols();
+  const auto at = [&](Eigen::Index column) { return omega[omega.size() == 1 ? 0 : column]; };
+  if (!is_uncoupled()) {
+    RowsXcd states(2 * num_states, k);
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Eigen::VectorXcd x = solver_->solve(at(i), projected.col(i));
+      states.col(i) << x, std::complex<double>(0.0, at(i)) * x;
+    }
+    return states;
+  }
+  RowsXcd states(num_states + free_rates_.rows(), k);
+  states.topRows(num_states) = projected;
+  for (Eigen::Index i = 0; i < num_states; ++i) {
+    solve_block(real_[i], imaginary_[i], omega, states, i);
+    if (imaginary_[i] != 0.0) ++i;
+  }
+  if (free_rates_.rows() > 0) {
+    states.bottomRows(free_rates_.rows()) = multiply(free_rates_, states.topRows(num_states));
+    for (Eigen::Index i = 0; i < k; ++i) {
+      states.col(i).tail(free_rates_.rows()) /= std::complex<double>(0.0, at(i));
+    }
+  }
+  return states;
+}
+
+RowsXcd HarmonicSweep::respond(const Eigen::VectorXd& omega, const Eigen::MatrixXcd& forces) const {
+  RowsXcd y(state_outputs_.rows(), omega.size());
+  for (Eigen::Index first = 0; first < omega.size(); first += kAtOnce) {
+    const Eigen::Index count = std::min(kAtOnce, omega.size() - first);
+    const RowsXcd some = forces.middleCols(first, count);
+    y.middleCols(first, count) =
+        multiply(state_outputs_, calc_states(omega.segment(first, count), multiply(input_, some)));
+    if (system_.by_force.size() > 0) y.middleCols(first, count) += multiply(system_.by_force, some);
+  }
+  return y;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,259 @@
+#include "dynamics/linear/linear_outputs.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <numbers>
+#include <stdexcept>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr std::array<const char*, 3> kComponents{"x", "y", "angle"};
+constexpr std::array<const char*, 3> kDerivatives{"displacement", "velocity", "acceleration"};
+
+// p outputs without names, all zero.
+LinearOutputs make_empty(const LinearVehicle& vehicle, Eigen::Index p) {
+  const Eigen::Index f = vehicle.system().mass.rows();
+  LinearOutputs outputs;
+  outputs.by_position = outputs.by_velocity = outputs.by_acceleration = Eigen::MatrixXd::Zero(p, f);
+  outputs.by_force = Eigen::MatrixXd::Zero(p, vehicle.model().num_coordinates);
+  outputs.channels.assign(static_cast<std::size_t>(p), -1);
+  return outputs;
+}
+
+// Motion by the independent coordinates, 3×f, as displacement, velocity or acceleration: rows from `row` on.
+void add_motion(LinearOutputs& outputs, Eigen::Index row, std::size_t derivative,
+                const Eigen::MatrixXd& motion, const std::string& group) {
+  static constexpr std::array<const char*, 3> kSuffixes{"", "/s", "/s^2"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    outputs.names.push_back(fmt::format("{}/{}.{}", group, kDerivatives[derivative], kComponents[c]));
+    outputs.units.push_back(fmt::format("{}{}", c == 2 ? "rad" : "m", kSuffixes[derivative]));
+  }
+  Eigen::MatrixXd& target = derivative == 0   ? outputs.by_position
+                            : derivative == 1 ? outputs.by_velocity
+                                              : outputs.by_acceleration;
+  target.middleRows(row, 3) = motion;
+}
+
+Eigen::VectorXd calc_channels(const PartitionedEquations& equations, std::span<const int> branches) {
+  const Model& model = equations.terms().model();
+  std::vector<double> values;
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const ForceElement& force = *model.forces[f];
+    const std::size_t first = values.size();
+    values.resize(first + force.channels().size());
+    force.calc_channels(equations.terms().instant(),
+                        branches.subspan(static_cast<std::size_t>(model.force_branches[f]),
+                                         static_cast<std::size_t>(force.num_branches())),
+                        std::span(values).subspan(first));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+// What the joints do to their points a, −Gaᵀ λ, for given multipliers: 3 each.
+Eigen::VectorXd calc_reactions(const PartitionedEquations& equations, const Eigen::VectorXd& multipliers) {
+  const Model& model = equations.terms().model();
+  const std::span<const MarkerState> markers = equations.terms().markers();
+  Eigen::VectorXd reactions(3 * static_cast<Eigen::Index>(model.joints.size()));
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const Joint& joint = *model.joints[j];
+    JointJacobian Ga, Gb;
+    joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
+                        markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
+    reactions.segment<3>(3 * static_cast<Eigen::Index>(j)) =
+        -Ga.transpose() * multipliers.segment(model.joint_rows[j], joint.num_constraints());
+  }
+  return reactions;
+}
+
+// ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, m×nq (dynamics/README.md, eq. 18).
+Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
+  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
+  Eigen::MatrixXd transposed = Phi_q.transpose();  // to be M⁻¹ φ_qᵀ
+  for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
+    const Body& body = terms.model().bodies[b];
+    auto rows = transposed.middleRows(body.first_coordinate, body.num_coordinates());
+    rows = Eigen::LLT<Eigen::MatrixXd>(terms.mass(b)).solve(rows).eval();
+  }
+  const Eigen::MatrixXd S = Phi_q * transposed;
+  return Eigen::LLT<Eigen::MatrixXd>(S).solve(transposed.transpose());
+}
+
+// Of p values of the state, in the vehicle's own independent coordinates: p×f each.
+void differentiate(const LinearVehicle& vehicle, const StateFunction& function, Eigen::MatrixXd& by_position,
+                   Eigen::MatrixXd& by_velocity) {
+  PartitionedEquations equations(vehicle.model());
+  equations.choose_partition_at(0.0, vehicle.positions());  // as the linearisation did
+  const Eigen::VectorXd q_i = vehicle.independent_positions();
+  calc_static_force(equations, 0.0, q_i);
+  by_velocity = differentiate_by_velocity(equations, function);
+  by_position = differentiate_by_position(equations, 0.0, q_i, function);
+}
+
+bool is_quantity(const Channel& channel) {
+  return channel.name != "contact" && channel.name != "road_height";
+}
+
+}  // namespace
+
+void LinearOutputs::append(const LinearOutputs& other) {
+  names.insert(names.end(), other.names.begin(), other.names.end());
+  units.insert(units.end(), other.units.begin(), other.units.end());
+  channels.insert(channels.end(), other.channels.begin(), other.channels.end());
+  const auto put_below = [](Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower) {
+    const Eigen::Index rows = upper.rows();
+    upper.conservativeResize(rows + lower.rows(), lower.cols());
+    upper.bottomRows(lower.rows()) = lower;
+  };
+  put_below(by_position, other.by_position);
+  put_below(by_velocity, other.by_velocity);
+  put_below(by_acceleration, other.by_acceleration);
+  put_below(by_force, other.by_force);
+}
+
+LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
+  LinearOutputs picked{.names = {},
+                       .units = {},
+                       .by_position = by_position(rows, Eigen::all),
+                       .by_velocity = by_velocity(rows, Eigen::all),
+                       .by_acceleration = by_acceleration(rows, Eigen::all),
+                       .by_force = by_force(rows, Eigen::all),
+                       .channels = {}};
+  for (const int row : rows) {
+    const auto i = static_cast<std::size_t>(row);
+    picked.names.push_back(names[i]);
+    picked.units.push_back(units[i]);
+    picked.channels.push_back(channels[i]);
+  }
+  return picked;
+}
+
+LinearOutputs make_point_outputs(const LinearVehicle& vehicle, int marker) {
+  const Eigen::MatrixXd motion =
+      calc_marker_jacobian(vehicle.equations().terms(), marker) * vehicle.system().directions;
+  LinearOutputs outputs = make_empty(vehicle, 9);
+  const std::string group = "points/" + vehicle.model().markers[static_cast<std::size_t>(marker)].name;
+  for (std::size_t derivative = 0; derivative < 3; ++derivative) {
+    add_motion(outputs, 3 * static_cast<Eigen::Index>(derivative), derivative, motion, group);
+  }
+  return outputs;
+}
+
+LinearOutputs make_mode_share_outputs(const LinearVehicle& vehicle, int marker) {
+  const Marker& point = vehicle.model().markers[static_cast<std::size_t>(marker)];
+  if (point.body == kGround) return make_empty(vehicle, 0);
+  const Body& body = vehicle.model().bodies[static_cast<std::size_t>(point.body)];
+  const Eigen::MatrixXd jacobian = calc_marker_jacobian(vehicle.equations().terms(), marker);
+  LinearOutputs outputs = make_empty(vehicle, 6 * body.num_modes());
+  for (int k = 0; k < body.num_modes(); ++k) {
+    const int coordinate = body.first_coordinate + 3 + k;
+    const Eigen::MatrixXd motion = jacobian.col(coordinate) * vehicle.system().directions.row(coordinate);
+    const std::string group =
+        fmt::format("points/{}/mode {}", point.name, body.mode_numbers[static_cast<std::size_t>(k)]);
+    add_motion(outputs, 6 * k, 0, motion, group);
+    add_motion(outputs, 6 * k + 3, 2, motion, group);
+  }
+  return outputs;
+}
+
+LinearOutputs make_modal_outputs(const LinearVehicle& vehicle) {
+  LinearOutputs outputs = make_empty(vehicle, 0);
+  for (const Body& body : vehicle.model().bodies) {
+    LinearOutputs one = make_empty(vehicle, 2 * body.num_modes());
+    for (int k = 0; k < body.num_modes(); ++k) {
+      const Eigen::RowVectorXd row = vehicle.system().directions.row(body.first_coordinate + 3 + k);
+      one.names.push_back(fmt::format("bodies/{}/modal/amplitude.{}", body.name, k + 1));
+      one.names.push_back(fmt::format("bodies/{}/modal/acceleration.{}", body.name, k + 1));
+      one.units.insert(one.units.end(), {"kg^0.5 m", "kg^0.5 m/s^2"});
+      one.by_position.row(2 * k) = row;
+      one.by_acceleration.row(2 * k + 1) = row;
+    }
+    outputs.append(one);
+  }
+  return outputs;
+}
+
+LinearOutputs make_force_outputs(const LinearVehicle& vehicle) {
+  Eigen::MatrixXd by_position, by_velocity;
+  differentiate(vehicle, calc_channels, by_position, by_velocity);
+  std::vector<int> rows;
+  std::vector<std::string> names, units;
+  for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
+    const ForceElement& force = *vehicle.model().forces[f];
+    for (std::size_t c = 0; c < force.channels().size(); ++c) {
+      const Channel& channel = force.channels()[c];
+      if (!is_quantity(channel)) continue;
+      rows.push_back(vehicle.channel_rows()[f] + static_cast<int>(c));
+      names.push_back(fmt::format("forces/{}/{}", force.name, channel.name));
+      units.emplace_back(channel.unit);
+    }
+  }
+  LinearOutputs outputs = make_empty(vehicle, static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    outputs.by_position.row(static_cast<Eigen::Index>(i)) = by_position.row(rows[i]);
+    outputs.by_velocity.row(static_cast<Eigen::Index>(i)) = by_velocity.row(rows[i]);
+  }
+  outputs.channels = std::move(rows);
+  outputs.names = std::move(names);
+  outputs.units = std::move(units);
+  return outputs;
+}
+
+LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle) {
+  const StateFunction reactions = [](const PartitionedEquations& at, std::span<const int> /*branches*/) {
+    return calc_reactions(at, at.multipliers());
+  };
+  const auto num_joints = static_cast<Eigen::Index>(vehicle.model().joints.size());
+  LinearOutputs outputs = make_empty(vehicle, 3 * num_joints);
+  if (num_joints == 0) return outputs;
+  differentiate(vehicle, reactions, outputs.by_position, outputs.by_velocity);
+  const Eigen::MatrixXd multipliers = calc_multipliers_by_force(vehicle.equations().terms());
+  for (Eigen::Index i = 0; i < multipliers.cols(); ++i) {
+    outputs.by_force.col(i) = calc_reactions(vehicle.equations(), multipliers.col(i));
+  }
+  for (const auto& joint : vehicle.model().joints) {
+    for (const char* component : {"x", "y", "torque"}) {
+      outputs.names.push_back(fmt::format("joints/{}/reaction.{}", joint->name, component));
+      outputs.units.emplace_back(std::string_view(component) == "torque" ? "N m" : "N");
+    }
+  }
+  return outputs;
+}
+
+Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const Eigen::MatrixXcd& x,
+                             const Eigen::MatrixXcd& forces, const Eigen::MatrixXcd& channels) {
+  const std::complex<double> s(0.0, omega);
+  const Eigen::MatrixXcd by_motion =
+      outputs.by_position + s * outputs.by_velocity + (s * s) * outputs.by_acceleration;
+  Eigen::MatrixXcd y = by_motion * x + outputs.by_force * forces;
+  for (std::size_t i = 0; i < outputs.channels.size(); ++i) {
+    if (outputs.channels[i] >= 0) y.row(static_cast<Eigen::Index>(i)) += channels.row(outputs.channels[i]);
+  }
+  return y;
+}
+
+Eigen::MatrixXcd calc_transfer(const LinearVehicle& vehicle, const LinearOutputs& outputs,
+                               const RoadWave& wave) {
+  const RoadAction action = vehicle.calc_road_action(wave);
+  const Eigen::MatrixXcd x = vehicle.calc_motion(wave.frequency, action);
+  return sum_outputs(outputs, wave.frequency, x, action.forces, action.channels);
+}
+
+Eigen::VectorXcd calc_response(const LinearVehicle& vehicle, const LinearOutputs& outputs,
+                               const RoadWave& wave) {
+  return calc_transfer(vehicle, outputs, wave) * vehicle.calc_delays(wave);
+}
+
+RoadWave make_road_wave(double frequency_hz, double speed) {
+  if (!(frequency_hz > 0.0) || !(speed > 0.0)) {
+    throw std::invalid_argument(fmt::format(
+        "make_road_wave: frequency and speed must be > 0, got {} Hz and {} m/s", frequency_hz, speed));
+  }
+  const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  return {.wavenumber = omega / speed, .frequency = omega};
+}
+
+}  // namespace sprung::dynamics

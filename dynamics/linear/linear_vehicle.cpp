@@ -1,0 +1,125 @@
+#include "dynamics/linear/linear_vehicle.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace sprung::dynamics {
+
+namespace {
+
+std::span<const int> branches_of(const Model& model, std::size_t force, const std::vector<int>& branches) {
+  return std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force]),
+                                     static_cast<std::size_t>(model.forces[force]->num_branches()));
+}
+
+}  // namespace
+
+LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
+    : q_(q),
+      equations_(model),
+      system_(linearise(equations_, 0.0, q)),
+      solver_(system_.mass, system_.damping, system_.stiffness),
+      branches_(static_cast<std::size_t>(model.num_branches)) {
+  const Eigen::VectorXd q_i = independent_positions();
+  kinks_ = find_kinks(equations_, 0.0, q_i);
+  calc_static_force(equations_, 0.0, q_i);
+  equations_.update_all_markers();
+  equations_.terms().choose_branches(branches_);
+
+  channel_rows_.push_back(0);
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const ForceElement& force = *model.forces[f];
+    channel_rows_.push_back(channel_rows_.back() + static_cast<int>(force.channels().size()));
+    const std::optional<RoadPlace> place =
+        force.find_road_place(equations_.terms().instant(), branches_of(model, f, branches_));
+    if (!place) continue;
+    inputs_.push_back({.name = force.name,
+                       .force = static_cast<int>(f),
+                       .distance = place->distance,
+                       .is_pressed = place->is_pressed});
+  }
+}
+
+Eigen::VectorXd LinearVehicle::independent_positions() const {
+  const std::vector<int>& independent = system_.partition.independent;
+  Eigen::VectorXd q_i(static_cast<Eigen::Index>(independent.size()));
+  for (std::size_t k = 0; k < independent.size(); ++k) {
+    q_i[static_cast<Eigen::Index>(k)] = q_[independent[k]];
+  }
+  return q_i;
+}
+
+RoadAction LinearVehicle::calc_road_action(const RoadWave& wave) const {
+  const auto num_inputs = static_cast<Eigen::Index>(inputs_.size());
+  RoadAction action{.forces = Eigen::MatrixXcd::Zero(model().num_coordinates, num_inputs),
+                    .channels = Eigen::MatrixXcd::Zero(channel_rows_.back(), num_inputs)};
+  std::vector<WrenchGain> wrenches(model().markers.size());
+  Eigen::VectorXcd channels;
+  for (Eigen::Index i = 0; i < num_inputs; ++i) {
+    const auto f = static_cast<std::size_t>(inputs_[static_cast<std::size_t>(i)].force);
+    calc_road_wrenches(static_cast<std::size_t>(i), wave, wrenches, channels);
+    action.channels.col(i).segment(channel_rows_[f], channels.size()) = channels;
+    for (const int marker : model().forces[f]->markers()) {
+      const WrenchGain& wrench = wrenches[static_cast<std::size_t>(marker)];
+      const Eigen::Vector3cd gain(wrench.force.x(), wrench.force.y(), wrench.torque);
+      action.forces.col(i) += calc_marker_jacobian(equations_.terms(), marker).transpose() * gain;
+    }
+  }
+  return action;
+}
+
+Eigen::VectorXd LinearVehicle::calc_channels() const {
+  Eigen::VectorXd values(channel_rows_.back());
+  for (std::size_t f = 0; f < model().forces.size(); ++f) {
+    const ForceElement& force = *model().forces[f];
+    force.calc_channels(equations_.terms().instant(), branches_of(model(), f, branches_),
+                        std::span(values.data() + channel_rows_[f], force.channels().size()));
+  }
+  return values;
+}
+
+void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave,
+                                       std::span<WrenchGain> wrenches, Eigen::VectorXcd& channels) const {
+  const auto f = static_cast<std::size_t>(inputs_[input].force);
+  const ForceElement& force = *model().forces[f];
+  for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};
+  channels.setZero(static_cast<Eigen::Index>(force.channels().size()));
+  if (!inputs_[input].is_pressed) return;
+  force.add_road_response(equations_.terms().instant(), branches_of(model(), f, branches_), wave, wrenches,
+                          {channels.data(), static_cast<std::size_t>(channels.size())});
+}
+
+Eigen::MatrixXcd LinearVehicle::calc_motion(double omega, const RoadAction& action) const {
+  return solver_.solve(omega, system_.directions.transpose() * action.forces);
+}
+
+Eigen::VectorXcd LinearVehicle::calc_delays(const RoadWave& wave) const {
+  double foremost = -std::numeric_limits<double>::infinity();
+  for (const RoadInput& input : inputs_) foremost = std::max(foremost, input.distance);
+  Eigen::VectorXcd delays(static_cast<Eigen::Index>(inputs_.size()));
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    delays[static_cast<Eigen::Index>(i)] =
+        std::polar(1.0, wave.wavenumber * (inputs_[i].distance - foremost));
+  }
+  return delays;
+}
+
+Eigen::MatrixXd calc_marker_jacobian(const SystemTerms& terms, int marker) {
+  const Model& model = terms.model();
+  const Marker& point = model.markers[static_cast<std::size_t>(marker)];
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3, model.num_coordinates);
+  if (point.body == kGround) return jacobian;
+  const Body& body = model.bodies[static_cast<std::size_t>(point.body)];
+  const MarkerState& state = terms.markers()[static_cast<std::size_t>(marker)];
+  const int first = body.first_coordinate;
+  jacobian.block<2, 2>(0, first).setIdentity();
+  jacobian.block<2, 1>(0, first + 2) = state.r_theta;
+  jacobian(2, first + 2) = 1.0;
+  jacobian.block(0, first + 3, 2, body.num_modes()) = state.r_eta();
+  jacobian.block(2, first + 3, 1, body.num_modes()) = state.Phi.row(2);
+  return jacobian;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,130 @@
+#include "dynamics/linear/state_derivatives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Steps of the differences, of each coordinate's natural size. The error of the extrapolated difference is of
+// the order of step⁴, its rounding of 1e-16/step.
+constexpr double kPositionStep = 1e-4;
+constexpr double kVelocityStep = 1e-3;  // natural sizes per second
+
+const Model& model_of(const PartitionedEquations& equations) {
+  return equations.terms().model();
+}
+
+int coordinate_of(const PartitionedEquations& equations, Eigen::Index k) {
+  return equations.partition().independent[static_cast<std::size_t>(k)];
+}
+
+double scale_of(const PartitionedEquations& equations, Eigen::Index k) {
+  return model_of(equations).coordinate_scale(coordinate_of(equations, k));
+}
+
+std::span<const double> span_of(const Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+// Velocities relative to what the motion carries along, and accelerations, at the present positions.
+// @return the branches in use
+std::vector<int> move(PartitionedEquations& equations, const Eigen::VectorXd& rate_independent,
+                      const SteadyMotion& motion) {
+  const Eigen::VectorXd w = motion.calc_velocity(model_of(equations), equations.q());
+  Eigen::VectorXd v_independent = rate_independent;
+  for (Eigen::Index k = 0; k < v_independent.size(); ++k) v_independent[k] += w[coordinate_of(equations, k)];
+  equations.update_velocities(span_of(v_independent));
+  std::vector<int> branches(static_cast<std::size_t>(model_of(equations).num_branches));
+  equations.terms().choose_branches(branches);
+  equations.update_accelerations(branches);
+  return branches;
+}
+
+// Rest at the positions shifted along the k-th independent coordinate. @return the branches in use
+std::vector<int> shift(PartitionedEquations& equations, double time, Eigen::VectorXd q_independent,
+                       Eigen::Index k, double distance, const SteadyMotion& motion) {
+  q_independent[k] += distance;
+  if (equations.update_positions(time, span_of(q_independent)) != PartitionedEquations::Outcome::kGood) {
+    throw support::NumericalError(
+        fmt::format("linearise: the constraints cannot be satisfied at a distance of {} along {}", distance,
+                    model_of(equations).coordinate_name(coordinate_of(equations, k))));
+  }
+  return move(equations, Eigen::VectorXd::Zero(q_independent.size()), motion);
+}
+
+// Elements whose branches are not the same in both.
+void add_changed(const Model& model, const std::vector<int>& one, const std::vector<int>& other,
+                 bool in_position, std::vector<Kink>& kinks) {
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const int first = model.force_branches[f], count = model.forces[f]->num_branches();
+    const auto begin = one.begin() + first;
+    if (std::equal(begin, begin + count, other.begin() + first)) continue;
+    const std::string& name = model.forces[f]->name;
+    const bool is_known = std::any_of(kinks.begin(), kinks.end(), [&](const Kink& kink) {
+      return kink.element == name && kink.in_position == in_position;
+    });
+    if (!is_known) kinks.push_back({name, in_position});
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
+                                          const Eigen::VectorXd& q_independent, const StateFunction& function,
+                                          const SteadyMotion& motion) {
+  Eigen::MatrixXd derivative;
+  const auto value_at = [&](Eigen::Index k, double distance) {
+    return function(equations, shift(equations, time, q_independent, k, distance, motion));
+  };
+  for (Eigen::Index k = 0; k < q_independent.size(); ++k) {
+    const double h = kPositionStep * scale_of(equations, k);
+    const Eigen::VectorXd wide = (value_at(k, 2.0 * h) - value_at(k, -2.0 * h)) / (4.0 * h);
+    const Eigen::VectorXd narrow = (value_at(k, h) - value_at(k, -h)) / (2.0 * h);
+    if (k == 0) derivative.resize(wide.size(), q_independent.size());
+    derivative.col(k) = (4.0 * narrow - wide) / 3.0;
+  }
+  return derivative;
+}
+
+Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
+                                          const SteadyMotion& motion) {
+  const Eigen::Index f = equations.num_freedoms();
+  Eigen::MatrixXd derivative;
+  const auto value_at = [&](Eigen::Index k, double velocity) {
+    return function(equations, move(equations, velocity * Eigen::VectorXd::Unit(f, k), motion));
+  };
+  for (Eigen::Index k = 0; k < f; ++k) {
+    const double step = kVelocityStep * scale_of(equations, k);
+    const Eigen::VectorXd slope = (value_at(k, step) - value_at(k, -step)) / (2.0 * step);
+    if (k == 0) derivative.resize(slope.size(), f);
+    derivative.col(k) = slope;
+  }
+  return derivative;
+}
+
+std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
+                             const Eigen::VectorXd& q_independent) {
+  const Eigen::Index f = q_independent.size();
+  const Model& model = model_of(equations);
+  std::vector<Kink> kinks;
+  for (Eigen::Index k = 0; k < f; ++k) {
+    const double reach = 2.0 * kPositionStep * scale_of(equations, k);
+    const std::vector<int> ahead = shift(equations, time, q_independent, k, reach, {});
+    add_changed(model, ahead, shift(equations, time, q_independent, k, -reach, {}), true, kinks);
+  }
+  if (f > 0) shift(equations, time, q_independent, 0, 0.0, {});
+  for (Eigen::Index k = 0; k < f; ++k) {
+    const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
+    const std::vector<int> forward = move(equations, velocity, {});
+    add_changed(model, forward, move(equations, -velocity, {}), false, kinks);
+  }
+  return kinks;
+}
+
+}  // namespace sprung::dynamics

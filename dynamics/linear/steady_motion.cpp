@@ -1,0 +1,144 @@
+#include "dynamics/linear/steady_motion.h"
+
+#include <Eigen/QR>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kAllowed = 1e-9;  // of the prescribed rates: what constraints may leave of them
+constexpr double kSame = 1e-6;     // of the largest acceleration: equal accelerations
+constexpr double kPlace = 1e-3;    // how far from the balance they are compared, natural sizes
+constexpr std::array<double, 2> kTurns{0.7, 2.1};  // how far carried [rad, or lengths of the model]
+
+std::span<const double> span_of(const Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
+// ρ̈ of who stands still in the motion at positions q and a time, seen from time 0; empty where q does not
+// fit.
+Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion& motion,
+                                          const Eigen::VectorXd& q, double time) {
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(time, q);
+  Eigen::VectorXd q_i(equations.num_freedoms()), v_i(equations.num_freedoms());
+  const Eigen::VectorXd w = motion.calc_velocity(model, q);
+  for (Eigen::Index k = 0; k < q_i.size(); ++k) {
+    q_i[k] = q[equations.partition().independent[static_cast<std::size_t>(k)]];
+    v_i[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
+  }
+  if (equations.update_positions(time, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return {};
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    if (std::abs(equations.q()[i] - q[i]) > kAllowed * model.coordinate_scale(i)) return {};
+  }
+  equations.update_velocities(span_of(v_i));
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  equations.terms().choose_branches(branches);
+  equations.update_accelerations(branches);
+  const Eigen::VectorXd relative =
+      equations.v_dot() - motion.calc_acceleration(model, equations.q(), equations.v());
+  return motion.turn_back(model, relative, time);
+}
+
+// Accelerations in natural sizes.
+double largest_natural(const Model& model, const Eigen::VectorXd& values) {
+  double largest = 0.0;
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    largest = std::max(largest, std::abs(values[i]) / model.coordinate_scale(i));
+  }
+  return largest;
+}
+
+}  // namespace
+
+Eigen::VectorXd SteadyMotion::calc_velocity(const Model& model, const Eigen::VectorXd& q) const {
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(model.num_coordinates);
+  for (const Body& body : model.bodies) {
+    const Eigen::Vector2d R = q.segment<2>(body.first_coordinate);
+    w.segment<2>(body.first_coordinate) = velocity + omega * turned(R);
+    w[body.first_coordinate + 2] = omega;
+  }
+  return w;
+}
+
+Eigen::VectorXd SteadyMotion::calc_acceleration(const Model& model, const Eigen::VectorXd& q,
+                                                const Eigen::VectorXd& v) const {
+  const Eigen::VectorXd sum = 2.0 * v - calc_velocity(model, q);  // 2ρ̇ + w
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(model.num_coordinates);
+  for (const Body& body : model.bodies) {
+    acceleration.segment<2>(body.first_coordinate) = omega * turned(sum.segment<2>(body.first_coordinate));
+  }
+  return acceleration;
+}
+
+Eigen::VectorXd SteadyMotion::carry(const Model& model, Eigen::VectorXd q, double time) const {
+  const FrameRotation rotation = FrameRotation::from_angle(omega * time);
+  for (const Body& body : model.bodies) {
+    auto R = q.segment<2>(body.first_coordinate);
+    if (omega == 0.0) {
+      R += time * velocity;
+    } else {
+      const Eigen::Vector2d center = turned(velocity) / omega;  // where w is zero
+      R = center + rotation * Eigen::Vector2d(R - center);
+    }
+    q[body.first_coordinate + 2] += omega * time;
+  }
+  return q;
+}
+
+Eigen::VectorXd SteadyMotion::turn_back(const Model& model, Eigen::VectorXd vectors, double time) const {
+  const FrameRotation rotation = FrameRotation::from_angle(-omega * time);
+  for (const Body& body : model.bodies) {
+    auto part = vectors.segment<2>(body.first_coordinate);
+    part = (rotation * Eigen::Vector2d(part)).eval();
+  }
+  return vectors;
+}
+
+std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::VectorXd& q) {
+  if (!model.has_motions) return SteadyMotion{};
+  SystemTerms terms(model);
+  terms.update_positions(0.0, q);
+  terms.update_jacobian();
+  Eigen::VectorXd phi_t(model.num_constraints);
+  terms.calc_time_rate(phi_t);
+  Eigen::MatrixXd rigid(model.num_coordinates, 3);
+  rigid.col(0) = SteadyMotion{.velocity = {1.0, 0.0}}.calc_velocity(model, q);
+  rigid.col(1) = SteadyMotion{.velocity = {0.0, 1.0}}.calc_velocity(model, q);
+  rigid.col(2) = SteadyMotion{.omega = 1.0}.calc_velocity(model, q);
+  const Eigen::MatrixXd allowed = terms.jacobian().dense() * rigid;
+  const Eigen::Vector3d found = allowed.completeOrthogonalDecomposition().solve(-phi_t);
+  if ((allowed * found + phi_t).norm() > kAllowed * phi_t.norm()) return std::nullopt;
+  return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
+}
+
+bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::VectorXd& q) {
+  if (motion.is_rest()) return true;
+  // A little off the balance, so that what is stiff shows as well.
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  Eigen::VectorXd q_i(equations.num_freedoms());
+  for (Eigen::Index k = 0; k < q_i.size(); ++k) {
+    const int i = equations.partition().independent[static_cast<std::size_t>(k)];
+    q_i[k] = q[i] + kPlace * std::cos(1.7 * static_cast<double>(k + 1)) * model.coordinate_scale(i);
+  }
+  if (equations.update_positions(0.0, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return false;
+  const Eigen::VectorXd place = equations.q();
+  const Eigen::VectorXd here = calc_carried_acceleration(model, motion, place, 0.0);
+  const Eigen::VectorXd w = motion.calc_velocity(model, place);
+  const double size =
+      largest_natural(model, here) + largest_natural(model, motion.calc_acceleration(model, place, w));
+  for (const double turn : kTurns) {
+    const double time =
+        turn / (motion.omega != 0.0 ? std::abs(motion.omega) : motion.velocity.norm() / model.length_scale);
+    const Eigen::VectorXd there =
+        calc_carried_acceleration(model, motion, motion.carry(model, place, time), time);
+    if (there.size() != here.size() || largest_natural(model, there - here) > kSame * size) return false;
+  }
+  return true;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/linear/equilibrium.h"
+
+namespace sprung::dynamics {
+
+/// One vibration of the assembled vehicle about its equilibrium.
+struct VehicleMode {
+  double undamped_frequency_hz = 0.0;  ///< 0 for a rigid-body mode
+  double damped_frequency_hz = 0.0;    ///< 0 where the mode does not oscillate
+  double damping_ratio = 0.0;          ///< of critical; > 1 where it does not oscillate; −Re s/|s|
+  bool is_rigid_body = false;
+  Eigen::VectorXd shape;     ///< nq, undamped, mass-normalised
+  std::string participants;  ///< bodies with the most kinetic energy: "chassis 62 % (mode 1: 40 %), …"
+};
+
+/// Modes of the linearised vehicle: undamped ones from M̂, K̂, each with the eigenvalue of the damped system
+/// whose shape is most like its own, rigid-body modes first, then ascending (dynamics/README.md, eqs. 22–24).
+/// @throws support::NumericalError if the equilibrium is unstable and no frequency can be given
+std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium);
+
+}  // namespace sprung::dynamics

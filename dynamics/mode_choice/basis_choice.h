@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "dynamics/linear/linear_vehicle.h"
+#include "dynamics/mode_choice/neglect_measure.h"
+
+namespace sprung::dynamics {
+
+/// A mode that may be kept or left out.
+struct CandidateMode {
+  std::string body;
+  int number = 0;             ///< 1-based, in the superelement
+  double frequency_hz = 0.0;  ///< of the superelement
+  int cluster = 0;            ///< the same for modes of equal frequency of a body
+  int coordinate = 0;         ///< of the model with all modes
+};
+
+/// What a mode by itself is worth: the largest share in each group of quantities, by r.m.s. and by peak.
+struct ModeWorth {
+  struct Pair {
+    double rms = 0.0, peak = 0.0;
+  };
+  Pair displacement, acceleration, force;  ///< forces, torques and reactions together
+  double weight = 0.0;                     ///< under the weight alone, the largest of all
+};
+
+struct ModeVerdict {
+  CandidateMode mode;
+  ModeWorth worth;
+  bool is_kept = true;
+  std::string reason;  ///< "kept: 12 % of the peak acceleration of chassis.seat"
+};
+
+/// The modes that a run needs, by what is known of its forcing.
+struct BasisChoice {
+  double tolerance = 0.0;                  ///< joint share that may be neglected
+  std::vector<ModeVerdict> verdicts = {};  ///< body after body, ascending
+  double neglected = 0.0;                  ///< the largest share that all modes left out have together
+  std::string neglected_of = {};  ///< "r.m.s. acceleration of chassis.seat"; empty where none is left out
+  std::vector<std::string> remarks = {};  ///< what was not taken into account, or kept without being measured
+
+  std::vector<double> frequency_hz =
+      {};                     ///< m, at which the forcing was looked at, thinned; empty where it was not
+  Eigen::VectorXd road = {};  ///< m, |Fourier transform| of the height under the foremost wheel [m/Hz]
+  std::vector<std::string> transfer_names = {};  ///< the points asked for
+  Eigen::MatrixXd transfer =
+      {};  ///< points×m, acceleration on a wave of the road of 1 m [m/s²/m]; empty at rest
+
+  std::size_t num_kept() const;
+};
+
+/// Leaves out clusters of modes, the least share first, as long as what is neglected jointly stays below the
+/// tolerance (dynamics/README.md, eqs. 81 to 88). At a tolerance of 0 all modes are kept.
+/// @param vehicle  with all candidates active, at its equilibrium
+/// @param tolerance  ≥ 0, < 1
+BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,
+                         const std::vector<int>& points, const KnownForcing& forcing, double tolerance);
+
+/// All modes kept without being measured. @param why  "prescribed motion drives the vehicle"
+BasisChoice keep_all(const std::vector<CandidateMode>& candidates, double tolerance, const std::string& why);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,203 @@
+#include "dynamics/mode_choice/forcing_spectrum.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <stdexcept>
+#include <unsupported/Eigen/FFT>
+
+namespace sprung::dynamics {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kMostSamples = 1 << 22;
+constexpr double kShortest = 1e-3;  // forcing, of the run: where there is none
+constexpr double kRest = 0.01;      // of the motion, when it counts as settled
+constexpr double kNoDecay = 1e-7;   // real part of an eigenvalue that is rounding, of the largest
+
+// Forcing during the run; behind it, its last value fading away over the first half of the settling.
+std::vector<double> sample(const std::function<double(double)>& value, double duration, double period,
+                           Eigen::Index n) {
+  const double fading = 0.5 * (period - duration);
+  std::vector<double> samples(static_cast<std::size_t>(n));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double t = period * static_cast<double>(j) / static_cast<double>(n);
+    const double share = t <= duration           ? 1.0
+                         : t < duration + fading ? 0.5 + 0.5 * std::cos(pi * (t - duration) / fading)
+                                                 : 0.0;
+    samples[static_cast<std::size_t>(j)] = share > 0.0 ? share * value(std::min(t, duration)) : 0.0;
+  }
+  return samples;
+}
+
+// Fourier coefficients of lines 1 … m.
+Eigen::VectorXcd transform(const std::vector<double>& samples, Eigen::Index m) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<std::complex<double>> lines;
+  fft.fwd(lines, samples);
+  const Eigen::Map<const Eigen::VectorXcd> all(lines.data(), static_cast<Eigen::Index>(lines.size()));
+  return all.segment(1, m) / static_cast<double>(samples.size());
+}
+
+bool changes_with_time(const ForceElement& force) {
+  const std::vector<const TimeFunction*> functions = force.time_functions();
+  return std::any_of(functions.begin(), functions.end(),
+                     [](const TimeFunction* f) { return !f->is_constant(); });
+}
+
+// A force or torque on a marker that a force element changes with time: `component` x, y, torque.
+struct TimedForce {
+  std::size_t force = 0;
+  int marker = 0;
+  int component = 0;
+};
+
+class TimedForces {
+ public:
+  explicit TimedForces(const LinearVehicle& vehicle)
+      : vehicle_(vehicle), wrenches_(vehicle.model().markers.size()) {
+    const Model& model = vehicle.model();
+    for (std::size_t f = 0; f < model.forces.size(); ++f) {
+      if (!changes_with_time(*model.forces[f])) continue;
+      for (const int marker : model.forces[f]->markers()) {
+        for (int component = 0; component < 3; ++component) list_.push_back({f, marker, component});
+      }
+    }
+  }
+
+  const std::vector<TimedForce>& list() const { return list_; }
+
+  // With the vehicle at rest in its place.
+  double value(const TimedForce& timed, double time) {
+    const Model& model = vehicle_.model();
+    const ForceElement& force = *model.forces[timed.force];
+    for (const int marker : force.markers()) wrenches_[static_cast<std::size_t>(marker)] = {};
+    Instant instant = vehicle_.equations().terms().instant();
+    instant.time = time;
+    force.add_wrenches(instant,
+                       std::span(vehicle_.branches())
+                           .subspan(static_cast<std::size_t>(model.force_branches[timed.force]),
+                                    static_cast<std::size_t>(force.num_branches())),
+                       wrenches_);
+    const Wrench& wrench = wrenches_[static_cast<std::size_t>(timed.marker)];
+    return timed.component == 2 ? wrench.torque : wrench.force[timed.component];
+  }
+
+ private:
+  const LinearVehicle& vehicle_;
+  std::vector<TimedForce> list_;
+  std::vector<Wrench> wrenches_;
+};
+
+}  // namespace
+
+double ForcingSpectrum::frequency(Eigen::Index line) const {
+  return static_cast<double>(line + 1) / period;
+}
+
+ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownForcing& forcing,
+                                      double settling, double highest, double fineness) {
+  if (!(forcing.duration > 0.0) || !(forcing.speed >= 0.0) || !(settling >= 0.0) || !(highest > 0.0) ||
+      !(fineness >= 2.0)) {
+    throw std::invalid_argument(
+        fmt::format("calc_forcing_spectrum: needs duration > 0 s, speed >= 0 m/s, settling >= 0 s, highest > "
+                    "0 Hz, fineness >= 2; "
+                    "got {}, {}, {}, {}, {}",
+                    forcing.duration, forcing.speed, settling, highest, fineness));
+  }
+  ForcingSpectrum spectrum;
+  spectrum.period = forcing.duration + settling;
+  const double wanted = std::min(2.0 * fineness * highest * spectrum.period, kMostSamples);
+  const auto n = static_cast<Eigen::Index>(std::bit_ceil(static_cast<std::size_t>(std::ceil(wanted)) + 16));
+  const auto m = std::min(static_cast<Eigen::Index>(std::ceil(highest * spectrum.period)), n / 4);
+
+  spectrum.road = Eigen::VectorXcd::Zero(m);
+  if (forcing.road != nullptr && forcing.speed > 0.0) {
+    const auto height = [&](double t) { return forcing.road->height(forcing.speed * t); };
+    spectrum.road = transform(sample(height, forcing.duration, spectrum.period, n), m);
+  }
+  TimedForces timed(vehicle);
+  std::vector<Eigen::VectorXd> gains;
+  std::vector<Eigen::RowVectorXcd> applied;
+  for (const TimedForce& one : timed.list()) {
+    const double start = timed.value(one, 0.0);
+    const auto change = [&](double t) { return timed.value(one, t) - start; };
+    const std::vector<double> samples = sample(change, forcing.duration, spectrum.period, n);
+    if (std::all_of(samples.begin(), samples.end(), [](double value) { return value == 0.0; })) continue;
+    gains.push_back(
+        calc_marker_jacobian(vehicle.equations().terms(), one.marker).row(one.component).transpose());
+    applied.push_back(transform(samples, m).transpose());
+  }
+  const auto u = static_cast<Eigen::Index>(gains.size());
+  spectrum.gains.resize(vehicle.model().num_coordinates, u);
+  spectrum.applied.resize(u, m);
+  for (Eigen::Index i = 0; i < u; ++i) {
+    spectrum.gains.col(i) = gains[static_cast<std::size_t>(i)];
+    spectrum.applied.row(i) = applied[static_cast<std::size_t>(i)];
+  }
+  return spectrum;
+}
+
+double calc_settling_time(const LinearVehicle& vehicle, double longest) {
+  const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
+  const double largest = eigenvalues.cwiseAbs().maxCoeff();
+  double slowest = largest;
+  for (const std::complex<double>& s : eigenvalues) {
+    if (std::abs(s) <= kNoDecay * largest) continue;  // a direction that nothing holds
+    slowest = std::min(slowest, std::max(-s.real(), 0.0));
+  }
+  return slowest > 0.0 ? std::min(-std::log(kRest) / slowest, longest) : longest;
+}
+
+double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& forcing, double settling) {
+  if (!TimedForces(vehicle).list().empty()) return forcing.duration;
+  const Road* road = forcing.road;
+  const double shortest = kShortest * forcing.duration;
+  if (road == nullptr || !(forcing.speed > 0.0) || vehicle.inputs().empty()) return shortest;
+  const int last = road->num_segments() - 1;
+  const double end = last > 0 ? road->segment_end(last - 1) : 0.0;
+  if (std::isfinite(road->resolution(last, end))) return forcing.duration;
+  double nearest = vehicle.inputs().front().distance, farthest = nearest;
+  for (const RoadInput& input : vehicle.inputs()) {
+    nearest = std::min(nearest, input.distance);
+    farthest = std::max(farthest, input.distance);
+  }
+  double duration = (std::max(end, 0.0) + farthest - nearest) / forcing.speed;
+  if (road->height(end) != road->height(0.0)) duration += settling;
+  return std::clamp(duration, shortest, forcing.duration);
+}
+
+Eigen::VectorXd calc_history(const Eigen::Ref<const Eigen::RowVectorXcd>& lines, Eigen::Index n) {
+  return calc_histories(lines, Eigen::RowVectorXcd::Zero(lines.size()), n).real();
+}
+
+Eigen::VectorXcd calc_histories(const Eigen::Ref<const Eigen::RowVectorXcd>& lines,
+                                const Eigen::Ref<const Eigen::RowVectorXcd>& others, Eigen::Index n) {
+  const Eigen::Index m = lines.size();
+  if (n <= 2 * m || others.size() != m) {
+    throw std::invalid_argument(
+        fmt::format("calc_history: {} times are too few for {} lines", n, std::max(m, others.size())));
+  }
+  thread_local Eigen::FFT<double> fft;
+  thread_local std::vector<std::complex<double>> series, values;
+  series.assign(static_cast<std::size_t>(n), 0.0);
+  const std::complex<double> i(0.0, 1.0);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    const std::complex<double> other = i * others[k], mirrored = i * std::conj(others[k]);
+    series[static_cast<std::size_t>(k + 1)] = lines[k] + other;
+    series[static_cast<std::size_t>(n - k - 1)] = std::conj(lines[k]) + mirrored;
+  }
+  fft.SetFlag(Eigen::FFT<double>::Unscaled);
+  fft.inv(values, series);
+  const Eigen::Map<const Eigen::VectorXcd> history(values.data(), n);
+  return (history.array() - history[0]).matrix();
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/linear/linear_outputs.h"
+#include "dynamics/mode_choice/forcing_spectrum.h"
+
+namespace sprung::dynamics {
+
+/// What goes into a linear vehicle: the road under each wheel on the ground, then each force that changes
+/// with time; i inputs, p outputs, forces on the f independent coordinates (dynamics/README.md, eq. 82).
+class HarmonicInputs {
+ public:
+  /// @param gains  of the forces in time, as in ForcingSpectrum  @param speed  ≥ 0; at 0 the road is no input
+  /// @param vehicle, outputs  have to outlive this
+  HarmonicInputs(const LinearVehicle& vehicle, const LinearOutputs& outputs, const Eigen::MatrixXd& gains,
+                 double speed);
+
+  Eigen::Index size() const { return num_wheels_ + applied_.cols(); }
+
+  /// Effect of a unit of each input at one frequency [Hz].
+  struct Gains {
+    Eigen::MatrixXcd forces;  ///< f×i
+    Eigen::MatrixXcd direct;  ///< p×i, on the outputs, past the motion
+  };
+  void calc_gains(double frequency, Gains& gains) const;
+  /// Of a road's wave of 1 m under the foremost wheel, i: phases under the wheels, 0 of forces in time.
+  Eigen::VectorXcd calc_wave(double frequency) const;
+  /// Amplitude of each input in each of the spectrum's lines, i×m.
+  Eigen::MatrixXcd calc_amplitudes(const ForcingSpectrum& spectrum) const;
+
+ private:
+  const LinearVehicle* vehicle_;
+  double speed_;
+  Eigen::Index num_wheels_ = 0;
+  std::vector<std::size_t> wheels_;                                // places in vehicle_->inputs()
+  std::vector<std::vector<Eigen::MatrixXd>> motions_, reactions_;  // of each wheel's markers: f×3, p×3
+  std::vector<std::vector<std::pair<Eigen::Index, Eigen::Index>>>
+      channels_;                              // of each wheel: output, its channel
+  Eigen::MatrixXd applied_, applied_direct_;  // f×, p×(forces in time)
+};
+
+}  // namespace sprung::dynamics

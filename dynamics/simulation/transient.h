@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/integration/integrator.h"
+#include "dynamics/integration/system_stepper.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// The energy book at one instant [J]. What is stored, against what has gone and come since the start.
+struct EnergyBook {
+  Energy stored;
+  double dissipated = 0.0;
+  double input = 0.0;
+};
+
+/// Something that happened during a run.
+struct Event {
+  double time = 0.0;
+  std::string kind;    ///< "switch", "partition", "modes"
+  std::string object;  ///< name of the force element; "" for the whole system
+  std::string text;    ///< "touches the ground"
+};
+
+/// Everything about the vehicle at one output time; valid during the call that gets it.
+struct Snapshot {
+  double time = 0.0;
+  /// Of the model that is run, in which modes may be held: positions, velocities and forces up to date, all
+  /// markers.
+  const ConstrainedEquations& equations;
+  const Eigen::VectorXd &q, &v, &v_dot;  ///< num_coordinates of the model that the run was given
+  std::span<const int> branches;
+  EnergyBook energy;
+  const ModeAdaptation* modes;  ///< which modes are active, and what the others miss; null where nobody asked
+
+  const SystemTerms& terms() const { return equations.terms(); }
+  const Eigen::VectorXd& multipliers() const { return equations.multipliers(); }  ///< num_constraints
+  Eigen::Vector2d calc_acceleration(std::size_t marker) const;                    ///< [m/s²]
+};
+
+struct TransientOptions {
+  double end_time = 0.0;                                          ///< [s]
+  double output_step = 1e-3;                                      ///< > 0 [s]
+  double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
+  Integrator::Options integrator;
+  /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the
+  /// run are the full ones.
+  std::optional<AdaptivityOptions> adaptivity;
+  std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
+  std::function<void(const Event&)> on_event;      ///< may be empty
+  std::function<bool(double time)> on_step;        ///< after every step; false stops the run; may be empty
+};
+
+struct TransientStatistics {
+  SystemStepper::Statistics stepper;
+  long output_evaluations = 0;  ///< of the equations, for the outputs
+  long switches = 0;
+  long mode_changes = 0;
+  double mean_active_modes = 0.0;  ///< over time
+  WorstNeglect worst_neglect;      ///< where adaptivity was asked for
+  bool completed = false;          ///< false: stopped by on_step
+};
+
+/// Runs a state forward in time. The state has to satisfy the constraints; its branches are chosen here.
+/// @throws support::NumericalError with the time at which it could not go on
+TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,117 @@
+#include "reduce/design/design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reduce/design/design_frame.h"
+#include "reduce/design/design_sections.h"
+#include "reduce/design/known_keys.h"
+#include "reduce/design/program_version.h"
+#include "tools/support/files/content_hash.h"
+#include "tools/support/files/read_text_file.h"
+#include "tools/support/toml/toml.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::TomlTable;
+using support::TomlValue;
+
+void read_point_masses(const TomlTable& root, fem::BeamModel& model) {
+  const auto array = root.find("point_masses");
+  if (!array) return;
+  for (const TomlValue& item : array->items()) {
+    const TomlTable table = item.table();
+    expect_keys(table, {"point", "mass", "inertia"});
+    model.point_masses.push_back(
+        {.node = find_named_node(model.mesh, table.at("point")),
+         .mass = table.number("mass", support::non_negative("kg")),
+         .inertia = table.number_or("inertia", 0.0, support::non_negative("kg·m²"))});
+  }
+}
+
+int read_reference(const TomlTable& root, const fem::Mesh& mesh) {
+  static const std::array<std::string, 1> kConditions{"clamped"};
+  const TomlTable table = root.at("reference").table();
+  expect_keys(table, {"point", "condition"});
+  const int node = find_named_node(mesh, table.at("point"));
+  if (const auto condition = table.find("condition")) condition->one_of(kConditions);
+  return node;
+}
+
+ModeNumbers read_numbers(const TomlValue& value) {
+  ModeNumbers wanted;
+  for (const TomlValue& item : value.items())
+    wanted.numbers.push_back(static_cast<int>(item.integer(1, 1'000'000)));
+  std::sort(wanted.numbers.begin(), wanted.numbers.end());
+  if (wanted.numbers.empty()) throw value.error("is empty, expected mode numbers");
+  if (std::adjacent_find(wanted.numbers.begin(), wanted.numbers.end()) != wanted.numbers.end()) {
+    throw value.error("names a mode twice");
+  }
+  return wanted;
+}
+
+ModeRequest read_modes(const TomlTable& table) {
+  expect_keys(table, {"count", "highest_frequency", "all", "numbers", "damping_ratio"});
+  const auto count = table.find("count"), highest = table.find("highest_frequency");
+  const auto all = table.find("all"), numbers = table.find("numbers");
+  const int given = (count ? 1 : 0) + (highest ? 1 : 0) + (all ? 1 : 0) + (numbers ? 1 : 0);
+  if (given != 1) {
+    throw table.error(fmt::format(
+        "has {} of the keys 'count', 'highest_frequency', 'all' and 'numbers', expected one", given));
+  }
+  if (count) {
+    return {.wanted = ModeCount{static_cast<int>(count->integer(1, 1'000'000))}, .where = count->location()};
+  }
+  if (highest)
+    return {.wanted = ModesUpTo{highest->number(support::positive("Hz"))}, .where = highest->location()};
+  if (numbers) return {.wanted = read_numbers(*numbers), .where = numbers->location()};
+  if (!all->boolean()) throw all->error("is false; leave it out and give 'count' or 'highest_frequency'");
+  return {.wanted = AllModes{}, .where = all->location()};
+}
+
+void read_damping(const TomlTable& table, Design& design) {
+  const TomlValue ratio = table.at("damping_ratio");
+  const support::Quantity range{.unit = "of critical", .at_least = 0.0, .at_most = 1.0};
+  design.damping_where = ratio.location();
+  design.damping_ratio = ratio.is_array() ? ratio.numbers(range) : std::vector<double>{ratio.number(range)};
+}
+
+}  // namespace
+
+std::string calc_file_hash(const std::filesystem::path& path) {
+  return support::sha256(support::read_text_file(path));
+}
+
+Design read_design(const std::filesystem::path& path) {
+  const support::TomlDocument document = support::TomlDocument::read(path);
+  const TomlTable root = document.root();
+  expect_keys(root, {"name", "theory", "rotary_inertia", "materials", "sections", "points", "lines", "mesh",
+                     "point_masses", "reference", "modes"});
+  Design design;
+  design.name = root.string_or("name", path.stem().string());
+  if (design.name.empty()) throw root.at("name").error("is empty");
+  const BeamTheory theory = read_beam_theory(root);
+  const Sections sections = read_sections(root, read_materials(root), theory);
+  DesignFrame frame = read_design_frame(root, path.parent_path(), sections);
+  design.model.mesh = std::move(frame.mesh);
+  for (const std::string& name : design.model.mesh.section_names)
+    design.model.sections.push_back(sections.at(name));
+  read_point_masses(root, design.model);
+  design.reference_node = read_reference(root, design.model.mesh);
+  const TomlTable modes = root.at("modes").table();
+  design.modes = read_modes(modes);
+  read_damping(modes, design);
+  design.provenance = {.design_text = document.text(),
+                       .design_hash = support::sha256(document.text()),
+                       .input_names = std::move(frame.input_names),
+                       .input_hashes = std::move(frame.input_hashes),
+                       .program_version = get_program_version(),
+                       .algorithm_revision = kAlgorithmRevision};
+  return design;
+}
+
+}  // namespace sprung::reduce

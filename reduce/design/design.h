@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fem/beam_model.h"
+#include "reduce/modes/mode_request.h"
+#include "reduce/superelement/superelement.h"
+#include "tools/support/errors/input_error.h"
+
+namespace sprung::reduce {
+
+/// What stage one starts from: a frame, where it is held, and the modes wanted.
+struct Design {
+  std::string name;
+  fem::BeamModel model;
+  int reference_node = 0;  ///< 0-based; held, and the origin of the body frame
+  ModeRequest modes;
+  std::vector<double> damping_ratio;  ///< of critical: one for all modes, or one for each
+  support::SourceLocation damping_where = {};
+  Provenance provenance;
+};
+
+/// Reads a design file (reduce/README.md, "Design file") and the mesh file it names, and meshes its lines.
+///
+/// @throws support::InputError at the place of the fault: not TOML, unknown, missing or contradictory keys,
+/// wrong
+///         types, values out of range, unknown materials, sections or points, a point on no node, a frame in
+///         parts, faults of the mesh file
+/// Checked by tests/reduce/design/design_test.cpp
+Design read_design(const std::filesystem::path& path);
+
+/// SHA-256 of a file, as provenance keeps it.
+/// @throws support::InputError if it cannot be read
+std::string calc_file_hash(const std::filesystem::path& path);
+
+/// Raised whenever the same design gives other numbers than before: files of an earlier revision are made
+/// again.
+inline constexpr std::int64_t kAlgorithmRevision = 2;
+
+}  // namespace sprung::reduce

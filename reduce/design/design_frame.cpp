@@ -1,0 +1,210 @@
+#include "reduce/design/design_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "fem/gmsh_mesher.h"
+#include "reduce/design/design.h"
+#include "reduce/design/known_keys.h"
+#include "tools/support/files/read_text_file.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::InputError;
+using support::TomlTable;
+using support::TomlValue;
+using Points = std::vector<fem::FrameGeometry::Point>;
+
+constexpr double kSamePlace = 1e-6;  // of the frame's extent; a point this near a node names it
+
+Points read_points(const TomlTable& root) {
+  Points points;
+  const std::optional<TomlTable> table = root.find_table("points");
+  if (!table) return points;
+  for (const auto& [name, value] : table->entries()) {
+    const std::vector<double> position = value.numbers(support::any("m"), 2);
+    points.push_back({.name = name, .position = {position[0], position[1]}, .where = value.location()});
+  }
+  return points;
+}
+
+// The points a line passes through, in order.
+std::vector<TomlValue> read_corners(const TomlTable& table) {
+  const auto through = table.find("through");
+  const auto from = table.find("from"), to = table.find("to");
+  if (!through) return {table.at("from"), table.at("to")};
+  if (from || to) throw table.error("has 'through' beside 'from' or 'to'; give either");
+  const std::vector<TomlValue> corners = through->items();
+  if (corners.size() < 2)
+    throw through->error(fmt::format("names {} points, expected at least 2", corners.size()));
+  return corners;
+}
+
+// Elements of each of a line's segments: one number for all, or a list.
+std::vector<int> read_element_numbers(const TomlTable& table, std::size_t num_segments) {
+  constexpr std::int64_t kMax = 100000;
+  const TomlValue elements = table.at("elements");
+  if (!elements.is_array()) {
+    return std::vector<int>(num_segments, static_cast<int>(elements.integer(1, kMax)));
+  }
+  std::vector<int> numbers;
+  for (const TomlValue& item : elements.items()) numbers.push_back(static_cast<int>(item.integer(1, kMax)));
+  if (numbers.size() == num_segments) return numbers;
+  throw elements.error(
+      fmt::format("has {} numbers for the line's {} segments", numbers.size(), num_segments));
+}
+
+std::string read_point_name(const TomlValue& value, const std::vector<std::string>& point_names) {
+  const std::string& name = value.string();
+  if (std::find(point_names.begin(), point_names.end(), name) != point_names.end()) return name;
+  throw value.error(fmt::format("names the point '{}', which is not defined{}", name,
+                                support::nearest_name_hint(name, point_names)));
+}
+
+void check_section(const TomlValue& name, const Sections& sections) {
+  if (sections.count(name.string()) > 0) return;
+  std::vector<std::string> names;
+  for (const auto& [known, properties] : sections) names.push_back(known);
+  throw name.error(fmt::format("names the section '{}', which is not defined{}", name.string(),
+                               support::nearest_name_hint(name.string(), names)));
+}
+
+void read_line(const TomlTable& table, const Sections& sections, const std::vector<std::string>& point_names,
+               fem::FrameGeometry& geometry) {
+  expect_keys(table, {"from", "to", "through", "section", "elements"});
+  const std::vector<TomlValue> corners = read_corners(table);
+  const TomlValue section = table.at("section");
+  check_section(section, sections);
+  const std::vector<int> num_elements = read_element_numbers(table, corners.size() - 1);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    fem::FrameGeometry::Line line{.name = {},
+                                  .from = read_point_name(corners[i], point_names),
+                                  .to = read_point_name(corners[i + 1], point_names),
+                                  .section = section.string(),
+                                  .num_elements = num_elements[i],
+                                  .where = corners[i].location()};
+    line.name = fmt::format("{}: {} – {}", table.key(), line.from, line.to);
+    geometry.lines.push_back(std::move(line));
+  }
+}
+
+double calc_extent(const fem::Mesh& mesh) {
+  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
+}
+
+double calc_distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                                const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (a + t * along - p).norm();
+}
+
+double calc_distance_to_frame(const fem::Mesh& mesh, const Eigen::Vector2d& position) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const fem::Mesh::Element& element : mesh.elements) {
+    nearest = std::min(nearest, calc_distance_to_segment(position, mesh.node_positions.col(element.first),
+                                                         mesh.node_positions.col(element.second)));
+  }
+  return nearest;
+}
+
+// Gives a point's name to the node at its place.
+void name_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
+  const double tolerance = kSamePlace * calc_extent(mesh);
+  Eigen::Index node = 0;
+  const double distance = (mesh.node_positions.colwise() - point.position).colwise().norm().minCoeff(&node);
+  if (distance <= tolerance) {
+    mesh.named_nodes.push_back({.name = point.name, .node = static_cast<int>(node)});
+    return;
+  }
+  const double off_frame = calc_distance_to_frame(mesh, point.position);
+  const std::string fault =
+      off_frame <= tolerance
+          ? fmt::format("lies on a line, but {:.6g} m from its nearest node; let the line pass 'through' it",
+                        distance)
+          : fmt::format("lies on no line: the nearest is {:.6g} m away", off_frame);
+  throw InputError(point.where, fmt::format("point '{}' at ({:.6g}, {:.6g}) {}", point.name,
+                                            point.position.x(), point.position.y(), fault));
+}
+
+DesignFrame read_lines(const TomlTable& root, const Points& points, const Sections& sections) {
+  fem::FrameGeometry geometry;
+  std::vector<std::string> point_names;
+  for (const fem::FrameGeometry::Point& point : points) point_names.push_back(point.name);
+  for (const TomlValue& line : root.at("lines").items())
+    read_line(line.table(), sections, point_names, geometry);
+  if (geometry.lines.empty()) throw root.at("lines").error("is empty, expected at least one line");
+  std::set<std::string> corners;
+  for (const fem::FrameGeometry::Line& line : geometry.lines) corners.insert({line.from, line.to});
+  Points other;
+  for (const fem::FrameGeometry::Point& point : points) {
+    (corners.count(point.name) > 0 ? geometry.points : other).push_back(point);
+  }
+  DesignFrame frame{.mesh = fem::mesh_lines(geometry), .input_names = {}, .input_hashes = {}};
+  for (const fem::FrameGeometry::Point& point : other) name_node(frame.mesh, point);
+  return frame;
+}
+
+// A file that pulls in others would change without a sign of it: hashes are kept of the files a design names.
+void check_self_contained(const std::filesystem::path& path) {
+  if (path.extension() != ".geo") return;
+  static const std::regex kPullsIn(R"((^|\n|;)\s*(Include|Merge)\b)");
+  if (std::regex_search(support::read_text_file(path), kPullsIn)) {
+    throw InputError({.path = path.string()},
+                     "reads another file by Include or Merge; put everything in one file, so "
+                     "that a change of it is noticed");
+  }
+}
+
+DesignFrame read_mesh(const TomlValue& name, const Points& points, const std::filesystem::path& folder,
+                      const Sections& sections) {
+  const std::filesystem::path path = folder / name.string();
+  DesignFrame frame;
+  frame.input_names = {name.string()};
+  frame.input_hashes = {calc_file_hash(path)};
+  check_self_contained(path);
+  frame.mesh = fem::read_gmsh_file(path);
+  std::vector<std::string> names;
+  for (const auto& [known, properties] : sections) names.push_back(known);
+  for (const std::string& section : frame.mesh.section_names) {
+    if (sections.count(section) > 0) continue;
+    throw InputError({.path = path.string()},
+                     fmt::format("physical curve '{}' is no section of the design{}", section,
+                                 support::nearest_name_hint(section, names)));
+  }
+  for (const fem::FrameGeometry::Point& point : points) {
+    if (fem::find_node(frame.mesh, point.name) >= 0) {
+      throw InputError(point.where,
+                       fmt::format("point '{}' is named in '{}' already", point.name, name.string()));
+    }
+    name_node(frame.mesh, point);
+  }
+  return frame;
+}
+
+}  // namespace
+
+DesignFrame read_design_frame(const TomlTable& root, const std::filesystem::path& folder,
+                              const Sections& sections) {
+  const Points points = read_points(root);
+  const auto mesh = root.find("mesh");
+  if (!mesh) return read_lines(root, points, sections);
+  if (const auto lines = root.find("lines")) throw lines->error("stands beside 'mesh'; give either");
+  return read_mesh(*mesh, points, folder, sections);
+}
+
+int find_named_node(const fem::Mesh& mesh, const TomlValue& name) {
+  const int node = fem::find_node(mesh, name.string());
+  if (node >= 0) return node;
+  std::vector<std::string> names;
+  for (const fem::Mesh::NamedNode& named : mesh.named_nodes) names.push_back(named.name);
+  throw name.error(fmt::format("names the point '{}', which is not defined{}", name.string(),
+                               support::nearest_name_hint(name.string(), names)));
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "reduce/modes/clusters.h"
+#include "reduce/superelement/superelement.h"
+
+namespace sprung::reduce {
+
+/// Modes of an old and a new body that belong together. Either range may be empty: no counterpart.
+struct ModeMatch {
+  ModeRange old_modes, new_modes;  ///< one cluster each
+  double old_hz = 0.0, new_hz = 0.0;
+  /// Modal assurance criterion, 0 … 1: cos² of the largest principal angle between the two clusters'
+  /// displacement spaces, of the smaller one's dimension; for two single modes (φᵀψ)²/(φᵀφ ψᵀψ). NaN where
+  /// not comparable.
+  double mac = 0.0;
+};
+
+struct Comparison {
+  int num_points = 0;              ///< places where both bodies' displacements are known
+  bool comparable = true;          ///< the places cover at least half of each body's nodes
+  std::vector<ModeMatch> matches;  ///< in the order of the old modes, then the new
+};
+
+/// Pairs the modes of two bodies, cluster by cluster, by their displacements at the places that both have
+/// (nodes of one that lie on the other, interpolated there by the elements' cubic), weighted with the length
+/// that a node stands for. Where too few places are common the clusters are paired in order, without a MAC.
+///
+/// Source: [Allemang 2003]; [Björck & Golub 1973] for the angles — checked by
+/// tests/reduce/inspection/comparison_test.cpp
+Comparison compare_modes(const Superelement& old_body, const Superelement& new_body);
+
+}  // namespace sprung::reduce

@@ -1,0 +1,139 @@
+#include "reduce/inspection/superelement_tables.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reduce/reduction/element_work.h"
+#include "tools/support/terminal/text_table.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::TextTable;
+
+std::string format_percent(double share) {
+  return fmt::format("{:.1f}", 100.0 * share);
+}
+
+// Signed percent; what rounds to zero has no sign.
+std::string format_change(double share) {
+  const std::string text = fmt::format("{:+.3f}", 100.0 * share);
+  return text == "-0.000" || text == "+0.000" ? "0.000" : text;
+}
+
+std::string format_kind(double axial_share) {
+  if (axial_share > 0.95) return "axial";
+  if (axial_share < 0.05) return "bending";
+  return "mixed";
+}
+
+// "1–2", "3", or a dash for none.
+std::string format_range(const ModeRange& range) {
+  if (range.size() == 0) return "–";
+  if (range.size() == 1) return fmt::format("{}", range.end);
+  return fmt::format("{}–{}", range.begin + 1, range.end);
+}
+
+std::string format_frequency(const ModeRange& range, double frequency_hz) {
+  return range.size() == 0 ? "" : fmt::format("{:.4f}", frequency_hz);
+}
+
+// Centre of mass from the reference node, without the rounding of a coordinate that is zero.
+Eigen::Vector2d calc_center(const Superelement& s) {
+  const Eigen::Vector2d center = s.inertia.first_moment / s.inertia.mass;
+  const double rounding = 1e-14 * s.node_positions.colwise().norm().maxCoeff();
+  return (center.cwiseAbs().array() > rounding).select(center, Eigen::Vector2d::Zero());
+}
+
+std::string format_points(const Superelement& s) {
+  if (s.points.empty()) return "No named points.\n";
+  TextTable table({"point", "node", "x m", "y m"});
+  for (const NamedPoint& point : s.points) {
+    const Eigen::Vector2d position = s.node_positions.col(point.node);
+    table.add_row({point.name, fmt::format("{}", s.node_ids[static_cast<std::size_t>(point.node)]),
+                   fmt::format("{:.4f}", position.x()), fmt::format("{:.4f}", position.y())});
+  }
+  return table.str();
+}
+
+}  // namespace
+
+ModeKinds calc_mode_kinds(const Superelement& s) {
+  const ElementWork work = calc_element_work(s);
+  ModeKinds kinds;
+  kinds.axial_share = work.axial.diagonal().cwiseQuotient((work.axial + work.bending).diagonal());
+  kinds.effective_mass.resize(3, s.num_modes());
+  kinds.effective_mass.topRows(2) = s.inertia.P.cwiseAbs2() / s.inertia.mass;
+  kinds.effective_mass.row(2) = s.inertia.c.cwiseAbs2() / s.inertia.second_moment;
+  return kinds;
+}
+
+std::string format_summary(const Superelement& s) {
+  const InertiaInvariants& inertia = s.inertia;
+  const Eigen::Vector2d center = calc_center(s);
+  const double central = inertia.second_moment - inertia.first_moment.squaredNorm() / inertia.mass;
+  std::string text = fmt::format("Superelement {}: {} nodes, {} elements, {} of {} modes\n\n", s.name,
+                                 s.num_nodes(), s.elements.cols(), s.num_modes(), s.num_elastic_dofs);
+  text += fmt::format("mass                              {:.6g} kg\n", inertia.mass);
+  text += fmt::format("centre of mass                    ({:.6g}, {:.6g}) m from the reference node\n",
+                      center.x(), center.y());
+  text += fmt::format("inertia about the centre of mass  {:.6g} kg·m²\n", central);
+  text += fmt::format("inertia about the reference node  {:.6g} kg·m²\n\n", inertia.second_moment);
+  text += format_points(s) + "\n";
+  text += s.geometric_stiffness ? fmt::format("stiffening  of {} modes\n", s.geometric_stiffness->num_modes())
+                                : "stiffening  none: a file of version 1\n";
+  text += fmt::format("made by     sprung {}, algorithm revision {}\n", s.provenance.program_version,
+                      s.provenance.algorithm_revision);
+  text += fmt::format("design      sha256 {}\n", s.provenance.design_hash);
+  for (std::size_t i = 0; i < s.provenance.input_names.size(); ++i) {
+    text +=
+        fmt::format("mesh file   {}, sha256 {}\n", s.provenance.input_names[i], s.provenance.input_hashes[i]);
+  }
+  return text + fmt::format("contents    sha256 {}\n", s.content_hash);
+}
+
+std::string format_modes(const Superelement& s) {
+  const ModeKinds kinds = calc_mode_kinds(s);
+  TextTable table({"mode", "frequency Hz", "damping %", "cluster", "kind", "axial energy %", "mass x %",
+                   "mass y %", "inertia %"});
+  for (Eigen::Index i = 0; i < s.num_modes(); ++i) {
+    table.add_row({fmt::format("{}", i + 1), fmt::format("{:.4f}", s.frequency_hz(i)),
+                   fmt::format("{:.3g}", 100.0 * s.damping_ratio(i)), fmt::format("{}", s.cluster(i)),
+                   format_kind(kinds.axial_share(i)), format_percent(std::abs(kinds.axial_share(i))),
+                   format_percent(kinds.effective_mass(0, i)), format_percent(kinds.effective_mass(1, i)),
+                   format_percent(kinds.effective_mass(2, i))});
+  }
+  const Eigen::Vector3d sum = kinds.effective_mass.rowwise().sum();
+  table.add_row(
+      {"", "", "", "", "sum", "", format_percent(sum(0)), format_percent(sum(1)), format_percent(sum(2))});
+  return table.str();
+}
+
+std::string format_checks(std::span<const CheckResult> checks) {
+  TextTable table({"check", "value", "tolerance", "result"});
+  for (const CheckResult& check : checks) {
+    table.add_row({check.name, fmt::format("{:.2e}", check.value), fmt::format("{:.2e}", check.tolerance),
+                   check.passed() ? "passed" : "FAILED"});
+  }
+  return table.str();
+}
+
+std::string format_comparison(const Comparison& comparison) {
+  TextTable table({"old modes", "old Hz", "new modes", "new Hz", "change %", "MAC"});
+  for (const ModeMatch& match : comparison.matches) {
+    const bool both = match.old_modes.size() > 0 && match.new_modes.size() > 0;
+    table.add_row({format_range(match.old_modes), format_frequency(match.old_modes, match.old_hz),
+                   format_range(match.new_modes), format_frequency(match.new_modes, match.new_hz),
+                   both ? format_change(match.new_hz / match.old_hz - 1.0) : "",
+                   std::isnan(match.mac) ? "" : fmt::format("{:.4f}", match.mac)});
+  }
+  std::string text = table.str();
+  if (!comparison.comparable) {
+    text += "The two bodies have too few places in common for a MAC; modes are paired by their order.\n";
+  }
+  return text;
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "reduce/inspection/comparison.h"
+#include "reduce/superelement/superelement.h"
+
+namespace sprung::reduce {
+
+/// What the modes are, apart from their frequencies.
+struct ModeKinds {
+  Eigen::VectorXd axial_share;     ///< n, of the strain energy; the rest is bending and shear [-]
+  Eigen::MatrixXd effective_mass;  ///< 3×n, shares of m in x, of m in y, of J₀ about the reference [-]
+};
+ModeKinds calc_mode_kinds(const Superelement& superelement);
+
+// Tables for people; lines end in '\n'.
+std::string format_summary(const Superelement& superelement);  ///< mass, inertia, points, where it comes from
+std::string format_modes(const Superelement& superelement);
+std::string format_checks(std::span<const CheckResult> checks);
+std::string format_comparison(const Comparison& comparison);
+
+}  // namespace sprung::reduce

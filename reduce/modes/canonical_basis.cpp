@@ -1,0 +1,127 @@
+#include "reduce/modes/canonical_basis.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "reduce/modes/clusters.h"
+#include "reduce/modes/largest_displacement.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kMomentGap = 1e-3;  // of the radius: nearer values of ∫x φᵀφ dm count as equal
+constexpr double kTie = 0.01;        // participations nearer than this share count as equal
+
+// Directions fixed so far and an orthonormal basis of those still free, as columns over a cluster's members.
+struct Partition {
+  Eigen::MatrixXd fixed;
+  Eigen::MatrixXd free;
+};
+
+void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+  const Eigen::Index old = matrix.cols();
+  matrix.conservativeResize(columns.rows(), old + columns.cols());
+  matrix.rightCols(columns.cols()) = columns;
+}
+
+// Fixes the direction along which a linear functional of the modes acts, so that it vanishes on what stays
+// free.
+// @param row  the functional's values on the columns of partition.free
+void fix_direction(Partition& partition, const Eigen::RowVectorXd& row) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row.transpose());
+  const Eigen::MatrixXd rotation = qr.householderQ();
+  append(partition.fixed, partition.free * rotation.leftCols(1));
+  const Eigen::MatrixXd rest = partition.free * rotation.rightCols(rotation.cols() - 1);
+  partition.free = rest;
+}
+
+// Rule 1. @param participation  3×m, divided by the scales
+void fix_by_participation(Partition& partition, const Eigen::MatrixXd& participation) {
+  for (Eigen::Index i = 0; i < 3 && partition.free.cols() > 0; ++i) {
+    const Eigen::RowVectorXd row = participation.row(i) * partition.free;
+    if (row.norm() >= kParticipationThreshold) fix_direction(partition, row);
+  }
+}
+
+// Rule 3.
+void fix_by_displacement(Partition& partition, const Eigen::MatrixXd& shapes,
+                         const Eigen::Matrix2Xd& node_positions) {
+  while (partition.free.cols() > 0) {
+    const Eigen::MatrixXd rest = shapes * partition.free;
+    fix_direction(partition, rest.row(find_largest_displacement(rest, node_positions)));
+  }
+}
+
+// Rule 2, and rule 3 for each group that it leaves equal.
+void fix_by_moment(Partition& partition, const Eigen::MatrixXd& shapes, const BasisFrame& frame) {
+  const Eigen::MatrixXd rest = shapes * partition.free;
+  const Eigen::MatrixXd moment = rest.transpose() * (frame.weighted_mass * rest);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (moment + moment.transpose()));
+  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const Eigen::MatrixXd ordered = partition.free * eigen.eigenvectors();
+  const double gap = kMomentGap * frame.node_positions.colwise().norm().maxCoeff();
+  for (Eigen::Index begin = 0, end = 0; begin < values.size(); begin = end) {
+    end = begin + 1;
+    while (end < values.size() && values(end) - values(end - 1) < gap) ++end;
+    Partition group{.fixed = {}, .free = ordered.middleCols(begin, end - begin)};
+    fix_by_displacement(group, shapes, frame.node_positions);
+    append(partition.fixed, group.fixed);
+  }
+  partition.free.resize(partition.free.rows(), 0);
+}
+
+double calc_sign(const Eigen::VectorXd& participation, const Eigen::VectorXd& shape,
+                 const Eigen::Matrix2Xd& node_positions) {
+  const double largest = participation.cwiseAbs().maxCoeff();
+  double decisive = 0.0;
+  if (largest >= kParticipationThreshold) {
+    Eigen::Index i = 0;
+    while (std::abs(participation(i)) < (1.0 - kTie) * largest) ++i;
+    decisive = participation(i);
+  } else {
+    decisive = shape(find_largest_displacement(shape, node_positions));
+  }
+  return decisive < 0.0 ? -1.0 : 1.0;
+}
+
+}  // namespace
+
+BasisFrame make_basis_frame(const fem::MassMoments& moments, const Eigen::Matrix2Xd& node_positions,
+                            const Eigen::SparseMatrix<double>& weighted_mass) {
+  BasisFrame frame{.node_positions = node_positions,
+                   .mass = moments.mass,
+                   .second_moment = moments.second_moment(),
+                   .participation_rows = Eigen::MatrixXd(3, moments.N_x.size()),
+                   .weighted_mass = weighted_mass};
+  frame.participation_rows.row(0) = moments.N_y.transpose();
+  frame.participation_rows.row(1) = moments.N_x.transpose();
+  frame.participation_rows.row(2) = (moments.x_N_y - moments.y_N_x + moments.rotary_N).transpose();
+  return frame;
+}
+
+Eigen::MatrixXd calc_canonical_rotation(const Eigen::MatrixXd& shapes, const Eigen::VectorXi& cluster,
+                                        const BasisFrame& frame) {
+  const Eigen::Vector3d scales(std::sqrt(frame.mass), std::sqrt(frame.mass), std::sqrt(frame.second_moment));
+  const Eigen::MatrixXd participation =
+      scales.cwiseInverse().asDiagonal() * (frame.participation_rows * shapes);
+  const Eigen::Index n = shapes.cols();
+  Eigen::MatrixXd rotation = Eigen::MatrixXd::Zero(n, n);
+  for (ModeRange range; range.begin < n; range.begin = range.end) {
+    range = find_cluster_of(cluster, range.begin);
+    const Eigen::MatrixXd members = shapes.middleCols(range.begin, range.size());
+    const Eigen::MatrixXd parts = participation.middleCols(range.begin, range.size());
+    Partition partition{.fixed = {}, .free = Eigen::MatrixXd::Identity(range.size(), range.size())};
+    fix_by_participation(partition, parts);
+    if (partition.free.cols() > 0) fix_by_moment(partition, members, frame);
+    for (Eigen::Index i = 0; i < range.size(); ++i) {
+      const Eigen::VectorXd direction = partition.fixed.col(i);
+      partition.fixed.col(i) *= calc_sign(parts * direction, members * direction, frame.node_positions);
+    }
+    rotation.block(range.begin, range.begin, range.size(), range.size()) = partition.fixed;
+  }
+  return rotation;
+}
+
+}  // namespace sprung::reduce

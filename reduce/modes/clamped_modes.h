@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "reduce/modes/eigen_pairs.h"
+
+namespace sprung::reduce {
+
+enum class EigenMethod { kAutomatic, kDense, kSparse };
+
+struct ClampedModeOptions {
+  EigenMethod method = EigenMethod::kAutomatic;  ///< automatic: dense where it is the cheaper or the only way
+  std::uint64_t seed = 1;                        ///< of the sparse method's start vector
+};
+
+/// The lowest modes of a held frame, proved to be all of them.
+struct ClampedModes {
+  EigenPairs pairs;         ///< k ≥ the number asked for: the last one's cluster is whole
+  Eigen::VectorXi cluster;  ///< k, as from find_clusters
+  double proof_hz =
+      0.0;            ///< frequency in the gap above the last mode where they were counted; 0: all n modes
+  int num_below = 0;  ///< modes counted below it (eigenvalue_count.h), k
+};
+
+/// Solves for the lowest modes and counts them independently; asks for more and starts anew while the count
+/// differs or the gap above the last cluster is not in sight. A basis that is not proved complete is never
+/// returned.
+///
+/// @param num_modes  1 … n
+/// @throws support::NumericalError if no complete basis was found after several attempts (numbers found and
+/// counted)
+///         std::invalid_argument if num_modes is out of range
+/// Checked by tests/reduce/modes/clamped_modes_test.cpp
+ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
+                                const ClampedModeOptions& options = {});
+
+/// Whether solutions are all there are up to the end of the last wanted mode's cluster.
+struct ModeProof {
+  std::optional<ClampedModes> modes;  ///< if so: the modes up to there
+  std::string reason;                 ///< if not: what was found and what counted
+};
+
+/// Counts the modes below a frequency in the gap above the last wanted one's cluster and compares.
+///
+/// @param pairs      solutions found, ascending, at least num_modes
+/// @param num_modes  wanted, ≥ 1
+/// @throws support::NumericalError if the count cannot be made (eigenvalue_count.h)
+/// Checked by tests/reduce/modes/clamped_modes_test.cpp
+ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, int num_modes);
+
+/// The largest n whose modes can all be had: beyond it the dense solution takes too long and too much memory.
+inline constexpr int kMaxDenseSize = 3000;
+
+}  // namespace sprung::reduce

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "reduce/modes/eigen_pairs.h"
+
+namespace sprung::reduce {
+
+/// The lowest solutions of K φ = ω² M φ by Lanczos iteration with the inverse of K (shift 0), polished by one
+/// step of subspace iteration.
+///
+/// What comes back are good solutions, but *not surely the lowest ones*: of repeated frequencies the
+/// iteration can miss members without a sign of it. Count them (eigenvalue_count.h).
+///
+/// @param num_pairs  1 … n−1
+/// @param seed       of the random start vector
+/// @throws support::NumericalError if K cannot be factored or the iteration does not converge
+///         std::invalid_argument if num_pairs is out of range
+/// Checked by tests/reduce/modes/clamped_modes_test.cpp
+EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_t seed);
+
+}  // namespace sprung::reduce

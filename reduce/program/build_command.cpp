@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <map>
+
+#include "reduce/design/design.h"
+#include "reduce/inspection/comparison.h"
+#include "reduce/inspection/superelement_tables.h"
+#include "reduce/program/commands.h"
+#include "reduce/program/previous_file.h"
+#include "reduce/reduction/reduction.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
+#include "tools/support/terminal/program.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+namespace fs = std::filesystem;
+using support::InputError;
+
+// Progress goes to stdout line by line, so that a pipe sees it too.
+void report(const BuildOptions& options, const std::string& text) {
+  if (options.quiet) return;
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+// Design by its output file.
+std::map<fs::path, fs::path> assign_outputs(const BuildOptions& options) {
+  std::map<fs::path, fs::path> outputs;
+  for (const fs::path& design : options.designs) {
+    const fs::path output = options.output_dir / (design.stem().string() + ".h5");
+    const auto [other, is_new] = outputs.emplace(output, design);
+    if (is_new) continue;
+    throw InputError({.path = design.string()},
+                     fmt::format("would be written to '{}', as would '{}'; rename one", output.string(),
+                                 other->second.string()));
+  }
+  return outputs;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder)) return;
+  throw InputError({.path = folder.string()},
+                   fmt::format("cannot be used as a folder for the superelements: {}",
+                               error ? error.message() : "it is no folder"));
+}
+
+std::string describe(const Superelement& s) {
+  return fmt::format("{} elements, {} freedoms, {} modes from {:.4f} to {:.4f} Hz", s.elements.cols(),
+                     s.num_elastic_dofs, s.num_modes(), s.frequency_hz(0), s.frequency_hz(s.num_modes() - 1));
+}
+
+// Why the file is to be made, "" if it is up to date.
+std::string find_reason(const PreviousFile& previous, const fs::path& design, const fs::path& output,
+                        const BuildOptions& options) {
+  if (previous.foreign && !options.force) {
+    throw InputError({.path = output.string()},
+                     fmt::format("is in the way and is left alone; move it, or replace it with --force ({})",
+                                 previous.reason));
+  }
+  if (!previous.exists) return "new";
+  if (!previous.superelement) return fmt::format("the file there cannot be used: {}", previous.reason);
+  const std::string reason = find_reason_to_rebuild(*previous.superelement, design);
+  return reason.empty() && options.force ? "forced" : reason;
+}
+
+void build_one(const fs::path& design, const fs::path& output, const BuildOptions& options) {
+  const PreviousFile previous = read_previous_file(output);
+  const std::string reason = find_reason(previous, design, output, options);
+  if (reason.empty()) {
+    report(options, fmt::format("{}: up to date", output.string()));
+    return;
+  }
+  report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
+  const Superelement made = make_superelement(read_design(design));
+  write_superelement(made, output);
+  const Superelement written = read_superelement(output);
+  report(options, fmt::format("{}: {}", output.string(), describe(written)));
+  if (previous.superelement && !options.quiet) {
+    fmt::print("{}", format_comparison(compare_modes(*previous.superelement, written)));
+  }
+}
+
+void report_failure(const std::string& message) {
+  std::fflush(stdout);
+  fmt::print(stderr, "{}\n", message);
+}
+
+}  // namespace
+
+int run_build(const BuildOptions& options) {
+  const std::map<fs::path, fs::path> outputs = assign_outputs(options);
+  make_folder(options.output_dir);
+  int code = support::kGood;
+  for (const fs::path& design : options.designs) {
+    if (support::interrupt_requested()) {
+      throw support::Interrupted(fmt::format("before {}; the files made so far are whole", design.string()));
+    }
+    const fs::path output = options.output_dir / (design.stem().string() + ".h5");
+    try {
+      build_one(design, output, options);
+    } catch (const InputError& error) {
+      report_failure(error.what());
+      if (code == support::kGood) code = support::kBadInput;
+    } catch (const support::NumericalError& error) {
+      report_failure(fmt::format("{}: error: {}", design.string(), error.what()));
+      if (code == support::kGood) code = support::kNumerics;
+    }
+  }
+  return code;
+}
+
+}  // namespace sprung::reduce

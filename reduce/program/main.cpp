@@ -1,0 +1,69 @@
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "reduce/design/program_version.h"
+#include "reduce/program/commands.h"
+#include "tools/support/terminal/program.h"
+
+namespace {
+
+using namespace sprung;
+
+// What the command line asked for; filled by CLI11's callbacks.
+struct Arguments {
+  reduce::BuildOptions build;
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path old_file, new_file;
+  bool json = false;
+};
+
+void add_build(CLI::App& app, Arguments& arguments) {
+  CLI::App* build =
+      app.add_subcommand("build", "Make superelements from designs; what is up to date is left alone");
+  build->add_option("designs", arguments.build.designs, "Design files (TOML)")->required();
+  build->add_option("--output-dir,-o", arguments.build.output_dir, "Folder for the files, made if need be")
+      ->capture_default_str();
+  build->add_flag("--force,-f", arguments.build.force, "Make them in any case, and replace foreign files");
+  build->add_flag("--quiet,-q", arguments.build.quiet, "Print errors only");
+  build->footer("Example: sprung-reduce build meshes/truck/*.toml --output-dir build/truck");
+}
+
+void add_inspections(CLI::App& app, Arguments& arguments) {
+  CLI::App* info = app.add_subcommand("info", "Show what a superelement contains");
+  info->add_option("file", arguments.new_file, "Superelement (HDF5)")->required();
+  info->add_flag("--json", arguments.json, "As one JSON object");
+  CLI::App* check = app.add_subcommand("check", "Verify superelements; exit code 1 if a check fails");
+  check->add_option("files", arguments.files, "Superelements (HDF5)")->required();
+  check->add_flag("--json", arguments.json, "As one JSON object for each file");
+  CLI::App* diff = app.add_subcommand("diff", "Compare two superelements: frequencies and MAC");
+  diff->add_option("old", arguments.old_file, "Superelement (HDF5)")->required();
+  diff->add_option("new", arguments.new_file, "Superelement (HDF5)")->required();
+  diff->add_flag("--json", arguments.json, "As one JSON object");
+}
+
+int run(const CLI::App& app, const Arguments& arguments) {
+  if (app.got_subcommand("build")) return reduce::run_build(arguments.build);
+  if (app.got_subcommand("info")) return reduce::run_info(arguments.new_file, arguments.json);
+  if (app.got_subcommand("check")) return reduce::run_check(arguments.files, arguments.json);
+  return reduce::run_diff(arguments.old_file, arguments.new_file, arguments.json);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return support::run_program("sprung-reduce", [&]() -> int {
+    CLI::App app("Reduces planar frames of beams to superelements for vehicle dynamics.", "sprung-reduce");
+    app.set_version_flag("--version", std::string("sprung-reduce ") + reduce::get_program_version());
+    app.require_subcommand(1);
+    Arguments arguments;
+    add_build(app, arguments);
+    add_inspections(app, arguments);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? support::kGood : support::kBadInput;
+    }
+    return run(app, arguments);
+  });
+}

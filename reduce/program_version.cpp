@@ -1,9 +1,0 @@
-#include "reduce/program_version.h"
-
-namespace sprung::reduce {
-
-const char* get_program_version() {
-  return SPRUNG_VERSION;
-}
-
-}  // namespace sprung::reduce

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fem/beam_model.h"
+#include "fem/mass_moments.h"
+#include "reduce/superelement/superelement.h"
+
+namespace sprung::reduce {
+
+/// Of bodies with more modes, the lowest ones that geometric stiffness is made for: its matrices are three
+/// for each point.
+inline constexpr int kMaxStiffenedModes = 200;
+
+/// Geometric stiffness of modes under the reference loads (reduce/README.md, eqs. 20–23): for each, the frame
+/// held at its reference node is solved for its axial forces, their geometric stiffness assembled and
+/// projected.
+///
+/// @param reference_node  0-based; the body frame's origin
+/// @param held_stiffness  K without the reference node's freedoms
+/// @param moments         about the reference node
+/// @param shapes          3N×n
+/// Source: [Wallrapp & Schwertassek 1991] — checked by tests/reduce/reduction/reference_stiffness_test.cpp
+GeometricStiffness calc_reference_stiffness(const fem::BeamModel& model, int reference_node,
+                                            const Eigen::SparseMatrix<double>& held_stiffness,
+                                            const fem::MassMoments& moments, const Eigen::MatrixXd& shapes);
+
+}  // namespace sprung::reduce

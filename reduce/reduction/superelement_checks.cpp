@@ -1,0 +1,151 @@
+#include "reduce/reduction/superelement_checks.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reduce/modes/clusters.h"
+#include "reduce/reduction/element_work.h"
+#include "reduce/reduction/inertia_invariants.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kFailed = 1e300;  // stands for infinity, which a file cannot hold
+
+Eigen::VectorXd calc_omega(const Superelement& s) {
+  return 2.0 * std::numbers::pi * s.frequency_hz;
+}
+
+// A matrix per ωᵢ ωⱼ.
+Eigen::MatrixXd scale_by_frequencies(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& omega) {
+  return omega.cwiseInverse().asDiagonal() * matrix * omega.cwiseInverse().asDiagonal();
+}
+
+CheckResult check_orthogonality(const Superelement& s) {
+  const Eigen::Index n = s.frequency_hz.size();
+  const double of_shapes = (s.inertia.M_ff - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
+  const double of_matrix = (s.mass - s.inertia.M_ff).cwiseAbs().maxCoeff();
+  return {.name = "orthogonality of the modes", .value = std::max(of_shapes, of_matrix), .tolerance = 1e-9};
+}
+
+// A cluster's frequencies may differ by kClusterGap from each other, and so may its block of the stiffness.
+CheckResult check_stiffness(const Superelement& s, bool within_clusters) {
+  const Eigen::Index n = s.frequency_hz.size();
+  const Eigen::MatrixXd error =
+      scale_by_frequencies(s.stiffness, calc_omega(s)) - Eigen::MatrixXd::Identity(n, n);
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if ((s.cluster(i) == s.cluster(j)) == within_clusters)
+        largest = std::max(largest, std::abs(error(i, j)));
+    }
+  }
+  if (within_clusters) {
+    // A cluster is a chain of gaps, so that its ends may be several gaps apart; twice for ω².
+    Eigen::Index longest = 1;
+    for (Eigen::Index i = 0; i < n; ++i) longest = std::max(longest, find_cluster_of(s.cluster, i).size());
+    return {.name = "stiffness against frequencies",
+            .value = largest,
+            .tolerance = 2.0 * kClusterGap * static_cast<double>(longest)};
+  }
+  return {.name = "stiffness between clusters", .value = largest, .tolerance = 1e-12};
+}
+
+CheckResult check_damping(const Superelement& s) {
+  const Eigen::VectorXd omega = calc_omega(s);
+  const Eigen::MatrixXd expected = (2.0 * s.damping_ratio.cwiseProduct(omega)).asDiagonal();
+  const Eigen::MatrixXd error = omega.cwiseSqrt().cwiseInverse().asDiagonal() * (s.damping - expected) *
+                                omega.cwiseSqrt().cwiseInverse().asDiagonal();
+  return {.name = "damping against ratios", .value = error.cwiseAbs().maxCoeff(), .tolerance = 1e-12};
+}
+
+// d, B and what rotary inertia must leave to M_ff and c. Scales: 1 for n×n, √J₀ for rows.
+CheckResult check_components(const InertiaInvariants& inertia) {
+  const double row_scale = std::sqrt(inertia.second_moment);
+  const Eigen::RowVectorXd d_error = inertia.d - inertia.x_phi_x - inertia.y_phi_y;
+  const Eigen::MatrixXd B_error = inertia.B - inertia.phi_x_phi_y + inertia.phi_x_phi_y.transpose();
+  const Eigen::MatrixXd rotary = inertia.M_ff - inertia.phi_x_phi_x - inertia.phi_y_phi_y;
+  const Eigen::RowVectorXd rotary_c = (inertia.c - inertia.x_phi_y + inertia.y_phi_x) / row_scale;
+  const double indefinite = -Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rotary, Eigen::EigenvaluesOnly)
+                                 .eigenvalues()
+                                 .minCoeff();
+  // Schwarz: (∫ρI ψ)² ≤ ∫ρI ∫ρI ψ², and the first integral is a part of J₀.
+  const double too_large = (rotary_c.cwiseAbs2().transpose() - rotary.diagonal()).maxCoeff();
+  return {.name = "inertia against its components",
+          .value = std::max({d_error.cwiseAbs().maxCoeff() / row_scale, B_error.cwiseAbs().maxCoeff(),
+                             indefinite, too_large, 0.0}),
+          .tolerance = 1e-10};
+}
+
+CheckResult check_mass_matrix(const Superelement& s) {
+  const Eigen::MatrixXd mass = calc_mass_matrix(s.inertia);
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  const double smallest = values.minCoeff();
+  return {.name = "condition of the mass matrix of frame and modes",
+          .value = smallest > 0.0 ? values.maxCoeff() / smallest : kFailed,
+          .tolerance = 1e10};
+}
+
+CheckResult check_held_node(const Superelement& s) {
+  Eigen::Index node = 0;
+  const double distance = s.node_positions.colwise().norm().minCoeff(&node);
+  const double radius = s.node_positions.colwise().norm().maxCoeff();
+  const double motion =
+      s.shapes.middleRows(3 * node, 3).cwiseAbs().maxCoeff() / s.shapes.cwiseAbs().maxCoeff();
+  return {.name = "modes at the reference node",
+          .value = std::max(radius > 0.0 ? distance / radius : kFailed, motion),
+          .tolerance = 1e-12};
+}
+
+CheckResult check_work(const Superelement& s) {
+  const ElementWork work = calc_element_work(s);
+  const Eigen::MatrixXd error = scale_by_frequencies(work.axial + work.bending - s.stiffness, calc_omega(s));
+  double rounding = 0.0;
+  for (const CheckResult& check : s.checks) {
+    if (check.name == kRoundingCheck) rounding = check.value;
+  }
+  return {.name = "work of the resultants against stiffness",
+          .value = error.cwiseAbs().maxCoeff(),
+          .tolerance = 1e-9 + 100.0 * rounding};
+}
+
+// No load between an element's ends: N and Q constant, M' = −Q.
+CheckResult check_equilibrium(const Superelement& s) {
+  double largest = 0.0;
+  Eigen::RowVectorXd error = Eigen::RowVectorXd::Zero(s.frequency_hz.size()), scale = error;
+  for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
+    const double length =
+        (s.node_positions.col(s.elements(1, e)) - s.node_positions.col(s.elements(0, e))).norm();
+    const Eigen::MatrixXd first = s.resultants.middleRows(6 * e, 3),
+                          second = s.resultants.middleRows(6 * e + 3, 3);
+    const Eigen::RowVectorXd moment = second.row(2) - first.row(2) + length * first.row(1);
+    const Eigen::RowVectorXd force =
+        length * ((second.row(0) - first.row(0)).cwiseAbs() + (second.row(1) - first.row(1)).cwiseAbs());
+    error = error.cwiseMax(moment.cwiseAbs() + force);
+    scale = scale.cwiseMax(first.row(2).cwiseAbs() + second.row(2).cwiseAbs() +
+                           length * (first.row(0).cwiseAbs() + first.row(1).cwiseAbs()));
+  }
+  for (Eigen::Index i = 0; i < error.size(); ++i) {
+    if (error(i) > 0.0) largest = std::max(largest, scale(i) > 0.0 ? error(i) / scale(i) : kFailed);
+  }
+  return {.name = "equilibrium of the elements", .value = largest, .tolerance = 1e-6};
+}
+
+}  // namespace
+
+std::vector<CheckResult> check_superelement(const Superelement& superelement) {
+  return {check_orthogonality(superelement),      check_stiffness(superelement, true),
+          check_stiffness(superelement, false),   check_damping(superelement),
+          check_components(superelement.inertia), check_mass_matrix(superelement),
+          check_held_node(superelement),          check_work(superelement),
+          check_equilibrium(superelement)};
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sprung::reduce {
+
+/// The moments of a body and its mode shapes over its mass, r = (x, y) and φ in the body frame. Everything
+/// that a planar floating frame needs, and what other programs' formats are made of (reduce/README.md, eqs.
+/// 10–17). Rotary inertia of sections and point masses is contained: the integrals are those of the
+/// consistent mass.
+struct InertiaInvariants {
+  double mass = 0.0;                                       ///< m = ∫dm [kg]
+  Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
+  double second_moment = 0.0;  ///< J₀ = ∫(x² + y²) dm, about the body frame's origin [kg·m²]
+  Eigen::Matrix2Xd P;          ///< ∫φ dm, 2×n; mode columns in m per unit modal coordinate
+  Eigen::RowVectorXd c;        ///< ∫(x φ_y − y φ_x) dm, 1×n: momentum about the origin
+  Eigen::RowVectorXd d;        ///< ∫(x φ_x + y φ_y) dm, 1×n
+  Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm, n×n, symmetric (identity for mass-normalised modes)
+  Eigen::MatrixXd B;           ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
+
+  // The same integrals by component; what is above follows from them and from the rotary inertia.
+  Eigen::RowVectorXd x_phi_x, x_phi_y, y_phi_x, y_phi_y;  ///< 1×n each, ∫x φ_x dm …
+  Eigen::MatrixXd phi_x_phi_x, phi_x_phi_y, phi_y_phi_y;  ///< n×n each, ∫φ_xᵀφ_x dm …
+};
+
+/// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
+/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times
+/// minus one half it is, in the load's direction, the displacement of second order in the modal coordinates
+/// that beams which bend without stretching make (eq. 23).
+struct GeometricStiffness {
+  Eigen::MatrixXd centrifugal;           ///< K_ω, of turning at 1 rad/s about the body frame's origin [1]
+  Eigen::MatrixXd angular_acceleration;  ///< K_α, of the inertia at 1 rad/s² [1]
+  /// K_x, K_y, of the inertia at an acceleration of the frame of 1 m/s² along its axes [1/m]
+  std::array<Eigen::MatrixXd, 2> acceleration;
+  /// Of each of the superelement's points: K of a force of 1 N along x, along y [1/(kg·m)], of a moment of
+  /// 1 N·m [1/(kg·m²)] on its node
+  std::vector<std::array<Eigen::MatrixXd, 3>> point_loads;
+
+  int num_modes() const { return static_cast<int>(centrifugal.rows()); }
+};
+
+/// A node that a design gave a name.
+struct NamedPoint {
+  std::string name;
+  int node = 0;  ///< 0-based
+};
+
+/// A check made when the file was written: passed when value ≤ tolerance.
+struct CheckResult {
+  std::string name;
+  double value = 0.0;
+  double tolerance = 0.0;
+  bool passed() const { return value <= tolerance; }
+};
+
+/// Where a superelement comes from.
+struct Provenance {
+  std::string design_text;               ///< the design file as read
+  std::string design_hash;               ///< SHA-256 of design_text
+  std::vector<std::string> input_names;  ///< mesh files read, as the design names them
+  std::vector<std::string> input_hashes;
+  std::string program_version;
+  std::int64_t algorithm_revision = 0;  ///< raised whenever the same design gives other numbers
+};
+
+/// A flexible body reduced to its modes: what stage one writes and stage two loads. SI units, body frame with
+/// its origin at the reference node. n modes, N nodes, E elements. Modes are held at the reference node,
+/// mass-normalised, in ascending frequency, in the canonical basis of reduce/README.md.
+struct Superelement {
+  std::string name;
+
+  std::vector<std::int64_t> node_ids;  ///< the mesh's numbers, N
+  Eigen::Matrix2Xd node_positions;     ///< 2×N [m]
+  std::vector<NamedPoint> points;
+  Eigen::Matrix2Xi elements;                  ///< 2×E, 0-based node at each end
+  std::vector<std::string> element_sections;  ///< E, name of each element's section
+
+  Eigen::VectorXd frequency_hz;   ///< n
+  Eigen::VectorXd damping_ratio;  ///< n, of critical
+  Eigen::VectorXi cluster;        ///< n, 1-based; modes of equal frequency share a number
+  Eigen::MatrixXd
+      shapes;  ///< 3N×n, rows (x [m], y [m], rotation [rad]) of each node, per unit modal coordinate
+  std::int64_t num_elastic_dofs = 0;  ///< freedoms of the finite element model without the reference node's
+
+  Eigen::MatrixXd stiffness, mass, damping;  ///< n×n
+  InertiaInvariants inertia;
+  Eigen::MatrixXd resultants;  ///< 6E×n per unit modal coordinate: N [N], Q [N], M [N·m] at the first, then
+                               ///< the second end of each element
+  std::optional<GeometricStiffness> geometric_stiffness;  ///< none in files of version 1
+
+  std::vector<CheckResult> checks;
+  Provenance provenance;
+  std::string content_hash;  ///< SHA-256 of all of the above; set by write and read
+
+  int num_modes() const { return static_cast<int>(frequency_hz.size()); }
+  int num_nodes() const { return static_cast<int>(node_ids.size()); }
+};
+
+/// Newest version of the file format; every earlier one can be read (reduce/superelement/superelement.md).
+inline constexpr std::int64_t kSuperelementVersion = 2;
+
+/// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it
+/// is a file of version 1.
+/// @return the content hash
+/// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
+/// together
+std::string write_superelement(const Superelement& superelement, const std::filesystem::path& path);
+
+/// Reads and verifies a file: format, version, shapes, signs, symmetry, finite values, hash.
+/// @throws support::InputError naming file and dataset
+Superelement read_superelement(const std::filesystem::path& path);
+
+/// Points of a superelement are found by name. @return 0-based node, or -1
+int find_point(const Superelement& superelement, const std::string& name);
+
+}  // namespace sprung::reduce

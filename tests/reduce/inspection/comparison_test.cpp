@@ -1,0 +1,135 @@
+#include "reduce/inspection/comparison.h"
+
+#include <cmath>
+
+#include "reduce/inspection/superelement_tables.h"
+#include "reduce/reduction/reduction.h"
+#include "tests/catch.h"
+#include "tests/reduce/test_bodies.h"
+
+namespace sprung::reduce {
+namespace {
+
+using Catch::Matchers::Contains;
+
+const ModeRequest kSix{.wanted = ModeCount{6}};
+
+Superelement reduce_star(int num_elements, double angle = 0.3, const ModeRequest& request = kSix) {
+  return make_superelement(
+      testing::make_design(testing::make_star(2, angle, num_elements), {0.0, 0.0}, request));
+}
+
+TEST_CASE("a body compared with itself has a MAC of one and no change") {
+  const Superelement body = reduce_star(5);
+  const Comparison comparison = compare_modes(body, body);
+  REQUIRE(comparison.matches.size() == 3);
+  CHECK(comparison.comparable);
+  for (const ModeMatch& match : comparison.matches) {
+    CHECK(match.mac == Approx(1.0).epsilon(1e-12));
+    CHECK(match.old_hz == match.new_hz);
+    CHECK(match.old_modes.begin == match.new_modes.begin);
+    CHECK(match.old_modes.size() == 2);
+  }
+}
+
+TEST_CASE("a refined mesh has the same modes") {
+  const Comparison comparison = compare_modes(reduce_star(4), reduce_star(7));
+  REQUIRE(comparison.comparable);
+  REQUIRE(comparison.matches.size() == 3);
+  CHECK(comparison.matches[0].mac > 0.9999);
+  CHECK(comparison.matches[1].mac > 0.999);
+  CHECK(comparison.matches[0].new_hz < comparison.matches[0].old_hz);  // from above, as Ritz values do
+}
+
+TEST_CASE("clusters are compared by subspace, not member by member") {
+  const Superelement body = reduce_star(5);
+  Superelement rotated = body;
+  const double angle = 0.7;
+  rotated.shapes.col(0) = std::cos(angle) * body.shapes.col(0) + std::sin(angle) * body.shapes.col(1);
+  rotated.shapes.col(1) = std::cos(angle) * body.shapes.col(1) - std::sin(angle) * body.shapes.col(0);
+  CHECK(compare_modes(body, rotated).matches[0].mac == Approx(1.0).epsilon(1e-12));
+}
+
+TEST_CASE("a pair that a design change splits is matched with both of its members") {
+  const Superelement pair = reduce_star(5);
+  fem::BeamModel model = testing::make_star(2, 0.3, 5);
+  model.point_masses = {{.node = 5, .mass = 0.05, .inertia = 0.0}};
+  const Superelement split = make_superelement(testing::make_design(model, {0.0, 0.0}, kSix));
+  REQUIRE(split.cluster(1) != split.cluster(0));
+  const Comparison comparison = compare_modes(pair, split);
+  REQUIRE(comparison.matches.size() >= 2);
+  for (int i = 0; i < 2; ++i) {
+    const ModeMatch& match = comparison.matches[static_cast<std::size_t>(i)];
+    CHECK(match.old_modes.size() == 2);
+    CHECK(match.old_modes.begin == 0);
+    CHECK(match.new_modes.begin == i);
+    CHECK(match.new_modes.size() == 1);
+    CHECK(match.mac > 0.999);
+  }
+  const Comparison back = compare_modes(split, pair);
+  CHECK(back.matches[0].new_modes.size() == 2);
+  CHECK(back.matches[1].new_modes.size() == 2);
+}
+
+TEST_CASE("modes that change places are matched by shape") {
+  // A much larger area brings the axial pair (modes 5 and 6) above the third bending pair.
+  const auto reduce = [](double area_factor) {
+    fem::BeamModel model = testing::make_star(2, 0.0, 8);
+    model.sections[0].axial_rigidity *= area_factor;
+    return make_superelement(testing::make_design(model, {0.0, 0.0}, {.wanted = ModeCount{12}}));
+  };
+  const Superelement soft = reduce(0.05), stiff = reduce(1.0);
+  const Comparison comparison = compare_modes(soft, stiff);
+  bool changed_places = false;
+  for (const ModeMatch& match : comparison.matches) {
+    if (match.old_modes.size() == 0 || match.new_modes.size() == 0) continue;
+    CHECK(match.mac > 0.9);
+    changed_places = changed_places || match.old_modes.begin != match.new_modes.begin;
+  }
+  CHECK(changed_places);
+}
+
+TEST_CASE("modes without a counterpart are listed alone") {
+  const Comparison comparison = compare_modes(reduce_star(5, 0.3, {.wanted = ModeCount{4}}), reduce_star(5));
+  REQUIRE(comparison.matches.size() == 3);
+  CHECK(comparison.matches[2].old_modes.size() == 0);
+  CHECK(comparison.matches[2].new_modes.begin == 4);
+  CHECK(std::isnan(comparison.matches[2].mac));
+}
+
+TEST_CASE("bodies without common places are compared by frequency only, and the table says so") {
+  const Comparison comparison = compare_modes(reduce_star(5, 0.3), reduce_star(5, 1.1));
+  CHECK_FALSE(comparison.comparable);
+  REQUIRE(comparison.matches.size() == 3);
+  CHECK(std::isnan(comparison.matches[0].mac));
+  CHECK_THAT(format_comparison(comparison), Contains("too few places in common for a MAC"));
+}
+
+TEST_CASE("the MAC of two single modes is that of the formula") {
+  const Superelement body = reduce_star(5, 0.3, {.wanted = ModeNumbers{{1}}});
+  Superelement other = body;
+  const Superelement all = reduce_star(5);
+  other.shapes.col(0) = all.shapes.col(0) + 0.5 * all.shapes.col(2);
+  // Weighted with the length of each node, uniform here but for the halved ends.
+  double ab = 0.0, aa = 0.0, bb = 0.0;
+  for (Eigen::Index node = 0; node < body.num_nodes(); ++node) {
+    const double distance = body.node_positions.col(node).norm();
+    const double weight = distance > 1.199 ? 0.5 : 1.0;
+    const Eigen::Vector2d a = body.shapes.col(0).segment<2>(3 * node),
+                          b = other.shapes.col(0).segment<2>(3 * node);
+    ab += weight * a.dot(b);
+    aa += weight * a.dot(a);
+    bb += weight * b.dot(b);
+  }
+  CHECK(compare_modes(body, other).matches[0].mac == Approx(ab * ab / (aa * bb)).epsilon(1e-10));
+}
+
+TEST_CASE("the comparison table shows frequencies, change and MAC") {
+  Superelement stiffer = reduce_star(5);
+  stiffer.frequency_hz *= 1.02;
+  const std::string table = format_comparison(compare_modes(reduce_star(5), stiffer));
+  CHECK_THAT(table, Contains("1–2") && Contains("+2.000") && Contains("1.0000"));
+}
+
+}  // namespace
+}  // namespace sprung::reduce

@@ -1,0 +1,159 @@
+// Superelement files that are damaged, incomplete or something else.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "reduce/superelement/superelement.h"
+#include "tests/catch.h"
+#include "tests/reduce/superelement/hdf5_tampering.h"
+#include "tests/reduce/test_bodies.h"
+
+namespace sprung::reduce {
+namespace {
+
+using Catch::Matchers::Contains;
+using support::InputError;
+using testing::make_two_armed_body;
+using testing::message_of;
+using testing::read_bytes;
+
+// The message of reading a whole file after it was tampered with.
+std::string read_tampered(const std::function<void(testing::Hdf5Tampering&)>& change) {
+  write_superelement(make_two_armed_body(), "tampered.h5");
+  {
+    testing::Hdf5Tampering file("tampered.h5");
+    change(file);
+  }
+  return message_of<InputError>([] { read_superelement("tampered.h5"); });
+}
+
+TEST_CASE("a dataset that is missing, of another shape or type is named") {
+  const std::string prefix = "tampered.h5: error: dataset '";
+  for (const char* name : {"/nodes/id",
+                           "/nodes/position",
+                           "/points/name",
+                           "/points/node",
+                           "/elements/node",
+                           "/elements/section",
+                           "/modes/frequency",
+                           "/modes/damping_ratio",
+                           "/modes/cluster",
+                           "/modes/shape",
+                           "/matrices/stiffness",
+                           "/matrices/mass",
+                           "/matrices/damping",
+                           "/inertia/mass",
+                           "/inertia/first_moment",
+                           "/inertia/second_moment",
+                           "/inertia/P",
+                           "/inertia/c",
+                           "/inertia/d",
+                           "/inertia/M_ff",
+                           "/inertia/B",
+                           "/inertia/x_phi_x",
+                           "/inertia/x_phi_y",
+                           "/inertia/y_phi_x",
+                           "/inertia/y_phi_y",
+                           "/inertia/phi_x_phi_x",
+                           "/inertia/phi_x_phi_y",
+                           "/inertia/phi_y_phi_y",
+                           "/resultants",
+                           "/stiffening/centrifugal",
+                           "/stiffening/angular_acceleration",
+                           "/stiffening/acceleration",
+                           "/stiffening/point_load",
+                           "/checks/name",
+                           "/checks/value",
+                           "/checks/tolerance",
+                           "/provenance/design_text",
+                           "/provenance/design_hash",
+                           "/provenance/input_name",
+                           "/provenance/input_hash"}) {
+    CAPTURE(name);
+    CHECK_THAT(read_tampered([&](auto& file) { file.remove(name); }), Contains(prefix + name + "'"));
+    // Five by one reals fit nowhere, whatever the type and shape that belong here.
+    CHECK_THAT(read_tampered([&](auto& file) {
+                 file.replace(name, {5, 1}, std::vector<double>(5, 1.0));
+               }),
+               Contains(prefix));
+  }
+  CHECK_THAT(read_tampered([](auto& file) {
+               file.replace("/matrices/mass", {7, 6}, std::vector<double>(42, 1.0));
+             }),
+             Contains(prefix + "/matrices/mass'"));
+}
+
+TEST_CASE("values that cannot be are named with their dataset") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto fault = [](const std::string& name, std::size_t index, double value) {
+    return read_tampered([&](auto& file) { file.set(name, index, value); });
+  };
+  CHECK_THAT(fault("/inertia/mass", 0, -3.0), Contains("dataset '/inertia/mass' is -3 kg, expected > 0"));
+  CHECK_THAT(fault("/inertia/second_moment", 0, 0.0),
+             Contains("dataset '/inertia/second_moment' is 0 kg·m²"));
+  CHECK_THAT(fault("/inertia/P", 3, nan), Contains("dataset '/inertia/P'"));
+  CHECK_THAT(fault("/modes/shape", 20, nan), Contains("dataset '/modes/shape'"));
+  CHECK_THAT(fault("/nodes/position", 2, std::numeric_limits<double>::infinity()),
+             Contains("dataset '/nodes/position'"));
+  CHECK_THAT(fault("/modes/frequency", 1, -5.0), Contains("dataset '/modes/frequency' is -5 Hz for mode 2"));
+  CHECK_THAT(fault("/matrices/stiffness", 1, 1e6),
+             Contains("dataset '/matrices/stiffness' is not symmetric"));
+  CHECK_THAT(fault("/matrices/mass", 0, -1.0),
+             Contains("dataset '/matrices/mass' has the diagonal entry -1 for mode 1"));
+  CHECK_THAT(fault("/inertia/B", 1, 1.0), Contains("dataset '/inertia/B' is not skew"));
+}
+
+TEST_CASE("a value changed within its range is betrayed by the hash") {
+  CHECK_THAT(read_tampered([](auto& file) { file.set("/inertia/P", 3, 0.25); }),
+             Contains("attribute 'content_hash' is") && Contains("was changed after it was written"));
+}
+
+TEST_CASE("a file of a newer version says so and how to go on") {
+  const std::string message = read_tampered([](auto& file) { file.set_attribute("version", 3); });
+  CHECK_THAT(
+      message,
+      Contains("tampered.h5: error: superelement format version 3, this program reads up to version 2"));
+  CHECK_THAT(message,
+             Contains("use a newer sprung, or make the file again from its design with sprung-reduce build"));
+  CHECK_THAT(read_tampered([](auto& file) { file.set_attribute("version", 0); }),
+             Contains("version 0, expected ≥ 1"));
+  CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("version"); }), Contains("version"));
+}
+
+TEST_CASE("files that are no superelement say what they are") {
+  CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("format"); }),
+             Contains("not a superelement"));
+  CHECK_THAT(message_of<InputError>([] { read_superelement("absent.h5"); }), Contains("absent.h5: error:"));
+  std::ofstream("empty.h5").flush();
+  CHECK_THAT(message_of<InputError>([] { read_superelement("empty.h5"); }),
+             Contains("empty.h5: error:") && Contains("empty"));
+  std::ofstream("text.h5") << "mass = 5, this is no HDF5 file, and never was one\n";
+  CHECK_THAT(message_of<InputError>([] { read_superelement("text.h5"); }),
+             Contains("text.h5: error:") && Contains("HDF5"));
+}
+
+TEST_CASE("a file cut off anywhere or with a damaged byte is refused") {
+  write_superelement(make_two_armed_body(), "whole.h5");
+  const std::string bytes = read_bytes("whole.h5");
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    std::ofstream("cut.h5", std::ios::binary)
+        << bytes.substr(0, bytes.size() * static_cast<std::size_t>(tenth) / 10);
+    CHECK_THAT(message_of<InputError>([] { read_superelement("cut.h5"); }), Contains("cut.h5: error:"));
+  }
+  // A byte in the middle of the shapes' values: their checksum names the dataset.
+  const Superelement body = read_superelement("whole.h5");
+  const double value = body.shapes(4, 2);
+  const std::string pattern(reinterpret_cast<const char*>(&value), sizeof value);
+  const std::size_t at = bytes.find(pattern);
+  REQUIRE(at != std::string::npos);
+  std::string damaged = bytes;
+  damaged[at + 2] = static_cast<char>(damaged[at + 2] ^ 0x10);
+  std::ofstream("damaged.h5", std::ios::binary) << damaged;
+  CHECK_THAT(message_of<InputError>([] { read_superelement("damaged.h5"); }),
+             Contains("damaged.h5: error: dataset '/modes/shape'"));
+}
+
+}  // namespace
+}  // namespace sprung::reduce

@@ -1,0 +1,231 @@
+#include "reduce/superelement/superelement.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/catch.h"
+#include "tests/reduce/superelement/hdf5_tampering.h"
+#include "tests/reduce/test_bodies.h"
+
+namespace sprung::reduce {
+namespace {
+
+using Catch::Matchers::Contains;
+using support::InputError;
+using testing::make_two_armed_body;
+using testing::message_of;
+using testing::read_bytes;
+
+TEST_CASE("a superelement is read as it was written") {
+  const Superelement a = make_two_armed_body();
+  const std::string hash = write_superelement(a, "round_trip.h5");
+  const Superelement b = read_superelement("round_trip.h5");
+  CHECK(b.content_hash == hash);
+  CHECK(hash.size() == 64);
+  CHECK(b.name == a.name);
+  CHECK(b.node_ids == a.node_ids);
+  CHECK(b.node_positions == a.node_positions);
+  REQUIRE(b.points.size() == 2);
+  CHECK(b.points[1].name == "tip");
+  CHECK(b.points[1].node == 5);
+  CHECK(b.elements == a.elements);
+  CHECK(b.element_sections == a.element_sections);
+  CHECK(b.frequency_hz == a.frequency_hz);
+  CHECK(b.damping_ratio == a.damping_ratio);
+  CHECK(b.cluster == a.cluster);
+  CHECK(b.shapes == a.shapes);
+  CHECK(b.num_elastic_dofs == a.num_elastic_dofs);
+  CHECK(b.stiffness == a.stiffness);
+  CHECK(b.mass == a.mass);
+  CHECK(b.damping == a.damping);
+  CHECK(b.resultants == a.resultants);
+  CHECK(b.inertia.mass == a.inertia.mass);
+  CHECK(b.inertia.first_moment == a.inertia.first_moment);
+  CHECK(b.inertia.second_moment == a.inertia.second_moment);
+  CHECK(b.inertia.P == a.inertia.P);
+  CHECK(b.inertia.c == a.inertia.c);
+  CHECK(b.inertia.d == a.inertia.d);
+  CHECK(b.inertia.M_ff == a.inertia.M_ff);
+  CHECK(b.inertia.B == a.inertia.B);
+  CHECK(b.inertia.x_phi_x == a.inertia.x_phi_x);
+  CHECK(b.inertia.x_phi_y == a.inertia.x_phi_y);
+  CHECK(b.inertia.y_phi_x == a.inertia.y_phi_x);
+  CHECK(b.inertia.y_phi_y == a.inertia.y_phi_y);
+  CHECK(b.inertia.phi_x_phi_x == a.inertia.phi_x_phi_x);
+  CHECK(b.inertia.phi_x_phi_y == a.inertia.phi_x_phi_y);
+  CHECK(b.inertia.phi_y_phi_y == a.inertia.phi_y_phi_y);
+  REQUIRE(b.geometric_stiffness);
+  CHECK(b.geometric_stiffness->num_modes() == 7);
+  CHECK(b.geometric_stiffness->centrifugal == a.geometric_stiffness->centrifugal);
+  CHECK(b.geometric_stiffness->angular_acceleration == a.geometric_stiffness->angular_acceleration);
+  CHECK(b.geometric_stiffness->acceleration == a.geometric_stiffness->acceleration);
+  CHECK(b.geometric_stiffness->point_loads == a.geometric_stiffness->point_loads);
+  REQUIRE(b.checks.size() == a.checks.size());
+  CHECK(b.checks[2].name == a.checks[2].name);
+  CHECK(b.checks[2].value == a.checks[2].value);
+  CHECK(b.checks[2].tolerance == a.checks[2].tolerance);
+  CHECK(b.provenance.design_text == a.provenance.design_text);
+  CHECK(b.provenance.design_hash == a.provenance.design_hash);
+  CHECK(b.provenance.input_names == a.provenance.input_names);
+  CHECK(b.provenance.input_hashes == a.provenance.input_hashes);
+  CHECK(b.provenance.program_version == "9.8.7");
+  CHECK(b.provenance.algorithm_revision == 3);
+  CHECK(find_point(b, "tip") == 5);
+  CHECK(find_point(b, "top") == -1);
+}
+
+TEST_CASE("a design text beyond 64 KiB and a body without points or mesh files are written too") {
+  Superelement a = make_two_armed_body();
+  a.points.clear();
+  a.geometric_stiffness->point_loads.clear();
+  a.checks.clear();
+  a.provenance.input_names.clear();
+  a.provenance.input_hashes.clear();
+  a.provenance.design_text = std::string(100000, '#');
+  write_superelement(a, "sparse.h5");
+  const Superelement b = read_superelement("sparse.h5");
+  CHECK(b.points.empty());
+  CHECK(b.geometric_stiffness->point_loads.empty());
+  CHECK(b.checks.empty());
+  CHECK(b.provenance.input_names.empty());
+  CHECK(b.provenance.design_text == a.provenance.design_text);
+}
+
+TEST_CASE("a file of version 1 is read, and written again as it was") {
+  // Made by the program of that version: three modes of a bent arm of three elements.
+  const std::string path = testing::source_path("tests/reduce/data/version_1.h5");
+  const Superelement old = read_superelement(path);
+  CHECK_FALSE(old.geometric_stiffness);
+  CHECK(old.num_modes() == 3);
+  CHECK(old.provenance.algorithm_revision == 1);
+  CHECK(find_point(old, "tip") == 2);
+  CHECK(write_superelement(old, "version_1_again.h5") == old.content_hash);
+  CHECK(read_bytes("version_1_again.h5") == read_bytes(path));
+}
+
+TEST_CASE("equal superelements give equal bytes") {
+  const Superelement body = make_two_armed_body();
+  write_superelement(body, "bytes_a.h5");
+  write_superelement(make_two_armed_body(), "bytes_b.h5");
+  CHECK(read_bytes("bytes_a.h5") == read_bytes("bytes_b.h5"));
+  CHECK(read_bytes("bytes_a.h5").size() > 10000);
+}
+
+TEST_CASE("every part of a superelement enters its hash") {
+  const Superelement body = make_two_armed_body();
+  const std::string hash = write_superelement(body, "hash.h5");
+  const std::pair<const char*, std::function<void(Superelement&)>> changes[] = {
+      {"name", [](Superelement& s) { s.name = "other"; }},
+      {"node id", [](Superelement& s) { s.node_ids[0] = 77; }},
+      {"position", [](Superelement& s) { s.node_positions(0, 1) += 1e-15; }},
+      {"point name", [](Superelement& s) { s.points[0].name = "root"; }},
+      {"point node", [](Superelement& s) { s.points[0].node = 1; }},
+      {"element", [](Superelement& s) { s.elements(1, 0) = 2; }},
+      {"section", [](Superelement& s) { s.element_sections[0] += "x"; }},
+      {"frequency", [](Superelement& s) { s.frequency_hz(2) *= 1.0 + 1e-15; }},
+      {"damping ratio", [](Superelement& s) { s.damping_ratio(1) = 0.03; }},
+      {"cluster", [](Superelement& s) { s.cluster.array() += 1; }},
+      {"shape", [](Superelement& s) { s.shapes(4, 1) += 1e-15; }},
+      {"freedoms", [](Superelement& s) { s.num_elastic_dofs += 1; }},
+      {"stiffness", [](Superelement& s) { s.stiffness(0, 0) *= 1.01; }},
+      {"mass", [](Superelement& s) { s.mass(0, 0) *= 1.01; }},
+      {"damping", [](Superelement& s) { s.damping(0, 0) *= 1.01; }},
+      {"rigid mass", [](Superelement& s) { s.inertia.mass *= 1.01; }},
+      {"first moment", [](Superelement& s) { s.inertia.first_moment.y() += 1e-9; }},
+      {"second moment", [](Superelement& s) { s.inertia.second_moment *= 1.01; }},
+      {"P", [](Superelement& s) { s.inertia.P(1, 1) += 1e-9; }},
+      {"c", [](Superelement& s) { s.inertia.c(1) += 1e-9; }},
+      {"d", [](Superelement& s) { s.inertia.d(1) += 1e-9; }},
+      {"M_ff", [](Superelement& s) { s.inertia.M_ff(1, 1) += 1e-9; }},
+      {"B", [](Superelement& s) { s.inertia.B *= 2.0; }},
+      {"x_phi_x", [](Superelement& s) { s.inertia.x_phi_x(1) += 1e-9; }},
+      {"x_phi_y", [](Superelement& s) { s.inertia.x_phi_y(1) += 1e-9; }},
+      {"y_phi_x", [](Superelement& s) { s.inertia.y_phi_x(1) += 1e-9; }},
+      {"y_phi_y", [](Superelement& s) { s.inertia.y_phi_y(1) += 1e-9; }},
+      {"phi_x_phi_x", [](Superelement& s) { s.inertia.phi_x_phi_x(1, 1) += 1e-9; }},
+      {"phi_x_phi_y", [](Superelement& s) { s.inertia.phi_x_phi_y(1, 1) += 1e-9; }},
+      {"phi_y_phi_y", [](Superelement& s) { s.inertia.phi_y_phi_y(1, 1) += 1e-9; }},
+      {"resultants", [](Superelement& s) { s.resultants(3, 1) *= 1.01; }},
+      {"centrifugal", [](Superelement& s) { s.geometric_stiffness->centrifugal *= 2.0; }},
+      {"angular acceleration", [](Superelement& s) { s.geometric_stiffness->angular_acceleration *= 2.0; }},
+      {"acceleration", [](Superelement& s) { s.geometric_stiffness->acceleration[1] *= 2.0; }},
+      {"point load", [](Superelement& s) { s.geometric_stiffness->point_loads[1][0] *= 2.0; }},
+      {"no stiffening", [](Superelement& s) { s.geometric_stiffness.reset(); }},
+      {"check name", [](Superelement& s) { s.checks[0].name += "x"; }},
+      {"check value", [](Superelement& s) { s.checks[0].value = 0.5; }},
+      {"check tolerance", [](Superelement& s) { s.checks[0].tolerance = 0.5; }},
+      {"design text", [](Superelement& s) { s.provenance.design_text += "\n"; }},
+      {"design hash", [](Superelement& s) { s.provenance.design_hash[0] = 'c'; }},
+      {"input name", [](Superelement& s) { s.provenance.input_names[0] = "x.geo"; }},
+      {"input hash", [](Superelement& s) { s.provenance.input_hashes[0][0] = 'c'; }},
+      {"program", [](Superelement& s) { s.provenance.program_version += "x"; }},
+      {"revision", [](Superelement& s) { s.provenance.algorithm_revision = 4; }}};
+  for (const auto& [part, change] : changes) {
+    CAPTURE(part);
+    Superelement changed = body;
+    change(changed);
+    CHECK(write_superelement(changed, "hash.h5") != hash);
+    CHECK(read_superelement("hash.h5").content_hash != hash);
+  }
+}
+
+TEST_CASE("what does not fit together is not written") {
+  const Superelement body = make_two_armed_body();
+  const auto fault = [&](const std::function<void(Superelement&)>& change) {
+    Superelement changed = body;
+    change(changed);
+    return message_of<std::invalid_argument>([&] { write_superelement(changed, "never.h5"); });
+  };
+  CHECK_THAT(fault([](Superelement& s) { s.name.clear(); }), Contains("'name' is empty"));
+  CHECK_THAT(fault([](Superelement& s) { s.node_ids[1] = s.node_ids[0]; }),
+             Contains("/nodes/id' has node 1 twice"));
+  CHECK_THAT(fault([](Superelement& s) { s.points[1].name = "foot"; }),
+             Contains("has the name 'foot' twice"));
+  CHECK_THAT(fault([](Superelement& s) { s.points[1].node = 6; }),
+             Contains("has node 6 for point 'tip', expected 0 … 5"));
+  CHECK_THAT(fault([](Superelement& s) { s.elements(0, 0) = s.elements(1, 0); }),
+             Contains("/elements/node'"));
+  CHECK_THAT(fault([](Superelement& s) { s.element_sections.pop_back(); }), Contains("/elements/section'"));
+  CHECK_THAT(fault([](Superelement& s) { s.frequency_hz(0) = 0.0; }),
+             Contains("is 0 Hz for mode 1, expected > 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.frequency_hz.row(0).swap(s.frequency_hz.row(3)); }),
+             Contains("falls from"));
+  CHECK_THAT(fault([](Superelement& s) { s.damping_ratio(2) = -0.1; }),
+             Contains("is -0.1 for mode 3, expected ≥ 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.cluster(0) = 5; }), Contains("/modes/cluster'"));
+  CHECK_THAT(fault([](Superelement& s) { s.num_elastic_dofs = 6; }), Contains("num_elastic_dofs is 6"));
+  CHECK_THAT(fault([](Superelement& s) { s.shapes(0, 0) = std::numeric_limits<double>::quiet_NaN(); }),
+             Contains("/modes/shape' contains NaN"));
+  CHECK_THAT(fault([](Superelement& s) { s.stiffness(0, 1) += 1.0; }),
+             Contains("/matrices/stiffness' is not symmetric"));
+  CHECK_THAT(fault([](Superelement& s) { s.mass(0, 1) = s.mass(1, 0) = 2.0; }),
+             Contains("/matrices/mass' is not positive definite"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.mass = -1.0; }),
+             Contains("/inertia/mass' is -1 kg, expected > 0"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.second_moment = 1e-3; }),
+             Contains("/inertia/second_moment'"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.B(0, 1) += 1.0; }), Contains("/inertia/B' is not skew"));
+  CHECK_THAT(fault([](Superelement& s) { s.inertia.P.conservativeResize(2, 6); }),
+             Contains("/inertia/P' has 2×6 values, expected 2×7"));
+  CHECK_THAT(fault([](Superelement& s) { s.resultants.conservativeResize(29, 7); }),
+             Contains("/resultants'"));
+  CHECK_THAT(fault([](Superelement& s) { s.geometric_stiffness->centrifugal(0, 1) += 1.0; }),
+             Contains("/stiffening/centrifugal' is not symmetric"));
+  CHECK_THAT(fault([](Superelement& s) { s.geometric_stiffness->centrifugal.setZero(8, 8); }),
+             Contains("/stiffening/centrifugal' is of 8 modes, expected 1 … 7"));
+  CHECK_THAT(fault([](Superelement& s) { s.geometric_stiffness->acceleration[1].setZero(6, 6); }),
+             Contains("/stiffening/acceleration' has 6×6 values, expected 7×7"));
+  CHECK_THAT(fault([](Superelement& s) { s.geometric_stiffness->point_loads.pop_back(); }),
+             Contains("/stiffening/point_load' is of 1 points, expected 2"));
+  CHECK_THAT(fault([](Superelement& s) { s.provenance.input_hashes.clear(); }),
+             Contains("/provenance/input_hash'"));
+  CHECK_FALSE(std::filesystem::exists("never.h5"));
+  CHECK_FALSE(std::filesystem::exists("never.h5.tmp"));
+}
+
+}  // namespace
+}  // namespace sprung::reduce

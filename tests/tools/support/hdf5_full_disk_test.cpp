@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/tools/support/child_process.h"
+#include "tests/tools/support/temporary_folder.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+// A limit on the size of files (RLIMIT_FSIZE) stands for the full disk: both fail in the middle of a write.
+// Each case runs in a process of its own, to its very end, because HDF5 cleans up in its destructor and at
+// exit.
+
+using namespace sprung::support;
+
+namespace {
+
+enum Outcome : int {
+  kAsExpected = 0,
+  kNoError = 10,
+  kWrongMessage = 11,
+  kLeftBehind = 12,
+  kStillOpen = 13,
+  kUnusable = 14
+};
+
+void limit_file_size(rlim_t bytes) {
+  std::signal(SIGXFSZ, SIG_IGN);  // as run_program does
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = bytes;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+void lift_limit() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = limit.rlim_max;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+// Descriptors this process has open: a file that is removed but open still fills the disk.
+std::ptrdiff_t num_descriptors() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                       std::filesystem::directory_iterator());
+}
+
+void write_growing(Hdf5Writer& writer) {
+  const std::vector<double> rows(3 * 512, 1.25);
+  for (int i = 0; i < 20; ++i) writer.make_growing(fmt::format("bodies/b{}", i), 3, "m");
+  for (int step = 0; step < 20; ++step) {
+    for (int i = 0; i < 20; ++i) writer.append(fmt::format("bodies/b{}", i), rows);
+  }
+  writer.commit();
+}
+
+void write_at_once(Hdf5Writer& writer) {
+  writer.write("matrix", Eigen::MatrixXd::Constant(1000, 700, 0.5), "m");
+  for (int i = 0; i < 50; ++i) writer.write(fmt::format("x{}", i), std::vector<double>(1000, 0.25), "m");
+  writer.commit();
+}
+
+void write_flushing(Hdf5Writer& writer) {
+  writer.make_growing("t", 0, "s");
+  for (int i = 0; i < 1000; ++i) {
+    writer.append("t", std::vector<double>(1000, 0.25));
+    writer.flush();
+  }
+  writer.commit();
+}
+
+// Catches the error and goes on to keep what there is, as an interrupted run would: that fails as well.
+void write_and_keep(Hdf5Writer& writer) {
+  try {
+    write_growing(writer);
+  } catch (const InputError&) {
+    writer.keep_temporary();
+  }
+}
+
+// The limited write, then a good one in the same process.
+int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf5Writer&)) {
+  const std::ptrdiff_t num_open = num_descriptors();
+  limit_file_size(limit);
+  const std::string target = (folder / "a.h5").string();
+  try {
+    Hdf5Writer writer(target);
+    write(writer);
+    return kNoError;
+  } catch (const InputError& error) {
+    const std::string_view message = error.what();
+    const bool named = message.starts_with(target + ": error: ");
+    if (!named || message.find("File too large") == std::string_view::npos) return kWrongMessage;
+  }
+  if (!folder.is_empty()) return kLeftBehind;
+  if (num_descriptors() != num_open) return kStillOpen;
+  lift_limit();
+  Hdf5Writer writer(target);
+  write_at_once(writer);
+  return Hdf5Reader(target).vector("x49", 1000)[999] == 0.25 ? kAsExpected : kUnusable;
+}
+
+}  // namespace
+
+TEST_CASE("a write that fails is an input error, leaves nothing behind and does not harm the process") {
+  const rlim_t limit = GENERATE(100, 2000, 20000, 300000, 1000000, 2000000, 4700000);
+  const auto write = GENERATE(write_growing, write_at_once, write_flushing, write_and_keep);
+  const TemporaryFolder folder;
+  const ChildResult result = run_in_child([&] { return write_limited(folder, limit, write); });
+  INFO("limit " << limit << ", signal " << result.signal << ", output " << result.output);
+  CHECK(result.exit_code == kAsExpected);
+  CHECK(result.output.empty());
+}
+
+TEST_CASE("a write that fails leaves an earlier file whole") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("x", std::vector{1.0, 2.0}, "m");
+    writer.commit();
+  }
+  const std::string before = read_bytes(folder / "a.h5");
+  const ChildResult result = run_in_child([&] {
+    limit_file_size(100000);
+    try {
+      Hdf5Writer writer(folder / "a.h5");
+      write_growing(writer);
+    } catch (const InputError&) {
+      return kAsExpected;
+    }
+    return kNoError;
+  });
+  CHECK(result.exit_code == kAsExpected);
+  CHECK(read_bytes(folder / "a.h5") == before);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+}
+
+TEST_CASE("a writer given up before it has written its data leaves nothing, though the data would not fit") {
+  const TemporaryFolder folder;
+  const ChildResult result = run_in_child([&] {
+    limit_file_size(5000);
+    try {
+      Hdf5Writer writer(folder / "a.h5");
+      writer.make_growing("t", 0, "s");
+      writer.append("t", std::vector<double>(1000, 0.5));  // no whole chunk: not in the file yet
+      throw std::runtime_error("another matter");
+    } catch (const InputError&) {
+      return kWrongMessage;
+    } catch (const std::runtime_error&) {
+      return folder.is_empty() ? kAsExpected : kLeftBehind;
+    }
+  });
+  INFO("signal " << result.signal << ", output " << result.output);
+  CHECK(result.exit_code == kAsExpected);
+  CHECK(result.output.empty());
+}

@@ -1,0 +1,182 @@
+#include <hdf5.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/catch.h"
+#include "tests/tools/support/error_message.h"
+#include "tests/tools/support/temporary_folder.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+using namespace sprung::support;
+
+namespace {
+
+const std::vector<double> kValues = {1.5, -2.5, 3.5};
+
+void write_file(const std::filesystem::path& path) {
+  Hdf5Writer writer(path);
+  writer.attribute("/", "format", "test");
+  writer.write("/a/values", kValues, "m");
+  writer.write("/names", std::vector<std::string>{"x", "long"});
+  writer.make_growing("/time", 0, "s");
+  for (int i = 0; i < 3000; ++i) writer.append("/time", std::array{1e-3 * i});
+  writer.attribute("/", "complete", std::int64_t{1});
+  writer.commit();
+}
+
+}  // namespace
+
+TEST_CASE("equal calls give equal bytes") {
+  const TemporaryFolder folder;
+  write_file(folder / "a.h5");
+  write_file(folder / "b.h5");
+  const std::string first = read_bytes(folder / "a.h5");
+  CHECK(first.size() > 3000 * sizeof(double));
+  CHECK(first == read_bytes(folder / "b.h5"));
+}
+
+TEST_CASE("every dataset is chunked, has a checksum and no time stamp") {
+  const TemporaryFolder folder;
+  write_file(folder / "a.h5");
+  const hid_t file = H5Fopen((folder / "a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* name : {"/a/values", "/names", "/time"}) {
+    INFO(name);
+    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    const hid_t properties = H5Dget_create_plist(dataset);
+    CHECK(H5Pget_layout(properties) == H5D_CHUNKED);
+    unsigned int flags = 0;
+    CHECK(H5Pget_filter_by_id2(properties, H5Z_FILTER_FLETCHER32, &flags, nullptr, nullptr, 0, nullptr,
+                               nullptr) >= 0);
+    H5Pclose(properties);
+    H5Dclose(dataset);
+  }
+  for (const char* name : {"/", "/a", "/a/values", "/names", "/time"}) {
+    INFO(name);
+    H5O_info_t info{};
+    CHECK(H5Oget_info_by_name2(file, name, &info, H5O_INFO_TIME, H5P_DEFAULT) >= 0);
+    CHECK(info.ctime == 0);
+    CHECK(info.mtime == 0);
+  }
+  H5Fclose(file);
+}
+
+TEST_CASE("the target appears when the file is whole, and not before") {
+  const TemporaryFolder folder;
+  Hdf5Writer writer(folder / "a.h5");
+  CHECK(writer.temporary() == folder / "a.h5.tmp");
+  writer.write("x", kValues, "m");
+  writer.flush();
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5"));
+  writer.commit();
+  CHECK(std::filesystem::exists(folder / "a.h5"));
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+}
+
+TEST_CASE("what is not committed leaves nothing behind, and the old file whole") {
+  const TemporaryFolder folder;
+  write_file(folder / "a.h5");
+  const std::string before = read_bytes(folder / "a.h5");
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("x", kValues, "m");
+    writer.make_growing("t", 0, "s");
+    writer.append("t", kValues);
+  }
+  CHECK(read_bytes(folder / "a.h5") == before);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+}
+
+TEST_CASE("a temporary file that is kept can be read") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
+    writer.make_growing("t", 0, "s");
+    writer.append("t", kValues);
+    writer.keep_temporary();
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "run.h5"));
+  CHECK(Hdf5Reader(folder / "run.partial.h5").vector("t", 3)[2] == 3.5);
+}
+
+TEST_CASE("a file left over from a crash is written over") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.h5.tmp", "half a file");
+  write_file(folder / "a.h5");
+  CHECK(Hdf5Reader(folder / "a.h5").vector("/a/values", 3)[0] == 1.5);
+}
+
+TEST_CASE("two writers do not write one file") {
+  const TemporaryFolder folder;
+  const std::string target = (folder / "a.h5").string();
+  Hdf5Writer first(target);
+  first.write("x", kValues, "m");
+  first.flush();
+  CHECK(error_message<InputError>([&] { Hdf5Writer second(target); }) ==
+        target + ": error: cannot be written: another writer is at '" + target + ".tmp'");
+  first.commit();
+  CHECK(Hdf5Reader(target).vector("x", 3)[0] == 1.5);
+}
+
+TEST_CASE("a target that cannot be written is refused before anything is") {
+  const TemporaryFolder folder;
+  const std::string place = folder.path().string();
+  const auto error = [&](const std::string& name) {
+    return error_message<InputError>([&] { Hdf5Writer writer(place + name); });
+  };
+  CHECK(error("/none/deep/a.h5") ==
+        place + "/none/deep/a.h5: error: cannot be written: there is no folder '" + place + "/none'");
+  CHECK(error("/") == place + "/: error: cannot be written: it names no file");
+  CHECK(folder.is_empty());
+  std::filesystem::create_directory(folder / "sub");
+  CHECK(error("/sub") == place + "/sub: error: cannot be written: it is a folder");
+  write_bytes(folder / "file", "text");
+  CHECK(error("/file/a.h5") ==
+        place + "/file/a.h5: error: cannot be written: '" + place + "/file' is not a folder");
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(error("/pipe") == place + "/pipe: error: cannot be written: it is not a regular file");
+  std::filesystem::create_directory(folder / "a.h5.tmp");
+  CHECK(error("/a.h5") == place + "/a.h5: error: cannot be written: '" + place + "/a.h5.tmp' is in the way");
+  CHECK(error_message<InputError>([] { Hdf5Writer writer("/dev/null"); }) ==
+        "/dev/null: error: cannot be written: it is not a regular file");
+}
+
+TEST_CASE("a target that has become a folder leaves no temporary file") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    std::filesystem::create_directory(folder / "a.h5");
+    CHECK(error_message<InputError>([&] { writer.commit(); }) ==
+          (folder / "a.h5").string() + ": error: cannot be written: Is a directory");
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
+}
+
+TEST_CASE("a caller's mistake is told from a bad file") {
+  const TemporaryFolder folder;
+  Hdf5Writer writer(folder / "a.h5");
+  writer.write("x", kValues, "m");
+  writer.make_growing("t", 2, "s");
+  const auto error = [](const auto& call) { return error_message<std::invalid_argument>(call); };
+  CHECK(error([&] { writer.write("/x", kValues, "m"); }) == "Hdf5Writer: dataset '/x' is there already");
+  CHECK(error([&] {
+          writer.write("y", kValues, {1, 2, 2}, "m");
+        }) == "Hdf5Writer::write: 'y' has 3 values, its shape asks for 4");
+  CHECK(error([&] { writer.append("t", kValues); }) ==
+        "Hdf5Writer::append: 3 values are not whole rows of 't' (2 columns)");
+  CHECK(error([&] { writer.append("x", kValues); }) == "Hdf5Writer::append: there is no growing dataset 'x'");
+  CHECK(error([&] { writer.attribute("z", "a", 1.0); }) == "Hdf5Writer::attribute: there is no 'z'");
+  CHECK(error([&] { writer.write("s", std::vector{std::string(1, '\0')}); }) ==
+        "Hdf5Writer: a string of 's' contains NUL");
+  CHECK(error([&] { writer.attribute("/", "s", std::string(1, '\0')); }) ==
+        "Hdf5Writer: a string of 's' contains NUL");
+  CHECK(error([&] { Hdf5Writer other(folder / "b.h5", "/tmp/b.tmp"); }) ==
+        "Hdf5Writer: temporary '/tmp/b.tmp' is not in the folder of '" + (folder / "b.h5").string() + "'");
+  writer.commit();  // none of them has spoilt the file
+  CHECK(Hdf5Reader(folder / "a.h5").members("/") == std::vector<std::string>{"t", "x"});
+}

@@ -1,0 +1,116 @@
+#include <string>
+#include <utility>
+
+#include "tests/catch.h"
+#include "tests/tools/support/error_message.h"
+#include "tests/tools/support/temporary_folder.h"
+#include "tools/support/toml/toml.h"
+
+using namespace sprung::support;
+
+namespace {
+
+std::string parse_error(const std::string& text) {
+  return error_message<InputError>([&] { TomlDocument::parse(text, "v.toml"); });
+}
+
+std::string place(const SourceLocation& location) {
+  return location.path + ":" + std::to_string(location.line) + ":" + std::to_string(location.column);
+}
+
+}  // namespace
+
+TEST_CASE("every value knows its place and full key") {
+  const TomlDocument document = TomlDocument::parse(
+      "# truck\n"
+      "speed = 3.0\n"
+      "\n"
+      "[bodies.chassis]\n"
+      "mass = 11950\n"
+      "  \"long name\" = { x = [1, 2.5] }\n"
+      "[[forces]]\n"
+      "kind = \"spring\"\n"
+      "[[forces]]\n"
+      "kind = \"damper\"\n",
+      "v.toml");
+  const TomlTable root = document.root();
+  CHECK(place(root.location()) == "v.toml:0:0");
+  CHECK(root.key().empty());
+  CHECK(place(root.at("speed").location()) == "v.toml:2:9");
+  CHECK(root.at("speed").key() == "speed");
+
+  const TomlTable chassis = root.at("bodies").table().at("chassis").table();
+  CHECK(place(chassis.location()) == "v.toml:4:1");
+  CHECK(chassis.key() == "bodies.chassis");
+  CHECK(place(chassis.at("mass").location()) == "v.toml:5:8");
+  const TomlValue x = chassis.at("long name").table().at("x");
+  CHECK(x.key() == "bodies.chassis.\"long name\".x");
+  CHECK(x.items()[1].key() == "bodies.chassis.\"long name\".x.1");
+  CHECK(place(x.items()[1].location()) == "v.toml:6:27");
+
+  const TomlValue kind = root.at("forces").items()[1].table().at("kind");
+  CHECK(kind.key() == "forces.1.kind");
+  CHECK(place(kind.location()) == "v.toml:10:8");
+}
+
+TEST_CASE("a table's entries come in the order of the file") {
+  const TomlDocument document = TomlDocument::parse(
+      "[joints.rear]\nb = 1\na = 2\n[bodies.z]\n[bodies.a]\n[joints.front]\n[bodies.m]\n[a]\nz.y = 1\nb = {d "
+      "= 1, c = 2}\n",
+      "v.toml");
+  const auto names = [](const TomlTable& table) {
+    std::string text;
+    for (const auto& [name, value] : table.entries()) text += name + " ";
+    return text;
+  };
+  const TomlTable root = document.root();
+  CHECK(names(root) == "joints bodies a ");
+  CHECK(names(root.at("joints").table()) == "rear front ");
+  CHECK(names(root.at("joints").table().at("rear").table()) == "b a ");
+  CHECK(names(root.at("bodies").table()) == "z a m ");
+  CHECK(names(root.at("a").table()) == "z b ");
+  CHECK(names(root.at("a").table().at("b").table()) == "d c ");
+}
+
+TEST_CASE("a document is read from a file, and keeps its text") {
+  const TemporaryFolder folder;
+  const std::string text = "\xEF\xBB\xBF# with a byte-order mark\r\nmass = 5\r\nname = \"träger\"\r\n";
+  write_bytes(folder / "v.toml", text);
+  TomlDocument document = TomlDocument::read(folder / "v.toml");
+  CHECK(document.text() == text);
+  CHECK(document.name() == (folder / "v.toml").string());
+  CHECK(document.root().number("mass", any("kg")) == 5.0);
+  CHECK(document.root().string("name") == "träger");
+  CHECK(place(document.root().at("mass").location()) == (folder / "v.toml").string() + ":2:8");
+}
+
+TEST_CASE("views survive a move of their document") {
+  TomlDocument first = TomlDocument::parse("mass = 5", "v.toml");
+  const TomlTable root = first.root();
+  const TomlDocument second = std::move(first);
+  CHECK(root.number("mass", any("kg")) == 5.0);
+}
+
+TEST_CASE("a file that cannot be read is named") {
+  const TemporaryFolder folder;
+  CHECK(error_message<InputError>([&] { TomlDocument::read(folder / "none.toml"); }) ==
+        (folder / "none.toml").string() + ": error: cannot be read: No such file or directory");
+}
+
+TEST_CASE("a text that is not TOML is refused where the fault is") {
+  // The places are those of the offending characters; the words after them are the parsing library's.
+  CHECK_THAT(parse_error("a = 1\nb = = 2\n"), Catch::StartsWith("v.toml:2:5: error: is not TOML: "));
+  CHECK_THAT(parse_error("a = 1\na = 2\n"), Catch::StartsWith("v.toml:2:"));
+  CHECK_THAT(parse_error("a = 1\na = 2\n"), Catch::Contains("error: is not TOML: "));
+  CHECK_THAT(parse_error("a = [1, 2\n"), Catch::Contains("error: is not TOML: "));
+  CHECK_THAT(parse_error("a = \"\xFF\"\n"), Catch::StartsWith("v.toml:1:"));
+  CHECK_THAT(parse_error("a = 99999999999999999999\n"), Catch::StartsWith("v.toml:1:"));
+}
+
+TEST_CASE("dates and times are refused") {
+  CHECK(parse_error("[run]\nstart = 1983-06-01\n") ==
+        "v.toml:2:9: error: 'run.start' is a date or time, which no key takes");
+  CHECK(parse_error("a = [07:32:00]\n") == "v.toml:1:6: error: 'a.0' is a date or time, which no key takes");
+  CHECK(parse_error("a = 1979-05-27T07:32:00Z\n") ==
+        "v.toml:1:5: error: 'a' is a date or time, which no key takes");
+}

@@ -1,0 +1,58 @@
+#include "tools/support/errors/input_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace sprung::support {
+
+namespace {
+
+std::string format_message(const SourceLocation& where, std::string_view message) {
+  if (where.path.empty()) return fmt::format("error: {}", message);
+  if (where.line <= 0) return fmt::format("{}: error: {}", where.path, message);
+  if (where.column <= 0) return fmt::format("{}:{}: error: {}", where.path, where.line, message);
+  return fmt::format("{}:{}:{}: error: {}", where.path, where.line, where.column, message);
+}
+
+// Levenshtein distance; a letter changed, added or left out costs 1.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+InputError::InputError(const SourceLocation& where, std::string_view message)
+    : std::runtime_error(format_message(where, message)) {}
+
+std::string find_nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  std::string nearest;
+  std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < best) {
+      best = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+std::string nearest_name_hint(std::string_view name, std::span<const std::string> candidates) {
+  const std::string nearest = find_nearest_name(name, candidates);
+  return nearest.empty() ? nearest : fmt::format(" (did you mean '{}'?)", nearest);
+}
+
+}  // namespace sprung::support

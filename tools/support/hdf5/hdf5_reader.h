@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/support/hdf5/hdf5_handle.h"
+#include "tools/support/hdf5/row_matrix.h"
+
+namespace sprung::support {
+
+/// Reads an HDF5 file strictly: a missing dataset, another type or shape, NaN or infinity, or a chunk whose
+/// checksum fails throws InputError `path: error: dataset '…' …`. Declared sizes are held against the file's
+/// size before anything is allocated. Compressed datasets and strings of variable length are refused: this
+/// project's files have none, and the latter carry no checksum.
+class Hdf5Reader {
+ public:
+  /// @throws InputError if the file is missing, empty, truncated, not HDF5, or was left open by its writer.
+  explicit Hdf5Reader(std::filesystem::path path);
+
+  bool has(const std::string& object) const;
+  /// Names of the members of a group, sorted.
+  std::vector<std::string> members(const std::string& group) const;
+  std::vector<std::size_t> shape(const std::string& dataset) const;
+
+  /// @param rows, columns  expected shape; -1 accepts any
+  Eigen::MatrixXd matrix(const std::string& dataset, std::int64_t rows, std::int64_t columns) const;
+  Eigen::VectorXd vector(const std::string& dataset, std::int64_t size) const;
+  /// Values of an array of any rank, row-major.
+  std::vector<double> array(const std::string& dataset, std::span<const std::size_t> shape) const;
+  std::vector<std::int64_t> integers(const std::string& dataset, std::int64_t size) const;
+  /// Row-major.
+  std::vector<std::int64_t> integers(const std::string& dataset, std::int64_t rows,
+                                     std::int64_t columns) const;
+  std::vector<std::string> strings(const std::string& dataset) const;  ///< rank 1, any length
+
+  /// Attributes of a group or dataset; "/" for the file itself.
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  std::string string_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(std::string_view message) const;
+  template <typename Function>
+  auto attempt(Function&& function) const;  // HDF5's failures as InputError of this file
+  template <typename Scalar>
+  std::vector<Scalar> read(const std::string& dataset, std::span<const std::int64_t> shape) const;
+
+  std::filesystem::path path_;
+  std::uint64_t file_size_ = 0;
+  Hdf5Handle file_;
+};
+
+}  // namespace sprung::support

@@ -1,0 +1,208 @@
+#include "tools/support/hdf5/hdf5_stored.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tools/support/hdf5/hdf5_library.h"
+
+namespace sprung::support::hdf5 {
+
+namespace {
+
+// "3×2", "a single value" for rank 0; what is negative is any number.
+template <typename Size>
+std::string format_shape(std::span<const Size> shape) {
+  if (shape.empty()) return "a single value";
+  std::string text;
+  for (const Size size : shape) {
+    if (!text.empty()) text += "×";
+    text += std::cmp_less(size, 0) ? std::string("any") : std::to_string(size);
+  }
+  return text;
+}
+
+// "[2, 0]": the place of a value in a row-major array.
+std::string format_index(std::size_t position, std::span<const std::size_t> shape) {
+  std::string text;
+  for (std::size_t i = shape.size(); i-- > 0;) {
+    text = fmt::format("{}{}{}", position % shape[i], text.empty() ? "" : ", ", text);
+    position /= shape[i];
+  }
+  return fmt::format("[{}]", text);
+}
+
+std::string_view type_name(hid_t type) {
+  switch (H5Tget_class(type)) {
+    case H5T_FLOAT:
+      return "real numbers";
+    case H5T_INTEGER:
+      return "integers";
+    case H5T_STRING:
+      return "strings";
+    default:
+      return "another type";
+  }
+}
+
+void expect_real(hid_t type, const std::string& label) {
+  if (H5Tget_class(type) != H5T_FLOAT) {
+    throw Failure(fmt::format("{} must hold real numbers, holds {}", label, type_name(type)));
+  }
+}
+
+void expect_integer(hid_t type, const std::string& label) {
+  if (H5Tget_class(type) != H5T_INTEGER) {
+    throw Failure(fmt::format("{} must hold integers, holds {}", label, type_name(type)));
+  }
+  const bool too_wide = H5Tget_sign(type) == H5T_SGN_NONE && H5Tget_size(type) >= sizeof(std::int64_t);
+  if (too_wide || H5Tget_size(type) > sizeof(std::int64_t)) {
+    throw Failure(fmt::format("{} holds integers that do not fit into 64 bits with a sign", label));
+  }
+}
+
+// @return bytes of each string
+std::size_t expect_string(hid_t type, const std::string& label) {
+  if (H5Tget_class(type) != H5T_STRING) {
+    throw Failure(fmt::format("{} must hold strings, holds {}", label, type_name(type)));
+  }
+  if (check(H5Tis_variable_str(type), label) > 0) {
+    throw Failure(fmt::format("{} must hold strings of fixed length, theirs varies", label));
+  }
+  return H5Tget_size(type);
+}
+
+// What a padded string holds.
+std::string unpadded(std::string_view text) {
+  return std::string(text.substr(0, text.find('\0')));
+}
+
+}  // namespace
+
+Hdf5Handle open_object(std::int64_t file, const std::string& path, std::string_view kind) {
+  if (!exists(file, path)) throw Failure(fmt::format("{} '{}' is missing", kind, path));
+  Hdf5Handle object = own(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose,
+                          fmt::format("{} '{}' cannot be read", kind, path));
+  const H5I_type_t expected = kind == "group" ? H5I_GROUP : H5I_DATASET;
+  if (H5Iget_type(object.get()) != expected) throw Failure(fmt::format("'{}' is not a {}", path, kind));
+  return object;
+}
+
+StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size)
+    : label_(fmt::format("dataset '{}'", path)), dataset_(open_object(file, path, "dataset")) {
+  const std::string what = label_ + " cannot be read";
+  type_ = own(H5Dget_type(dataset_.get()), H5Tclose, what);
+  const Hdf5Handle space = own(H5Dget_space(dataset_.get()), H5Sclose, what);
+  if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) throw Failure(label_ + " has no values");
+  std::vector<hsize_t> dimensions(check(H5Sget_simple_extent_ndims(space.get()), what));
+  check(H5Sget_simple_extent_dims(space.get(), dimensions.data(), nullptr), what);
+  shape_.assign(dimensions.begin(), dimensions.end());
+  check_storage(file_size);
+  for (const std::size_t size : shape_) count_ *= size;
+}
+
+// A damaged or hostile header may declare anything: before memory is taken for it, the data must be there.
+void StoredDataset::check_storage(std::uint64_t file_size) const {
+  const std::string what = label_ + " cannot be read";
+  const Hdf5Handle properties = own(H5Dget_create_plist(dataset_.get()), H5Pclose, what);
+  const H5D_layout_t layout = H5Pget_layout(properties.get());
+  const bool elsewhere = (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) ||
+                         H5Pget_external_count(properties.get()) != 0;
+  if (elsewhere) throw Failure(label_ + " has its data in another file, which is not read");
+  const std::uint64_t stored = H5Dget_storage_size(dataset_.get());
+  const std::uint64_t limit = std::min(stored, file_size);
+  const bool empty = std::find(shape_.begin(), shape_.end(), std::size_t{0}) != shape_.end();
+  std::uint64_t declared = empty ? 0 : std::max<std::uint64_t>(H5Tget_size(type_.get()), 1);
+  for (const std::size_t size : shape_) {
+    if (declared != 0 && size > limit / declared) {
+      throw Failure(
+          fmt::format("{} declares {} values, but holds only {} bytes (it is damaged, or compressed)", label_,
+                      format_shape(std::span<const std::size_t>(shape_)), limit));
+    }
+    declared *= size;
+  }
+}
+
+void StoredDataset::expect_shape(std::span<const std::int64_t> expected) const {
+  const bool fits = std::equal(
+      expected.begin(), expected.end(), shape_.begin(), shape_.end(),
+      [](std::int64_t wanted, std::size_t found) { return wanted < 0 || std::cmp_equal(wanted, found); });
+  if (fits) return;
+  throw Failure(fmt::format("{} must have shape {}, has {}", label_, format_shape(expected),
+                            format_shape(std::span<const std::size_t>(shape_))));
+}
+
+void StoredDataset::read(std::int64_t memory_type, void* values) const {
+  check(H5Dread(dataset_.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+        label_ + " cannot be read");
+}
+
+std::vector<double> StoredDataset::read_doubles() const {
+  expect_real(type_.get(), label_);
+  std::vector<double> values(count_);
+  if (count_ > 0) read(H5T_NATIVE_DOUBLE, values.data());
+  const auto bad =
+      std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+  if (bad != values.end()) {
+    throw Failure(fmt::format("{} has {} at {}", label_, *bad,
+                              format_index(static_cast<std::size_t>(bad - values.begin()), shape_)));
+  }
+  return values;
+}
+
+std::vector<std::int64_t> StoredDataset::read_integers() const {
+  expect_integer(type_.get(), label_);
+  std::vector<std::int64_t> values(count_);
+  if (count_ > 0) read(H5T_NATIVE_INT64, values.data());
+  return values;
+}
+
+std::vector<std::string> StoredDataset::read_strings() const {
+  const std::size_t size = expect_string(type_.get(), label_);
+  std::string characters(size * count_, '\0');
+  if (count_ > 0) read(type_.get(), characters.data());
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < count_; ++i) {
+    values.push_back(unpadded(std::string_view(characters).substr(i * size, size)));
+  }
+  return values;
+}
+
+StoredAttribute::StoredAttribute(std::int64_t file, const std::string& object, const std::string& name,
+                                 std::uint64_t file_size)
+    : label_(fmt::format("attribute '{}' of '{}'", name, object)) {
+  const std::string what = label_ + " cannot be read";
+  if (!exists(file, object)) throw Failure(fmt::format("'{}' is missing", object));
+  if (check(H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT), what) == 0) {
+    throw Failure(label_ + " is missing");
+  }
+  attribute_ =
+      own(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  type_ = own(H5Aget_type(attribute_.get()), H5Tclose, what);
+  const Hdf5Handle space = own(H5Aget_space(attribute_.get()), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space.get()) != 1) throw Failure(label_ + " must be a single value");
+  if (H5Tget_size(type_.get()) > file_size) throw Failure(label_ + " declares more bytes than the file has");
+}
+
+double StoredAttribute::read_double() const {
+  expect_real(type_.get(), label_);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  check(H5Aread(attribute_.get(), H5T_NATIVE_DOUBLE, &value), label_ + " cannot be read");
+  if (!std::isfinite(value)) throw Failure(fmt::format("{} is {}", label_, value));
+  return value;
+}
+
+std::int64_t StoredAttribute::read_integer() const {
+  expect_integer(type_.get(), label_);
+  std::int64_t value = 0;
+  check(H5Aread(attribute_.get(), H5T_NATIVE_INT64, &value), label_ + " cannot be read");
+  return value;
+}
+
+std::string StoredAttribute::read_string() const {
+  std::string characters(expect_string(type_.get(), label_), '\0');
+  check(H5Aread(attribute_.get(), type_.get(), characters.data()), label_ + " cannot be read");
+  return unpadded(characters);
+}
+
+}  // namespace sprung::support::hdf5

@@ -1,0 +1,63 @@
+#pragma once
+
+// Private to this room: a dataset or attribute of a file that is not trusted, checked before it is read.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/support/hdf5/hdf5_handle.h"
+
+namespace sprung::support::hdf5 {
+
+/// @param kind  "group" or "dataset", which the object must be
+/// @throws Failure if it is missing or something else
+Hdf5Handle open_object(std::int64_t file, const std::string& path, std::string_view kind);
+
+/// A dataset of plain storage: chunked or contiguous, not compressed, not elsewhere.
+class StoredDataset {
+ public:
+  /// @param file_size  [bytes]; a dataset that declares more than this is refused
+  /// @throws Failure if it is missing, damaged, or declares more data than the file holds
+  StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size);
+
+  const std::vector<std::size_t>& shape() const { return shape_; }
+  /// @param expected  -1 accepts any  @throws Failure naming both shapes
+  void expect_shape(std::span<const std::int64_t> expected) const;
+
+  // Row-major. @throws Failure on another type, a checksum that does not fit, NaN or infinity
+  std::vector<double> read_doubles() const;
+  std::vector<std::int64_t> read_integers() const;
+  std::vector<std::string> read_strings() const;
+
+ private:
+  void check_storage(std::uint64_t file_size) const;
+  void read(std::int64_t memory_type, void* values) const;
+
+  std::string label_;  // "dataset '/modes/shape'"
+  Hdf5Handle dataset_;
+  Hdf5Handle type_;
+  std::vector<std::size_t> shape_;
+  std::size_t count_ = 1;  // values
+};
+
+/// A single value attached to a group or dataset.
+class StoredAttribute {
+ public:
+  StoredAttribute(std::int64_t file, const std::string& object, const std::string& name,
+                  std::uint64_t file_size);
+
+  // @throws Failure on another type, NaN or infinity
+  double read_double() const;
+  std::int64_t read_integer() const;
+  std::string read_string() const;
+
+ private:
+  std::string label_;
+  Hdf5Handle attribute_;
+  Hdf5Handle type_;
+};
+
+}  // namespace sprung::support::hdf5

@@ -1,0 +1,307 @@
+#include "tools/support/hdf5/hdf5_writer.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "tools/support/errors/input_error.h"
+#include "tools/support/files/output_target.h"
+#include "tools/support/hdf5/hdf5_library.h"
+
+namespace sprung::support {
+
+namespace fs = std::filesystem;
+
+// What goes into one dataset.
+struct Hdf5Writer::Array {
+  std::int64_t file_type;
+  std::int64_t memory_type;
+  std::size_t element_size;  // [bytes]
+  const void* data;
+  std::size_t count;  // values at `data`, which the shape must ask for
+  std::vector<hsize_t> shape;
+  std::optional<std::string_view> unit = {};
+
+  static Array of(std::span<const double> values, std::vector<hsize_t> shape, std::string_view unit) {
+    return {.file_type = H5T_IEEE_F64LE,
+            .memory_type = H5T_NATIVE_DOUBLE,
+            .element_size = sizeof(double),
+            .data = values.data(),
+            .count = values.size(),
+            .shape = std::move(shape),
+            .unit = unit};
+  }
+  static Array of(std::span<const std::int64_t> values, std::vector<hsize_t> shape) {
+    return {.file_type = H5T_STD_I64LE,
+            .memory_type = H5T_NATIVE_INT64,
+            .element_size = sizeof(std::int64_t),
+            .data = values.data(),
+            .count = values.size(),
+            .shape = std::move(shape)};
+  }
+};
+
+namespace {
+
+// HDF5 truncates before it takes its lock, so check_temporary has to come first.
+Hdf5Handle create_file(const fs::path& temporary) {
+  const std::string_view what = "cannot be written";
+  const Hdf5Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  // Format 1.10: its structure carries checksums too, and other programs have read it since 2016.
+  hdf5::check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), what);
+  hdf5::check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
+  const Hdf5Handle creation = hdf5::make_properties(H5P_FILE_CREATE);
+  return hdf5::own(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
+}
+
+// Opens an object and takes an older attribute of this name away.
+Hdf5Handle open_for_attribute(hid_t file, const std::string& object, const std::string& name) {
+  const std::string what = fmt::format("attribute '{}' of '{}' cannot be written", name, object);
+  Hdf5Handle handle = hdf5::own(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
+  if (hdf5::check(H5Aexists(handle.get(), name.c_str()), what) > 0) {
+    hdf5::check(H5Adelete(handle.get(), name.c_str()), what);
+  }
+  return handle;
+}
+
+void write_scalar_attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type,
+                            const void* value) {
+  const std::string what = fmt::format("attribute '{}' cannot be written", name);
+  const Hdf5Handle space = hdf5::own(H5Screate(H5S_SCALAR), H5Sclose, what);
+  const Hdf5Handle attribute = hdf5::own(
+      H5Acreate2(object, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+  hdf5::check(H5Awrite(attribute.get(), memory_type, value), what);
+}
+
+// The same path for each way of writing it.
+std::string from_root(const std::string& path) {
+  return path.starts_with('/') ? path.substr(1) : path;
+}
+
+void reject_nul(std::string_view text, const std::string& place) {
+  if (text.find('\0') != std::string_view::npos) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer: a string of '{}' contains NUL", place));
+  }
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer(fs::path target, fs::path temporary)
+    : target_(std::move(target)),
+      temporary_(temporary.empty() ? fs::path(target_.string() + ".tmp") : temporary) {
+  if (folder_of(temporary_).lexically_normal() != folder_of(target_).lexically_normal()) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer: temporary '{}' is not in the folder of '{}'",
+                                            temporary_.string(), target_.string()));
+  }
+  hdf5::initialize();
+  check_target(target_);
+  check_temporary(target_, temporary_);
+  attempt([this] { file_ = create_file(temporary_); });
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  if (!finished_) abandon();
+}
+
+template <typename Function>
+void Hdf5Writer::attempt(Function&& function) {
+  try {
+    function();
+  } catch (const hdf5::Failure& failure) {
+    throw InputError({.path = target_.string()}, failure.what());
+  }
+}
+
+bool Hdf5Writer::has(const std::string& path) const {
+  return objects_.contains(from_root(path));
+}
+
+// Makes each group on the path that is not there.
+void Hdf5Writer::make_groups(const std::string& path) {
+  if (path.empty() || path == "/") return;
+  for (std::size_t end = path.find('/', 1); true; end = path.find('/', end + 1)) {
+    const std::string prefix = path.substr(0, end);
+    if (!has(prefix)) {
+      const std::string what = fmt::format("group '{}' cannot be made", prefix);
+      const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
+      hdf5::own(H5Gcreate2(file_.get(), prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
+                what);
+      objects_.insert(from_root(prefix));
+    }
+    if (end == std::string::npos) return;
+  }
+}
+
+void Hdf5Writer::prepare_dataset(const std::string& path) {
+  if (has(path)) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer: dataset '{}' is there already", path));
+  }
+  make_groups(hdf5::parent_path(path));
+  objects_.insert(from_root(path));
+}
+
+Hdf5Handle Hdf5Writer::prepare_attribute(const std::string& object, const std::string& name) {
+  if (object != "/" && !has(object)) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer::attribute: there is no '{}'", object));
+  }
+  return open_for_attribute(file_.get(), object, name);
+}
+
+void Hdf5Writer::write(const std::string& dataset, const Eigen::MatrixXd& matrix, std::string_view unit) {
+  const RowMatrix rows = matrix;
+  const std::span<const double> values(rows.data(), static_cast<std::size_t>(rows.size()));
+  write_array(
+      dataset,
+      Array::of(values, {static_cast<hsize_t>(rows.rows()), static_cast<hsize_t>(rows.cols())}, unit));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const double> values, std::string_view unit) {
+  write_array(dataset, Array::of(values, {values.size()}, unit));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const double> values,
+                       std::array<std::size_t, 3> shape, std::string_view unit) {
+  write_array(dataset, Array::of(values, {shape.begin(), shape.end()}, unit));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const std::int64_t> values) {
+  write_array(dataset, Array::of(values, {values.size()}));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const std::int64_t> values,
+                       std::array<std::size_t, 2> shape) {
+  write_array(dataset, Array::of(values, {shape.begin(), shape.end()}));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const std::string> values) {
+  std::size_t size = 1;
+  for (const std::string& value : values) {
+    reject_nul(value, dataset);
+    size = std::max(size, value.size());
+  }
+  std::string padded;
+  padded.reserve(values.size() * size);
+  for (const std::string& value : values) padded.append(value).append(size - value.size(), '\0');
+  attempt([&] {
+    const Hdf5Handle type = hdf5::make_string_type(size);
+    write_array(dataset, {.file_type = type.get(),
+                          .memory_type = type.get(),
+                          .element_size = size,
+                          .data = padded.data(),
+                          .count = values.size(),
+                          .shape = {values.size()}});
+  });
+}
+
+void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
+  const hsize_t count =
+      std::accumulate(array.shape.begin(), array.shape.end(), hsize_t{1}, std::multiplies<>());
+  if (count != array.count) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer::write: '{}' has {} values, its shape asks for {}",
+                                            dataset, array.count, count));
+  }
+  attempt([&] {
+    prepare_dataset(dataset);
+    const std::vector<hsize_t> chunk = hdf5::chunk_shape(array.shape, array.element_size);
+    Hdf5Handle handle = hdf5::make_dataset(file_.get(), dataset, array.file_type, array.shape, chunk, false);
+    if (array.unit) hdf5::write_string_attribute(handle.get(), "unit", *array.unit);
+    const std::string what = fmt::format("dataset '{}' cannot be written", dataset);
+    if (count > 0) {
+      hdf5::check(H5Dwrite(handle.get(), array.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.data), what);
+    }
+    // Data goes to the disk here at the latest. A dataset that failed to close is left to abandon().
+    const hid_t id = handle.release();
+    hdf5::check(H5Dclose(id), what);
+  });
+}
+
+void Hdf5Writer::make_group(const std::string& group) {
+  attempt([&] { make_groups(group); });
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view value) {
+  reject_nul(value, name);
+  attempt([&] {
+    const Hdf5Handle handle = prepare_attribute(object, name);
+    hdf5::write_string_attribute(handle.get(), name, value);
+  });
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
+  attempt([&] {
+    const Hdf5Handle handle = prepare_attribute(object, name);
+    write_scalar_attribute(handle.get(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+  });
+}
+
+void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  attempt([&] {
+    const Hdf5Handle handle = prepare_attribute(object, name);
+    write_scalar_attribute(handle.get(), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+  });
+}
+
+Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns,
+                                             std::string_view unit) {
+  attempt([&] {
+    prepare_dataset(dataset);
+    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
+  });
+  return growing_.at(dataset);
+}
+
+void Hdf5Writer::append(const std::string& dataset, std::span<const double> values) {
+  const auto found = growing_.find(dataset);
+  if (found == growing_.end()) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer::append: there is no growing dataset '{}'", dataset));
+  }
+  append(found->second, values);
+}
+
+void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> values) {
+  attempt([&] { dataset.append(values); });
+}
+
+void Hdf5Writer::write_pending() {
+  for (auto& [name, dataset] : growing_) dataset.write_pending();
+}
+
+void Hdf5Writer::flush() {
+  attempt([this] {
+    write_pending();
+    hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
+  });
+}
+
+void Hdf5Writer::close() {
+  flush();
+  growing_.clear();
+  attempt([this] {
+    const hid_t id = file_.release();  // after a failed close it must not be touched again
+    hdf5::check(H5Fclose(id), "cannot be written");
+  });
+}
+
+void Hdf5Writer::commit() {
+  close();
+  rename_to_target(temporary_, target_);
+  finished_ = true;
+}
+
+void Hdf5Writer::keep_temporary() {
+  close();
+  finished_ = true;
+}
+
+// Removes the temporary file, then closes what is left of it. After a failed write HDF5 still holds data, and
+// these closes fail again; their errors are dropped, the file's descriptor is closed all the same.
+void Hdf5Writer::abandon() noexcept {
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+  growing_.clear();
+  file_.reset();
+}
+
+}  // namespace sprung::support

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/support/hdf5/hdf5_growing_dataset.h"
+#include "tools/support/hdf5/hdf5_handle.h"
+#include "tools/support/hdf5/row_matrix.h"
+
+namespace sprung::support {
+
+/// Writes an HDF5 file under a temporary name beside the target; `commit` renames it when it is whole.
+///
+/// Every dataset is chunked with fletcher32 and carries no time stamp, so equal calls give equal bytes.
+/// Missing groups on a path are made. Anything that fails (a full disk, a missing folder) throws InputError
+/// naming the file and the system's reason; after that only the destructor may follow. The destructor removes
+/// what was not committed or kept. Writing something twice, to a place that is not there, or in a shape that
+/// does not fit is the caller's mistake: std::invalid_argument.
+class Hdf5Writer {
+ public:
+  /// @param target     final name; an existing file there stays whole until `commit`
+  /// @param temporary  name to write under, in the same folder; "" for `target` + ".tmp"
+  /// @throws InputError if the folder is missing, the target is not a regular file, or another program is
+  /// writing it
+  explicit Hdf5Writer(std::filesystem::path target, std::filesystem::path temporary = {});
+  Hdf5Writer(Hdf5Writer&&) = delete;
+  ~Hdf5Writer();
+
+  void write(const std::string& dataset, const Eigen::MatrixXd& matrix, std::string_view unit);   ///< rank 2
+  void write(const std::string& dataset, std::span<const double> values, std::string_view unit);  ///< rank 1
+  /// Any Eigen expression: rank 1 for a row or column vector, rank 2 for a matrix.
+  template <typename Derived>
+  void write(const std::string& dataset, const Eigen::MatrixBase<Derived>& values, std::string_view unit) {
+    if constexpr (Derived::IsVectorAtCompileTime) {
+      const Eigen::Matrix<double, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime,
+                          Derived::RowsAtCompileTime == 1 ? Eigen::RowMajor : Eigen::ColMajor>
+          plain = values;
+      write(dataset, std::span<const double>(plain.data(), static_cast<std::size_t>(plain.size())), unit);
+    } else {
+      write(dataset, Eigen::MatrixXd(values), unit);
+    }
+  }
+  /// Rank-3 array, values in row-major order.
+  void write(const std::string& dataset, std::span<const double> values, std::array<std::size_t, 3> shape,
+             std::string_view unit);
+  void write(const std::string& dataset, std::span<const std::int64_t> values);
+  void write(const std::string& dataset, std::span<const std::int64_t> values,
+             std::array<std::size_t, 2> shape);
+  void write(const std::string& dataset, std::span<const std::string> values);  ///< UTF-8 without NUL, rank 1
+
+  void make_group(const std::string& group);
+  /// Attributes of a group or dataset; "/" for the file itself. One that is there already is replaced.
+  void attribute(const std::string& object, const std::string& name, std::string_view value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, std::int64_t value);
+
+  /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
+  /// @return for the faster `append`, up to `commit` or `keep_temporary`
+  Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
+  /// Appends whole rows, row-major. Rows are gathered to chunks, so that an error may show later.
+  void append(const std::string& dataset, std::span<const double> values);
+  void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
+  void flush();  ///< all that was appended goes to the file
+
+  void commit();  ///< closes, syncs and renames to the target
+  /// Closes the file and leaves it under the temporary name (an interrupted run).
+  void keep_temporary();
+  const std::filesystem::path& temporary() const { return temporary_; }
+
+ private:
+  struct Array;
+  template <typename Function>
+  void attempt(Function&& function);  // HDF5's failures as InputError of this file
+  void write_array(const std::string& dataset, const Array& array);
+  bool has(const std::string& path) const;
+  void make_groups(const std::string& path);
+  void prepare_dataset(const std::string& path);
+  Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
+  void write_pending();
+  void close();
+  void abandon() noexcept;
+
+  std::filesystem::path target_, temporary_;
+  Hdf5Handle file_;
+  std::set<std::string> objects_;  // groups and datasets made, by their paths
+  std::map<std::string, Hdf5GrowingDataset> growing_;
+  bool finished_ = false;
+};
+
+}  // namespace sprung::support

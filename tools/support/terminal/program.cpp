@@ -1,0 +1,101 @@
+#include "tools/support/terminal/program.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::support {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+// The first signal asks; the second has its usual effect, at once.
+void handle_interrupt(int signal) {
+  if (interrupted.exchange(true)) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+void install_signal_handlers() {
+  interrupted = false;
+  struct sigaction action = {};
+  action.sa_handler = handle_interrupt;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  // A terminal that is closed; under nohup it does not matter, and shall not.
+  struct sigaction inherited = {};
+  sigaction(SIGHUP, nullptr, &inherited);
+  if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  // A full quota or a closed pipe shall be an error of the write, with a message, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+// To stderr, after what has been printed so far. Nothing can be done where stderr itself is closed.
+void print_message(std::string_view text) {
+  std::fflush(stdout);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fputc('\n', stderr);
+}
+
+// The reader of our output may go away (`| head`): nothing to complain about.
+int finish_output(const char* name, int code) {
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!failed || errno == EPIPE) return code;
+  print_message(fmt::format("{}: error: standard output cannot be written: {}", name, std::strerror(errno)));
+  return code == kGood ? kBadInput : code;
+}
+
+int run_body(const char* name, const std::function<int()>& body) {
+  try {
+    return finish_output(name, body());
+  } catch (const InputError& error) {
+    print_message(error.what());
+    return kBadInput;
+  } catch (const NumericalError& error) {
+    print_message(fmt::format("{}: error: {}", name, error.what()));
+    return kNumerics;
+  } catch (const Interrupted& error) {
+    print_message(fmt::format("{}: interrupted: {}", name, error.what()));
+    return kInterrupted;
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::broken_pipe) return kInterrupted;  // fmt::print, its reader gone
+    print_message(fmt::format("{}: internal error: {}", name, error.what()));
+  } catch (const std::bad_alloc&) {
+    print_message(fmt::format("{}: internal error: out of memory", name));
+  } catch (const std::exception& error) {
+    print_message(fmt::format("{}: internal error: {}", name, error.what()));
+  } catch (...) {
+    print_message(fmt::format("{}: internal error: an exception of unknown type", name));
+  }
+  return kNumerics;
+}
+
+}  // namespace
+
+bool interrupt_requested() {
+  return interrupted.load(std::memory_order_relaxed);
+}
+
+int run_program(const char* name, const std::function<int()>& body) {
+  install_signal_handlers();
+  return run_body(name, body);
+}
+
+}  // namespace sprung::support

@@ -1,0 +1,60 @@
+#include "tools/support/terminal/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sprung::support {
+
+namespace {
+
+constexpr auto kDrawInterval = std::chrono::milliseconds(100);
+constexpr int kWidth = 30;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label, bool quiet)
+    : label_(std::move(label)),
+      quiet_(quiet),
+      is_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      last_drawn_(start_) {}
+
+void ProgressBar::update(double fraction) {
+  if (quiet_) return;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  if (is_terminal_) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_drawn_ < kDrawInterval) return;
+    last_drawn_ = now;
+    draw(fraction);
+  } else if (static_cast<int>(10.0 * fraction) > tenths_) {
+    tenths_ = static_cast<int>(10.0 * fraction);
+    fmt::print(stderr, "{}: {} %\n", label_, 10 * tenths_);
+  }
+}
+
+void ProgressBar::draw(double fraction) {
+  const int filled = static_cast<int>(kWidth * fraction);
+  std::string bar;
+  for (int i = 0; i < kWidth; ++i) bar += i < filled ? "█" : "░";
+  const double elapsed = seconds_since(start_);
+  const std::string left =
+      fraction > 0.01 ? fmt::format("{:.0f} s left", elapsed * (1.0 - fraction) / fraction) : std::string{};
+  fmt::print(stderr, "\r{} {} {:3.0f} %  {}\x1b[K", label_, bar, 100.0 * fraction, left);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::finish() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+}  // namespace sprung::support

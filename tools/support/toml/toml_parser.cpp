@@ -1,0 +1,98 @@
+#include "tools/support/toml/toml_parser.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "tools/support/toml/toml_text.h"
+
+namespace sprung::support {
+
+namespace {
+
+// Turns the library's tree into ours. Its tables are sorted by key; the keys' places give the order of the
+// text back.
+class Converter {
+ public:
+  explicit Converter(const std::string& name) : name_(name) {}
+
+  TomlNode convert(const toml::node& node, std::string key, const SourceLocation& key_location) const {
+    TomlNode result;
+    result.key_location = key_location;
+    result.location = place(node.source().begin, key_location);
+    result.key = std::move(key);
+    if (const auto* table = node.as_table()) {
+      result.value = convert_table(*table, result);
+    } else if (const auto* array = node.as_array()) {
+      result.value = convert_array(*array, result);
+    } else if (const auto* text = node.as_string()) {
+      if (text->get().find('\0') != std::string::npos) {
+        throw InputError(result.location, fmt::format("'{}' contains the character NUL", result.key));
+      }
+      result.value = text->get();
+    } else if (const auto* integer = node.as_integer()) {
+      result.value = integer->get();
+    } else if (const auto* real = node.as_floating_point()) {
+      result.value = real->get();
+    } else if (const auto* boolean = node.as_boolean()) {
+      result.value = boolean->get();
+    } else {
+      throw InputError(result.location,
+                       fmt::format("'{}' is a date or time, which no key takes", result.key));
+    }
+    return result;
+  }
+
+ private:
+  SourceLocation place(const toml::source_position& position, const SourceLocation& otherwise) const {
+    if (!position) return otherwise;
+    return {
+        .path = name_, .line = static_cast<int>(position.line), .column = static_cast<int>(position.column)};
+  }
+
+  TomlNode::Table convert_table(const toml::table& table, const TomlNode& parent) const {
+    TomlNode::Table result;
+    for (auto&& [key, node] : table) {
+      const SourceLocation key_location = place(key.source().begin, parent.location);
+      result.entries.emplace_back(std::string(key.str()),
+                                  convert(node, join_key(parent.key, key.str()), key_location));
+    }
+    std::stable_sort(result.entries.begin(), result.entries.end(), [](const auto& a, const auto& b) {
+      const SourceLocation& first = a.second.key_location;
+      const SourceLocation& second = b.second.key_location;
+      return first.line != second.line ? first.line < second.line : first.column < second.column;
+    });
+    return result;
+  }
+
+  TomlNode::Array convert_array(const toml::array& array, const TomlNode& parent) const {
+    TomlNode::Array result;
+    for (std::size_t i = 0; i < array.size(); ++i) {
+      const toml::node& item = array[i];
+      const SourceLocation location = place(item.source().begin, parent.location);
+      result.items.push_back(convert(item, join_key(parent.key, std::to_string(i)), location));
+    }
+    return result;
+  }
+
+  const std::string& name_;
+};
+
+}  // namespace
+
+TomlNode parse_toml(std::string_view text, const std::string& name) {
+  try {
+    const toml::table table = toml::parse(text, name);
+    TomlNode root = Converter(name).convert(table, "", {.path = name});
+    root.location = {.path = name};  // the file as a whole
+    return root;
+  } catch (const toml::parse_error& error) {
+    const toml::source_position begin = error.source().begin;
+    throw InputError(
+        {.path = name, .line = static_cast<int>(begin.line), .column = static_cast<int>(begin.column)},
+        fmt::format("is not TOML: {}", error.description()));
+  }
+}
+
+}  // namespace sprung::support

@@ -1,0 +1,57 @@
+#include "tools/support/toml/toml_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::support {
+
+namespace {
+
+bool is_bare_key_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+}
+
+// At most 40 bytes, cut between code points.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  if (text.size() <= kLongest) return std::string(text);
+  std::size_t size = kLongest;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;
+  return std::string(text.substr(0, size)) + "…";
+}
+
+}  // namespace
+
+std::string join_key(std::string_view parent, std::string_view part) {
+  const bool bare = !part.empty() && std::all_of(part.begin(), part.end(), is_bare_key_character);
+  const std::string text = bare ? std::string(part) : fmt::format("\"{}\"", part);
+  return parent.empty() ? text : fmt::format("{}.{}", parent, text);
+}
+
+std::string format_number(double value) {
+  return fmt::format("{}", value);
+}
+
+std::string describe(const TomlNode& node) {
+  struct Describe {
+    std::string operator()(bool value) const { return fmt::format("a boolean {}", value); }
+    std::string operator()(std::int64_t value) const { return fmt::format("an integer {}", value); }
+    std::string operator()(double value) const {
+      const bool whole = std::isfinite(value) && value == std::trunc(value);
+      const std::string text = format_number(value);
+      return fmt::format("a number {}{}", text, whole && text.find('e') == std::string::npos ? ".0" : "");
+    }
+    std::string operator()(const std::string& value) const {
+      return fmt::format("a string \"{}\"", shortened(value));
+    }
+    std::string operator()(const TomlNode::Array& value) const {
+      return fmt::format("an array of {}", value.items.size());
+    }
+    std::string operator()(const TomlNode::Table&) const { return "a table"; }
+  };
+  return std::visit(Describe{}, node.value);
+}
+
+}  // namespace sprung::support

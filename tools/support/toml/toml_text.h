@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tools/support/toml/toml.h"
+
+namespace sprung::support {
+
+/// `parent.part`, the part quoted where TOML asks for it; the part alone under the root, whose key is "".
+std::string join_key(std::string_view parent, std::string_view part);
+
+/// What a value is, for messages: `a string "heavy"`, `a number 3.5`, `a table` …
+std::string describe(const TomlNode& node);
+
+/// The shortest text that reads back as the same number.
+std::string format_number(double value);
+
+}  // namespace sprung::support
