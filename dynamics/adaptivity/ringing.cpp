@@ -1,9 +1,9 @@
 #include "dynamics/adaptivity/ringing.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -16,12 +16,10 @@ constexpr double kShortest = 1e-4;   // of the longest T: as good as at once
 }  // namespace
 
 Ringing::Ringing(const SmallMotion& motion, const std::vector<Point>& points) {
-  const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> undamped(stiffness, motion.mass);
-  if (undamped.info() != Eigen::Success)
-    throw support::NumericalError("the modes of small motion were not found");
-  omega_ = undamped.eigenvalues().array().max(0.0).sqrt();
-  Phi_ = undamped.eigenvectors();
+  const auto undamped = support::solve_undamped(motion.stiffness, motion.mass);
+  if (!undamped) throw support::NumericalError("the modes of small motion were not found");
+  omega_ = undamped->values.array().max(0.0).sqrt();
+  Phi_ = undamped->vectors;
   reach_.resize(static_cast<Eigen::Index>(points.size()), omega_.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Matrix2Xd shapes = points[i].motion * Phi_;

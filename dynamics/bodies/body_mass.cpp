@@ -1,7 +1,8 @@
 #include "dynamics/bodies/body_mass.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
+
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::dynamics {
 
@@ -27,7 +28,8 @@ BodyMass::BodyMass(const Body& body)
       diagonal_(is_diagonal(body.M_ff)) {
   const Eigen::Index n = body.num_modes();
   diagonal_inverse_ = body.M_ff.diagonal().cwiseInverse();
-  if (!diagonal_) M_ff_inverse_ = body.M_ff.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  if (!diagonal_)
+    M_ff_inverse_ = support::solve_positive_definite(body.M_ff, Eigen::MatrixXd::Identity(n, n));
   M_ = Eigen::MatrixXd::Zero(3 + n, 3 + n);
   M_.bottomRightCorner(n, n) = body.M_ff;
   M_(0, 0) = M_(1, 1) = body.mass;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "dynamics/linear/frequency_solver.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -43,10 +43,10 @@ struct ModalForce {
   bool is_falling = false;       // pushed, but not held
 
   ModalForce(const Model& model, const LinearisedSystem& system) {
-    const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
-    V = solver.eigenvectors();
-    omega_squared = solver.eigenvalues();
+    const auto undamped = support::solve_undamped(system.stiffness, system.mass);
+    if (!undamped) throw support::NumericalError("equilibrium: the mass matrix is not positive definite");
+    V = undamped->vectors;
+    omega_squared = undamped->values;
     force = V.transpose() * system.force;
     const double largest_acceleration = largest_natural(model, system.partition.independent, V * force);
     stiffest = std::max(omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);

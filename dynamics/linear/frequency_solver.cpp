@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <stdexcept>
 
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -28,11 +27,11 @@ FrequencySolver::FrequencySolver(const Eigen::MatrixXd& mass, const Eigen::Matri
         fmt::format("FrequencySolver: matrices must be square and of one size > 0, got {}×{}", matrix->rows(),
                     matrix->cols()));
   }
-  if (Eigen::LLT<Eigen::MatrixXd>(mass).info() != Eigen::Success) {
+  const auto undamped = support::solve_undamped(stiffness, mass);
+  if (!undamped) {
     throw support::NumericalError("frequency response: the mass matrix is not positive definite");
   }
-  const Eigen::MatrixXd symmetric = 0.5 * (stiffness + stiffness.transpose());
-  V_ = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, mass).eigenvectors();
+  V_ = undamped->vectors;
   const Eigen::MatrixXd K = V_.transpose() * stiffness * V_;
   const double stiffest = K.diagonal().cwiseAbs().maxCoeff();
   const double least = stiffest > 0.0 ? kLeastFrequency * std::sqrt(stiffest) : 1.0;
@@ -42,12 +41,12 @@ FrequencySolver::FrequencySolver(const Eigen::MatrixXd& mass, const Eigen::Matri
   A.topRightCorner(f, f) = scale_.asDiagonal();
   A.bottomLeftCorner(f, f) = -K * scale_.cwiseInverse().asDiagonal();
   A.bottomRightCorner(f, f) = -V_.transpose() * damping * V_;
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<std::complex<double>>());
-  if (schur.info() != Eigen::Success) {
+  const auto schur = support::make_schur_form(A);
+  if (!schur) {
     throw support::NumericalError("frequency response: no eigenvalues were found for the damped system");
   }
-  U_ = schur.matrixU();
-  T_ = schur.matrixT();
+  U_ = schur->U;
+  T_ = schur->T;
 }
 
 Eigen::MatrixXcd FrequencySolver::solve(double omega, const Eigen::MatrixXcd& force) const {

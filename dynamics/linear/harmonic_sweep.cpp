@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -24,10 +23,10 @@ constexpr double kWorstVectors = 1e-9;  // reciprocal condition of eigenvectors 
 constexpr Eigen::Index kAtOnce = 256;   // frequencies
 
 // Eigenvectors in real form, both of a pair to the same scale.
-Eigen::MatrixXd normalise(const Eigen::EigenSolver<Eigen::MatrixXd>& eigen) {
-  Eigen::MatrixXd T = eigen.pseudoEigenvectors();
+Eigen::MatrixXd normalise(const support::GeneralEigenpairs& eigen) {
+  Eigen::MatrixXd T = eigen.real_vectors;
   for (Eigen::Index i = 0; i < T.cols(); ++i) {
-    const Eigen::Index count = eigen.eigenvalues()[i].imag() == 0.0 ? 1 : 2;
+    const Eigen::Index count = eigen.values[i].imag() == 0.0 ? 1 : 2;
     T.middleCols(i, count) /= T.middleCols(i, count).norm();
     i += count - 1;
   }
@@ -108,7 +107,7 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
   by_acceleration *= free;
   if (by_acceleration.size() > 0 && !by_acceleration.isZero(0.0)) {
     const Eigen::MatrixXd by_inertia =  // of forces on the free coordinates
-        Eigen::LLT<Eigen::MatrixXd>(held.mass).solve(by_acceleration.transpose()).transpose();
+        support::solve_positive_definite(held.mass, by_acceleration.transpose()).transpose();
     held.by_position -= by_inertia * held.stiffness;
     held.by_velocity -= by_inertia * held.damping;
     if (held.by_force.size() == 0) held.by_force = Eigen::MatrixXd::Zero(by_acceleration.rows(), f);
@@ -126,13 +125,12 @@ void HarmonicSweep::uncouple() {
   input_.resize(0, system_.input.cols());
   state_outputs_.resize(p, 0);
   if (g == 0) return;
-  if (Eigen::LLT<Eigen::MatrixXd>(system_.mass).info() != Eigen::Success) {
+  // Undamped modes, those without stiffness first; states √|k| y of the others, then ẏ of all.
+  const auto undamped = support::solve_undamped(system_.stiffness, system_.mass);
+  if (!undamped) {
     throw support::NumericalError("frequency response: the mass matrix is not positive definite");
   }
-  // Undamped modes, those without stiffness first; states √|k| y of the others, then ẏ of all.
-  const Eigen::MatrixXd symmetric = 0.5 * (system_.stiffness + system_.stiffness.transpose());
-  Eigen::MatrixXd V =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, system_.mass).eigenvectors();
+  Eigen::MatrixXd V = undamped->vectors;
   Eigen::MatrixXd K = V.transpose() * system_.stiffness * V;
   const double stiffest = K.diagonal().cwiseAbs().maxCoeff();
   std::vector<Eigen::Index> order, bound;
@@ -149,19 +147,18 @@ void HarmonicSweep::uncouple() {
   A.block(0, num_bound + num_free, num_bound, num_bound) = scale.asDiagonal();
   A.bottomLeftCorner(g, num_bound) = -K.rightCols(num_bound) * scale.cwiseInverse().asDiagonal();
   A.bottomRightCorner(g, g) = -V.transpose() * system_.damping * V;
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
-  Eigen::MatrixXd T;
-  if (eigen.info() == Eigen::Success) T = normalise(eigen);
-  const Eigen::PartialPivLU<Eigen::MatrixXd> inverse(T);
-  if (T.size() == 0 || !(inverse.rcond() > kWorstVectors)) {
+  const auto eigen = support::solve_general(A);
+  const Eigen::MatrixXd T = eigen ? normalise(*eigen) : Eigen::MatrixXd();
+  const support::LuFactors inverse = eigen ? support::factorise_lu(T) : support::LuFactors();
+  if (!(inverse.reciprocal_condition > kWorstVectors)) {
     solver_ = std::make_unique<FrequencySolver>(system_.mass, system_.damping, system_.stiffness);
     input_ = system_.input;
     state_outputs_.resize(p, 2 * g);
     state_outputs_ << system_.by_position, system_.by_velocity;
     return;
   }
-  real_ = eigen.eigenvalues().real();
-  imaginary_ = eigen.eigenvalues().imag();
+  real_ = eigen->values.real();
+  imaginary_ = eigen->values.imag();
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(num_bound + g, system_.input.cols());
   force.bottomRows(g) = V.transpose() * system_.input;
   input_ = inverse.solve(force);

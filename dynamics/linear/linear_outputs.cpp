@@ -1,8 +1,8 @@
 #include "dynamics/linear/linear_outputs.h"
+#include "tools/support/dense/dense_solvers.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <numbers>
 #include <stdexcept>
@@ -76,10 +76,10 @@ Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
   for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
     const Body& body = terms.model().bodies[b];
     auto rows = transposed.middleRows(body.first_coordinate, body.num_coordinates());
-    rows = Eigen::LLT<Eigen::MatrixXd>(terms.mass(b)).solve(rows).eval();
+    rows = support::solve_positive_definite(terms.mass(b), rows);
   }
   const Eigen::MatrixXd S = Phi_q * transposed;
-  return Eigen::LLT<Eigen::MatrixXd>(S).solve(transposed.transpose());
+  return support::solve_positive_definite(S, transposed.transpose());
 }
 
 // Of p values of the state, in the vehicle's own independent coordinates: p×f each.

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <numbers>
 
+#include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -25,16 +26,16 @@ struct DampedModes {
 DampedModes calc_damped_modes(const LinearisedSystem& system, const Eigen::MatrixXd& damping) {
   const Eigen::Index f = system.mass.rows();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * f, 2 * f);
-  const Eigen::LLT<Eigen::MatrixXd> llt(system.mass);
   A.topRightCorner(f, f).setIdentity();
-  A.bottomLeftCorner(f, f) = -llt.solve(system.stiffness);
-  A.bottomRightCorner(f, f) = -llt.solve(damping);
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  A.bottomLeftCorner(f, f) = -support::solve_positive_definite(system.mass, system.stiffness);
+  A.bottomRightCorner(f, f) = -support::solve_positive_definite(system.mass, damping);
+  const auto pairs = support::solve_general(A);
+  if (!pairs) throw support::NumericalError("modes: no eigenvalues were found for the damped system");
   DampedModes modes;
   for (Eigen::Index k = 0; k < 2 * f; ++k) {
-    if (solver.eigenvalues()[k].imag() < 0.0) continue;  // the conjugate of another
-    modes.eigenvalues.push_back(solver.eigenvalues()[k]);
-    modes.shapes.emplace_back(solver.eigenvectors().col(k).head(f));
+    if (pairs->values[k].imag() < 0.0) continue;  // the conjugate of another
+    modes.eigenvalues.push_back(pairs->values[k]);
+    modes.shapes.emplace_back(pairs->vector(k).head(f));
   }
   return modes;
 }
@@ -72,12 +73,12 @@ struct UndampedMode {
 
 // By growing frequency; those that nothing holds have the smallest |ω²|.
 std::vector<UndampedMode> calc_undamped_modes(const LinearisedSystem& system) {
-  const Eigen::MatrixXd symmetric = 0.5 * (system.stiffness + system.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, system.mass);
+  const auto pairs = support::solve_undamped(system.stiffness, system.mass);
+  if (!pairs) throw support::NumericalError("modes: the mass matrix is not positive definite");
   std::vector<UndampedMode> modes;
   for (Eigen::Index k = 0; k < system.mass.rows(); ++k) {
-    modes.push_back({std::sqrt(std::abs(solver.eigenvalues()[k])),
-                     solver.eigenvectors().col(k).cast<std::complex<double>>()});
+    modes.push_back(
+        {std::sqrt(std::abs(pairs->values[k])), pairs->vectors.col(k).cast<std::complex<double>>()});
   }
   return modes;
 }

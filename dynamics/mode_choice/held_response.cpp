@@ -1,8 +1,9 @@
 #include "dynamics/mode_choice/held_response.h"
 
-#include <Eigen/LU>
 #include <complex>
 #include <utility>
+
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::dynamics {
 
@@ -21,7 +22,7 @@ HeldResponse HeldResponseSolver::solve(double omega, const Eigen::VectorXcd& for
   Eigen::MatrixXcd right(Z.rows(), n + 1);
   right.col(0) = system.directions.transpose() * force;
   right.rightCols(n) = modal_.transpose().cast<std::complex<double>>();
-  const Eigen::MatrixXcd x = Eigen::PartialPivLU<Eigen::MatrixXcd>(Z).solve(right);
+  const Eigen::MatrixXcd x = support::solve_lu(Z, right);
   const Eigen::MatrixXcd eta = modal_ * x;
   // Modal forces act on no channel directly.
   const Eigen::MatrixXcd by_motion =
@@ -35,7 +36,7 @@ HeldResponse HeldResponseSolver::solve(double omega, const Eigen::VectorXcd& for
 Eigen::VectorXcd calc_change(const HeldResponse& response, const std::vector<int>& modes) {
   const Eigen::MatrixXcd H = response.receptance(modes, modes);
   const Eigen::VectorXcd eta = response.amplitudes(modes);
-  const Eigen::VectorXcd holding = Eigen::PartialPivLU<Eigen::MatrixXcd>(H).solve(eta);
+  const Eigen::VectorXcd holding = support::solve_lu(H, eta);
   return -response.outputs_by_force(Eigen::all, modes) * holding;
 }
 

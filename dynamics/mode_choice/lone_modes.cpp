@@ -1,9 +1,10 @@
 #include "dynamics/mode_choice/lone_modes.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::dynamics {
 
@@ -77,7 +78,7 @@ Eigen::MatrixXcd LoneModes::calc_change(const Node& node, const std::vector<int>
     amplitudes.row(i) = node.amplitudes.row(mode);
   }
   if (count == 1) return -by_force * (amplitudes / receptance(0, 0));
-  return -by_force * Eigen::PartialPivLU<Eigen::MatrixXcd>(receptance).solve(amplitudes);
+  return -by_force * support::solve_lu(receptance, amplitudes);
 }
 
 std::vector<QuantitySizes> LoneModes::measure(const std::vector<std::vector<int>>& sets,

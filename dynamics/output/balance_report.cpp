@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/output/json.h"
+#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
+
+using support::Json;
 
 namespace {
 
@@ -83,27 +85,24 @@ std::string format_equilibrium(const BalanceReport& report) {
 }
 
 std::string format_equilibrium_json(const BalanceReport& report) {
-  JsonObject bodies, forces;
+  Json bodies = Json::object(), forces = Json::object();
   for (const Body& body : report.model.bodies) {
     const Eigen::Vector3d position = report.equilibrium.q.segment<3>(body.first_coordinate);
-    bodies.add(body.name, JsonObject().add("x", position[0]).add("y", position[1]).add("angle", position[2]));
+    bodies[body.name] = {{"x", position[0]}, {"y", position[1]}, {"angle", position[2]}};
   }
   const RestingForces resting(report.model, report.equilibrium.q);
   for (std::size_t f = 0; f < report.model.forces.size(); ++f) {
     const std::vector<double> values = resting.channels(f);
-    JsonObject channels;
+    Json channels = Json::object();
     for (std::size_t c = 0; c < values.size(); ++c)
-      channels.add(report.model.forces[f]->channels()[c].name, values[c]);
-    forces.add(report.model.forces[f]->name, channels);
+      channels[report.model.forces[f]->channels()[c].name] = values[c];
+    forces[report.model.forces[f]->name] = std::move(channels);
   }
-  return JsonObject()
-             .add("bodies", bodies)
-             .add("forces", forces)
-             .add("neutral", neutral_descriptions(report.equilibrium))
-             .add("stable", report.equilibrium.stable)
-             .add("iterations", static_cast<double>(report.equilibrium.iterations))
-             .str() +
-         "\n";
+  return support::format_json({{"bodies", bodies},
+                               {"forces", forces},
+                               {"neutral", neutral_descriptions(report.equilibrium)},
+                               {"stable", report.equilibrium.stable},
+                               {"iterations", report.equilibrium.iterations}});
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
@@ -129,16 +128,15 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
 }
 
 std::string format_modes_json(const std::vector<VehicleMode>& modes) {
-  std::vector<JsonObject> list;
+  Json list = Json::array();
   for (const VehicleMode& mode : modes) {
-    list.push_back(JsonObject()
-                       .add("undamped_frequency", mode.undamped_frequency_hz)
-                       .add("damped_frequency", mode.damped_frequency_hz)
-                       .add("damping_ratio", mode.damping_ratio)
-                       .add("rigid_body", mode.is_rigid_body)
-                       .add("participants", mode.participants));
+    list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
+                    {"damped_frequency", mode.damped_frequency_hz},
+                    {"damping_ratio", mode.damping_ratio},
+                    {"rigid_body", mode.is_rigid_body},
+                    {"participants", mode.participants}});
   }
-  return JsonObject().add("modes", list).str() + "\n";
+  return support::format_json({{"modes", list}});
 }
 
 }  // namespace sprung::dynamics

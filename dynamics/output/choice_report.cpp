@@ -6,6 +6,8 @@
 
 namespace sprung::dynamics {
 
+using support::Json;
+
 namespace {
 
 std::string percent(double share) {
@@ -58,29 +60,24 @@ std::string format_choice(const BasisChoice& choice) {
   return summarise_choice(choice) + "\n" + table.str();
 }
 
-JsonObject make_choice_json(const BasisChoice& choice) {
-  std::vector<JsonObject> modes;
+support::Json make_choice_json(const BasisChoice& choice) {
+  Json modes = Json::array();
   for (const ModeVerdict& verdict : choice.verdicts) {
-    JsonObject mode;
-    mode.add("body", verdict.mode.body)
-        .add("number", static_cast<double>(verdict.mode.number))
-        .add("frequency", verdict.mode.frequency_hz)
-        .add("kept", verdict.is_kept)
-        .add("reason", verdict.reason);
+    Json mode{{"body", verdict.mode.body},
+              {"number", verdict.mode.number},
+              {"frequency", verdict.mode.frequency_hz},
+              {"kept", verdict.is_kept},
+              {"reason", verdict.reason}};
     if (!choice.frequency_hz.empty()) {
-      JsonObject worth;
-      for (const Column& column : kColumns) worth.add(column.name, column.value(verdict.worth));
-      mode.add("share", worth);
+      for (const Column& column : kColumns) mode["share"][column.name] = column.value(verdict.worth);
     }
-    modes.push_back(mode);
+    modes.push_back(std::move(mode));
   }
-  JsonObject report;
-  report.add("tolerance", choice.tolerance)
-      .add("neglected", choice.neglected)
-      .add("neglected_of", choice.neglected_of)
-      .add("remarks", choice.remarks)
-      .add("modes", modes);
-  return report;
+  return {{"tolerance", choice.tolerance},
+          {"neglected", choice.neglected},
+          {"neglected_of", choice.neglected_of},
+          {"remarks", choice.remarks},
+          {"modes", std::move(modes)}};
 }
 
 void write_choice(support::Hdf5Writer& file, const std::string& group, const BasisChoice& choice) {

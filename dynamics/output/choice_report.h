@@ -3,8 +3,8 @@
 #include <string>
 
 #include "dynamics/mode_choice/basis_choice.h"
-#include "dynamics/output/json.h"
 #include "tools/support/hdf5/hdf5_file.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -13,7 +13,7 @@ std::string summarise_choice(const BasisChoice& choice);
 /// The modes chosen for a run, as a table for people: what each is worth by itself, kept or not, and why.
 std::string format_choice(const BasisChoice& choice);
 /// The same as a JSON object, shares as numbers.
-JsonObject make_choice_json(const BasisChoice& choice);
+support::Json make_choice_json(const BasisChoice& choice);
 /// Writes it with forcing and transfer functions into a group of a file (dynamics/output/results.md).
 void write_choice(support::Hdf5Writer& file, const std::string& group, const BasisChoice& choice);
 

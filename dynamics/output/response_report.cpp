@@ -6,10 +6,12 @@
 #include <array>
 #include <string_view>
 
-#include "dynamics/output/json.h"
+#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
+
+using support::Json;
 
 namespace {
 
@@ -57,20 +59,22 @@ std::string format_response(const ResponseResult& result) {
 }
 
 std::string format_response_json(const ResponseResult& result) {
-  JsonObject outputs;
+  Json outputs = Json::object();
   for (std::size_t i = 0; i < result.names.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    JsonObject output;
-    output.add("unit", result.units[i])
-        .add("real", row_of(result.response.real(), row))
-        .add("imaginary", row_of(result.response.imag(), row));
-    if (result.has_road()) output.add("spectrum", row_of(result.spectrum, row)).add("rms", result.rms[row]);
-    outputs.add(result.names[i], output);
+    Json output{{"unit", result.units[i]},
+                {"real", row_of(result.response.real(), row)},
+                {"imaginary", row_of(result.response.imag(), row)}};
+    if (result.has_road()) {
+      output["spectrum"] = row_of(result.spectrum, row);
+      output["rms"] = result.rms[row];
+    }
+    outputs[result.names[i]] = std::move(output);
   }
-  JsonObject report;
-  report.add("speed", result.run.speed).add("remarks", result.remarks).add("frequency", result.frequency_hz);
-  if (result.has_road()) report.add("road_rms", result.road_rms);
-  return report.add("outputs", outputs).str() + "\n";
+  Json report{{"speed", result.run.speed}, {"remarks", result.remarks}, {"frequency", result.frequency_hz}};
+  if (result.has_road()) report["road_rms"] = result.road_rms;
+  report["outputs"] = std::move(outputs);
+  return support::format_json(report);
 }
 
 }  // namespace sprung::dynamics

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 
-#include "dynamics/output/json.h"
+#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
+
+using support::Json;
 
 namespace {
 
@@ -122,43 +124,39 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
 }
 
 std::string format_summary_json(const Model& model, const RunSummary& summary) {
-  JsonObject modes;
+  Json modes = Json::object();
   if (summary.adaptivity) {
     const WorstNeglect& worst = summary.transient.worst_neglect;
-    modes.add("mean_active", summary.transient.mean_active_modes)
-        .add("changes", static_cast<double>(summary.transient.mode_changes))
-        .add("largest_left_out", worst.coordinate >= 0
-                                     ? summary.adaptivity->full->coordinate_name(worst.coordinate)
-                                     : std::string())
-        .add("left_out_of_deflection", worst.share.deflection)
-        .add("left_out_of_acceleration", worst.share.acceleration);
+    modes = {
+        {"mean_active", summary.transient.mean_active_modes},
+        {"changes", summary.transient.mode_changes},
+        {"largest_left_out",
+         worst.coordinate >= 0 ? summary.adaptivity->full->coordinate_name(worst.coordinate) : std::string()},
+        {"left_out_of_deflection", worst.share.deflection},
+        {"left_out_of_acceleration", worst.share.acceleration}};
   }
-  JsonObject points;
+  Json points = Json::object();
   for (const PointStatistics& point : summary.statistics.point_statistics()) {
-    const auto statistics = [](const SampleStatistics& sample) {
-      return JsonObject().add("min", sample.minimum).add("max", sample.maximum).add("rms", sample.rms);
+    const auto statistics = [](const SampleStatistics& sample) -> Json {
+      return {{"min", sample.minimum}, {"max", sample.maximum}, {"rms", sample.rms}};
     };
-    points.add(point.point, JsonObject()
-                                .add("displacement", statistics(point.displacement))
-                                .add("acceleration", statistics(point.acceleration)));
+    points[point.point] = {{"displacement", statistics(point.displacement)},
+                           {"acceleration", statistics(point.acceleration)}};
   }
   const TransientStatistics& transient = summary.transient;
-  return JsonObject()
-             .add("freedoms", static_cast<double>(model.num_freedoms()))
-             .add("points", points)
-             .add("constraint_violation", summary.statistics.constraint_violation())
-             .add("velocity_violation", transient.stepper.velocity_violation)
-             .add("energy_closure", summary.statistics.energy_closure())
-             .add("steps", static_cast<double>(transient.stepper.integrator.steps))
-             .add("evaluations", static_cast<double>(transient.stepper.evaluations))
-             .add("output_evaluations", static_cast<double>(transient.output_evaluations))
-             .add("switches", static_cast<double>(transient.switches))
-             .add("modes", modes)
-             .add("repartitions", static_cast<double>(transient.stepper.repartitions))
-             .add("elapsed", summary.elapsed)
-             .add("real_time_factor", summary.duration / summary.elapsed)
-             .str() +
-         "\n";
+  return support::format_json({{"freedoms", model.num_freedoms()},
+                               {"points", points},
+                               {"constraint_violation", summary.statistics.constraint_violation()},
+                               {"velocity_violation", transient.stepper.velocity_violation},
+                               {"energy_closure", summary.statistics.energy_closure()},
+                               {"steps", transient.stepper.integrator.steps},
+                               {"evaluations", transient.stepper.evaluations},
+                               {"output_evaluations", transient.output_evaluations},
+                               {"switches", transient.switches},
+                               {"modes", modes},
+                               {"repartitions", transient.stepper.repartitions},
+                               {"elapsed", summary.elapsed},
+                               {"real_time_factor", summary.duration / summary.elapsed}});
 }
 
 }  // namespace sprung::dynamics

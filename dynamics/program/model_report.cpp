@@ -5,11 +5,13 @@
 
 #include "dynamics/output/balance_report.h"
 #include "dynamics/output/choice_report.h"
-#include "dynamics/output/json.h"
 #include "dynamics/output/run_report.h"
+#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
+
+using support::Json;
 
 namespace {
 
@@ -76,34 +78,30 @@ std::string format_model(const PreparedRun& prepared) {
 
 std::string format_model_json(const PreparedRun& prepared) {
   const Model& model = prepared.model;
-  JsonObject bodies, joints, forces;
+  Json bodies = Json::object(), joints = Json::object(), forces = Json::object();
   for (const Body& body : model.bodies) {
-    bodies.add(body.name, JsonObject()
-                              .add("mass", body.mass)
-                              .add("inertia", body.second_moment)
-                              .add("modes", body.mode_numbers));
+    bodies[body.name] = {{"mass", body.mass}, {"inertia", body.second_moment}, {"modes", body.mode_numbers}};
   }
   for (const auto& joint : model.joints) {
-    joints.add(joint->name, JsonObject().add("type", joint->kind()).add("holds", held_directions(*joint)));
+    joints[joint->name] = {{"type", joint->kind()}, {"holds", held_directions(*joint)}};
   }
-  for (const auto& force : model.forces) forces.add(force->name, JsonObject().add("type", force->kind()));
-  JsonObject report;
-  report.add("bodies", bodies)
-      .add("joints", joints)
-      .add("forces", forces)
-      .add("coordinates", static_cast<double>(model.num_coordinates))
-      .add("constraints", static_cast<double>(model.num_constraints))
-      .add("freedoms", static_cast<double>(model.num_freedoms()));
-  if (prepared.choice) report.add("mode_choice", make_choice_json(*prepared.choice));
+  for (const auto& force : model.forces) forces[force->name] = {{"type", force->kind()}};
+  Json report{{"bodies", bodies},
+              {"joints", joints},
+              {"forces", forces},
+              {"coordinates", model.num_coordinates},
+              {"constraints", model.num_constraints},
+              {"freedoms", model.num_freedoms()}};
+  if (prepared.choice) report["mode_choice"] = make_choice_json(*prepared.choice);
   if (prepared.equilibrium) {
-    JsonObject places;
+    Json places = Json::object();
     for (const Body& body : model.bodies) {
       const Eigen::Vector3d place = prepared.equilibrium->q.segment<3>(body.first_coordinate);
-      places.add(body.name, JsonObject().add("x", place[0]).add("y", place[1]).add("angle", place[2]));
+      places[body.name] = {{"x", place[0]}, {"y", place[1]}, {"angle", place[2]}};
     }
-    report.add("equilibrium", places);
+    report["equilibrium"] = places;
   }
-  return report.str() + "\n";
+  return support::format_json(report);
 }
 
 }  // namespace sprung::dynamics

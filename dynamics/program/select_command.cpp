@@ -41,8 +41,8 @@ int select_modes_command(const RunRequest& request, const RunOutput& output) {
                               "leaves no body's modes to the program: say [modes] BODY = \"auto\"");
   }
   if (!output.results.empty()) write_choice_file(output.results, prepared, request.overrides);
-  fmt::print("{}",
-             output.json ? make_choice_json(*prepared.choice).str() + "\n" : format_choice(*prepared.choice));
+  fmt::print("{}", output.json ? support::format_json(make_choice_json(*prepared.choice))
+                               : format_choice(*prepared.choice));
   if (!output.results.empty() && !output.json) fmt::print("Choice: {}\n", output.results.string());
   return support::kGood;
 }

@@ -6,6 +6,8 @@
 
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/largest_displacement.h"
+#include "tools/support/dense/eigenproblems.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
@@ -58,9 +60,10 @@ void fix_by_displacement(Partition& partition, const Eigen::MatrixXd& shapes,
 void fix_by_moment(Partition& partition, const Eigen::MatrixXd& shapes, const BasisFrame& frame) {
   const Eigen::MatrixXd rest = shapes * partition.free;
   const Eigen::MatrixXd moment = rest.transpose() * (frame.weighted_mass * rest);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (moment + moment.transpose()));
-  const Eigen::VectorXd& values = eigen.eigenvalues();
-  const Eigen::MatrixXd ordered = partition.free * eigen.eigenvectors();
+  const auto eigen = support::solve_symmetric(0.5 * (moment + moment.transpose()));
+  if (!eigen) throw support::NumericalError("modes: a cluster's moments have no eigenvectors");
+  const Eigen::VectorXd& values = eigen->values;
+  const Eigen::MatrixXd ordered = partition.free * eigen->vectors;
   const double gap = kMomentGap * frame.node_positions.colwise().norm().maxCoeff();
   for (Eigen::Index begin = 0, end = 0; begin < values.size(); begin = end) {
     end = begin + 1;

@@ -1,7 +1,5 @@
 #include "reduce/reduction/superelement_checks.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 #include "reduce/modes/clusters.h"
 #include "reduce/reduction/element_work.h"
 #include "reduce/reduction/inertia_invariants.h"
+#include "tools/support/dense/eigenproblems.h"
 
 namespace sprung::reduce {
 
@@ -70,9 +69,7 @@ CheckResult check_components(const InertiaInvariants& inertia) {
   const Eigen::MatrixXd B_error = inertia.B - inertia.phi_x_phi_y + inertia.phi_x_phi_y.transpose();
   const Eigen::MatrixXd rotary = inertia.M_ff - inertia.phi_x_phi_x - inertia.phi_y_phi_y;
   const Eigen::RowVectorXd rotary_c = (inertia.c - inertia.x_phi_y + inertia.y_phi_x) / row_scale;
-  const double indefinite = -Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(rotary, Eigen::EigenvaluesOnly)
-                                 .eigenvalues()
-                                 .minCoeff();
+  const double indefinite = -support::calc_symmetric_eigenvalues(rotary).minCoeff();
   // Schwarz: (∫ρI ψ)² ≤ ∫ρI ∫ρI ψ², and the first integral is a part of J₀.
   const double too_large = (rotary_c.cwiseAbs2().transpose() - rotary.diagonal()).maxCoeff();
   return {.name = "inertia against its components",
@@ -85,8 +82,7 @@ CheckResult check_mass_matrix(const Superelement& s) {
   const Eigen::MatrixXd mass = calc_mass_matrix(s.inertia);
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(scaled);
   const double smallest = values.minCoeff();
   return {.name = "condition of the mass matrix of frame and modes",
           .value = smallest > 0.0 ? values.maxCoeff() / smallest : kFailed,

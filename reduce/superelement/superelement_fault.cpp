@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <set>
+
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::reduce {
 
@@ -49,7 +50,7 @@ Fault check_positive_definite(const std::string& dataset, const Eigen::MatrixXd&
                                                     matrix(i, i), i + 1)};
     }
   }
-  if (Eigen::LLT<Eigen::MatrixXd>(matrix).info() == Eigen::Success) return {};
+  if (support::is_positive_definite(matrix)) return {};
   return SuperelementFault{dataset, "is not positive definite"};
 }
 

@@ -1,16 +1,36 @@
 # sprung_target(NAME): what every target of this project has in common: C++20, warnings, and includes
 # written from the repository's root.
 option(SPRUNG_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
-option(SPRUNG_UNITY "Compile each room in a few large pieces, which takes a third of the time" OFF)
+option(SPRUNG_PRECOMPILED_HEADERS "Read Eigen, fmt and the standard library once for all sources" OFF)
 
 function(sprung_target name)
+  _sprung_compile_options(${name})
+  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  if(SPRUNG_PRECOMPILED_HEADERS)
+    target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
+    target_precompile_headers(${name} REUSE_FROM sprung_precompiled)
+  endif()
+endfunction()
+
+function(_sprung_compile_options name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
-  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_compile_options(${name} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     $<$<BOOL:${SPRUNG_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
+
+# The headers that nearly every source reads, compiled once. Sources name what they include all the same: the presets
+# debug and asan build without this. The options have to be those of the targets that use it.
+if(SPRUNG_PRECOMPILED_HEADERS)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/precompiled.cpp" CONTENT "")
+  add_library(sprung_precompiled STATIC "${PROJECT_BINARY_DIR}/precompiled.cpp")
+  _sprung_compile_options(sprung_precompiled)
+  target_link_libraries(sprung_precompiled PRIVATE Eigen3::Eigen fmt::fmt)
+  target_precompile_headers(sprung_precompiled PRIVATE
+    <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map> <memory>
+    <optional> <set> <span> <stdexcept> <string> <utility> <vector>)
+endif()
 
 # sprung_room(sources… [USES rooms…] [LINKS targets…]): a room is a folder and the library made of its sources.
 # The room `a/b` is the target `sprung_a_b`. USES names every other room whose headers its files may include; a test
@@ -22,7 +42,6 @@ function(sprung_room)
   sprung_room_target(name "${folder}")
   add_library(${name} STATIC ${arg_UNPARSED_ARGUMENTS})
   sprung_target(${name})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD ${SPRUNG_UNITY} UNITY_BUILD_BATCH_SIZE 12)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen fmt::fmt PRIVATE ${arg_LINKS})
   foreach(room IN LISTS arg_USES)
     sprung_room_target(used "${room}")

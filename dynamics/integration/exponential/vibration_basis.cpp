@@ -1,10 +1,10 @@
 #include "dynamics/integration/exponential/vibration_basis.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 
+#include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -23,13 +23,13 @@ struct RealPairs {
 };
 
 RealPairs pair_up(const Eigen::MatrixXd& matrix) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(matrix);
+  const auto eigen = support::solve_general(matrix);
   const Eigen::Index n = matrix.rows(), half = n / 2;
   RealPairs pairs{Eigen::MatrixXd::Zero(n, n), {}};
-  if (eigen.info() != Eigen::Success) return pairs;
-  const Eigen::VectorXcd& values = eigen.eigenvalues();
+  if (!eigen) return pairs;
+  const Eigen::VectorXcd& values = eigen->values;
   const Eigen::MatrixXd& parts =
-      eigen.pseudoEigenvectors();  // real and imaginary parts side by side, not normalised
+      eigen->real_vectors;  // real and imaginary parts side by side, not normalised
   PairBlocks& B = pairs.blocks;
   B.b11 = B.b12 = B.b21 = B.b22 = Eigen::ArrayXd::Zero(half);
   Eigen::Index next = 0;
@@ -84,14 +84,12 @@ void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double*
 
 VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   const Eigen::Index f = motion.mass.rows();
-  const Eigen::MatrixXd stiffness = 0.5 * (motion.stiffness + motion.stiffness.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> undamped(stiffness, motion.mass);
-  if (undamped.info() != Eigen::Success)
-    throw support::NumericalError("the modes of small motion were not found");
-  const Eigen::MatrixXd& Phi = undamped.eigenvectors();  // ascending frequencies
+  const auto undamped = support::solve_undamped(motion.stiffness, motion.mass);
+  if (!undamped) throw support::NumericalError("the modes of small motion were not found");
+  const Eigen::MatrixXd& Phi = undamped->vectors;  // ascending frequencies
   const Eigen::MatrixXd inverse_Phi = Phi.transpose() * motion.mass;
   const Eigen::MatrixXd damping = Phi.transpose() * motion.damping * Phi;
-  const Eigen::ArrayXd omega = undamped.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::ArrayXd omega = undamped->values.cwiseMax(0.0).cwiseSqrt();
 
   VibrationBasis basis;
   PairBlocks& B = basis.blocks;
@@ -113,7 +111,7 @@ VibrationBasis make_vibration_basis(const SmallMotion& motion) {
     A.bottomLeftCorner(n, n).diagonal() = -w;
     A.bottomRightCorner(n, n) = -damping.bottomRightCorner(n, n);
     const RealPairs pairs = pair_up(A);
-    const Eigen::MatrixXd inverse = pairs.vectors.partialPivLu().inverse();
+    const Eigen::MatrixXd inverse = support::solve_lu(pairs.vectors, Eigen::MatrixXd::Identity(2 * n, 2 * n));
     if (inverse.allFinite() && inverse.norm() * pairs.vectors.norm() < kIllConditioned) {
       const auto scatter = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
         to.block(first, first, n, n) = from.topLeftCorner(n, n);

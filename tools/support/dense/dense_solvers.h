@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace sprung::support {
+
+/// x of A x = b by LU factors with partial pivoting.
+/// @param A  n×n   @param b  n×k   @return n×k; NaN or infinity where A is singular
+Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+Eigen::MatrixXcd solve_lu(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
+
+/// LU factors with partial pivoting, for several right-hand sides and an estimate of the condition.
+struct LuFactors {
+  Eigen::MatrixXd lu;                 ///< n×n, L below the diagonal (its own is 1), U
+  Eigen::VectorXi permutation;        ///< row i of A is row permutation[i] of L U
+  double reciprocal_condition = 0.0;  ///< estimated in the 1-norm
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+};
+LuFactors factorise_lu(const Eigen::MatrixXd& A);
+
+/// x of A x = b by Cholesky factors. @param A n×n, symmetric positive definite, which is not checked   @param
+/// b n×k
+Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+/// Whether the Cholesky factorisation of a symmetric matrix succeeds.
+bool is_positive_definite(const Eigen::MatrixXd& A);
+
+}  // namespace sprung::support
