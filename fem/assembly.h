@@ -20,7 +20,7 @@ struct AssembledMatrices {
 /// Checked by tests/fem/assembly_test.cpp
 AssembledMatrices assemble(const BeamModel& model);
 
-/// Adds up the elements' geometric stiffness under given axial forces (fem/README.md, eq. 21).
+/// Adds up the elements' geometric stiffness under given axial forces (fem, eq. 21).
 ///
 /// @param axial_forces  one for each element
 /// @return 3N×3N, exactly symmetric, zero on the two translations [N/m, N, N·m]

@@ -8,7 +8,7 @@ namespace sprung::fem {
 
 namespace {
 
-// Eq. 23: load along the element per length at r from the frame's origin, t its direction.
+// Load along the element per length at r from the frame's origin, t its direction (fem, eq. 23).
 double calc_axial_load(const FrameAcceleration& acceleration, double mass_per_length,
                        const Eigen::Vector2d& r, const Eigen::Vector2d& t) {
   const Eigen::Vector2d turned(-r.y(), r.x());

@@ -22,14 +22,14 @@ struct FrameAcceleration {
   double omega_squared = 0.0;                        ///< ω² [rad²/s²]
 };
 
-/// The inertia of a body at rest in a moving frame, as forces at its nodes (fem/README.md, eq. 22).
+/// The inertia of a body at rest in a moving frame, as forces at its nodes (fem, eq. 22).
 ///
 /// @param moments  of the body, about the origin of the frame
 /// @return 3N [N, N·m]
 Eigen::VectorXd calc_inertia_load(const MassMoments& moments, const FrameAcceleration& acceleration);
 
 /// Axial forces in equilibrium with the loads that displaced a frame: exact along the elements, too, where
-/// those of the shape functions are their means (fem/README.md, eqs. 23, 24).
+/// those of the shape functions are their means (fem, eqs. 23, 24).
 ///
 /// @param displacement  3N, solution of K u = loads at nodes + calc_inertia_load [m, rad]
 /// @param acceleration  of the frame about `origin` [m, mesh's axes]

@@ -25,7 +25,7 @@ void add_bending(Matrix6& matrix, const Eigen::Matrix4d& bending) {
   }
 }
 
-// Eq. 11: ρA ∫N_wᵀ N_w dx.
+// ρA ∫N_wᵀ N_w dx (fem, eq. 11).
 Eigen::Matrix4d calc_translational_bending_mass(double L, double Phi, double rho_A) {
   const double a = 70.0 * Phi * Phi + 147.0 * Phi + 78.0;
   const double b = (35.0 * Phi * Phi + 77.0 * Phi + 44.0) * L / 4.0;
@@ -41,7 +41,7 @@ Eigen::Matrix4d calc_translational_bending_mass(double L, double Phi, double rho
   return rho_A * L / (210.0 * (1.0 + Phi) * (1.0 + Phi)) * matrix;
 }
 
-// Eq. 12: ρI ∫N_ψᵀ N_ψ dx.
+// ρI ∫N_ψᵀ N_ψ dx (fem, eq. 12).
 Eigen::Matrix4d calc_rotary_bending_mass(double L, double Phi, double rho_I) {
   const double a = 36.0;
   const double b = (15.0 * Phi - 3.0) * L;

@@ -11,13 +11,13 @@ namespace sprung::fem {
 /// counter-clockwise from it.
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Shear parameter Φ = 12 EI / (κGA L²) [-], 0 without shear deformation (fem/README.md, eq. 5).
+/// Shear parameter Φ = 12 EI / (κGA L²) [-], 0 without shear deformation (fem, eq. 5).
 double calc_shear_parameter(double length, const BeamProperties& properties);
 
 /// Shape functions in own axes at ξ = x/L: displacements and section rotation (u, w, ψ) = N(ξ) qᵉ.
 ///
 /// Axial linear; bending by the exact homogeneous solution of the Timoshenko beam, which is the Hermite cubic
-/// with ψ = w' where Φ = 0 (fem/README.md, eqs. 6–8).
+/// with ψ = w' where Φ = 0 (fem, eqs. 6–8).
 ///
 /// @param length  > 0 [m]
 /// @param xi      0 … 1 [-]
@@ -26,7 +26,7 @@ double calc_shear_parameter(double length, const BeamProperties& properties);
 /// Source: [Friedman & Kosmatka 1993] — checked by tests/fem/beam_element_test.cpp
 Eigen::Matrix<double, 3, 6> calc_shape_functions(double length, const BeamProperties& properties, double xi);
 
-/// Stiffness in own axes, 6×6, symmetric, three zero modes [N/m, N, N·m] (fem/README.md, eq. 9).
+/// Stiffness in own axes, 6×6, symmetric, three zero modes [N/m, N, N·m] (fem, eq. 9).
 ///
 /// @param length  > 0 [m]
 /// @throws std::invalid_argument if length is not positive or properties are out of range
@@ -34,7 +34,7 @@ Eigen::Matrix<double, 3, 6> calc_shape_functions(double length, const BeamProper
 Matrix6 calc_local_stiffness(double length, const BeamProperties& properties);
 
 /// Consistent mass in own axes, translation and rotary inertia, 6×6, symmetric [kg, kg·m, kg·m²]
-/// (fem/README.md, eqs. 10–12).
+/// (fem, eqs. 10–12).
 ///
 /// @param length  > 0 [m]
 /// @throws std::invalid_argument if length is not positive or properties are out of range
@@ -51,7 +51,7 @@ struct BeamElement {
 /// Distance between the ends [m].
 double calc_length(const BeamElement& element);
 
-/// Own-axes dofs from mesh-axes dofs, orthogonal 6×6: q_own = T q_mesh (fem/README.md, eq. 13).
+/// Own-axes dofs from mesh-axes dofs, orthogonal 6×6: q_own = T q_mesh (fem, eq. 13).
 /// @throws std::invalid_argument if the ends coincide
 Matrix6 calc_rotation(const BeamElement& element);
 
@@ -62,7 +62,7 @@ Matrix6 calc_stiffness(const BeamElement& element);
 Matrix6 calc_mass(const BeamElement& element);
 
 /// Stress resultants at the ends from the displacements of the ends in mesh axes, from the element's
-/// stiffness, that is, exact for static loads at the nodes (fem/README.md, eqs. 14–15).
+/// stiffness, that is, exact for static loads at the nodes (fem, eqs. 14, 15).
 ///
 /// Signs: N tension positive; M = EI ψ' positive where the fibres on the side of −y (own axes) are stretched;
 /// Q = −dM/dx = κGA (w' − ψ).

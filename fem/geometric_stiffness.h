@@ -6,7 +6,7 @@
 namespace sprung::fem {
 
 /// Slope w' of the shape functions in own axes at ξ = x/L; equal to ψ without shear deformation
-/// (fem/README.md, eq. 7).
+/// (fem, eq. 7).
 ///
 /// @param length  > 0 [m]
 /// @return 1×6 [1/m, -]
@@ -14,7 +14,7 @@ namespace sprung::fem {
 Eigen::Matrix<double, 1, 6> calc_slope(double length, const BeamProperties& properties, double xi);
 
 /// Geometric stiffness in own axes, Kᴳ = ∫ N w'ᵀ w' dx, of an element under an axial force: what its ends
-/// feel where stressed fibres turn (fem/README.md, eq. 21).
+/// feel where stressed fibres turn (fem, eq. 21).
 ///
 /// @param length  > 0 [m]
 /// @return 6×6, symmetric, zero for axial displacements and translation [N/m, N, N·m]

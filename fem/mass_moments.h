@@ -7,7 +7,7 @@
 
 namespace sprung::fem {
 
-/// Integrals over a frame's mass, of which its inertia in large motion consists (fem/README.md, eqs. 16–20).
+/// Integrals over a frame's mass, of which its inertia in large motion consists (fem, eqs. 16–20).
 ///
 /// (x, y) is a material point's position relative to the origin, in the mesh's axes, linear along each
 /// element; N_x, N_y, N_ψ are the rows (1×3N) that give its displacement and its section's rotation from the

@@ -26,7 +26,7 @@ void require_poissons_ratio(double value) {
       fmt::format("calc_section_geometry: poissons_ratio is {}, expected -1 < value ≤ 0.5", value));
 }
 
-// The part that the thin-walled box and I section have in common, eqs. 3 and 4: m is the ratio of the
+// The part that the thin-walled box and I section have in common (fem, eqs. 3, 4): m is the ratio of the
 // flanges' area to the webs', flange the term of the shear in the flanges.
 double calc_thin_walled_coefficient(double m, double nu, double flange) {
   const double numerator = 10.0 * (1.0 + nu) * (1.0 + 3.0 * m) * (1.0 + 3.0 * m);

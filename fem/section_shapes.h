@@ -39,7 +39,7 @@ struct ISection {
 /// Area, second moment of area and shear coefficient of a section.
 ///
 /// Area and second moment are exact for the dimensions given. The shear coefficient is Cowper's
-/// (fem/README.md, eqs. 1–4): for the box and the I section the one of thin walls, taken with the dimensions
+/// (fem, eqs. 1–4): for the box and the I section the one of thin walls, taken with the dimensions
 /// between the walls' middles; it is an approximation where the walls are thick.
 ///
 /// @param poissons_ratio  ν, −1 < ν ≤ 0.5 [-]

@@ -1,6 +1,6 @@
 """The bending moment in a body that a run took as rigid: from the forces on it and its own inertia, by its superelement.
 
-With the deformation left out of the motion, the modal equations (dynamics/README.md, eq. 3 to 5) become a statics
+With the deformation left out of the motion, the modal equations (bodies, eqs. 3–5) become a statics
 problem, the loads being the forces F on the points and d'Alembert's forces of the rigid motion:
 
     K η = Σ Φᵀ Aᵀ F + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                           (1)

@@ -4,7 +4,7 @@ A body is drawn by nodes and straight lines in its body frame. A body with a sup
 and elements, and its named points away from nodes hang on their node; a rigid body has its named points, joined to its
 origin. Nodes move with the body frame and the modes:
 
-    r = R + A(θ) (u₀ + s Φη),   s the magnification of the deflection, 1 for where they are     (dynamics/README.md)
+    r = R + A(θ) (u₀ + s Φη),   s the magnification of the deflection, 1 for where they are     (bodies, eq. 1)
 """
 
 import tomllib

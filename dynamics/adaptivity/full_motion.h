@@ -10,7 +10,7 @@
 namespace sprung::dynamics {
 
 /// Motion in coordinates of a full model, while models are run in which some of its modes are held: what is
-/// carried over from one to the next. Source: dynamics/README.md, eqs. 71, 75 and 76.
+/// carried over from one to the next (system, eq. 11; adaptivity, eqs. 4, 5).
 class FullMotion {
  public:
   /// @param full   has to outlive this

@@ -33,7 +33,7 @@ struct WorstNeglect {
 };
 
 /// Decides which modes are active: those left out join when the indicator passes the recall threshold, active
-/// ones may leave when what they do stays below the drop threshold (dynamics/README.md, eq. 74).
+/// ones may leave when what they do stays below the drop threshold (adaptivity, eq. 3).
 class ModeAdaptation {
  public:
   /// @param start  in coordinates of `options.full`; what is not active is held at its values

@@ -26,7 +26,7 @@ struct ModeShare {
 /// run leaves unbalanced on it,
 ///     m_j ξ̈ + c_j ξ̇ + k_j ξ = r_j(t),   r = Q − M q̈ − φ_qᵀ λ in its row,
 /// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is what
-/// the mode would add to first order, resonance included (dynamics/README.md, eqs. 72–74).
+/// the mode would add to first order, resonance included (adaptivity, eqs. 1–3).
 class ModeIndicator {
  public:
   /// @param full    the model with every mode that could be active; has to outlive this

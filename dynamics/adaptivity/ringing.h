@@ -9,8 +9,7 @@ namespace sprung::dynamics {
 
 /// What is left ringing where the forces on a system change: accelerations of watched points with the
 /// undamped vibrations (ω_i, φ_i) of small motion, as shares of a size that each point has; those of the
-/// vibrations add up to the root of the sum of their squares. f independents. Source: dynamics/README.md,
-/// eqs. 75 and 77.
+/// vibrations add up to the root of the sum of their squares (adaptivity, eqs. 4, 6). f independents.
 class Ringing {
  public:
   /// A point that is watched.

@@ -9,10 +9,12 @@
 namespace sprung::dynamics {
 
 /// What the motion of a model in which some modes are held leaves unbalanced on the modes of the full one,
-///     r = Q − M q̈ − φ_qᵀλ   in their rows                                             (dynamics/README.md,
-///     eq. 72) = Σ (Φᵀ Aᵀ F + ψᵀ T) + PᵀAᵀ(g − R̈) − (c + ηᵀB)ᵀ θ̈ + θ̇² (d + M_tt η) + 2 θ̇ B η̇ − M_ff η̈ − C η̇ −
-///     K η,
-/// summed over the markers: of all terms of the full model only these rows. No allocation.
+///
+///     r = Q − M q̈ − φ_qᵀλ   in their rows                                 (adaptivity, eq. 1)
+///       = Σ (Φᵀ Aᵀ F + ψᵀ T) + PᵀAᵀ(g − R̈) − (c + ηᵀB)ᵀ θ̈ + θ̇² (d + M_tt η) + 2 θ̇ B η̇
+///         − M_ff η̈ − C η̇ − K η,
+///
+/// summed over the markers. Of all terms of the full model only these rows are needed. No allocation.
 class UnbalancedForce {
  public:
   /// @param full  has to outlive this

@@ -48,8 +48,7 @@ inline Eigen::Vector2d turned(const Eigen::Vector2d& p) {
   return {-p.y(), p.x()};
 }
 
-/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (dynamics/README.md, eq.
-/// 3)
+/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (bodies, eq. 3)
 ///
 /// @param eta   n modal coordinates
 /// @param mass  (3+n)×(3+n), all of it written
@@ -61,8 +60,7 @@ void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
 void update_mass_matrix(const Body& body, const FrameRotation& rotation,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
-/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (dynamics/README.md,
-/// eq. 4)
+/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (bodies, eq. 4)
 ///
 /// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
 void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
@@ -70,8 +68,7 @@ void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotati
                                    const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
                                    Eigen::Ref<Eigen::VectorXd> Q);
 
-/// Weight of a body, through its invariants.                                           (dynamics/README.md,
-/// eq. 5)
+/// Weight of a body, through its invariants.                                           (bodies, eq. 5)
 /// @param gravity in the world [m/s²]; Q 3+n, added to
 void add_gravity_forces(const Body& body, const FrameRotation& rotation, const Eigen::Vector2d& gravity,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::VectorXd> Q);

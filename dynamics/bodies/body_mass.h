@@ -10,8 +10,7 @@ namespace sprung::dynamics {
 /// The mass matrix of a body, factorised by its blocks. M_ff never changes, so only a 3×3 matrix is left to
 /// be factorised at each state, whatever the number of modes:
 ///
-///     M = [M_r H; Hᵀ M_ff],   C = M_r − H M_ff⁻¹ Hᵀ                                  (dynamics/README.md,
-///     eq. 17)
+///     M = [M_r H; Hᵀ M_ff],   C = M_r − H M_ff⁻¹ Hᵀ                                  (bodies, eq. 6)
 class BodyMass {
  public:
   explicit BodyMass(const Body& body);

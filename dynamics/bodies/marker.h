@@ -95,8 +95,7 @@ inline void move_with_body(const double* v, MarkerState& state) {
   state.a_bias = {-omega * across_y, omega * across_x};
 }
 
-/// Position-level part of a marker's state.                                       (dynamics/README.md, eqs.
-/// 1, 41)
+/// Position-level part of a marker's state.                                       (bodies, eqs. 1, 11)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
 inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
@@ -119,8 +118,7 @@ inline void calc_marker_position(const Marker& marker, const FrameRotation& rota
   place_in_body(u, rotation, q, state);
 }
 
-/// Velocity-level part, after calc_marker_position.                               (dynamics/README.md, eqs.
-/// 2, 41)
+/// Velocity-level part, after calc_marker_position.                               (bodies, eqs. 2, 11)
 /// @param v  the body's 3+n velocities
 inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
   const Eigen::Index n = marker.Phi.cols();

@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 using SecondOrder = std::array<Eigen::MatrixXd, 3>;
 
 /// What axial forces do to the bending of a body, from the geometric stiffness of its superelement
-/// (dynamics/README.md, eqs. 63–68). n active modes.
+/// (bodies, eqs. 7–12). n active modes.
 struct BodyStiffening {
   Eigen::MatrixXd centrifugal;       ///< K_ω about the centre of mass, n×n
   Eigen::RowVectorXd mean_rotation;  ///< ĉ: the body turns at θ̇ + ĉ η̇ in the mean, 1×n
@@ -24,8 +24,7 @@ struct BodyStiffening {
 BodyStiffening make_body_stiffening(const reduce::Superelement& superelement,
                                     const std::vector<int>& columns);
 
-/// Displacement of second order of a point fixed to a named node.                    (dynamics/README.md,
-/// eqs. 65, 66)
+/// Displacement of second order of a point fixed to a named node.                    (bodies, eqs. 9, 10)
 /// @param point   0-based, of superelement.points
 /// @param offset  of the point from the node, body axes [m]
 SecondOrder calc_second_order(const reduce::Superelement& superelement, const std::vector<int>& columns,
@@ -34,8 +33,7 @@ SecondOrder calc_second_order(const reduce::Superelement& superelement, const st
 /// ½ ηᵀ(K_x, K_y, K_angle)η.
 Eigen::Vector3d calc_half_form(const SecondOrder& K, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// Forces by which turning stiffens a body; they do no work.                           (dynamics/README.md,
-/// eq. 68)
+/// Forces by which turning stiffens a body; they do no work.                           (bodies, eq. 12)
 /// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
 void add_stiffening_forces(const BodyStiffening& stiffening, double theta_dot,
                            const Eigen::Ref<const Eigen::VectorXd>& eta,

@@ -6,7 +6,7 @@
 namespace sprung::dynamics {
 
 /// Force and torque on one marker as functions of time, in axes that stay with the world or follow the marker
-/// (dynamics/README.md, eq. 32). The work they do is energy put in.
+/// (forces, eq. 4). The work they do is energy put in.
 class AppliedForce final : public ForceElement {
  public:
   enum class Axes {

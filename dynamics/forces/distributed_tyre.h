@@ -7,12 +7,11 @@
 
 namespace sprung::dynamics {
 
-/// A wheel that touches the road along a length of it, and so envelopes what is short (dynamics/README.md,
-/// eqs. 33 to 36). The penetration δ is the one that gives the same overlap of the wheel's circle on level
-/// ground, where this tyre is the point-contact tyre of the same spring; the pressure spring(δ) + damping δ̇
-/// over the width on level ground acts normal to the road wherever it touches. The force has a potential,
-/// hence a part along the road: an edge holds the wheel back. Rolling resistance and traction are other
-/// elements' matter.
+/// A wheel that touches the road along a length of it, and so envelopes what is short (forces, eqs. 7–10).
+/// The penetration δ is the one that gives the same overlap of the wheel's circle on level ground, where this
+/// tyre is the point-contact tyre of the same spring; the pressure spring(δ) + damping δ̇ over the width on
+/// level ground acts normal to the road wherever it touches. The force has a potential, hence a part along
+/// the road: an edge holds the wheel back. Rolling resistance and traction are other elements' matter.
 class DistributedTyre final : public ForceElement {
  public:
   struct Parameters {
@@ -44,7 +43,7 @@ class DistributedTyre final : public ForceElement {
 
   std::optional<RoadPlace> find_road_place(const Instant& instant,
                                            std::span<const int> branches) const override;
-  /// Of the mean height over what touches, and of how its edges move (dynamics/README.md, eqs. 39 and 40).
+  /// Of the mean height over what touches, and of how its edges move (forces, eqs. 12, 13).
   void add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
                          std::span<WrenchGain> wrenches,
                          std::span<std::complex<double>> channels) const override;

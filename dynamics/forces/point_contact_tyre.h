@@ -6,7 +6,7 @@
 
 namespace sprung::dynamics {
 
-/// A wheel that touches the road in the point under its centre (dynamics/README.md, eq. 10). With the
+/// A wheel that touches the road in the point under its centre (forces, eq. 5). With the
 /// penetration δ = radius − (y − h) and its rate δ̇ = h′ṡ − ẏ, the vertical force on the wheel is spring(δ) +
 /// damping δ̇; a one-sided tyre never pulls and has none while δ ≤ 0. No horizontal force.
 class PointContactTyre final : public ForceElement {
@@ -44,7 +44,7 @@ class PointContactTyre final : public ForceElement {
 
   std::optional<RoadPlace> find_road_place(const Instant& instant,
                                            std::span<const int> branches) const override;
-  /// Of the spring's slope and the damper: F = N (F_s′ + iωc) (dynamics/README.md, eq. 38).
+  /// Of the spring's slope and the damper: F = N (F_s′ + iωc) (forces, eq. 11).
   void add_road_response(const Instant& instant, std::span<const int> branches, const RoadWave& wave,
                          std::span<WrenchGain> wrenches,
                          std::span<std::complex<double>> channels) const override;

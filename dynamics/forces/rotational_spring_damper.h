@@ -4,7 +4,7 @@
 
 namespace sprung::dynamics {
 
-/// Spring and damper between the angles of two markers (dynamics/README.md, eq. 31). Deflection d = free
+/// Spring and damper between the angles of two markers (forces, eq. 3). Deflection d = free
 /// angle − (angle_b − angle_a); the torque T = spring(d) + damper(ḋ) turns b counter-clockwise when positive,
 /// and a the other way. Angles count full turns.
 class RotationalSpringDamper final : public SpringAndDamper {

@@ -4,7 +4,7 @@
 
 namespace sprung::dynamics {
 
-/// Spring and damper along the line between two markers (dynamics/README.md, eq. 9). Deflection d = free
+/// Spring and damper along the line between two markers (forces, eq. 2). Deflection d = free
 /// length − length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart
 /// when positive.
 class SpringDamper final : public SpringAndDamper {

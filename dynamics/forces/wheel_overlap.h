@@ -8,7 +8,7 @@ namespace sprung::dynamics {
 /// centre at distance s and height y, e(ξ) = h(s + ξ) − y + √(R² − ξ²) is how deep the road stands in the
 /// circle at s + ξ, and
 ///
-///     area = ∫ max(0, e) dξ,   ∂area/∂y = −width,   ∂area/∂s = rise            (dynamics/README.md, eq. 33)
+///     area = ∫ max(0, e) dξ,   ∂area/∂y = −width,   ∂area/∂s = rise            (forces, eq. 7)
 struct WheelOverlap {
   double area = 0.0;         ///< [m²]
   double width = 0.0;        ///< of what touches, along the road [m]

@@ -5,7 +5,7 @@
 namespace sprung::dynamics {
 
 /// Motion at one instant of x″ + 2d x′ + ω² x = p from each of its possible causes, exactly.
-/// Source: variation of constants; the forced parts by dX_k/dt = X_{k−1} (dynamics/README.md, eq. 54).
+/// Source: variation of constants; the forced parts by dX_k/dt = X_{k−1} (functions, eq. 2).
 struct OscillatorResponse {
   static constexpr int kMaxPower = 4;
 

@@ -8,9 +8,9 @@
 
 namespace sprung::dynamics {
 
-/// A function of time with its first two derivatives: applied forces, prescribed motion (dynamics/README.md,
-/// eq. 30). Smooth between its breaks; at a break the formula of what follows holds. The integrator steps to
-/// every break exactly and starts anew there.
+/// A function of time with its first two derivatives: applied forces, prescribed motion (functions, eq. 1).
+/// Smooth between its breaks; at a break the formula of what follows holds. The integrator steps to every
+/// break exactly and starts anew there.
 class TimeFunction {
  public:
   TimeFunction() = default;

@@ -7,7 +7,7 @@
 namespace sprung::dynamics {
 
 /// What the relative tolerance is of: the error that a step may make in a quantity is the tolerance times its
-/// scale here (dynamics/README.md, "Error control"). None depends on where the origin is.
+/// scale here (integration, "Error control"). None depends on where the origin is.
 class ErrorScales {
  public:
   explicit ErrorScales(const Model& model);

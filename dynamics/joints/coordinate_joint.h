@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 
 /// Holds up to three relative coordinates of two markers at values that may be functions of time:
 /// φ_k = c_k(a, b) − f_k(t). Every kind of joint but the revolute one, and all prescribed motion, is made of
-/// these (dynamics/README.md, eqs. 26 to 29).
+/// these (joints, eqs. 3–6).
 class CoordinateJoint final : public Joint {
  public:
   struct Held {

@@ -8,7 +8,7 @@
 namespace sprung::dynamics {
 
 /// A scalar that says where marker b is as seen from marker a: what joints hold and prescribed motion drives
-/// (dynamics/README.md, eqs. 26, 28).
+/// (joints, eqs. 3, 5).
 class RelativeCoordinate {
  public:
   enum class Kind {

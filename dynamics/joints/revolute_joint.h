@@ -4,8 +4,7 @@
 
 namespace sprung::dynamics {
 
-/// Two markers at one place, free to turn: r_a − r_b = 0, two constraints in world axes (dynamics/README.md,
-/// eq. 6).
+/// Two markers at one place, free to turn: r_a − r_b = 0, two constraints in world axes (joints, eq. 1).
 class RevoluteJoint final : public Joint {
  public:
   using Joint::Joint;

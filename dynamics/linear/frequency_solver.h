@@ -6,7 +6,7 @@ namespace sprung::dynamics {
 
 /// Solves (K + iωC − ω²M) x = F for many ω: one complex Schur form, then a triangular system for each ω.
 /// Holds for any C and K, also where eigenvectors are missing (critical damping); f freedoms.
-/// (dynamics/README.md, eq. 43)
+/// (linear, eq. 9)
 ///
 /// The first-order form is taken in the undamped modes with the states (√|k| x, ẋ), so that its rounding is
 /// relative to each mode's own frequency and not to the highest one's square.

@@ -24,15 +24,15 @@ struct DrivenSystem {
 
 /// A vehicle with some modal coordinates held still: forces on its f independent coordinates, outputs without
 /// what the road does to them directly, but with what the held coordinates' reaction does
-/// (dynamics/README.md, eq. 84).
+/// (linear, eq. 12).
 /// @param coordinates  held, of all; none for the vehicle as it is
 DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                               const std::vector<int>& coordinates);
 
 /// Outputs of a system under harmonic forces at many frequencies. The first-order form is brought to
-/// uncoupled blocks of one or two rows once, so that a frequency costs a few products (dynamics/README.md,
-/// eq. 87). What nothing holds is followed by its velocity alone. Where eigenvectors are (nearly) missing a
-/// Schur form serves, exact too but slower.
+/// uncoupled blocks of one or two rows once, so that a frequency costs a few products (linear, eq. 13). What
+/// nothing holds is followed by its velocity alone. Where eigenvectors are (nearly) missing a Schur form
+/// serves, exact too but slower.
 class HarmonicSweep {
  public:
   /// @throws support::NumericalError if the mass is not positive definite

@@ -69,7 +69,7 @@ Eigen::VectorXd calc_reactions(const PartitionedEquations& equations, const Eige
   return reactions;
 }
 
-// ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, m×nq (dynamics/README.md, eq. 18).
+// ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, m×nq (system, eq. 6).
 Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
   const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
   Eigen::MatrixXd transposed = Phi_q.transpose();  // to be M⁻¹ φ_qᵀ

@@ -9,8 +9,7 @@
 namespace sprung::dynamics {
 
 /// p quantities read off from a linear vehicle, named as in a results file: of the motion x of its f
-/// independent coordinates and what the road does at nq coordinates and directly (dynamics/README.md, eq.
-/// 44).
+/// independent coordinates and what the road does at nq coordinates and directly (linear, eq. 10).
 struct LinearOutputs {
   std::vector<std::string> names;  ///< "points/chassis.seat/acceleration.y"
   std::vector<std::string> units;
@@ -42,7 +41,7 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle);
 LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle);
 
 /// The outputs of motion x of the independent coordinates under generalized forces and what these do to the
-/// channels directly: eq. 44 for k columns at once.
+/// channels directly, for k columns at once (linear, eq. 10).
 /// @param x  f×k  @param forces  nq×k  @param channels  of all force elements, ×k  @return p×k
 Eigen::MatrixXcd sum_outputs(const LinearOutputs& outputs, double omega, const Eigen::MatrixXcd& x,
                              const Eigen::MatrixXcd& forces, const Eigen::MatrixXcd& channels);

@@ -28,9 +28,9 @@ struct RoadAction {
   Eigen::MatrixXcd channels;  ///< (all channels of all force elements)×k, their direct part
 };
 
-/// A vehicle at rest on level ground, linearised, with the road as its input: M̂ δq̈ + Ĉ δq̇ + K̂ δq = Dᵀ δQ in f
-/// independent coordinates, nq coordinates in all, k road inputs (dynamics/README.md, eqs. 37 to 43). What is
-/// read off from its motion are LinearOutputs.
+/// A vehicle at rest on level ground, linearised, with the road as its input: M̂ δq̈ + Ĉ δq̇ + K̂ δq = Dᵀ δQ
+/// in f independent coordinates, nq coordinates in all, k road inputs (linear, eqs. 6–9; forces, eqs. 11–13).
+/// What is read off from its motion are LinearOutputs.
 class LinearVehicle {
  public:
   /// @param model  on level ground; has to outlive this  @param q  equilibrium

@@ -10,7 +10,7 @@
 namespace sprung::dynamics {
 
 /// The vehicle linearised about a state, in its independent coordinates:
-/// M̂ δq̈ + Ĉ δq̇ + K̂ δq = 0, f freedoms (dynamics/README.md, eq. 22).
+/// M̂ δq̈ + Ĉ δq̇ + K̂ δq = 0, f freedoms (linear, eq. 1).
 struct LinearisedSystem {
   Partition partition;
   Eigen::MatrixXd mass, damping, stiffness;  ///< f×f
@@ -20,7 +20,7 @@ struct LinearisedSystem {
 
 /// Stiffness from differences of the reduced force, central and extrapolated to fourth order, so that a kink
 /// counts with the mean of its two slopes; damping likewise about rest. About steady motion, that of the
-/// coordinates which are carried along (dynamics/README.md, eqs. 47 and 48).
+/// coordinates which are carried along (linear, eqs. 4, 5).
 /// @param q  assembled positions; the branches are chosen at each of the points compared
 /// @throws support::NumericalError if the constraints cannot be satisfied around q
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,

@@ -14,7 +14,7 @@ struct FrequencyRange {
 };
 
 /// One-sided spectral densities of the outputs of a vehicle that goes over a random road at a speed, p
-/// [unit²/Hz]: |H|² G(n)/V at n = f/V. (dynamics/README.md, eq. 46)
+/// [unit²/Hz]: |H|² G(n)/V at n = f/V. (linear, eq. 11)
 /// @param frequency_hz > 0  @param speed > 0 [m/s]
 Eigen::VectorXd calc_response_spectrum(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                        const RoadSpectrum& road, double speed, double frequency_hz);

@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 /// Steady motion of a whole system: one rigid motion of the plane carries all bodies along, with
 /// Ṙ = velocity + omega S R and θ̇ = omega. Coordinates ρ that are carried along stand still in it:
 ///
-///     q̇ = w(q) + ρ̇,   q̈ = ρ̈ + omega S (2ρ̇ + w)  (of R alone)                  (dynamics/README.md, eq. 47)
+///     q̇ = w(q) + ρ̇,   q̈ = ρ̈ + omega S (2ρ̇ + w)  (of R alone)                  (linear, eq. 4)
 ///
 /// Rest is the steady motion that is zero.
 struct SteadyMotion {

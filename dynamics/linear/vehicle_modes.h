@@ -19,7 +19,7 @@ struct VehicleMode {
 };
 
 /// Modes of the linearised vehicle: undamped ones from M̂, K̂, each with the eigenvalue of the damped system
-/// whose shape is most like its own, rigid-body modes first, then ascending (dynamics/README.md, eqs. 22–24).
+/// whose shape is most like its own, rigid-body modes first, then ascending (linear, eqs. 1–3).
 /// @throws support::NumericalError if the equilibrium is unstable and no frequency can be given
 std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium);
 

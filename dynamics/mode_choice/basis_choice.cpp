@@ -183,7 +183,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   std::vector<int> coordinates;
   for (const CandidateMode& mode : candidates) coordinates.push_back(mode.coordinate);
   const WatchedQuantities watched = make_watched_quantities(vehicle, points);
-  // An r.m.s. that loses a part with the share e falls by e²/2 (dynamics/README.md, eq. 88).
+  // An r.m.s. that loses a part with the share e falls by e²/2 (mode_choice, eq. 6).
   const double cut = std::min(std::sqrt(2.0 * kCutChange * std::max(tolerance, kLeastTolerance)), kMostAbove);
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing, cut);
   const double highest = measure.forcing().frequency(measure.num_lines() - 1);

@@ -54,7 +54,7 @@ struct BasisChoice {
 };
 
 /// Leaves out clusters of modes, the least share first, as long as what is neglected jointly stays below the
-/// tolerance (dynamics/README.md, eqs. 81 to 88). At a tolerance of 0 all modes are kept.
+/// tolerance (mode_choice, eqs. 1–6; linear, eqs. 12, 13). At a tolerance of 0 all modes are kept.
 /// @param vehicle  with all candidates active, at its equilibrium
 /// @param tolerance  ≥ 0, < 1
 BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,

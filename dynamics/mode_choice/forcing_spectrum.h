@@ -16,7 +16,7 @@ struct KnownForcing {
 
 /// The forcing as a Fourier series over a period: road under the foremost wheel, and u forces that change
 /// with time, each less its value at the start: what z(t) = Σ z_k e^{iω_k t}, ω_k = 2πk/period, is made of.
-/// Lines k = 1 … m; column k − 1 (dynamics/README.md, eq. 81).
+/// Lines k = 1 … m; column k − 1 (mode_choice, eq. 1).
 struct ForcingSpectrum {
   double period = 0.0;       ///< [s]
   Eigen::VectorXcd road;     ///< m [m]

@@ -9,7 +9,7 @@
 namespace sprung::dynamics {
 
 /// What goes into a linear vehicle: the road under each wheel on the ground, then each force that changes
-/// with time; i inputs, p outputs, forces on the f independent coordinates (dynamics/README.md, eq. 82).
+/// with time; i inputs, p outputs, forces on the f independent coordinates (mode_choice, eq. 2).
 class HarmonicInputs {
  public:
   /// @param gains  of the forces in time, as in ForcingSpectrum  @param speed  ≥ 0; at 0 the road is no input

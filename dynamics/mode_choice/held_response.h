@@ -35,7 +35,7 @@ class HeldResponseSolver {
 };
 
 /// What the outputs change by when a set of modes is held still, the others keeping on: with Y the outputs by
-/// modal forces, H the receptance and η the amplitudes, −Y_S H_SS⁻¹ η_S (dynamics/README.md, eq. 83).
+/// modal forces, H the receptance and η the amplitudes, −Y_S H_SS⁻¹ η_S (mode_choice, eq. 3).
 /// @param modes  positions among the n  @return p
 Eigen::VectorXcd calc_change(const HeldResponse& response, const std::vector<int>& modes);
 

@@ -13,7 +13,7 @@
 
 namespace sprung::dynamics {
 
-/// What holding a set of modes still changes, as shares of w watched quantities (dynamics/README.md, eq. 85).
+/// What holding a set of modes still changes, as shares of w watched quantities (mode_choice, eq. 4).
 struct NeglectedShares {
   Eigen::VectorXd rms;   ///< w, of each one's r.m.s. over the run and the vehicle's coming to rest
   Eigen::VectorXd peak;  ///< w, of its largest value

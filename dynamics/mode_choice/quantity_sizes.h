@@ -15,7 +15,7 @@ struct QuantitySizes {
 /// Factor of outputs at one frequency that makes them the quantity: −ω² of accelerations.
 double calc_factor(const WatchedQuantity& quantity, double omega);
 
-/// R.m.s. over the period, and largest value counted from that at the start (dynamics/README.md, eq. 85).
+/// R.m.s. over the period, and largest value counted from that at the start (mode_choice, eq. 4).
 /// @param lines  p×m, of the watched outputs, line k + 1 in column k  @param omega  m
 QuantitySizes calc_sizes(const WatchedQuantities& watched, const RowsXcd& lines,
                          const Eigen::VectorXd& omega);

@@ -15,7 +15,7 @@ namespace sprung::dynamics {
 
 /// Steps a system whose modes join and leave, by a stepper of its own for each set of modes; or a fixed set
 /// with the indicator of those left out beside it. A step that missed a mode is taken back and made again
-/// with it (dynamics/README.md, "Modes that join and leave").
+/// with it (adaptivity, "Joining").
 class AdaptiveStepper final : public SystemStepper {
  public:
   struct Listener {

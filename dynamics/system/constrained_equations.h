@@ -9,9 +9,9 @@
 
 namespace sprung::dynamics {
 
-/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates (dynamics/README.md, eqs. 12 and
-/// 17–19): what every way of integrating them ends in. nq coordinates, m constraints. No allocation (but see
-/// MultiplierSolver for large systems).
+/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates, which every way of
+/// integrating them solves in the end (system, eqs. 1, 6, 7; bodies, eq. 6). nq coordinates, m constraints.
+/// No allocation (but see MultiplierSolver for large systems).
 class ConstrainedEquations {
  public:
   ConstrainedEquations(const Model& model, SystemTerms::Markers scope);
@@ -34,7 +34,7 @@ class ConstrainedEquations {
   const Eigen::VectorXd& change_of_v_dot() const { return moved_; }
   /// Entries of the factor for the multipliers.
   int num_factor_entries() const { return multipliers_.num_factor_entries(); }
-  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (eq. 29).
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).
   double calc_motion_power();
 
   /// Positions and Jacobian at q, moved the least way in the mass metric to where the joints close.

@@ -14,8 +14,7 @@ namespace sprung::dynamics {
 /// end of the step, by which v̇ changes b₀δ, v changes b₁δ and q changes b₂δ:
 ///
 ///     | b₀M + b₁C + b₂K   φ_qᵀ | | δ  |     | r    |
-///     | φ_q               0    | | δλ | = − | φ/b₂ |                                  (dynamics/README.md,
-///     eq. 60)
+///     | φ_q               0    | | δλ | = − | φ/b₂ |                                  (system, eq. 10)
 ///
 /// The unknowns are accelerations and multipliers and the second row is divided by b₂, so that the matrix
 /// tends to a limit as the step becomes short; coordinates are scaled by 1/√M_jj and constraints to rows of

@@ -24,8 +24,7 @@ struct ConstrainedMotion {
 /// What is left of the equations of motion and of the constraints on the level of positions at any motion,
 /// consistent or not:
 ///
-///     r = M(q) v̇ + φ_qᵀλ − Q(q, v, t),   φ(q, t)                                      (dynamics/README.md,
-///     eq. 57)
+///     r = M(q) v̇ + φ_qᵀλ − Q(q, v, t),   φ(q, t)                                      (system, eq. 9)
 class Index3Residual {
  public:
   explicit Index3Residual(const Model& model);

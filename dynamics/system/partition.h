@@ -14,7 +14,7 @@ struct Partition {
 };
 
 /// Chooses the partition by pivoting φ_q with its columns scaled by 1/√M_ii, so that light bodies follow
-/// heavy ones and the largest pivots are taken (dynamics/README.md, eq. 14).
+/// heavy ones and the largest pivots are taken (system, eq. 3).
 /// @param terms  positions, Jacobian and mass up to date; φ_q of full row rank
 /// Source: [Wehage & Haug 1982]
 Partition choose_partition(const SystemTerms& terms);

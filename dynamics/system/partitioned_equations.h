@@ -12,9 +12,9 @@
 namespace sprung::dynamics {
 
 /// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i
-/// and v_i, finds q_d, v_d, all accelerations and the multipliers (dynamics/README.md, eqs. 15–20). The cost
-/// grows with the number of joints and, for each body, with its modes; no allocation in the evaluating
-/// functions, but where pivots of φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
+/// and v_i, finds q_d, v_d, all accelerations and the multipliers (system, eqs. 4–7). The cost grows with the
+/// number of joints and, for each body, with its modes; no allocation in the evaluating functions, but where
+/// pivots of φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
@@ -53,8 +53,7 @@ class PartitionedEquations {
     return full_.change_branches(f, from, to);
   }
 
-  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (dynamics/README.md, eq.
-  /// 29).
+  /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).
   double calc_motion_power() { return full_.calc_motion_power(); }
 
   /// Brings the markers that only results ask for up to date as well.

@@ -22,7 +22,7 @@ struct Design {
   Provenance provenance;
 };
 
-/// Reads a design file (reduce/README.md, "Design file") and the mesh file it names, and meshes its lines.
+/// Reads a design file (reduce, "Design file") and the mesh file it names, and meshes its lines.
 ///
 /// @throws support::InputError at the place of the fault: not TOML, unknown, missing or contradictory keys,
 /// wrong

@@ -27,7 +27,7 @@ BasisFrame make_basis_frame(const fem::MassMoments& moments, const Eigen::Matrix
                             const Eigen::SparseMatrix<double>& weighted_mass);
 
 /// The rotation, with signs, that makes a basis of the modes depend on neither solver, seed nor node order
-/// (reduce/README.md, "One basis"). Modes of different clusters are not mixed. Within a cluster:
+/// (reduce, "One basis"). Modes of different clusters are not mixed. Within a cluster:
 ///
 /// 1. The participation in translation along y, then x, then in rotation about the reference is given to one
 /// member

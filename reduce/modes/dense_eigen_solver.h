@@ -7,7 +7,7 @@ namespace sprung::reduce {
 /// All n solutions of K φ = ω² M φ by the flipped problem M φ = μ K φ, μ = 1/ω².
 ///
 /// With K = L Lᵀ and M = G Gᵀ the singular values of L⁻¹G are 1/ω and its right singular vectors v give φ =
-/// G⁻ᵀ v (reduce/README.md, eqs. 3–5). Working with ω instead of ω² keeps the high modes as good as the low
+/// G⁻ᵀ v (reduce, eqs. 3–5). Working with ω instead of ω² keeps the high modes as good as the low
 /// ones, and low frequencies do not depend on the numbering of the nodes beyond rounding.
 ///
 /// Costs about 20 n³ operations and 5 n² values.

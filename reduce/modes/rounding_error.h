@@ -13,11 +13,11 @@ inline constexpr double kMaxRoundingError = 1e-4;
 /// the cube of the number of elements and the mode's energy does not, so that finer and finer meshes end in
 /// garbage.
 ///
-///     4 ε √(Σᵢⱼ (φᵢ Kᵢⱼ φⱼ)²) / ω²                                       (reduce/README.md, eq. 7)
+///     4 ε √(Σᵢⱼ (φᵢ Kᵢⱼ φⱼ)²) / ω²                                       (reduce, eq. 7)
 ///
 /// The root of the sum takes the roundings of the entries as independent. On cantilevers of up to 3000
 /// elements it is never below the error that really occurs, and several times nearer to it than the bound
-/// ε‖K‖‖φ‖²/ω² (table in reduce/README.md).
+/// ε‖K‖‖φ‖²/ω² (table in reduce, "Modes").
 ///
 /// @param shape  n, M-normalised
 /// @param omega_squared  > 0 [rad²/s²]

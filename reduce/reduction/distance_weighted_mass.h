@@ -6,7 +6,7 @@
 
 namespace sprung::reduce {
 
-/// The consistent mass of translation weighted with x, ∫x (N_xᵀN_x + N_yᵀN_y) dm (reduce/README.md, eq. 9):
+/// The consistent mass of translation weighted with x, ∫x (N_xᵀN_x + N_yᵀN_y) dm (reduce, eq. 9):
 /// its projection on a mode says on which side of the origin the mode moves.
 ///
 /// @param origin  where x is 0, in the mesh's axes [m]

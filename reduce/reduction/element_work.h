@@ -12,7 +12,7 @@ struct ElementWork {
   Eigen::MatrixXd bending;  ///< n×n, Σ [Q w + M ψ], shear included [1/s²]
 };
 
-/// From shapes and resultants alone (reduce/README.md, eq. 19): the sum of both is the modal stiffness.
+/// From shapes and resultants alone (reduce, eq. 23): the sum of both is the modal stiffness.
 /// Checked by tests/reduce/reduction/superelement_checks_test.cpp
 ElementWork calc_element_work(const Superelement& superelement);
 

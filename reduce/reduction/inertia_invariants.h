@@ -5,7 +5,7 @@
 
 namespace sprung::reduce {
 
-/// Projects a frame's mass moments on mode shapes (reduce/README.md, eqs. 10–17).
+/// Projects a frame's mass moments on mode shapes (reduce, eqs. 10–17).
 ///
 /// @param moments  about the body frame's origin
 /// @param shapes   3N×n
@@ -14,7 +14,7 @@ namespace sprung::reduce {
 InertiaInvariants calc_inertia_invariants(const fem::MassMoments& moments, const Eigen::MatrixXd& shapes);
 
 /// Mass matrix of the undeformed body for motion of its frame (R in body axes, θ) and its modal coordinates
-/// (reduce/README.md, eq. 18):
+/// (reduce, eq. 18):
 ///
 ///     ┌ m I    ⊥S₀   P  ┐
 ///     │ ⊥S₀ᵀ   J₀    c  │        ⊥S₀ = (−S₀y, S₀x)ᵀ

@@ -10,7 +10,7 @@ namespace sprung::reduce {
 /// for each point.
 inline constexpr int kMaxStiffenedModes = 200;
 
-/// Geometric stiffness of modes under the reference loads (reduce/README.md, eqs. 20–23): for each, the frame
+/// Geometric stiffness of modes under the reference loads (reduce, eqs. 19–22): for each, the frame
 /// held at its reference node is solved for its axial forces, their geometric stiffness assembled and
 /// projected.
 ///

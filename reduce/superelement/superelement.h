@@ -11,9 +11,8 @@
 namespace sprung::reduce {
 
 /// The moments of a body and its mode shapes over its mass, r = (x, y) and φ in the body frame. Everything
-/// that a planar floating frame needs, and what other programs' formats are made of (reduce/README.md, eqs.
-/// 10–17). Rotary inertia of sections and point masses is contained: the integrals are those of the
-/// consistent mass.
+/// that a planar floating frame needs, and what other programs' formats are made of (reduce, eqs. 10–17).
+/// Rotary inertia of sections and point masses is contained: the integrals are those of the consistent mass.
 struct InertiaInvariants {
   double mass = 0.0;                                       ///< m = ∫dm [kg]
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
@@ -30,9 +29,9 @@ struct InertiaInvariants {
 };
 
 /// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
-/// held at its reference node, has under each (reduce/README.md, eqs. 20, 21). Each m×m, symmetric. Times
+/// held at its reference node, has under each (reduce, eqs. 19, 20). Each m×m, symmetric. Times
 /// minus one half it is, in the load's direction, the displacement of second order in the modal coordinates
-/// that beams which bend without stretching make (eq. 23).
+/// that beams which bend without stretching make (reduce, eq. 22).
 struct GeometricStiffness {
   Eigen::MatrixXd centrifugal;           ///< K_ω, of turning at 1 rad/s about the body frame's origin [1]
   Eigen::MatrixXd angular_acceleration;  ///< K_α, of the inertia at 1 rad/s² [1]
@@ -71,7 +70,7 @@ struct Provenance {
 
 /// A flexible body reduced to its modes: what stage one writes and stage two loads. SI units, body frame with
 /// its origin at the reference node. n modes, N nodes, E elements. Modes are held at the reference node,
-/// mass-normalised, in ascending frequency, in the canonical basis of reduce/README.md.
+/// mass-normalised, in ascending frequency, in the canonical basis (reduce, "One basis").
 struct Superelement {
   std::string name;
 

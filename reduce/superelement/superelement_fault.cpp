@@ -15,7 +15,7 @@ using Fault = std::optional<SuperelementFault>;
 
 // Modal matrices are symmetrised before they are written: what is left is a file that somebody else made.
 constexpr double kSymmetryTolerance = 1e-12;
-// Modes of equal frequency may stand in any order (relative gap of a cluster, reduce/README.md).
+// Modes of equal frequency may stand in any order (relative gap of a cluster; reduce, "One basis").
 constexpr double kOrderTolerance = 1e-6;
 
 Fault check_size(const std::string& dataset, Eigen::Index rows, Eigen::Index columns,

@@ -46,7 +46,7 @@ enum class Past {
   kSmooth,    ///< the last step ended where this one starts
 };
 
-/// Foretells the drive of a step, for the first sweep of its iteration (dynamics/README.md, eq. 56).
+/// Foretells the drive of a step, for the first sweep of its iteration (integration/exponential, eq. 6).
 class DrivePrediction {
  public:
   DrivePrediction() = default;

@@ -15,7 +15,7 @@ namespace sprung::dynamics {
 /// the step through its values at the four Lobatto points, found by iteration. So the step follows what
 /// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Steps go on through forces
 /// that only bend. Nothing from before a switch is needed behind it: the step stays as long as it was.
-/// Source: variation of constants; [Hochbruck & Ostermann 2010] (dynamics/README.md, eqs. 51–56a).
+/// Source: variation of constants; [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–7).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this

@@ -9,7 +9,7 @@
 namespace sprung::dynamics {
 
 /// What pairs and plain integrals do from the start of a step up to one instant of it, exactly, under a drive
-/// that is the cubic through its values at the Lobatto points (dynamics/README.md, eq. 54). f pairs.
+/// that is the cubic through its values at the Lobatto points (integration/exponential, eq. 4). f pairs.
 class LobattoPropagator {
  public:
   LobattoPropagator() = default;

@@ -22,8 +22,8 @@ struct PairBlocks {
   }
 };
 
-/// Coordinates in which small motion falls into uncoupled pairs: (q, v) = T u, u̇ = B u (dynamics/README.md,
-/// eq. 52).
+/// Coordinates in which small motion falls into uncoupled pairs: (q, v) = T u, u̇ = B u
+/// (integration/exponential, eq. 2).
 struct VibrationBasis {
   Eigen::MatrixXd T, inverse;  ///< 2f×2f
   PairBlocks blocks;

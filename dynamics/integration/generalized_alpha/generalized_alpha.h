@@ -2,8 +2,9 @@
 
 namespace sprung::dynamics {
 
-/// The coefficients of the generalized-α method (dynamics/README.md, eqs. 58 and 59): second order whatever
-/// the spectral radius ρ at infinite frequency, least damping below it. Source: [Chung & Hulbert 1993]
+/// The coefficients of the generalized-α method (integration/generalized_alpha, eqs. 1, 2): second order
+/// whatever the spectral radius ρ at infinite frequency, least damping below it. Source: [Chung & Hulbert
+/// 1993]
 struct GeneralizedAlpha {
   double alpha_m = 0.0, alpha_f = 0.0, beta = 0.0, gamma = 0.0;
 
@@ -13,7 +14,8 @@ struct GeneralizedAlpha {
 
   /// The auxiliary acceleration a stands for q̈ that many steps ahead: αm − αf.
   double offset() const { return alpha_m - alpha_f; }
-  /// Errors of a step: h³ q⃛ times the first in q, h³ q⁗ times the second in v (eq. 62).
+  /// Errors of a step: h³ q⃛ times the first in q, h³ q⁗ times the second in v
+  /// (integration/generalized_alpha, eq. 5).
   double position_error() const;
   double velocity_error() const;
 };

@@ -67,7 +67,7 @@ void GeneralizedAlphaStep::predict(double length) {
   apply_auxiliary(length);
 }
 
-// q, v and v̇ at the end by the auxiliary accelerations (eqs. 58 and 59).
+// q, v and v̇ at the end by the auxiliary accelerations (integration/generalized_alpha, eqs. 1, 2).
 void GeneralizedAlphaStep::apply_auxiliary(double length) {
   const ConstrainedMotion& from = begin_.motion;
   ConstrainedMotion& to = end_.motion;
@@ -167,7 +167,8 @@ void GeneralizedAlphaStep::filter_error(Vector& error) {
   newton_.solve(work_, scaled_phi_, error, delta_lambda_);
 }
 
-// Root mean square over q, v and the energies of what the step has made wrong, of what is allowed (eq. 62).
+// Root mean square over q, v and the energies of the step's errors, each divided by the error that is allowed
+// (integration/generalized_alpha, eq. 5).
 double GeneralizedAlphaStep::calc_error(double length) {
   const double between = 0.5 * (length + begin_.step_before);  // of the middles of this step and the last
   const double cubed = std::pow(length, 3);

@@ -11,8 +11,8 @@
 namespace sprung::dynamics {
 
 /// One step of generalized-α on the index-3 system: what holds at its two ends, Newton's iteration between
-/// them and the error that it makes (dynamics/README.md, eqs. 57–60 and 62). Allocates nothing where
-/// Index3Newton does not.
+/// them and the error that it makes (system, eqs. 9, 10; integration/generalized_alpha, eqs. 1, 2, 5).
+/// Allocates nothing where Index3Newton does not.
 class GeneralizedAlphaStep {
  public:
   using Vector = Eigen::VectorXd;

@@ -115,7 +115,8 @@ void GeneralizedAlphaStepper::resume(double end_time) {
   touch_search_.forget();
 }
 
-// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈ (eq. 61).
+// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈
+// (integration/generalized_alpha, eq. 4).
 // It is found from the accelerations a little later.
 void GeneralizedAlphaStepper::find_rates() {
   const ConstrainedMotion& motion = step_.begin().motion;

@@ -10,11 +10,11 @@
 namespace sprung::dynamics {
 
 /// Generalized-α on the constrained system as it stands: positions, velocities, accelerations and multipliers
-/// of all coordinates, the constraints on the level of positions, no partition (dynamics/README.md, eqs.
-/// 57–62). Second order. Velocities and accelerations satisfy their constraints to the order of the method
-/// only: `evaluate` closes positions and velocities and finds accelerations and multipliers from them,
-/// without touching what is integrated. Source: [Arnold & Brüls 2007]; variable step as in [Jay & Negrut
-/// 2009]
+/// of all coordinates, the constraints on the level of positions, no partition (system, eqs. 9, 10;
+/// integration/generalized_alpha, eqs. 1, 2, 4, 5). Second order. Velocities and accelerations satisfy their
+/// constraints to the order of the method only: `evaluate` closes positions and velocities and finds
+/// accelerations and multipliers from them, without touching what is integrated. Source: [Arnold & Brüls
+/// 2007]; variable step as in [Jay & Negrut 2009]
 class GeneralizedAlphaStepper final : public SystemStepper {
  public:
   /// @param model  has to outlive this

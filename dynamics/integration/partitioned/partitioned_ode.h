@@ -15,7 +15,7 @@
 namespace sprung::dynamics {
 
 /// The partitioned equations in first-order form, with the energy book as quadratures:
-/// y = (q_i, v_i, dissipated energy, energy put in), 2f + 2 components (dynamics/README.md, eqs. 20 and 25).
+/// y = (q_i, v_i, dissipated energy, energy put in), 2f + 2 components (integration/partitioned, eq. 1).
 class PartitionedOde final : public OdeSystem {
  public:
   /// @param model has to outlive this

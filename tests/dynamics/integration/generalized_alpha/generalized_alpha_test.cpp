@@ -163,7 +163,8 @@ TEST_CASE("The amplification of a mode of infinite frequency is the spectral rad
 }
 
 TEST_CASE("A step's errors are those that its coefficients tell", "[analysis]") {
-  // x = e^{iωt} in (58) and (59) with what the auxiliary acceleration becomes in the long run.
+  // x = e^{iωt} in (integration/generalized_alpha, eqs. 1, 2) with what the auxiliary acceleration becomes in
+  // the long run.
   using Complex = std::complex<double>;
   for (const double radius : {0.0, 0.5, 0.8, 1.0}) {
     const GeneralizedAlpha method(radius);
