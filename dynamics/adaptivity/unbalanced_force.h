@@ -21,8 +21,7 @@ class UnbalancedForce {
   explicit UnbalancedForce(const Model& full);
 
   /// @param run     terms of the model that is run, forces and Jacobian up to date; its markers, joints and
-  /// forces are
-  ///                those of the full model
+  ///                forces are those of the full model
   /// @param lambda  multipliers there
   /// @param q, v, v_dot  in coordinates of the full model, held ones at rest
   void update(const SystemTerms& run, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,

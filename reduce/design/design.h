@@ -25,9 +25,8 @@ struct Design {
 /// Reads a design file (reduce, "Design file") and the mesh file it names, and meshes its lines.
 ///
 /// @throws support::InputError at the place of the fault: not TOML, unknown, missing or contradictory keys,
-/// wrong
-///         types, values out of range, unknown materials, sections or points, a point on no node, a frame in
-///         parts, faults of the mesh file
+///         wrong types, values out of range, unknown materials, sections or points, a point on no node, a
+///         frame in parts, faults of the mesh file
 /// Checked by tests/reduce/design/design_test.cpp
 Design read_design(const std::filesystem::path& path);
 

@@ -29,13 +29,13 @@ BasisFrame make_basis_frame(const fem::MassMoments& moments, const Eigen::Matrix
 /// The rotation, with signs, that makes a basis of the modes depend on neither solver, seed nor node order
 /// (reduce, "One basis"). Modes of different clusters are not mixed. Within a cluster:
 ///
-/// 1. The participation in translation along y, then x, then in rotation about the reference is given to one
-/// member
-///    each, as far as it is at least kParticipationThreshold of its scale; the members after it have none.
-/// 2. The others are ordered by ∫x φᵀφ dm, ascending, of which they are eigenvectors.
-/// 3. Where that is equal too (to 1e-3 of the body's radius), a member takes up the largest displacement
-/// there is
-///    (of several within 1 % that at the largest x, then y), and so on with the rest.
+/// 1. The participation in translation along y, then x, then in rotation about the reference is given to
+///    one member each, if it is at least kParticipationThreshold of its scale; the members after it have
+///    none.
+/// 2. The others are the eigenvectors of ∫x φᵀφ dm, in ascending order.
+/// 3. Where these values are equal, too (to 1e-3 of the body's radius), the direction with the largest
+///    displacement becomes a member (of several within 1 % that at the largest x, then y), and so on with the
+///    rest.
 ///
 /// Sign: the largest of the three participations (of several within 1 % the first, in the order above) is
 /// positive; where all are below the threshold, the largest displacement.

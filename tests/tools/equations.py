@@ -3,7 +3,8 @@
 A README numbers its equations 1, 2, 3 … in reading order: a line of an indented block that ends with `  (N)`. Comments,
 docstrings and other READMEs cite an equation as `(ROOM, eq. 3)` or `(ROOM, eqs. 3–5, 7; OTHER, eq. 1)` and a section as
 `(ROOM, "Section")`, ROOM being the README's folder, counted from dynamics/ if it lies there: `system`, `fem`. A key such as
-[Shabana 2013] in a README, or in a source file below its folder, stands in the list at the README's end."""
+[Shabana 2013] stands in the list of references of the README itself or, for a source file, of the nearest folder above that
+has a README; for a test, of any README."""
 
 import re
 from pathlib import Path
@@ -97,16 +98,15 @@ def find_mistakes(root):
     mistakes = []
     for readme in readmes.values():
         mistakes += _find_wrong_numbers(readme)
-    cited = {readme.file: set() for readme in readmes.values()}
+    cited = {readme.file: set() for readme in readmes.values()}  # keys
     for file in find_files(root):
         prose = read_prose(root, file)
         mistakes += _find_wrong_citations(file, prose, readmes)
         home = _find_home(file, readmes)
-        if home is None or file.startswith("tests/"):
-            continue
-        if home.file == file:
+        if home is not None and home.file == file:
             mistakes += _find_wrong_own_numbers(file, prose, home)
-        mistakes += _find_unknown_keys(file, prose, home, cited[home.file])
+        lists = list(readmes.values()) if file.startswith("tests/") else [home] if home else []
+        mistakes += _find_unknown_keys(file, prose, lists, cited)
     for readme in readmes.values():
         for key in readme.references:
             if key not in cited[readme.file]:
@@ -164,7 +164,7 @@ def _find_wrong_own_numbers(file, prose, readme):
                 yield f"{file}:{prose.line(match.start())}: error: there is no equation ({number})"
 
 
-def _find_unknown_keys(file, prose, readme, cited):
+def _find_unknown_keys(file, prose, lists, cited):
     if Path(file).suffix == ".py":
         return  # lists look like keys
     for match in KEYS.finditer(prose.text):
@@ -172,7 +172,9 @@ def _find_unknown_keys(file, prose, readme, cited):
             continue  # the list of references itself
         for part in match[1].split("; "):
             key = re.match(KEY, part)[0]
-            if key in readme.references:
-                cited.add(key)
-            else:
-                yield f"{file}:{prose.line(match.start())}: error: {readme.file} has no reference [{key}]"
+            having = [readme.file for readme in lists if key in readme.references]
+            for readme in having:
+                cited[readme].add(key)
+            if not having:
+                where = lists[0].file if len(lists) == 1 else "any README"
+                yield f"{file}:{prose.line(match.start())}: error: [{key}] is not among the references of {where}"

@@ -65,8 +65,9 @@ class TheCheck(ToolTestCase):
             ("fem/a.h", "int x;  // equation (1)\n", "not of the form (ROOM, eq. N)"),
             ("tests/a.py", "# x\n# (bodies, eq. 56a)\n", "tests/a.py:2: error: not of the form"),
             ("fem/a.h", '// (bodies, "Rest")\n', "room 'bodies' has no section 'Rest'"),
-            ("dynamics/bodies/a.h", "// [Jones 2001]\n", "dynamics/bodies/README.md has no reference [Jones 2001]"),
-            ("dynamics/bodies/a.h", "// [Miller & Smith 1999; Jones 2001, §2]\n", "no reference [Jones 2001]"),
+            ("dynamics/bodies/a.h", "// [Jones 2001]\n", "[Jones 2001] is not among the references of dynamics/bodies/README.md"),
+            ("tests/a.h", "// [Jones 2001], [Miller & Smith 1999]\n", "[Jones 2001] is not among the references of any README"),
+            ("dynamics/bodies/a.h", "// [Miller & Smith 1999; Jones 2001, §2]\n", "[Jones 2001] is not among the references of dynamics/bodies/README.md"),
         ):
             with self.subTest(text):
                 self.write(name, text)
