@@ -57,9 +57,9 @@ Body make_rigid_body(const std::string& name, double mass, double inertia);
 /// A body from a superelement with the given modes active; none of them: rigid with the same mass and
 /// inertia.
 /// @param mode_numbers   1-based, ascending, without repetition, at most superelement.num_modes()
-/// @throws std::invalid_argument for a mode the superelement lacks, or lacks the geometric stiffness of where
-/// the body
-///         is to stiffen
+/// @throws std::invalid_argument for a mode that the superelement lacks, or whose geometric stiffness it
+/// lacks
+///         where the body is to stiffen
 Body make_flexible_body(const std::string& name, const reduce::Superelement& superelement,
                         const std::vector<int>& mode_numbers, Stiffening stiffening = Stiffening::kOff);
 

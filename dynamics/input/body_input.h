@@ -21,8 +21,7 @@ std::vector<PointDescription> read_points(const support::TomlTable& table, bool 
 
 /// FOLDER/NAME.h5 of each superelement that a body names, each read once.
 /// @throws support::InputError at the body that names it for a file that is not there, at the file for one
-/// that
-///         cannot be used, at the point for a node that the superelement lacks or whose name is taken
+///         that cannot be used, at the point for a node that the superelement lacks or whose name is taken
 std::map<std::string, reduce::Superelement> read_superelements(const std::vector<BodyDescription>& bodies,
                                                                const std::filesystem::path& folder);
 

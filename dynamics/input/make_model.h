@@ -19,8 +19,7 @@ namespace sprung::dynamics {
 /// @param motions  whether prescribed motion goes on, or stands still as at t = 0
 /// @param stiffened  bodies that their axial forces stiffen
 /// @throws std::invalid_argument for modes that a superelement, or its geometric stiffness, lacks;
-/// `resolve_modes` and
-///         `resolve_stiffening` give none
+///         `resolve_modes` and `resolve_stiffening` give none
 Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const PlacedRoad& road,
                  const ModalDamping& damping = {}, MotionUse motions = MotionUse::kMoving,
                  const StiffenedBodies& stiffened = {});

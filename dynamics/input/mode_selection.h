@@ -57,15 +57,13 @@ const reduce::Superelement& find_superelement(const std::string& body_name, cons
 /// The modes that the requests mean for this vehicle; bodies left rigid are left out. "auto" means all that
 /// there are: what there is to choose from.
 /// @throws support::InputError at the request's place: no such body, a body without superelement, more modes
-/// than its
-///         file has, or a count that parts modes of equal frequency (explicit numbers may)
+///         than its file has, or a count that parts modes of equal frequency (explicit numbers may)
 ModeSelection resolve_modes(const ModeRequests& requests, const Vehicle& vehicle);
 /// The damping ratios that the requests mean; bodies whose damping stays the superelement's are left out. Of
 /// a body with modes "auto" a list has one for each mode that there is.
 /// @param selection  as by resolve_modes
 /// @throws support::InputError at the request's place: no such body or superelement, or ratios that are
-/// neither one
-///         nor as many as the body's active modes
+///         neither one nor as many as the body's active modes
 ModalDamping resolve_modal_damping(const DampingRequests& requests, const ModeSelection& selection,
                                    const Vehicle& vehicle);
 /// The damping of a smaller selection: of lists the ratios of the modes that stay.

@@ -26,8 +26,7 @@ StiffeningRequests read_stiffening(const support::TomlTable& table);
 
 /// The bodies that the requests mean; those that move as rigid ones are left out.
 /// @throws support::InputError at the request's place: no such body, a body without superelement, or a
-/// superelement
-///         without the geometric stiffness of all active modes
+///         superelement without the geometric stiffness of all active modes
 StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const ModeSelection& selection,
                                    const Vehicle& vehicle);
 

@@ -60,9 +60,8 @@ class Joint {
   virtual void calc_time_rate(const MarkerState& a, const MarkerState& b, double time,
                               JointVector& phi_t) const;
 
-  /// @param[out] drift  k terms of φ̈ that do not contain accelerations of the markers: Ġa (v_a, ω_a) + Ġb
-  /// (v_b, ω_b)
-  ///                    + explicit time terms [m/s², rad/s²]
+  /// @param[out] drift  k terms of φ̈ that do not contain accelerations of the markers:
+  ///                    Ġa (v_a, ω_a) + Ġb (v_b, ω_b) + explicit time terms [m/s², rad/s²]
   virtual void calc_drift(const MarkerState& a, const MarkerState& b, double time,
                           JointVector& drift) const = 0;
 

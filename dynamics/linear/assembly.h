@@ -17,8 +17,7 @@ struct AssemblyReport {
 /// (Gauss–Newton, least movement in the mass metric).
 /// @param[in,out] q  num_coordinates
 /// @throws support::InputError at the joint, if the joints cannot be closed from there, or if some of them
-/// are
-///         redundant (all that take part are named)
+///         are redundant (all that take part are named)
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q);
 
 /// What the joints made of the velocities asked for.

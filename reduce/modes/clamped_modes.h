@@ -30,8 +30,8 @@ struct ClampedModes {
 ///
 /// @param num_modes  1 … n
 /// @throws support::NumericalError if no complete basis was found after several attempts (numbers found and
-/// counted)
-///         std::invalid_argument if num_modes is out of range
+///         counted)
+/// @throws std::invalid_argument if num_modes is out of range
 /// Checked by tests/reduce/modes/clamped_modes_test.cpp
 ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
                                 const ClampedModeOptions& options = {});

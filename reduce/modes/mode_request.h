@@ -28,15 +28,15 @@ struct ModeRequest {
 /// Number of lowest modes that must be known to serve a request.
 /// @return 1 … n
 /// @throws support::InputError at request.where: more modes than the frame has, no mode up to the frequency
-/// (with the
-///         lowest one), all modes of a frame too large for that
+///         (with the lowest one), all modes of a frame too large for that
 int calc_num_modes_needed(const ModeRequest& request, const ModalProblem& problem,
                           const ClampedModeOptions& options);
 
 /// Picks the modes of a request from the lowest ones.
 /// @return 0-based columns of `modes`, ascending
-/// @throws support::InputError at request.where if a count or frequency would take part of a cluster (names
-/// it) Checked by tests/reduce/modes/mode_request_test.cpp
+/// @throws support::InputError at request.where if a count or frequency would take part of a cluster, which
+///         the message names
+/// Checked by tests/reduce/modes/mode_request_test.cpp
 std::vector<int> select_modes(const ModeRequest& request, const ClampedModes& modes, int num_needed);
 
 }  // namespace sprung::reduce
