@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
-#include "dynamics/forces/passage.h"
 #include "dynamics/forces/road_response.h"
 #include "dynamics/functions/time_function.h"
 
@@ -71,12 +70,6 @@ class ForceElement {
   /// @param[out] values  positive while the branches hold, negative beyond; smooth in time
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
-  /// What happens at the zero of a switch function. A bend is nothing that describe_change tells of.
-  virtual Passage passage(int /*switch_index*/, std::span<const int> /*branches*/) const {
-    return Passage::kJump;
-  }
-  /// Branches next to the present ones, beyond a switch function at which the force bends.
-  virtual void go_beyond(int /*switch_index*/, std::span<int> /*branches*/) const {}
   /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth
   /// telling.
   virtual std::string describe_change(std::span<const int> /*old_branches*/,

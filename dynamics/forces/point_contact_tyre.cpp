@@ -102,16 +102,6 @@ void PointContactTyre::calc_switches(const Instant& instant, std::span<const int
       segment < road_.road->num_segments() - 1 ? road_.road->segment_end(segment) - wheel.distance : 1.0;
 }
 
-// On the ground the force comes from zero and goes to it. What it is in the air at once, when it lands, it is
-// not.
-Passage PointContactTyre::passage(int switch_index, std::span<const int> /*branches*/) const {
-  return switch_index == 1 ? Passage::kBend : Passage::kJump;
-}
-
-void PointContactTyre::go_beyond(int /*switch_index*/, std::span<int> branches) const {
-  branches[0] = branches[0] == kPressed ? kTouching : kPressed;
-}
-
 std::string PointContactTyre::describe_change(std::span<const int> old_branches,
                                               std::span<const int> new_branches) const {
   const bool was_on_ground = old_branches[0] != kInAir;

@@ -36,8 +36,6 @@ class PointContactTyre final : public ForceElement {
   int num_switches() const override { return 4; }
   void calc_switches(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const override;
-  Passage passage(int switch_index, std::span<const int> branches) const override;
-  void go_beyond(int switch_index, std::span<int> branches) const override;
   std::string describe_change(std::span<const int> old_branches,
                               std::span<const int> new_branches) const override;
   double calc_longest_step(const Instant& instant) const override;

@@ -24,19 +24,4 @@ void SpringAndDamper::calc_switches(const Instant& instant, std::span<const int>
                                values.subspan(static_cast<std::size_t>(spring().num_switches())));
 }
 
-// What a spring takes up it stores, so that its power does not count.
-Passage SpringAndDamper::passage(int switch_index, std::span<const int> branches) const {
-  const int of_damper = switch_index - spring().num_switches();
-  if (of_damper < 0 || damper().ends_at_zero(branches[1], of_damper)) return Passage::kBendAtRest;
-  return Passage::kBend;
-}
-
-void SpringAndDamper::go_beyond(int switch_index, std::span<int> branches) const {
-  const int of_damper = switch_index - spring().num_switches();
-  if (of_damper < 0)
-    branches[0] += switch_index == 0 ? -1 : 1;
-  else
-    branches[1] += of_damper == 0 ? -1 : 1;
-}
-
 }  // namespace sprung::dynamics

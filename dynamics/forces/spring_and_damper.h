@@ -15,8 +15,6 @@ class SpringAndDamper : public ForceElement {
   int num_branches() const final { return 2; }
   void choose_branches(const Instant& instant, std::span<int> branches) const final;
   int num_switches() const final { return spring().num_switches() + damper().num_switches(); }
-  Passage passage(int switch_index, std::span<const int> branches) const final;
-  void go_beyond(int switch_index, std::span<int> branches) const final;
   void calc_switches(const Instant& instant, std::span<const int> branches,
                      std::span<double> values) const final;
 

@@ -169,11 +169,6 @@ int PiecewisePolynomial::choose_piece(int piece, double x, double dead_band) con
   return above_lower_end && below_upper_end ? piece : static_cast<int>(find_piece(x));
 }
 
-bool PiecewisePolynomial::ends_at_zero(int piece, int switch_index) const {
-  const int end = piece - 1 + switch_index;
-  return end >= 0 && end < static_cast<int>(breaks_.size()) && breaks_[static_cast<std::size_t>(end)] == 0.0;
-}
-
 void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_band,
                                               std::span<double> values) const {
   if (breaks_.empty()) return;

@@ -55,8 +55,6 @@ class PiecewisePolynomial {
   /// @param[out] values  num_switches: positive while x has not gone a dead band beyond the lower, the upper
   /// end of the piece
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
-  /// Whether the end of a piece that a switch function tells, 0 or 1, is at x = 0.
-  bool ends_at_zero(int piece, int switch_index) const;
 
  private:
   std::size_t find_piece(double x) const;

@@ -32,7 +32,6 @@ class Integrator {
   };
   struct Statistics {
     long steps = 0, error_test_failures = 0, iteration_failures = 0, restarts = 0;
-    long bends = 0;  ///< switches that steps were carried through
   };
 
   virtual ~Integrator() = default;

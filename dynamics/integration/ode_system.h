@@ -4,8 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/forces/passage.h"
-
 namespace sprung::dynamics {
 
 /// M δq̈ + C δq̇ + K δq = 0: small motion about a state, all f×f.
@@ -34,15 +32,6 @@ class OdeSystem {
   /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth
   /// in time
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
-  /// How f goes through the zero of a switch function.
-  virtual Passage passage(int /*switch_index*/) const { return Passage::kJump; }
-  /// From `time` on, calc_derivative uses the formulas next to the present ones, beyond a switch function
-  /// that is none of a jump. Called in order of time.
-  /// @param[out] change  of ẏ, at the arguments that calc_derivative was called with last
-  /// @return false, and nothing changed, where that cannot be
-  virtual bool pass(int /*switch_index*/, double /*time*/, std::span<double> /*change*/) { return false; }
-  /// Back to the formulas from before the first `pass` of this step.
-  virtual void take_back_passes() {}
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;
 

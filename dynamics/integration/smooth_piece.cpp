@@ -6,33 +6,19 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-constexpr std::size_t kMaxPhases = 5;
-
-}  // namespace
-
 SmoothPiece::SmoothPiece(const Model& model)
-    : model_(&model),
-      phases_(kMaxPhases, {.branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))}) {
-  for (std::size_t i = 0; i < model.forces.size(); ++i) {
-    for (int k = 0; k < model.forces[i]->num_switches(); ++k) switches_.push_back({i, k});
-  }
-}
-
-void SmoothPiece::set_branches(const std::vector<int>& branches) {
-  take_back_passes();
-  phases_[0].branches = branches;
+    : model_(&model), branches_(static_cast<std::size_t>(model.num_branches)) {
+  for (const auto& force : model.forces) num_switches_ += force->num_switches();
 }
 
 std::vector<BranchChange> SmoothPiece::update_branches(const SystemTerms& terms) {
-  const std::vector<int> old_branches = branches();
-  set_branches(old_branches);
-  terms.choose_branches(phases_[0].branches);
+  const std::vector<int> old_branches = branches_;
+  terms.choose_branches(branches_);
   std::vector<BranchChange> changes;
   for (std::size_t i = 0; i < model_->forces.size(); ++i) {
     const ForceElement& force = *model_->forces[i];
-    const std::string text = force.describe_change(own_branches(i, old_branches), branches_of(i));
+    const std::string text =
+        force.describe_change(model_->branches_of(i, old_branches), model_->branches_of(i, branches_));
     if (!text.empty()) changes.push_back({force.name, text});
   }
   return changes;
@@ -43,40 +29,9 @@ void SmoothPiece::calc_switches(const SystemTerms& terms, std::span<double> valu
   for (std::size_t i = 0; i < model_->forces.size(); ++i) {
     const ForceElement& force = *model_->forces[i];
     const auto count = static_cast<std::size_t>(force.num_switches());
-    force.calc_switches(terms.instant(), branches_of(i), values.subspan(next, count));
+    force.calc_switches(terms.instant(), model_->branches_of(i, branches_), values.subspan(next, count));
     next += count;
   }
-}
-
-Passage SmoothPiece::passage(int switch_index) const {
-  const Switch& one = switches_[static_cast<std::size_t>(switch_index)];
-  return model_->forces[one.force]->passage(one.index, branches_of(one.force));
-}
-
-std::optional<SmoothPiece::Pass> SmoothPiece::pass(int switch_index, double time) {
-  const auto [force, index] = switches_[static_cast<std::size_t>(switch_index)];
-  for (std::size_t k = 1; k < num_phases_; ++k) {
-    if (phases_[k].passed_force == force) return {};
-  }
-  if (num_phases_ == kMaxPhases) return {};
-  Phase& last = phases_[num_phases_ - 1];
-  Phase& next = phases_[num_phases_];
-  last.end = time;
-  next.branches = last.branches;
-  next.passed_force = force;
-  model_->forces[force]->go_beyond(index, own_branches(force, next.branches));
-  now_ = num_phases_++;
-  return Pass{force, own_branches(force, std::as_const(last.branches)), branches_of(force)};
-}
-
-void SmoothPiece::go_to(double time) {
-  now_ = 0;
-  while (now_ + 1 < num_phases_ && time >= phases_[now_].end) ++now_;
-}
-
-void SmoothPiece::begin_step() {
-  std::swap(phases_[0].branches, phases_[num_phases_ - 1].branches);
-  take_back_passes();
 }
 
 double SmoothPiece::calc_longest_step(const SystemTerms& terms) const {

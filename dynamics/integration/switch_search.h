@@ -24,13 +24,6 @@ class SwitchSearch {
     return false;
   }
 
-  /// Where the cubic through the values of one of them becomes negative, between two places.
-  double find_crossing(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values,
-                       int after, Eigen::Index index, double tolerance) {
-    begin(places, values, after);
-    return predict(index, tolerance);
-  }
-
   /// @param places    2 to 4, increasing
   /// @param values    a column for each of them
   /// @param after     the place before which, and behind the one before it, functions cross

@@ -9,7 +9,6 @@ SystemStepper::Statistics& SystemStepper::Statistics::operator+=(const Statistic
   integrator.error_test_failures += later.integrator.error_test_failures;
   integrator.iteration_failures += later.integrator.iteration_failures;
   integrator.restarts += later.integrator.restarts;
-  integrator.bends += later.integrator.bends;
   evaluations += later.evaluations;
   repartitions += later.repartitions;
   velocity_violation = std::max(velocity_violation, later.velocity_violation);

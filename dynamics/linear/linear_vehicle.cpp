@@ -7,15 +7,6 @@
 
 namespace sprung::dynamics {
 
-namespace {
-
-std::span<const int> branches_of(const Model& model, std::size_t force, const std::vector<int>& branches) {
-  return std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force]),
-                                     static_cast<std::size_t>(model.forces[force]->num_branches()));
-}
-
-}  // namespace
-
 LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     : q_(q),
       equations_(model),
@@ -33,7 +24,7 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     const ForceElement& force = *model.forces[f];
     channel_rows_.push_back(channel_rows_.back() + static_cast<int>(force.channels().size()));
     const std::optional<RoadPlace> place =
-        force.find_road_place(equations_.terms().instant(), branches_of(model, f, branches_));
+        force.find_road_place(equations_.terms().instant(), model.branches_of(f, branches_));
     if (!place) continue;
     inputs_.push_back({.name = force.name,
                        .force = static_cast<int>(f),
@@ -74,7 +65,7 @@ Eigen::VectorXd LinearVehicle::calc_channels() const {
   Eigen::VectorXd values(channel_rows_.back());
   for (std::size_t f = 0; f < model().forces.size(); ++f) {
     const ForceElement& force = *model().forces[f];
-    force.calc_channels(equations_.terms().instant(), branches_of(model(), f, branches_),
+    force.calc_channels(equations_.terms().instant(), model().branches_of(f, branches_),
                         std::span(values.data() + channel_rows_[f], force.channels().size()));
   }
   return values;
@@ -87,7 +78,7 @@ void LinearVehicle::calc_road_wrenches(std::size_t input, const RoadWave& wave,
   for (const int marker : force.markers()) wrenches[static_cast<std::size_t>(marker)] = {};
   channels.setZero(static_cast<Eigen::Index>(force.channels().size()));
   if (!inputs_[input].is_pressed) return;
-  force.add_road_response(equations_.terms().instant(), branches_of(model(), f, branches_), wave, wrenches,
+  force.add_road_response(equations_.terms().instant(), model().branches_of(f, branches_), wave, wrenches,
                           {channels.data(), static_cast<std::size_t>(channels.size())});
 }
 

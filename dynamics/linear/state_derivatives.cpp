@@ -62,9 +62,7 @@ std::vector<int> shift(PartitionedEquations& equations, double time, Eigen::Vect
 void add_changed(const Model& model, const std::vector<int>& one, const std::vector<int>& other,
                  bool in_position, std::vector<Kink>& kinks) {
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const int first = model.force_branches[f], count = model.forces[f]->num_branches();
-    const auto begin = one.begin() + first;
-    if (std::equal(begin, begin + count, other.begin() + first)) continue;
+    if (std::ranges::equal(model.branches_of(f, one), model.branches_of(f, other))) continue;
     const std::string& name = model.forces[f]->name;
     const bool is_known = std::any_of(kinks.begin(), kinks.end(), [&](const Kink& kink) {
       return kink.element == name && kink.in_position == in_position;

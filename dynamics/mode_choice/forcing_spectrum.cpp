@@ -81,11 +81,7 @@ class TimedForces {
     for (const int marker : force.markers()) wrenches_[static_cast<std::size_t>(marker)] = {};
     Instant instant = vehicle_.equations().terms().instant();
     instant.time = time;
-    force.add_wrenches(instant,
-                       std::span(vehicle_.branches())
-                           .subspan(static_cast<std::size_t>(model.force_branches[timed.force]),
-                                    static_cast<std::size_t>(force.num_branches())),
-                       wrenches_);
+    force.add_wrenches(instant, model.branches_of(timed.force, vehicle_.branches()), wrenches_);
     const Wrench& wrench = wrenches_[static_cast<std::size_t>(timed.marker)];
     return timed.component == 2 ? wrench.torque : wrench.force[timed.component];
   }

@@ -26,11 +26,7 @@ struct RestingForces {
     const Model& model = terms.model();
     const ForceElement& force = *model.forces[force_index];
     std::vector<double> values(force.channels().size());
-    force.calc_channels(
-        terms.instant(),
-        std::span(branches).subspan(static_cast<std::size_t>(model.force_branches[force_index]),
-                                    static_cast<std::size_t>(force.num_branches())),
-        values);
+    force.calc_channels(terms.instant(), model.branches_of(force_index, branches), values);
     return values;
   }
 };

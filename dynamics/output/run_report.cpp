@@ -95,8 +95,7 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
   run.add_row({"steps", fmt::format("{}", transient.stepper.integrator.steps)});
   run.add_row({"evaluations (and for output)",
                fmt::format("{} ({})", transient.stepper.evaluations, transient.output_evaluations)});
-  run.add_row({"switches of forces (passed within a step)",
-               fmt::format("{} ({})", transient.switches, transient.stepper.integrator.bends)});
+  run.add_row({"switches of forces", fmt::format("{}", transient.switches)});
   std::string warning;
   if (summary.adaptivity) {
     const WorstNeglect& worst = transient.worst_neglect;

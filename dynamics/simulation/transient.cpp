@@ -51,7 +51,6 @@ class TransientRun {
     if (is_settled) write_outputs(start.time);
     if (start.time < options_.end_time) integrate();
     statistics_.stepper = stepper_->statistics();
-    statistics_.switches += statistics_.stepper.integrator.bends;
     if (adaptive_) {
       statistics_.mode_changes = adaptive_->num_changes();
       statistics_.mean_active_modes = adaptive_->mean_active_modes();

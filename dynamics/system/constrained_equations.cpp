@@ -63,22 +63,6 @@ bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
   return v_dot_.allFinite();
 }
 
-// The factors are those of update_accelerations.
-Power ConstrainedEquations::change_branches(std::size_t f, std::span<const int> from,
-                                            std::span<const int> to) {
-  const Power power = terms_.change_branches(f, from, to, moved_);
-  apply_inverse_mass(moved_);
-  if (model_->num_constraints > 0) {
-    residual_.setZero();
-    terms_.jacobian().add_product(moved_, residual_);
-    calc_correction();
-    lambda_ += impulse_;
-    moved_ -= step_;
-  }
-  v_dot_ += moved_;
-  return power;
-}
-
 double ConstrainedEquations::calc_motion_power() {
   if (!model_->has_motions) return 0.0;
   terms_.calc_time_rate(residual_);

@@ -26,12 +26,6 @@ class ConstrainedEquations {
   /// Accelerations and multipliers. Positions, Jacobian and velocities of the terms have to be up to date.
   /// @return false where NaN or infinity came out, or constraints have become dependent
   bool update_accelerations(std::span<const int> branches);
-  /// Takes force element f from some of its branches to others, after update_accelerations with those:
-  /// accelerations, multipliers and the forces and power of terms() become as though it had been called with
-  /// the others.
-  /// @return the change of power;  change_of_v_dot() is that of the accelerations
-  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to);
-  const Eigen::VectorXd& change_of_v_dot() const { return moved_; }
   /// Entries of the factor for the multipliers.
   int num_factor_entries() const { return multipliers_.num_factor_entries(); }
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).

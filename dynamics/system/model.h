@@ -35,6 +35,12 @@ struct Model {
   double time_resolution = 0.0;     ///< step in time that misses nothing of any function of time [s]
 
   int num_freedoms() const { return num_coordinates - num_constraints; }
+  /// The part of all branches that belongs to force element f.
+  template <class Branches>
+  auto branches_of(std::size_t f, Branches& branches) const {
+    return std::span(branches).subspan(static_cast<std::size_t>(force_branches[f]),
+                                       static_cast<std::size_t>(forces[f]->num_branches()));
+  }
   /// "chassis.x", "chassis.angle", "chassis.mode 3"
   std::string coordinate_name(int coordinate) const;
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what

@@ -48,11 +48,6 @@ class PartitionedEquations {
   /// Accelerations and multipliers, after update_velocities: M q̈ + φ_qᵀλ = Q.
   Outcome update_accelerations(std::span<const int> branches);
 
-  /// As ConstrainedEquations::change_branches.
-  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to) {
-    return full_.change_branches(f, from, to);
-  }
-
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).
   double calc_motion_power() { return full_.calc_motion_power(); }
 
@@ -65,7 +60,6 @@ class PartitionedEquations {
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& v_dot() const { return full_.v_dot(); }
-  const Eigen::VectorXd& change_of_v_dot() const { return full_.change_of_v_dot(); }
   const Eigen::VectorXd& multipliers() const { return full_.multipliers(); }
 
   /// D = ∂v/∂v_i, nq×f, what the constraints leave free, at the positions evaluated last.

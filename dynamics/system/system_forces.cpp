@@ -23,11 +23,7 @@ void SystemTerms::update_forces(std::span<const int> branches) {
   const Instant now = instant();
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
-    const Power power =
-        force.add_wrenches(now,
-                           branches.subspan(static_cast<std::size_t>(model_->force_branches[f]),
-                                            static_cast<std::size_t>(force.num_branches())),
-                           wrenches_);
+    const Power power = force.add_wrenches(now, model_->branches_of(f, branches), wrenches_);
     power_.dissipated += power.dissipated;
     power_.input += power.input;
   }
@@ -70,30 +66,6 @@ void SystemTerms::add_body_forces(std::size_t b) {
   }
 }
 
-Power SystemTerms::change_branches(std::size_t f, std::span<const int> from, std::span<const int> to,
-                                   Eigen::VectorXd& change) {
-  for (const int i : model_->acting_markers) changed_wrenches_[static_cast<std::size_t>(i)] = Wrench{};
-  const ForceElement& force = *model_->forces[f];
-  const Power before = force.add_wrenches(instant(), from, changed_wrenches_);
-  for (const int i : model_->acting_markers) {
-    Wrench& wrench = changed_wrenches_[static_cast<std::size_t>(i)];
-    wrench = {.force = -wrench.force, .torque = -wrench.torque};
-  }
-  const Power after = force.add_wrenches(instant(), to, changed_wrenches_);
-  change.setZero();
-  for (const MovingMarker& moving : acting_markers_) {
-    const Wrench& wrench = changed_wrenches_[moving.marker];
-    add_wrench(moving, wrench, change);
-    wrenches_[moving.marker].force += wrench.force;
-    wrenches_[moving.marker].torque += wrench.torque;
-  }
-  Q_ += change;
-  const Power power{.dissipated = after.dissipated - before.dissipated, .input = after.input - before.input};
-  power_.dissipated += power.dissipated;
-  power_.input += power.input;
-  return power;
-}
-
 void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const {
   std::copy(wrenches_.begin(), wrenches_.end(), loads.begin());
   for (const JointTerms& terms : joints_) {
@@ -112,8 +84,7 @@ void SystemTerms::choose_branches(std::span<int> branches) const {
   const Instant now = instant();
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
-    force.choose_branches(now, branches.subspan(static_cast<std::size_t>(model_->force_branches[f]),
-                                                static_cast<std::size_t>(force.num_branches())));
+    force.choose_branches(now, model_->branches_of(f, branches));
   }
 }
 
@@ -132,9 +103,7 @@ Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
   }
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
     const ForceElement& force = *model.forces[f];
-    energy.spring += force.calc_stored_energy(
-        terms.instant(), branches.subspan(static_cast<std::size_t>(model.force_branches[f]),
-                                          static_cast<std::size_t>(force.num_branches())));
+    energy.spring += force.calc_stored_energy(terms.instant(), model.branches_of(f, branches));
   }
   return energy;
 }

@@ -13,7 +13,6 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
       rotations_(model.bodies.size()),
       nearby_rotations_(model.bodies.size()),
       wrenches_(model.markers.size()),
-      changed_wrenches_(model.markers.size()),
       Phi_q_(model.num_constraints, model.num_coordinates) {
   for (const Body& body : model.bodies) {
     angles_.push_back(body.first_coordinate + 2);

@@ -45,10 +45,6 @@ class SystemTerms {
 
   /// Generalized forces of force elements, gravity, stiffness, damping and quadratic velocity terms.
   void update_forces(std::span<const int> branches);
-  /// Takes force element f from some of its branches to others, after `update_forces` with those.
-  /// @param[out] change  of forces(), nq   @return the change of power()
-  Power change_branches(std::size_t f, std::span<const int> from, std::span<const int> to,
-                        Eigen::VectorXd& change);
   const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
   const Power& power() const { return power_; }
   /// What force elements, and joints under multipliers λ, do to each marker; after `update_jacobian` and
@@ -123,7 +119,7 @@ class SystemTerms {
   std::vector<NearbyRotation> nearby_rotations_;
   std::vector<MarkerState> markers_;
   std::vector<BodyMass> masses_;
-  std::vector<Wrench> wrenches_, changed_wrenches_;
+  std::vector<Wrench> wrenches_;
   std::vector<JointTerms> joints_;
   std::vector<TurningRow> turning_rows_;
   std::vector<std::size_t> filled_joints_;  // whose blocks are filled anew each time, as their G is

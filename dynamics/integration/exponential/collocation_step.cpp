@@ -12,8 +12,7 @@ CollocationStep::CollocationStep(Eigen::Index num_pairs, Eigen::Index num_quadra
     : motion{Eigen::VectorXd::Zero(2 * num_pairs), Eigen::VectorXd::Zero(num_quadratures)},
       drive{lobatto::NodeValues::Zero(2 * num_pairs, kNumNodes),
             lobatto::NodeValues::Zero(num_quadratures, kNumNodes)},
-      quartic(motion),
-      bends(num_pairs, num_quadratures) {}
+      quartic(motion) {}
 
 void CollocationStep::propagate(const LobattoPropagator& propagator, const PairBlocks& blocks,
                                 PairedMotion& at) const {
@@ -33,7 +32,6 @@ void CollocationStep::calc_drive(double theta, PairedMotion& at) const {
   const lobatto::NodeWeights weights = cubic_weights(theta);
   combine(drive.pairs, weights, at.u);
   combine(drive.rates, weights, at.w);
-  for (const Bend& bend : bends.all()) bend.add_gain(theta, at);
 }
 
 void CollocationStep::propagate_quartic(const LobattoPropagator& propagator, const PairBlocks& blocks,

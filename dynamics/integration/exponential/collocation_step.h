@@ -2,17 +2,21 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/integration/exponential/bends.h"
 #include "dynamics/integration/exponential/lobatto_step.h"
 
 namespace sprung::dynamics {
+
+/// Motion at one instant, taken apart by a VibrationBasis; or its derivative.
+struct PairedMotion {
+  Eigen::VectorXd u;  ///< pairs, 2f
+  Eigen::VectorXd w;  ///< quadratures
+};
 
 /// What the pairs leave of the derivatives, at the Lobatto points of a step.
 struct Drive {
   lobatto::NodeValues pairs;  ///< 2f×4
   lobatto::NodeValues rates;  ///< of the quadratures, a column for each point
 
-  void get(int node, PairedMotion& value) const { value.u = pairs.col(node), value.w = rates.col(node); }
   void set(int node, const PairedMotion& value) { pairs.col(node) = value.u, rates.col(node) = value.w; }
 };
 
@@ -25,7 +29,7 @@ struct CollocationStep {
   void propagate(const LobattoPropagator& propagator, const PairBlocks& blocks, PairedMotion& motion) const;
   /// Adds what the part of fourth degree does up to that instant, where it is known.
   void add_quartic(const LobattoPropagator& propagator, const PairBlocks& blocks, PairedMotion& motion) const;
-  /// The drive at θ, by the formulas that hold at the end.
+  /// The drive at θ.
   void calc_drive(double theta, PairedMotion& drive) const;
   /// What the part of fourth degree alone does up to that instant.
   void propagate_quartic(const LobattoPropagator& propagator, const PairBlocks& blocks,
@@ -36,7 +40,6 @@ struct CollocationStep {
   Drive drive;
   PairedMotion quartic;      ///< coefficients of node_polynomial, estimated
   bool has_quartic = false;  ///< from a point of the step before; else it is no more than a guess of its size
-  Bends bends;               ///< not in `drive`
 };
 
 /// What a step can be predicted from.

@@ -56,7 +56,6 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       num_quadratures_(system.size() - 2 * system.num_freedoms()),
       num_switches_(system.num_switches()),
       contraction_(kFirstContraction),
-      bend_contraction_(kFirstContraction),
       switch_search_(num_switches_) {
   if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
   origin_ = Vector::Zero(f_);
@@ -64,7 +63,6 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   now_ = last_ = CollocationStep(f_, num_quadratures_);
   prediction_ = DrivePrediction(f_, num_quadratures_);
   end_ = difference_ = between_motion_ = now_.motion;
-  end_drive_ = bend_response_ = doubt_ = now_.motion;
   stages_.fill(now_.motion);
   between_ = LobattoPropagator(f_);
   propagators_.fill(between_);
@@ -283,9 +281,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
 // now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true
 // if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
-  now_.bends.clear();
-  const bool switches = num_switches_ > 0 && crosses();
-  if (switches && !pass_bends()) {
+  if (num_switches_ > 0 && crosses()) {
     locate_switch();
     std::swap(now_, last_);
     to_physical(between_motion_, y_);
@@ -294,10 +290,6 @@ bool ExponentialIntegrator::finish_step() {
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
   now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
-  if (switches) {
-    end_.u += bend_response_.u;
-    end_.w += bend_response_.w;
-  }
   to_physical(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
@@ -313,8 +305,6 @@ void ExponentialIntegrator::interpolate(double time, std::span<double> y) const 
   between_.update(theta, last_.length, basis_.blocks);
   last_.propagate(between_, basis_.blocks, between_motion_);
   last_.add_quartic(between_, basis_.blocks, between_motion_);
-  for (const Bend& bend : last_.bends.all())
-    bend.add_response(theta, last_.length, basis_.blocks, between_, between_motion_);
   to_physical(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }

@@ -13,9 +13,9 @@ namespace sprung::dynamics {
 /// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
 /// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
 /// the step through its values at the four Lobatto points, found by iteration. So the step follows what
-/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Steps go on through forces
-/// that only bend. Nothing from before a switch is needed behind it: the step stays as long as it was.
-/// Source: variation of constants; [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–7).
+/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a
+/// switch is needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck &
+/// Ostermann 2010] (integration/exponential, eqs. 1–6).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -47,9 +47,6 @@ class ExponentialIntegrator final : public Integrator {
   void move_between(const LobattoPropagator& propagator);
   bool is_surprising(std::size_t look);
   bool may_hide_switches();
-  bool is_undisturbed(double place);
-  bool find_gains();
-  bool pass_bends();
   void begin_switches(int node);
   void locate_switch();
   void to_physical(const PairedMotion& motion, Vector& y) const;
@@ -76,7 +73,6 @@ class ExponentialIntegrator final : public Integrator {
   bool has_begun_ = false;
   Past past_ = Past::kNone;
   double contraction_;                                    // of the iteration, from sweep to sweep
-  double bend_contraction_;                               // of what bends call for in turn
   double last_error_ = 0.0;                               // of the step before, of the tolerance
   std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
   double propagator_length_ = 0.0;
@@ -91,7 +87,7 @@ class ExponentialIntegrator final : public Integrator {
   Eigen::MatrixXd switches_;  // num_switches × 4
   SwitchSearch switch_search_;
 
-  PairedMotion end_, difference_, end_drive_, bend_response_, doubt_;
+  PairedMotion end_, difference_;
   Vector end_switches_;
   Vector y_dot_, inverse_scales_, stage_y_, difference_y_;
   Vector pair_sizes_;  // 2f: what one of each adds to calc_norm, at the linearisation

@@ -1,4 +1,4 @@
-// Switches within a step of the exponential method: carried through where forces bend, else located.
+// Switches within a step of the exponential method.
 #include <algorithm>
 #include <cmath>
 
@@ -14,13 +14,8 @@ namespace {
 constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
-constexpr double kBendShare = 1.0;  // error of a step that is carried through bends, of what is allowed
-constexpr double kDisturbance =
-    5.0;  // what a bend may do up to the next, of what is allowed: little of it comes back
 constexpr double kSurprise = 100.0;       // of what is allowed: less than that hides no switch worth finding
 constexpr double kShortestHiding = 1e-9;  // s
-
-constexpr double kLeastBendContraction = 0.1, kLargestBendContraction = 0.9;
 
 std::span<double> span_of(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
@@ -78,89 +73,7 @@ bool ExponentialIntegrator::may_hide_switches() {
       if (SwitchCourse(switches_.row(i)).may_hide(kLooks[k], end_switches_[i])) return true;
     }
   }
-  if (!crosses()) return false;
-  // Bends change the forces at the end: the equations have to be there.
-  constexpr int kEnd = kNumNodes - 1;
-  to_physical(stages_[kEnd], stage_y_);
-  return !evaluate(now_.start + now_.length, stages_[kEnd], kEnd);
-}
-
-// Whether the bends before a place do next to nothing up to there: only then is it where it seems to be, and
-// may what is called for in turn be found at the end alone.
-bool ExponentialIntegrator::is_undisturbed(double place) {
-  difference_.set_zero();
-  for (const Bend& bend : now_.bends.all()) {
-    bend.add_response(place, now_.length, basis_.blocks, between_, difference_);
-  }
-  return calc_norm(difference_) <= kDisturbance;
-}
-
-// The bends of now_ and what they do at its end, in bend_response_. That motion changes the drive in turn,
-// and so on, each time by about the same share: the second time is looked at where it counts. @return false
-// where what is left is too much
-bool ExponentialIntegrator::find_gains() {
-  constexpr int kEnd = kNumNodes - 1;
-  const double end = now_.start + now_.length;
-  bend_response_.set_zero();
-  doubt_.set_zero();
-  for (Bend& bend : now_.bends.all()) {
-    if (&bend != now_.bends.all().data() && !is_undisturbed(bend.place)) return false;
-    if (!system_.pass(bend.switch_index, now_.start + bend.place * now_.length, span_of(y_dot_)))
-      return false;
-    basis_.to_pairs(y_dot_.data(), bend.gain.u.data());
-    bend.gain.w = y_dot_.tail(num_quadratures_);
-    bend.add_response(1.0, now_.length, basis_.blocks, between_, bend_response_);
-    doubt_.w += bend.calc_doubt(now_.length) * bend.gain.w;
-  }
-  const double doubt = calc_norm(doubt_), first = calc_norm(bend_response_);
-  const auto is_enough = [&](double size) {
-    return doubt + size * bend_contraction_ / (1.0 - bend_contraction_) <= kBendShare;
-  };
-  // All that has been passed to has to hold at the end.
-  const auto holds = [&] { return switches_.col(kEnd).minCoeff() >= 0.0; };
-  if (is_enough(first)) {
-    return system_.calc_switches(end, span_of(stage_y_),
-                                 {switches_.col(kEnd).data(), static_cast<std::size_t>(num_switches_)}) &&
-           holds();
-  }
-  between_motion_.u = end_.u + bend_response_.u;
-  between_motion_.w = end_.w + bend_response_.w;
-  to_physical(between_motion_, stage_y_);
-  if (!evaluate(end, between_motion_, kEnd) || !holds()) return false;
-  difference_.u = now_.drive.pairs.col(kEnd) - end_drive_.u;
-  difference_.w = now_.drive.rates.col(kEnd) - end_drive_.w;
-  for (const Bend& bend : now_.bends.all()) {
-    difference_.u -= bend.gain.u;
-    difference_.w -= bend.gain.w;
-  }
-  Bend& echo = now_.bends.add_echo();
-  echo.gain = difference_;
-  difference_.set_zero();
-  echo.add_response(1.0, now_.length, basis_.blocks, between_, difference_);
-  bend_response_.u += difference_.u;
-  bend_response_.w += difference_.w;
-  const double second = calc_norm(difference_);
-  bend_contraction_ = std::clamp(second / first, kLeastBendContraction, kLargestBendContraction);
-  return is_enough(second);
-}
-
-// Carries now_ through forces that only bend in it. @return false, and nothing changed, where that will not
-// do
-bool ExponentialIntegrator::pass_bends() {
-  if (!now_.bends.find(system_, switches_, switch_search_)) return false;
-  const auto num_bends = static_cast<long>(now_.bends.all().size());
-  now_.drive.get(kNumNodes - 1, end_drive_);
-  end_switches_ = switches_.col(kNumNodes - 1);
-  const bool good = find_gains();
-  now_.drive.set(kNumNodes - 1, end_drive_);
-  if (good) {
-    statistics_.bends += num_bends;
-  } else {
-    now_.bends.clear();
-    system_.take_back_passes();
-    switches_.col(kNumNodes - 1) = end_switches_;
-  }
-  return good;
+  return false;
 }
 
 // The first zero of a switch function in now_, between two of its nodes. time_ and between_motion_ are there.

@@ -80,21 +80,6 @@ void LobattoPropagator::apply(const PairBlocks& blocks, const Eigen::VectorXd& s
   }
 }
 
-void LobattoPropagator::add_response(const PairBlocks& blocks, const Eigen::VectorXd& direction,
-                                     const lobatto::NodeWeights& values, Eigen::VectorXd& u) const {
-  const Eigen::Index f = blocks.size();
-  for (Eigen::Index m = 0; m < f; ++m) {
-    double a = 0.0, b = 0.0;
-    for (int j = 0; j < kNumNodes; ++j) {
-      a += alpha_[static_cast<std::size_t>(j)][m] * values[j];
-      b += beta_[static_cast<std::size_t>(j)][m] * values[j];
-    }
-    const double g1 = direction[m], g2 = direction[f + m];
-    u[m] += a * g1 + b * (blocks.b11[m] * g1 + blocks.b12[m] * g2);
-    u[f + m] += a * g2 + b * (blocks.b21[m] * g1 + blocks.b22[m] * g2);
-  }
-}
-
 void LobattoPropagator::add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients,
                                     Eigen::VectorXd& u) const {
   const Eigen::Index f = blocks.size();

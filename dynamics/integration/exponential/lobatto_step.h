@@ -26,10 +26,6 @@ class LobattoPropagator {
   /// u += the response to a drive of node_polynomial(θ) times `coefficients`, 2f.
   void add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
 
-  /// u += the response to a drive along `direction`, 2f, times a cubic through `values` at the nodes.
-  void add_response(const PairBlocks& blocks, const Eigen::VectorXd& direction,
-                    const lobatto::NodeWeights& values, Eigen::VectorXd& u) const;
-
   double integral_weight(int j) const {
     return integral_[static_cast<std::size_t>(j)];
   }                                                              ///< of the rate at a node [s]

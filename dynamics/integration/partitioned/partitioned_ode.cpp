@@ -125,34 +125,6 @@ bool PartitionedOde::calc_switches(double time, std::span<const double> y, std::
   return true;
 }
 
-// The power of a prescribed motion bends with the force, wherever the force's own is at rest.
-Passage PartitionedOde::passage(int switch_index) const {
-  const Passage passage = piece_.passage(switch_index);
-  return passage == Passage::kBendAtRest && model_->has_motions ? Passage::kBend : passage;
-}
-
-bool PartitionedOde::pass(int switch_index, double time, std::span<double> change) {
-  if (accelerated_time_ != evaluated_time_) return false;  // nor if they are not numbers
-  const auto pass = piece_.pass(switch_index, time);
-  if (!pass) return false;
-  const double motion_power = equations_.calc_motion_power();
-  const Power power = equations_.change_branches(pass->force, pass->from, pass->to);
-  const std::vector<int>& independent = equations_.partition().independent;
-  const std::size_t f = independent.size();
-  for (std::size_t k = 0; k < f; ++k) {
-    change[k] = 0.0;
-    change[f + k] = equations_.change_of_v_dot()[independent[k]];
-  }
-  change[2 * f] = power.dissipated;
-  change[2 * f + 1] = power.input + equations_.calc_motion_power() - motion_power;
-  return true;
-}
-
-void PartitionedOde::take_back_passes() {
-  piece_.take_back_passes();
-  accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
-}
-
 void PartitionedOde::calc_error_scales(std::span<const double> y, std::span<double> scales) const {
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();

@@ -60,9 +60,6 @@ class PartitionedOde final : public OdeSystem {
   bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
   int num_switches() const override { return piece_.num_switches(); }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
-  Passage passage(int switch_index) const override;
-  bool pass(int switch_index, double time, std::span<double> change) override;
-  void take_back_passes() override;
   void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
 
  private:

@@ -28,7 +28,6 @@ void PartitionedStepper::start(const State& state) {
 
 void PartitionedStepper::resume(double end_time) {
   end_time_ = end_time;
-  ode_.piece().set_branches(ode_.piece().branches());
   integrator_->start(evaluated_time_, y_, end_time_);
   is_running_ = true;
 }
@@ -36,7 +35,6 @@ void PartitionedStepper::resume(double end_time) {
 // A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is
 // seen to grow bad: beyond it no position can be found. Another partition goes on from there.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
-  ode_.piece().begin_step();
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
   ode_.mark_motion();
   try {
@@ -66,7 +64,6 @@ void PartitionedStepper::go_to(double time) {
       integrator_->interpolate(time, y_);
   }
   evaluated_time_ = time;
-  ode_.piece().go_to(time);
 }
 
 void PartitionedStepper::evaluate(double time) {
