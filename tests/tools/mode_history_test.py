@@ -7,7 +7,7 @@ from mode_runs import write_adaptive_run
 from synthetic_results import NUM_SAMPLES, write_results
 from tool_test_case import ToolTestCase
 
-from mode_history import (
+from sprung_tools.runs.mode_history import (
     Neglect,
     count_active,
     find_change_times,
@@ -15,8 +15,8 @@ from mode_history import (
     read_mode_histories,
     read_neglected,
 )
-from mode_history_picture import find_spans
-from results_file import ResultsError, open_results
+from sprung_tools.plots.mode_history_picture import find_spans
+from sprung_tools.files.results_file import ResultsError, open_results
 
 
 class ModeHistories(ToolTestCase):

@@ -18,8 +18,8 @@ from report_differences import (
 )
 from tool_test_case import ROOT
 
-from paper_report.claims import list_claims
-from paper_report.markdown import (
+from sprung_tools.paper_report.claims import list_claims
+from sprung_tools.paper_report.markdown import (
     NUMBER,
     cells_agree,
     find_differences,
@@ -28,10 +28,10 @@ from paper_report.markdown import (
     parse_markdown,
     read_part,
 )
-from paper_report.mode_claims import list_mode_claims
-from paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
-from paper_report.mode_tables import list_mode_tables, make_mode_cost_table
-from paper_report.paper_runs import (
+from sprung_tools.paper_report.mode_claims import list_mode_claims
+from sprung_tools.paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
+from sprung_tools.paper_report.mode_tables import list_mode_tables, make_mode_cost_table
+from sprung_tools.paper_report.paper_runs import (
     MODE_COUNTS,
     SPEEDS,
     TRUCK,
@@ -51,11 +51,11 @@ from paper_report.paper_runs import (
     run_all,
     write_roads,
 )
-from paper_report.run_numbers import MIDDLE, SEAT, Numbers
-from paper_report.tables import list_tables, list_texts
-from results_file import ResultsError, open_results, read_numbers
-from ride_measures import calc_contact
-from rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
+from sprung_tools.paper_report.tables import list_tables, list_texts
+from sprung_tools.files.results_file import ResultsError, open_results, read_numbers
+from sprung_tools.runs.ride_measures import calc_contact
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 
 OTHER_TERRAIN = "road_1_seed2"
 OTHER_SPEED = "speed8.5"

@@ -1,4 +1,4 @@
-"""tools/results_file.py: what it reads, and each of its errors."""
+"""files/results_file.py: what it reads, and each of its errors."""
 
 import subprocess
 import sys
@@ -9,7 +9,7 @@ import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
 from tool_test_case import TOOLS, ToolTestCase
 
-from results_file import ResultsError, open_results, parse_quantity, read_attribute, read_texts
+from sprung_tools.files.results_file import ResultsError, open_results, parse_quantity, read_attribute, read_texts
 
 
 class Reading(ToolTestCase):
@@ -201,7 +201,7 @@ class Parts(ToolTestCase):
                 read_attribute(results.file, "model/bodies/chassis", "colour")
 
     def test_an_interrupted_tool_says_so_without_a_traceback(self):
-        script = "import results_file\ndef main():\n    raise KeyboardInterrupt\nresults_file.run_tool(main)\n"
+        script = "from sprung_tools.terminal.program import run_tool\ndef main():\n    raise KeyboardInterrupt\nrun_tool(main)\n"
         process = subprocess.run([sys.executable, "-c", script], cwd=TOOLS, capture_output=True, text=True, check=False)
         self.assertEqual((process.returncode, process.stderr), (130, "interrupted\n"))
 

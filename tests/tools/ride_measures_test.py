@@ -1,4 +1,4 @@
-"""tools/ride_measures.py: each measure of histories whose values are known."""
+"""runs/ride_measures.py: each measure of histories whose values are known."""
 
 import unittest
 
@@ -14,8 +14,8 @@ from ride_results import (
 )
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError, open_results
-from ride_measures import (
+from sprung_tools.files.results_file import ResultsError, open_results
+from sprung_tools.runs.ride_measures import (
     calc_bending,
     calc_comfort,
     calc_contact,
@@ -24,7 +24,7 @@ from ride_measures import (
     read_vehicle_file,
     read_window,
 )
-from ride_weighting import calc_wk
+from sprung_tools.signals.ride_weighting import calc_wk
 
 WINDOW = (1.0, 3.0)
 

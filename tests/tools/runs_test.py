@@ -1,13 +1,21 @@
-"""tools/runs.py and tools/run_caption.py: labels, spans of time, captions."""
+"""runs/labelled_runs.py and runs/run_caption.py: labels, spans of time, captions."""
 
 import unittest
 
 from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError, open_results
-from run_caption import make_caption
-from runs import Shown, describe, open_runs, runs_with, samples_between, shown_quantities, split_label
+from sprung_tools.files.results_file import ResultsError, open_results
+from sprung_tools.runs.run_caption import make_caption
+from sprung_tools.runs.labelled_runs import (
+    Shown,
+    describe,
+    open_runs,
+    runs_with,
+    samples_between,
+    shown_quantities,
+    split_label,
+)
 
 
 class Labels(ToolTestCase):

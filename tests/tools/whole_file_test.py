@@ -1,4 +1,4 @@
-"""tools/whole_file.py: a file is written whole or stays as it was."""
+"""files/whole_file.py: a file is written whole or stays as it was."""
 
 import os
 import unittest
@@ -6,8 +6,8 @@ from unittest import mock
 
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError
-from whole_file import write_whole
+from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.whole_file import write_whole
 
 
 class WholeFile(ToolTestCase):
