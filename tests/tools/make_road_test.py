@@ -204,7 +204,7 @@ class Tool(ToolTestCase):
         ):
             path = Path(self.folder, "bad.txt")
             path.write_text(text, encoding="utf-8")
-            with self.assertRaisesRegex(road_profile.ResultsError, complaint):
+            with self.assertRaisesRegex(road_profile.InputError, complaint):
                 road_profile.read_profile(path)
 
 

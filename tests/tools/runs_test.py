@@ -5,7 +5,8 @@ import unittest
 from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
-from sprung_tools.files.results_file import ResultsError, open_results
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.run_caption import make_caption
 from sprung_tools.runs.labelled_runs import (
     Shown,
@@ -55,7 +56,7 @@ class Labels(ToolTestCase):
         rigid, flexible = self.open(*(write_results(self.folder / f"{n}.h5", num_modes=n) for n in (0, 2)))
         deflection = Shown("deflection", "points/chassis.front_end/deflection.y")
         self.assertEqual(runs_with([rigid, flexible], deflection), [flexible])
-        with self.assertRaisesRegex(ResultsError, "no quantity 'points/chassis.front_end/deflection.y'"):
+        with self.assertRaisesRegex(InputError, "no quantity 'points/chassis.front_end/deflection.y'"):
             runs_with([rigid], deflection)
 
 
@@ -68,7 +69,7 @@ class Spans(ToolTestCase):
 
     def test_a_span_without_samples_is_refused(self):
         with open_results(write_results(self.folder / "run.h5")) as results:
-            with self.assertRaisesRegex(ResultsError, "no samples from 7 to 1 s"):
+            with self.assertRaisesRegex(InputError, "no samples from 7 to 1 s"):
                 samples_between(results, 7.0, None)
 
 

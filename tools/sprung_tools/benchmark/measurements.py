@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 from sprung_tools.terminal.progress_bar import Progress
 
 BASELINE = "baseline"  # dense equations under Dormand–Prince 5(4)
@@ -56,13 +56,13 @@ class Rung(NamedTuple):
 
 
 def run_program(command):
-    """A benchmark program's output. ResultsError where it fails, with its own words."""
+    """A benchmark program's output. InputError where it fails, with its own words."""
     try:
         process = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     except OSError as error:
-        raise ResultsError(f"{command[0]}: error: {error.strerror}; build it: tools/build") from error
+        raise InputError(f"{command[0]}: error: {error.strerror}; build it: tools/build") from error
     if process.returncode != 0:
-        raise ResultsError(process.stderr.strip() or f"{command[0]}: error: exit code {process.returncode}")
+        raise InputError(process.stderr.strip() or f"{command[0]}: error: exit code {process.returncode}")
     return process.stdout
 
 
@@ -138,7 +138,7 @@ class Case:
         for tolerance in ladder:
             try:
                 rungs.append(self.measure(method, tolerance, repetitions))
-            except ResultsError:
+            except InputError:
                 continue  # so loose that it could not go on
             if rungs[-1].seconds > TOO_LONG_RUN:
                 break

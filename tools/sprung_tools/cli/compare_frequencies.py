@@ -1,11 +1,10 @@
 """Prints the lowest clamped frequencies of a superelement beside known ones, with the differences."""
 
-from sprung_tools.files.results_file import ResultsError, open_hdf5, read_numbers, text_of
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
-FORMAT = "sprung-superelement"
-VERSION = 2
 HEADINGS = ("body", "mode", "computed Hz", "printed Hz", "difference Hz", "difference %", "same digits")
 
 
@@ -15,13 +14,13 @@ def num_decimals(text):
 
 
 def parse_frequency(number, text):
-    """The number-th known frequency [Hz] of the command line. ResultsError if it is not positive."""
+    """The number-th known frequency [Hz] of the command line. InputError if it is not positive."""
     try:
         value = float(text)
     except ValueError:
         value = 0.0
     if not 0.0 < value < float("inf"):
-        raise ResultsError(f"--printed {number}: error: '{text}' is not a frequency > 0 Hz")
+        raise InputError(f"--printed {number}: error: '{text}' is not a frequency > 0 Hz")
     return value
 
 
@@ -34,11 +33,11 @@ def main():
     arguments = parser.parse_args()
 
     printed = [parse_frequency(number, text) for number, text in enumerate(arguments.printed, start=1)]
-    with open_hdf5(arguments.file, FORMAT, VERSION) as file:
+    with open_hdf5(arguments.file, SUPERELEMENT) as file:
         name = text_of(file.attrs.get("name", ""))
         frequencies, _ = read_numbers(file, "modes/frequency")
     if frequencies.size < len(printed):
-        raise ResultsError(
+        raise InputError(
             f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given"
         )
 

@@ -4,11 +4,11 @@ physical points. Sections come from the design file, by the names of the curves.
 
 import os
 
+from sprung_tools.files.whole_file import check_output
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
 from sprung_tools.mesh_import.gmsh_writer import write_msh
 from sprung_tools.mesh_import.line_mesh import MeshError, make_plane_frame
 from sprung_tools.mesh_import.nastran_deck import is_nastran, read_nastran
-from sprung_tools.runs.labelled_runs import check_output
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 

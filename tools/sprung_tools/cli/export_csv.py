@@ -6,8 +6,8 @@ import io
 import numpy as np
 
 from sprung_tools.files.results_file import open_results
-from sprung_tools.files.whole_file import write_whole
-from sprung_tools.runs.labelled_runs import check_output, samples_between, shown_quantities
+from sprung_tools.files.whole_file import check_output, write_whole
+from sprung_tools.runs.labelled_runs import samples_between, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 

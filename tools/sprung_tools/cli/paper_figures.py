@@ -7,7 +7,7 @@ Results files and the superelements go to --output-dir. Everything takes some mi
 import subprocess
 from pathlib import Path
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.paper_report.markdown import format_markdown, format_words, replace_part
 from sprung_tools.paper_report.mode_runs import list_mode_runs, list_timed_mode_runs
@@ -87,7 +87,7 @@ def list_runs(quick, folder):
 
 
 def write_report(tables, texts):
-    """Puts tables and texts between their markers. ResultsError if a marker is missing; the report is then left alone."""
+    """Puts tables and texts between their markers. InputError if a marker is missing; the report is then left alone."""
     text = REPORT.read_text(encoding="utf-8")
     for name, content in texts.items():
         text = replace_part(text, name, format_words(content))
@@ -102,7 +102,7 @@ def main():
     try:
         programs = make_programs(arguments.programs)
     except subprocess.CalledProcessError as error:
-        raise ResultsError("tools/build: error: the programs could not be built") from error
+        raise InputError("tools/build: error: the programs could not be built") from error
     build_superelements(programs, folder)
     write_roads(folder)
     runs = list_runs(arguments.quick, folder)

@@ -4,10 +4,11 @@ marked; below, what each mode is worth.
 With --over-time what the modes of a run did: which took part, what those left out would have done, and below what the run
 did, beside other runs if they are given."""
 
+from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
 from sprung_tools.plots.mode_history_picture import make_mode_history_figure
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.runs.labelled_runs import Shown, add_span_arguments, open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import Shown, open_runs, shown_quantities
 from sprung_tools.runs.mode_history import read_mode_histories
 from sprung_tools.terminal.program import make_parser
 

@@ -4,10 +4,10 @@ that compares the runs, histories, spectra, modal amplitudes, and the vehicle dr
 import sys
 from pathlib import Path
 
-from sprung_tools.files.whole_file import write_whole
+from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.report.page import LARGEST, make_small_page
 from sprung_tools.report.summary import read_checks
-from sprung_tools.runs.labelled_runs import check_output, open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import open_runs, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from sprung_tools.runs.labelled_runs import add_run_arguments, open_runs, runs_with, samples_between, shown_quantities
+from sprung_tools.cli.arguments import add_run_arguments
+from sprung_tools.runs.labelled_runs import open_runs, runs_with, samples_between, shown_quantities
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 

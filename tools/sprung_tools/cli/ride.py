@@ -9,7 +9,7 @@ forces on them."""
 
 import os
 
-from sprung_tools.files.results_file import text_of
+from sprung_tools.files.hdf5_file import text_of
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.runs.labelled_runs import open_runs
 from sprung_tools.runs.ride_measures import (
@@ -34,7 +34,7 @@ BENDING = ("body", "run", "largest moment kN m", "at x m", "at s")
 def find_points(runs, wanted):
     """The points to judge: those asked for, or every point called seat and its body's centre of mass, or all bodies'.
 
-    Returns quantities' folders such as `points/chassis.seat`. ResultsError for a point that a file does not hold.
+    Returns quantities' folders such as `points/chassis.seat`. InputError for a point that a file does not hold.
     """
     results = runs[0].results
     if not wanted:

@@ -9,7 +9,7 @@ A *quantity* is written as the file names it (dynamics/output/results.md), with 
 `bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
 value per sample have none. `displacement` is position less its value in static balance.
 
-Every fault of a file, or of a name asked for, is a ResultsError whose text is `path: error: …`.
+Every fault of a file, or of a name asked for, is a InputError whose text is `path: error: …`.
 """
 
 import os
@@ -18,13 +18,10 @@ from typing import NamedTuple
 import h5py
 import numpy as np
 
-FORMAT = "sprung-results"
-VERSION = 1  # newest version of the format that is understood here
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, text_of
+
 COMPONENTS = ("x", "y", "angle")
-
-
-class ResultsError(Exception):
-    """Bad input: a file that cannot be used, or a quantity that it does not hold."""
 
 
 class Quantity(NamedTuple):
@@ -43,82 +40,12 @@ def parse_quantity(text):
     return Quantity(f"{folder}/{'position' if from_static else name}".strip("/"), component, from_static)
 
 
-def text_of(value):
-    """An attribute or a dataset of one string as str; h5py gives bytes, padded bytes, str, alone or in an array."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.item()
-    return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else str(value)
-
-
-def open_hdf5(path, wanted_format, newest_version):
-    """Opens one of our HDF5 files. ResultsError if it is missing, empty, damaged, foreign or too new."""
-    if not os.path.exists(path):
-        raise ResultsError(f"{path}: error: no such file")
-    if os.path.isdir(path):
-        raise ResultsError(f"{path}: error: is a folder, expected a {wanted_format} file")
-    if os.path.getsize(path) == 0:
-        raise ResultsError(f"{path}: error: the file is empty")
-    try:
-        file = h5py.File(path, "r")
-    except OSError as error:
-        raise ResultsError(f"{path}: error: not a readable HDF5 file ({error})") from error
-    found = text_of(file.attrs["format"]) if "format" in file.attrs else None
-    version = int(file.attrs.get("version", 0))
-    if found == wanted_format and 1 <= version <= newest_version:
-        return file
-    file.close()
-    if found is None:
-        raise ResultsError(f"{path}: error: no attribute 'format', expected '{wanted_format}'")
-    if found != wanted_format:
-        raise ResultsError(f"{path}: error: format is '{found}', expected '{wanted_format}'")
-    raise ResultsError(
-        f"{path}: error: version {version} of {wanted_format}; this tool reads 1 to {newest_version}"
-    )
-
-
-def read_numbers(file, name):
-    """A dataset of numbers. Returns (float64 array, unit). ResultsError if missing, damaged or not finite."""
-    path = file.filename
-    dataset = file.get(name)
-    if not isinstance(dataset, h5py.Dataset):
-        raise ResultsError(f"{path}: error: no dataset '{name}'")
-    if dataset.dtype.kind not in "fiu":
-        raise ResultsError(f"{path}: error: dataset '{name}' does not hold numbers")
-    try:
-        values = np.asarray(dataset[()], dtype=float)
-    except OSError as error:
-        raise ResultsError(f"{path}: error: dataset '{name}' is damaged ({error})") from error
-    if not np.all(np.isfinite(values)):
-        raise ResultsError(f"{path}: error: dataset '{name}' holds values that are not finite")
-    return values, text_of(dataset.attrs.get("unit", ""))
-
-
-def read_texts(file, name):
-    """A dataset of strings as a list of str. ResultsError if missing, damaged or no strings."""
-    dataset = file.get(name)
-    if not isinstance(dataset, h5py.Dataset) or dataset.dtype.kind not in "SO":
-        raise ResultsError(f"{file.filename}: error: no dataset '{name}' of strings")
-    try:
-        return [text_of(one) for one in np.atleast_1d(dataset[()])]
-    except OSError as error:
-        raise ResultsError(f"{file.filename}: error: dataset '{name}' is damaged ({error})") from error
-
-
-def read_attribute(file, group, name):
-    """An attribute of a group. ResultsError if the group or the attribute is missing."""
-    if group not in file:
-        raise ResultsError(f"{file.filename}: error: no group '{group}'")
-    if name not in file[group].attrs:
-        raise ResultsError(f"{file.filename}: error: no attribute '{name}' of '{group}'")
-    return file[group].attrs[name]
-
-
 def open_results(path):
-    """Opens a results file. ResultsError if it cannot be used or its run did not finish."""
-    file = open_hdf5(str(path), FORMAT, VERSION)
+    """Opens a results file. InputError if it cannot be used or its run did not finish."""
+    file = open_hdf5(str(path), RESULTS)
     try:
         return ResultsFile(file)
-    except ResultsError:
+    except InputError:
         file.close()
         raise
 
@@ -130,12 +57,12 @@ class ResultsFile:
         self.file = file
         self.path = file.filename
         if int(file.attrs.get("complete", 0)) != 1:
-            raise ResultsError(
+            raise InputError(
                 f"{self.path}: error: the run that wrote this file did not finish (complete = 0)"
             )
         self.time, _ = read_numbers(file, "time")
         if self.time.ndim != 1 or self.time.size < 2 or np.any(np.diff(self.time) <= 0):
-            raise ResultsError(f"{self.path}: error: dataset 'time' must be two or more increasing values")
+            raise InputError(f"{self.path}: error: dataset 'time' must be two or more increasing values")
 
     def __enter__(self):
         return self
@@ -169,13 +96,13 @@ class ResultsFile:
         return dataset.shape[0] if isinstance(dataset, h5py.Dataset) else 0
 
     def series(self, quantity):
-        """A quantity's history. Returns (values [n], unit). ResultsError names what there is instead."""
+        """A quantity's history. Returns (values [n], unit). InputError names what there is instead."""
         wanted = parse_quantity(quantity)
         if not self.has(quantity):
             raise self._no_such(quantity, wanted.dataset)
         values, unit = read_numbers(self.file, wanted.dataset)
         if values.ndim not in (1, 2) or values.shape[0] != self.time.size:
-            raise ResultsError(
+            raise InputError(
                 f"{self.path}: error: dataset '{wanted.dataset}' has shape {values.shape}, "
                 f"expected {self.time.size} rows, one for each sample"
             )
@@ -193,7 +120,7 @@ class ResultsFile:
         while folder and not isinstance(self.file.get(folder), h5py.Group):
             folder = folder.rpartition("/")[0]
         there = ", ".join(self.names(folder or "/")) or "nothing"
-        return ResultsError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
+        return InputError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
 
     def _column(self, values, wanted, quantity):
         component = wanted.component
@@ -211,13 +138,13 @@ class ResultsFile:
         if values.ndim == 2 and component.isdecimal() and 1 <= int(component) <= columns:
             return int(component) - 1
         expected = "none" if values.ndim == 1 else ", ".join(known) or f"1 to {columns}"
-        raise ResultsError(
+        raise InputError(
             f"{self.path}: error: '{quantity}' has component '{component}', expected {expected}"
         )
 
     def _static_value(self, dataset, column):
         if not self.is_from_balance:
-            raise ResultsError(
+            raise InputError(
                 f"{self.path}: error: no displacement in '{dataset}': static balance was not sought"
             )
         # Bodies' frames and points, a centre of mass being a point: bodies/A/center_of_mass → points/A.center_of_mass.

@@ -3,13 +3,13 @@
 import os
 from pathlib import Path
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 
 def write_whole(path, content):
     """Writes text (as UTF-8) or bytes. An interrupted or failed write leaves an earlier file as it was.
 
-    ResultsError if the file cannot be written.
+    InputError if the file cannot be written.
     """
     path = Path(path)
     data = content.encode("utf-8") if isinstance(content, str) else content
@@ -23,4 +23,10 @@ def write_whole(path, content):
                 unfinished.unlink()
             raise
     except OSError as error:
-        raise ResultsError(f"{path}: error: cannot write the file ({error.strerror})") from error
+        raise InputError(f"{path}: error: cannot write the file ({error.strerror})") from error
+
+
+def check_output(path, inputs):
+    """InputError if the file to be written is one of those that are read."""
+    if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
+        raise InputError(f"{path}: error: is one of the input files, which the output would replace")

@@ -79,5 +79,5 @@ def format_elements(frame, ends):
 
 
 def write_msh(frame, path):
-    """Writes the mesh whole or not at all. ResultsError if it cannot be written."""
+    """Writes the mesh whole or not at all. InputError if it cannot be written."""
     write_whole(path, format_msh(frame))

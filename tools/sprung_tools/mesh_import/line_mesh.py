@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 SAME_PLACE = 1e-9  # of the frame's extent: nodes nearer than this are one, a plane is flat to this
 REST = "lines"  # the group of elements that the source puts in no set
@@ -14,7 +14,7 @@ LONGEST_NAME = 127  # bytes, of a group in gmsh
 AXES = "xyz"
 
 
-class MeshError(ResultsError):
+class MeshError(InputError):
     """A mesh file that cannot be used; the text is `path: error: …` or `path:line: error: …`."""
 
 

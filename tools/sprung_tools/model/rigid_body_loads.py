@@ -12,8 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError, open_hdf5, read_numbers, text_of
-from sprung_tools.runs.ride_measures import read_vehicle_file
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
+from sprung_tools.model.model_texts import read_vehicle_file
 
 MOMENTS = (2, 5)  # of the resultants N, Q, M at both ends of an element
 
@@ -35,8 +36,8 @@ class Superelement(NamedTuple):
 
 
 def read_superelement(path):
-    """Reads a superelement file for (1). ResultsError if it cannot be used."""
-    with open_hdf5(str(path), "sprung-superelement", 2) as file:
+    """Reads a superelement file for (1). InputError if it cannot be used."""
+    with open_hdf5(str(path), SUPERELEMENT) as file:
         names = [text_of(name) for name in file["points/name"]]
         return Superelement(
             path=str(path),
@@ -54,11 +55,11 @@ def read_superelement(path):
 
 
 def check_same(results, body, superelement):
-    """ResultsError if a superelement is not the one that a body had in its run."""
+    """InputError if a superelement is not the one that a body had in its run."""
     name = text_of(results.file[f"model/bodies/{body}"].attrs.get("superelement", ""))
     kept = results.file.get(f"model/superelements/{name}") if name else None
     if kept is None or text_of(kept.attrs.get("content_hash", "")) != superelement.content_hash:
-        raise ResultsError(
+        raise InputError(
             f"{superelement.path}: error: is not the superelement that '{body}' had in {results.path} (another content hash)"
         )
 
@@ -83,7 +84,7 @@ def turn_into_body(vectors, angle):
 
 
 def collect_loads(results, vehicle, body):
-    """The forces on a body's points: a list of (point, world force [m×2]). ResultsError if a kind not known here, or a
+    """The forces on a body's points: a list of (point, world force [m×2]). InputError if a kind not known here, or a
     torque, acts on the body; what acts on others does not matter."""
     loads = []
 
@@ -99,7 +100,7 @@ def collect_loads(results, vehicle, body):
     for motion in vehicle.get("motions", ()):
         driven = joints.get(motion.get("joint"), {"a": motion.get("point", ""), "b": ""})
         if acts_on_body(driven["a"], driven["b"]):
-            raise ResultsError(
+            raise InputError(
                 f"{results.path}: error: motion '{motion['name']}' drives '{body}', not known here"
             )
     for joint in joints.values():
@@ -107,7 +108,7 @@ def collect_loads(results, vehicle, body):
             continue
         reaction, _ = read_numbers(results.file, f"joints/{joint['name']}/reaction")
         if np.any(np.abs(reaction[:, 2]) > 1e-9 * max(1.0, np.max(np.abs(reaction)))):
-            raise ResultsError(
+            raise InputError(
                 f"{results.path}: error: joint '{joint['name']}' carries a torque, not known here"
             )
         add(joint["a"], reaction[:, :2])
@@ -129,7 +130,7 @@ def collect_loads(results, vehicle, body):
             add(force["a"], -values[:, None] * along)
             add(force["b"], values[:, None] * along)
         else:
-            raise ResultsError(
+            raise InputError(
                 f"{results.path}: error: force '{force['name']}' of type '{force['type']}' not known here"
             )
     return loads
@@ -137,7 +138,7 @@ def collect_loads(results, vehicle, body):
 
 def calc_rigid_moments(results, body, superelement):
     """Bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
-    layout of /recovery: both ends of each element. ResultsError if the superelement is another than the run's.
+    layout of /recovery: both ends of each element. InputError if the superelement is another than the run's.
     """
     check_same(results, body, superelement)
     vehicle = read_vehicle_file(results)
@@ -153,7 +154,7 @@ def calc_rigid_moments(results, body, superelement):
         try:
             shape = calc_point_shape(vehicle, body, point, superelement)
         except KeyError as error:
-            raise ResultsError(
+            raise InputError(
                 f"{results.path}: error: '{body}.{point}' is no node of the superelement"
             ) from error
         loads += turn_into_body(force, angle) @ shape

@@ -10,9 +10,10 @@ origin. Nodes move with the body frame and the modes:
 from typing import NamedTuple
 
 import numpy as np
-import tomllib
 
-from sprung_tools.files.results_file import ResultsError, read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.model.model_texts import read_vehicle_file
 
 HANGS_ON = 1e-6  # of the body's extent: a point nearer to a node than this is that node
 UNDRAWN = ("center_of_mass",)
@@ -55,23 +56,12 @@ class Link(NamedTuple):
     ends: tuple  # two (body, node), or (None, (x, y)) on the ground
 
 
-def read_vehicle(results):
-    """The vehicle file kept in the results, as a dict. ResultsError if it is not TOML."""
-    dataset = results.file.get("model/vehicle_text")
-    if dataset is None:
-        return {}
-    try:
-        return tomllib.loads(text_of(dataset[()]))
-    except tomllib.TOMLDecodeError as error:
-        raise ResultsError(f"{results.path}: error: 'model/vehicle_text' is not TOML ({error})") from error
-
-
 def read_bodies(results):
-    """All bodies of a run, in the order of their names. ResultsError if there is none."""
-    vehicle = read_vehicle(results)
+    """All bodies of a run, in the order of their names. InputError if there is none."""
+    vehicle = read_vehicle_file(results, required=False)
     names = results.names("model/bodies")
     if not names:
-        raise ResultsError(f"{results.path}: error: no bodies in 'model/bodies'")
+        raise InputError(f"{results.path}: error: no bodies in 'model/bodies'")
     return [read_body(results, name, vehicle) for name in names]
 
 
@@ -168,7 +158,7 @@ def calc_motion(results, body, samples, magnification=1.0):
 def read_wheels(results, bodies):
     """The tyres. A radius is what penetration, axle and road say while the tyre is on the road, else the file's."""
     wheels = []
-    for force in read_vehicle(results).get("forces", []):
+    for force in read_vehicle_file(results, required=False).get("forces", []):
         if force.get("type") != "tyre":
             continue
         place = find_point(force.get("wheel", ""), bodies, {})
@@ -189,7 +179,7 @@ def read_wheels(results, bodies):
 
 def read_links(results, bodies):
     """Spring-dampers and joints between two points; not those that turn alone, which have no length."""
-    vehicle = read_vehicle(results)
+    vehicle = read_vehicle_file(results, required=False)
     ground = vehicle.get("ground", {}).get("points", {})
     links = []
     for group in ("forces", "joints"):

@@ -2,7 +2,7 @@
 
 import re
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -26,10 +26,10 @@ def parse_markdown(text):
 
 
 def find_part(text, name):
-    """Start and end of what stands between a name's markers. ResultsError if they are not there, once each."""
+    """Start and end of what stands between a name's markers. InputError if they are not there, once each."""
     begin, end = f"<!-- begin {name} -->\n", f"\n<!-- end {name} -->"
     if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
-        raise ResultsError(f"error: no single part '{name}' between '{begin.strip()}' and '{end.strip()}'")
+        raise InputError(f"error: no single part '{name}' between '{begin.strip()}' and '{end.strip()}'")
     return text.index(begin) + len(begin), text.index(end)
 
 

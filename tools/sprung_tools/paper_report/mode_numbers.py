@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sprung_tools.files.results_file import read_attribute, read_numbers, text_of
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers, text_of
 from sprung_tools.paper_report.mode_runs import ALL
 from sprung_tools.paper_report.run_numbers import FRONT_END, MIDDLE, SEAT, relative
 from sprung_tools.runs.mode_history import count_active, find_change_times

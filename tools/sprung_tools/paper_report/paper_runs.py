@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import tomllib
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 from sprung_tools.signals.road_profile import Recipe, format_profile, make_profile
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -191,21 +191,21 @@ def write_roads(folder):
 
 
 def find_programs(folder):
-    """The programs of a build folder. ResultsError if they are not there."""
+    """The programs of a build folder. InputError if they are not there."""
     programs = Programs(folder / "reduce/sprung-reduce", folder / "dynamics/sprung-dynamics")
     for path in programs:
         if not os.access(path, os.X_OK):
-            raise ResultsError(f"{path}: error: no such program; tools/build makes build/release")
+            raise InputError(f"{path}: error: no such program; tools/build makes build/release")
     return programs
 
 
 def call(command):
-    """Runs a program in the project's folder. Returns its standard output; ResultsError with its complaint."""
+    """Runs a program in the project's folder. Returns its standard output; InputError with its complaint."""
     done = subprocess.run(
         command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
     )
     if done.returncode != 0:
-        raise ResultsError(
+        raise InputError(
             f"{' '.join(map(str, command))}: error: exit code {done.returncode}: {done.stderr.strip()}"
         )
     return done.stdout
@@ -241,7 +241,7 @@ def run_all(programs, runs, folder, report=print):
     """Runs all into FOLDER/NAME.h5, and what each says at its end into FOLDER/NAME.txt; as many at a time as there are
     processors; report(text) is called as each ends.
 
-    ResultsError at the first that fails, or that the program itself warns of, unless for modes that are missing, which is
+    InputError at the first that fails, or that the program itself warns of, unless for modes that are missing, which is
     what some of these runs are there to show; what has begun is waited for.
     """
     began = time.monotonic()
@@ -253,7 +253,7 @@ def run_all(programs, runs, folder, report=print):
         (folder / f"{run.name}.txt").write_text(said, encoding="utf-8")
         for warning in list_warnings(said):
             if not warning.startswith(MODES_MISSING):
-                raise ResultsError(f"{folder / run.name}.h5: error: no run for a report: {warning}")
+                raise InputError(f"{folder / run.name}.h5: error: no run for a report: {warning}")
         return run.name
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -272,7 +272,7 @@ def measure_processor_time(command):
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        raise ResultsError(f"{' '.join(map(str, command))}: error: exit code {process.returncode}")
+        raise InputError(f"{' '.join(map(str, command))}: error: exit code {process.returncode}")
     return usage.ru_utime + usage.ru_stime
 
 

@@ -8,11 +8,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from sprung_tools.files.results_file import read_numbers
+from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.whole_file import write_whole
+from sprung_tools.model.model_texts import read_run_file
 from sprung_tools.paper_report.mode_pictures import draw_mode_pictures
 from sprung_tools.paper_report.run_numbers import CENTRE, FRONT_END, MIDDLE, chassis_frequencies
-from sprung_tools.runs.run_caption import make_caption, read_run_file
+from sprung_tools.runs.run_caption import make_caption
 from sprung_tools.signals.spectra import calc_amplitude_spectrum, calc_power_spectrum
 
 # Okabe and Ito's colours, which stay apart for colour-blind readers; the first run is drawn on top as the thinnest line.
@@ -31,7 +32,7 @@ SEGMENT = 4.0  # s, of an averaged spectrum
 HIGHEST = 60.0  # Hz shown
 
 
-def make_figure(panels, height, title, runs, remarks=()):
+def make_report_figure(panels, height, title, runs, remarks=()):
     """An empty figure with panels one above the other. Returns (figure, axes [panels])."""
     matplotlib.rcParams.update(
         {"font.size": 11, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False}
@@ -76,7 +77,7 @@ def draw_bump_displacement(numbers):
     """Figure 9: the middle of the chassis over the bump, its true centre of mass, and what flexibility changes."""
     label, factor = LABELS["displacement"]
     curves = pick(numbers, "bump", (0, 2, 4))
-    figure, axes = make_figure(
+    figure, axes = make_report_figure(
         3, 8.0, "Fig. 9: chassis over the bump, vertical displacement", curves.values()
     )
     for panel, (name, point) in zip(axes, POINTS.items()):
@@ -96,7 +97,7 @@ def draw_bump_displacement(numbers):
 def draw_bump_acceleration(numbers):
     """Figure 10: the middle of the chassis over the bump, and its true centre of mass."""
     curves = pick(numbers, "bump", (0, 2, 4))
-    figure, axes = make_figure(
+    figure, axes = make_report_figure(
         2, 6.4, "Fig. 10: chassis over the bump, vertical acceleration", curves.values()
     )
     for panel, (name, point) in zip(axes, POINTS.items()):
@@ -112,7 +113,7 @@ def draw_damping(numbers):
         "2 modes": numbers.run("bump_2modes"),
         "2 modes, no modal damping": numbers.run("bump_2modes_undamped"),
     }
-    figure, axes = make_figure(1, 4.2, "Fig. 11: middle of the chassis over the bump, 2 modes, 1 % or no modal damping",
+    figure, axes = make_report_figure(1, 4.2, "Fig. 11: middle of the chassis over the bump, 2 modes, 1 % or no modal damping",
                                curves.values())  # fmt: skip
     draw_histories(axes[0], curves, f"{MIDDLE}/acceleration.y", span=(0.0, 5.0))
     return finish(figure, axes, LABELS["acceleration"][0])
@@ -124,7 +125,7 @@ def draw_terrain_displacement(numbers):
         "2 modes, flexible arms": numbers.run("terrain_2modes_links")
     }
     label, factor = LABELS["displacement"]
-    figure, axes = make_figure(2, 6.0, "Fig. 12: middle of the chassis over terrain, vertical displacement",
+    figure, axes = make_report_figure(2, 6.0, "Fig. 12: middle of the chassis over terrain, vertical displacement",
                                curves.values())  # fmt: skip
     draw_histories(axes[0], curves, f"{MIDDLE}/displacement.y", factor)
     draw_histories(axes[1], curves, f"{MIDDLE}/displacement.y", factor, (5.0, 7.0))
@@ -140,7 +141,7 @@ def draw_terrain_acceleration(numbers):
     curves = pick(numbers, "terrain", (0, 2, 4)) | {
         "2 modes, flexible arms": numbers.run("terrain_2modes_links")
     }
-    figure, axes = make_figure(3, 8.4, "Fig. 13: middle of the chassis over terrain, vertical acceleration",
+    figure, axes = make_report_figure(3, 8.4, "Fig. 13: middle of the chassis over terrain, vertical acceleration",
                                curves.values())  # fmt: skip
     for panel, label in zip(axes, ("rigid", "2 modes")):
         draw_histories(panel, {label: curves[label]}, f"{MIDDLE}/acceleration.y")
@@ -158,7 +159,7 @@ def draw_terrain_acceleration(numbers):
 def draw_front_end(numbers):
     """Figure 14: the front end's deflection over terrain, 2 modes, and 4 beside them."""
     curves = pick(numbers, "terrain", (2, 4))
-    figure, axes = make_figure(2, 6.0, "Fig. 14: deflection of the chassis' front end over terrain, in the body frame",
+    figure, axes = make_report_figure(2, 6.0, "Fig. 14: deflection of the chassis' front end over terrain, in the body frame",
                                curves.values())  # fmt: skip
     draw_histories(axes[0], {"2 modes": curves["2 modes"]}, FRONT_END, 1e3)
     draw_histories(axes[1], curves, FRONT_END, 1e3, (5.0, 7.0))
@@ -188,7 +189,7 @@ def mark_frequencies(axes, run, label):
 def draw_spectra(numbers):
     """Acceleration of the middle over both roads: amplitude spectra, the assembled truck's frequencies marked."""
     bump, terrain = (pick(numbers, road, (0, 2, 4)) for road in ("bump", "terrain"))
-    figure, axes = make_figure(2, 6.6, "Spectra of the middle of the chassis' vertical acceleration",
+    figure, axes = make_report_figure(2, 6.6, "Spectra of the middle of the chassis' vertical acceleration",
                                [*bump.values(), *terrain.values()],
                                ("dotted: undamped frequencies of the assembled truck, in the model's colour",))  # fmt: skip
     for place, (label, run) in enumerate(bump.items()):
@@ -226,7 +227,7 @@ def draw_terrain(numbers):
     run = numbers.run("terrain_rigid")
     distance, _ = read_numbers(run.results.file, "model/road/distance")
     height, _ = read_numbers(run.results.file, "model/road/height")
-    figure, axes = make_figure(1, 3.2, "The terrain: heights along the way", [run])
+    figure, axes = make_report_figure(1, 3.2, "The terrain: heights along the way", [run])
     axes[0].plot(distance, 1e3 * height, color="0.25", linewidth=0.9)
     axes[0].set_xlim(0.0, 94.0)
     axes[0].set_ylabel("height, mm")
@@ -250,7 +251,7 @@ def draw_all(numbers):
 
 
 def write_picture(figure, path):
-    """Writes a figure as a small PNG, whole or not at all. ResultsError if it cannot be written."""
+    """Writes a figure as a small PNG, whole or not at all. InputError if it cannot be written."""
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=DOTS_PER_INCH)
     picture = Image.open(drawn).convert("RGB").quantize(PALETTE, dither=Image.Dither.NONE)

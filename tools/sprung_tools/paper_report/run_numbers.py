@@ -5,7 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError, open_results, read_numbers, text_of
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers, text_of
+from sprung_tools.files.results_file import open_results
 from sprung_tools.paper_report.paper_runs import list_warnings, name_modes
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import read_window, sampling_step
@@ -87,10 +89,10 @@ class RunNumbers:
 
     @property
     def said(self):
-        """What the program said at the end of the run. ResultsError if it was not kept."""
+        """What the program said at the end of the run. InputError if it was not kept."""
         said = self.path.with_suffix(".txt")
         if not said.exists():
-            raise ResultsError(f"{said}: error: no such file")
+            raise InputError(f"{said}: error: no such file")
         return said.read_text(encoding="utf-8")
 
     @property
@@ -158,9 +160,9 @@ class Numbers:
         return (self.made is None or name in self.made) and (self.folder / f"{name}.h5").exists()
 
     def run(self, name):
-        """The numbers of a run by its name. ResultsError if it is not one of those made or its file cannot be used."""
+        """The numbers of a run by its name. InputError if it is not one of those made or its file cannot be used."""
         if self.made is not None and name not in self.made:
-            raise ResultsError(f"{self.folder / name}.h5: error: this run was not made")
+            raise InputError(f"{self.folder / name}.h5: error: this run was not made")
         if name not in self.opened:
             self.opened[name] = RunNumbers(self.folder / f"{name}.h5")
         return self.opened[name]
@@ -177,5 +179,5 @@ class Numbers:
 def relative(value, reference):
     """How much a value differs from a reference, as a share of it."""
     if reference == 0.0:
-        raise ResultsError("error: no share of a reference that is 0")
+        raise InputError("error: no share of a reference that is 0")
     return value / reference - 1.0

@@ -1,7 +1,7 @@
 """The report's tables on how far its terrain results hang on what was chosen: the profile, and on the speed. Like those of
 tables.py they leave out rows of runs that are not there."""
 
-from sprung_tools.files.results_file import read_numbers
+from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.paper_report.paper_runs import BANDS, SEEDS, SPEEDS, TERRAIN, name_modes, name_road, name_speed
 from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, chassis_frequencies
 from sprung_tools.signals.spectra import calc_rms

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 from sprung_tools.plots.picture_file import label_unit, line_style
 from sprung_tools.runs.labelled_runs import runs_with, samples_between
 
@@ -25,7 +25,7 @@ def draw_panel(axes, runs, shown, span):
         curves.append((run, run.results.time[inside], values[inside], unit))
     units = {unit for *_, unit in curves}
     if len(units) > 1:
-        raise ResultsError(
+        raise InputError(
             f"{curves[-1][0].results.path}: error: '{shown.quantity}' is in {sorted(units)} in these files"
         )
     unit, factor = drawn_unit(units.pop(), max(np.max(np.abs(values)) for _, _, values, _ in curves))

@@ -3,22 +3,20 @@
 from typing import NamedTuple
 
 import h5py
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
-from sprung_tools.files.results_file import ResultsError, open_hdf5, read_attribute, read_numbers, read_texts, text_of
-from sprung_tools.plots.picture_file import (
-    COLOURS,
-    MARGIN_HEIGHT,
-    PANEL_HEIGHT,
-    SETTINGS,
-    WIDTH,
-    label_unit,
-    line_style,
+from sprung_tools.files.errors import InputError, WrongFormatError
+from sprung_tools.files.hdf5_file import (
+    MODE_CHOICE,
+    RESULTS,
+    open_hdf5,
+    read_attribute,
+    read_numbers,
+    read_texts,
+    text_of,
 )
+from sprung_tools.plots.picture_file import COLOURS, PANEL_HEIGHT, label_unit, line_style, make_figure
 
-FORMATS = {"sprung-mode-choice": 1, "sprung-results": 1}  # newest versions that are understood here
 GROUP = "model/mode_choice"
 SHARES = {
     "displacement": ("share/displacement_rms", "share/displacement_peak"),
@@ -52,23 +50,20 @@ class Choice(NamedTuple):
 
 
 def open_choice(path):
-    """Opens a file of select-modes, or a results file of a run with modes "auto". ResultsError for any other."""
-    file = None
-    for name, version in FORMATS.items():
-        try:
-            file = open_hdf5(path, name, version)
-            break
-        except ResultsError as error:
-            refusal = error
-    if file is None:
-        raise refusal
+    """Opens a file of select-modes, or a results file of a run with modes "auto". InputError for any other."""
+    try:
+        file = open_hdf5(path, RESULTS)
+    except WrongFormatError as error:
+        if error.found != MODE_CHOICE:
+            raise
+        file = open_hdf5(path, MODE_CHOICE)
     if GROUP not in file:
-        raise ResultsError(
+        raise InputError(
             f'{path}: error: no modes were chosen in this run: its [modes] has none "auto"; what they did over time: --over-time'
         )
     if f"{GROUP}/frequency" not in file:
         remarks = "; ".join(read_texts(file, f"{GROUP}/remarks"))
-        raise ResultsError(f"{path}: error: the forcing was not looked at: {remarks}")
+        raise InputError(f"{path}: error: the forcing was not looked at: {remarks}")
     return Choice(
         file,
         float(read_attribute(file, GROUP, "tolerance")),
@@ -117,19 +112,15 @@ def draw_shares(axes, choice):
 def make_choice_figure(choice, title=""):
     """Forcing, transfer functions and shares over one axis of frequencies."""
     points = choice.points()
-    matplotlib.rcParams.update(SETTINGS)
-    number = 3 if points else 2
-    figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + PANEL_HEIGHT * number), layout="constrained")
-    panels = figure.subplots(number, sharex=True)
+    caption = (
+        f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
+        f"{read_attribute(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
+    )
+    title = title or text_of(choice.file.attrs["title"])
+    figure, panels = make_figure([PANEL_HEIGHT] * (3 if points else 2), title, caption)
     draw_curves(panels[0], choice, {"road": "road"}, "road under the front wheel")
     if points:
         draw_curves(panels[1], choice, {point: f"transfer/{point}" for point in points}, "acceleration per road")
     draw_shares(panels[-1], choice)
     panels[-1].set_xlabel("frequency, Hz")
-    figure.suptitle(title or text_of(choice.file.attrs["title"]))
-    caption = (
-        f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
-        f"{read_attribute(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
-    )
-    figure.supxlabel(caption, fontsize=8.5, color="0.25")
     return figure

@@ -1,14 +1,13 @@
 """A picture of which modes took part over time, and of what those left out would have done, above what the run did."""
 
-import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
+from sprung_tools.model.model_texts import read_run_file
 from sprung_tools.plots.history_panel import draw_panel
-from sprung_tools.plots.picture_file import COLOURS, MARGIN_HEIGHT, SETTINGS, WIDTH
+from sprung_tools.plots.picture_file import COLOURS, make_figure
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.mode_history import find_change_times, find_worst_neglect, read_mode_histories, read_neglected
-from sprung_tools.runs.run_caption import make_caption, read_run_file
+from sprung_tools.runs.run_caption import make_caption
 
 INDICATOR_HEIGHT, QUANTITY_HEIGHT = 1.9, 2.8  # inches
 LEAST_HEIGHT, HEIGHT_PER_MODE, MOST_HEIGHT = 1.3, 0.12, 4.2  # inches, of a panel with modes
@@ -81,16 +80,14 @@ def draw_neglected(axes, results):
 def make_mode_history_figure(runs, quantities, span, title=""):
     """Modes of the first run over time, shares left out, and quantities of all runs.
 
-    runs: list of Run, the first with modes (ResultsError if it has none); quantities: list of Shown; span: (from, to) [s].
+    runs: list of Run, the first with modes (InputError if it has none); quantities: list of Shown; span: (from, to) [s].
     """
     results = runs[0].results
     histories = read_mode_histories(results)
     has_neglected = bool(read_neglected(results))
     heights = [np.clip(HEIGHT_PER_MODE * one.number.size, LEAST_HEIGHT, MOST_HEIGHT) for one in histories]
     heights += [INDICATOR_HEIGHT] * has_neglected + [QUANTITY_HEIGHT] * len(quantities)
-    matplotlib.rcParams.update(SETTINGS)
-    figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
-    panels = figure.subplots(len(heights), sharex=True, height_ratios=heights)
+    figure, panels = make_figure(heights, title or results.title, make_caption([run.results for run in runs]))
     for axes, history in zip(panels, histories):
         draw_modes(axes, results, history)
     if has_neglected:
@@ -101,6 +98,4 @@ def make_mode_history_figure(runs, quantities, span, title=""):
     inside = results.time[samples_between(results, *span)]
     panels[-1].set_xlim(inside[0], inside[-1])
     panels[-1].set_xlabel("time, s")
-    figure.suptitle(title or results.title)
-    figure.supxlabel(make_caption([run.results for run in runs]), fontsize=8.5, color="0.25")
     return figure

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import read_attribute, read_numbers
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers
 from sprung_tools.report.packing import encode, find_kept
 from sprung_tools.signals.spectra import calc_power_spectrum
 

@@ -4,7 +4,7 @@ import html
 import json
 import os
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 from sprung_tools.report.run_data import pack_run
 from sprung_tools.terminal.progress_bar import Progress
 
@@ -20,17 +20,17 @@ def read_asset(path):
         with open(path, encoding="utf-8") as file:
             return file.read()
     except OSError as error:
-        raise ResultsError(
+        raise InputError(
             f"{path}: error: cannot read it ({error.strerror}); tools/setup installs dygraphs"
         ) from error
 
 
 def find_dygraphs():
-    """The folder of the library's files. ResultsError if it is not installed."""
+    """The folder of the library's files. InputError if it is not installed."""
     for folder in DYGRAPHS:
         if os.path.exists(os.path.join(folder, "dygraph.min.js")):
             return folder
-    raise ResultsError(f"{DYGRAPHS[0]}: error: dygraphs is not installed; run tools/setup (package libjs-dygraphs)")
+    raise InputError(f"{DYGRAPHS[0]}: error: dygraphs is not installed; run tools/setup (package libjs-dygraphs)")
 
 
 def make_page(title, data):

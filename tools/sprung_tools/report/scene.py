@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from sprung_tools.files.results_file import read_attribute, read_numbers
-from sprung_tools.model.vehicle_shape import calc_motion, read_links, read_road, read_vehicle
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.model.vehicle_shape import calc_motion, read_links, read_road
 from sprung_tools.report.histories import find_heavy, list_monitored
 from sprung_tools.report.packing import encode, find_kept
 
@@ -69,7 +70,7 @@ def pack_vehicle(results, bodies, wheels):
         "wheels": [wheel._asdict() for wheel in wheels],
         "links": [link._asdict() for link in links],
         "marks": marks, "main": heavy[0] if heavy else bodies[0].name,
-        "heading": read_vehicle(results).get("heading", "+x"),
+        "heading": read_vehicle_file(results, required=False).get("heading", "+x"),
         "box": [*low.tolist(), *high.tolist()],
     }  # fmt: skip
 

@@ -5,8 +5,10 @@ import os
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError, open_hdf5, read_attribute, read_numbers, read_texts, text_of
-from sprung_tools.runs.run_caption import describe_road, read_run_file
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.model.model_texts import read_run_file
+from sprung_tools.runs.run_caption import describe_road
 
 # Of forces of every kind, by the results file's names: what their greatest values are called, and their unit.
 LOADS = {
@@ -158,11 +160,11 @@ def list_frequencies(results):
 def read_checks(folder, runs):
     """The checks that stage one made of each superelement that the runs used, from the files in a folder, if given.
 
-    A file is used only where its content hash is the one that the run names. Returns a list of dicts. ResultsError if
+    A file is used only where its content hash is the one that the run names. Returns a list of dicts. InputError if
     the folder is not there.
     """
     if folder and not os.path.isdir(folder):
-        raise ResultsError(f"{folder}: error: no such folder")
+        raise InputError(f"{folder}: error: no such folder")
     users = {}
     for run in runs:
         for name in run.results.names("model/superelements"):
@@ -182,7 +184,7 @@ def read_checks_of(folder, name, content_hash):
     path = os.path.join(folder, f"{name}.h5")
     if not os.path.exists(path):
         return {"problem": f"Not shown: there is no {path}."}
-    with open_hdf5(path, "sprung-superelement", 2) as file:
+    with open_hdf5(path, SUPERELEMENT) as file:
         if text_of(file.attrs.get("content_hash", "")) != content_hash:
             return {"problem": f"Not shown: {path} is another superelement than the one that was run."}
         values, _ = read_numbers(file, "checks/value")

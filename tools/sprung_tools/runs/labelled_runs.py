@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError, open_results
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
 
 
 class Run(NamedTuple):
@@ -22,28 +23,6 @@ class Shown(NamedTuple):
     quantity: str
 
 
-def add_run_arguments(parser):
-    """The arguments that every tool on runs has: files, quantities, the span of time."""
-    parser.add_argument(
-        "runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the legend"
-    )
-    parser.add_argument(
-        "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
-        help="a quantity such as bodies/chassis/displacement.y, and its name; may be given several times",
-    )  # fmt: skip
-    add_span_arguments(parser)
-
-
-def add_span_arguments(parser):
-    """The span of time that is looked at."""
-    parser.add_argument(
-        "--from", dest="start", type=float, metavar="S", help="look at the run from this time, s"
-    )
-    parser.add_argument(
-        "--to", dest="end", type=float, metavar="S", help="look at the run up to this time, s"
-    )
-
-
 def split_label(argument):
     """`LABEL=VALUE` → (LABEL, VALUE); without a label, or where a file has this very name, ("", argument)."""
     label, separator, value = argument.partition("=")
@@ -51,7 +30,7 @@ def split_label(argument):
 
 
 def open_runs(arguments):
-    """Opens the files of add_run_arguments(), each under a name of its own. ResultsError as open_results()."""
+    """Opens the files of add_run_arguments(), each under a name of its own. InputError as open_results()."""
     runs = []
     for argument in arguments:
         label, path = split_label(argument)
@@ -71,17 +50,11 @@ def shown_quantities(arguments):
 
 
 def runs_with(runs, shown):
-    """Those runs that hold a quantity (a rigid body has no deflection). ResultsError if none does."""
+    """Those runs that hold a quantity (a rigid body has no deflection). InputError if none does."""
     found = [run for run in runs if run.results.has(shown.quantity)]
     if not found:
         runs[0].results.series(shown.quantity)  # raises, naming what there is
     return found
-
-
-def check_output(path, inputs):
-    """ResultsError if the file to be written is one of those that are read."""
-    if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
-        raise ResultsError(f"{path}: error: is one of the input files, which the output would replace")
 
 
 def describe(results):
@@ -91,10 +64,10 @@ def describe(results):
 
 
 def samples_between(results, start, end):
-    """Which samples lie from `start` to `end` [s], None for the run's own. ResultsError if there are none."""
+    """Which samples lie from `start` to `end` [s], None for the run's own. InputError if there are none."""
     first = results.time[0] if start is None else start
     last = results.time[-1] if end is None else end
     inside = (results.time >= first) & (results.time <= last)
     if not np.any(inside):
-        raise ResultsError(f"{results.path}: error: no samples from {first:g} to {last:g} s")
+        raise InputError(f"{results.path}: error: no samples from {first:g} to {last:g} s")
     return inside

@@ -4,7 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError, read_numbers, read_texts, text_of
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers, read_texts, text_of
 
 MODES_CHANGED = "modes"  # kind of the event of a mode that joins or leaves
 
@@ -32,7 +33,7 @@ class Neglect(NamedTuple):
 
 
 def read_mode_histories(results):
-    """Histories of all bodies that have modes, by name. ResultsError if none has."""
+    """Histories of all bodies that have modes, by name. InputError if none has."""
     file = results.file
     found = []
     for body in results.names("bodies"):
@@ -45,7 +46,7 @@ def read_mode_histories(results):
         number = number.astype(int)
         found.append(ModeHistory(body, number, of_all[number - 1], active > 0.5))
     if not found:
-        raise ResultsError(f"{results.path}: error: no body of this run has modes")
+        raise InputError(f"{results.path}: error: no body of this run has modes")
     return found
 
 

@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
-import tomllib
 
-from sprung_tools.files.results_file import ResultsError, read_numbers, text_of
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers, text_of
+from sprung_tools.model.model_texts import read_compression_stop, read_run_file
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.run_caption import read_run_file
 from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
 from sprung_tools.signals.spectra import calc_rms
 
@@ -63,11 +63,11 @@ def read_window(results, start=None, end=None):
 
 
 def sampling_step(results):
-    """The time between samples [s]. ResultsError if they are not equally spaced (the last one may come early)."""
+    """The time between samples [s]. InputError if they are not equally spaced (the last one may come early)."""
     steps = np.diff(results.time)
     step = float(np.median(steps))
     if np.any(np.abs(steps[:-1] - step) > 1e-6 * step):
-        raise ResultsError(f"{results.path}: error: the samples in 'time' are not equally spaced")
+        raise InputError(f"{results.path}: error: the samples in 'time' are not equally spaced")
     return step
 
 
@@ -79,7 +79,7 @@ def calc_comfort(results, point, window):
     try:
         weighted = weight_acceleration(acceleration, step)[inside]
     except ValueError as error:
-        raise ResultsError(f"{results.path}: error: {error}") from error
+        raise InputError(f"{results.path}: error: {error}") from error
     acceleration = acceleration[inside]
     return Comfort(
         calc_rms(acceleration),
@@ -95,51 +95,12 @@ def find_forces(results, kind):
     return [name for name, group in groups.items() if text_of(group.attrs.get("kind", "")) == kind]
 
 
-def read_vehicle_file(results):
-    """The vehicle file kept in the results, as a dict with its overrides (`--set vehicle.…`)."""
-    dataset = results.file.get("model/vehicle_text")
-    if dataset is None:
-        raise ResultsError(f"{results.path}: error: no dataset 'model/vehicle_text'")
-    try:
-        vehicle = tomllib.loads(text_of(dataset[()]))
-    except tomllib.TOMLDecodeError as error:
-        raise ResultsError(f"{results.path}: error: 'model/vehicle_text' is not TOML ({error})") from error
-    for assignment in results.file.get("model/overrides", ()):
-        path, _, value = text_of(assignment).partition("=")
-        keys = [key.strip().strip("\"'") for key in path.split(".")]
-        if keys[0] == "vehicle":
-            override_vehicle(vehicle, keys[1:], value)
-    return vehicle
-
-
-def override_vehicle(table, keys, value):
-    """Sets a key in nested tables; an entry of an array is named by its `name` or its position from 0."""
-    for key in keys[:-1]:
-        if isinstance(table, list):
-            named = [entry for entry in table if entry.get("name") == key]
-            table = named[0] if named else table[int(key)]
-        else:
-            table = table.setdefault(key, {})
-    try:
-        table[keys[-1]] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        table[keys[-1]] = value.strip()
-
-
-def read_stop(results, name):
-    """The deflection at which a suspension's compression stop begins [m], None if it has none."""
-    for force in read_vehicle_file(results).get("forces", ()):
-        if force.get("name") == name:
-            return force.get("compression_stop", {}).get("deflection")
-    return None
-
-
 def calc_travel(results, name, window):
     """How far a suspension moves from its balance; samples decide what counts as a hit of the stop."""
     inside = samples_between(results, *window)
     deflection, _ = results.series(f"forces/{name}/deflection")
     static = calc_static(results, deflection, inside)
-    stop = read_stop(results, name)
+    stop = read_compression_stop(results, name)
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])

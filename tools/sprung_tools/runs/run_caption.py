@@ -2,9 +2,7 @@
 
 import textwrap
 
-import tomllib
-
-from sprung_tools.files.results_file import ResultsError, text_of
+from sprung_tools.model.model_texts import read_run_file
 
 LINE_LENGTH = 118  # letters that fit under a picture
 
@@ -34,37 +32,6 @@ def calc_parts(results):
     step = (results.time[-1] - results.time[0]) / (results.time.size - 1)
     parts.append(f"a sample every {1e3 * step:g} ms")
     return parts
-
-
-def read_run_file(results):
-    """The run file kept in the results, as a dict with its overrides; empty if there is none.
-
-    ResultsError if it is not TOML.
-    """
-    dataset = results.file.get("model/run_text")
-    if dataset is None:
-        return {}
-    try:
-        run = tomllib.loads(text_of(dataset[()]))
-    except tomllib.TOMLDecodeError as error:
-        raise ResultsError(f"{results.path}: error: 'model/run_text' is not TOML ({error})") from error
-    for assignment in results.file.get("model/overrides", ()):
-        override(run, text_of(assignment))
-    return run
-
-
-def override(run, assignment):
-    """Does to a run file's dict what `--set KEY.PATH=VALUE` did to the run; those of the vehicle are passed over."""
-    path, _, value = assignment.partition("=")
-    *tables, key = (part.strip().strip("\"'") for part in path.split("."))
-    if tables[:1] == ["vehicle"]:
-        return
-    for table in tables:
-        run = run.setdefault(table, {})
-    try:
-        run[key] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        run[key] = value.strip()  # a bare word is a string
 
 
 def describe_road(road):

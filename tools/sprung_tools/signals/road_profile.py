@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 REFERENCE_WAVENUMBER = 0.1  # 1/m, ISO 8608
 ISO_CLASSES = "ABCDEFGH"
@@ -65,48 +65,48 @@ def calc_iso_density(name):
 
 
 def check_recipe(recipe):
-    """ResultsError for a recipe that makes no profile, naming the value and what is expected."""
+    """InputError for a recipe that makes no profile, naming the value and what is expected."""
     low, high = recipe.band
     for name in ("length", "spacing"):
         if not 0.0 < getattr(recipe, name) < np.inf:
-            raise ResultsError(
+            raise InputError(
                 f"error: --{name} must be positive and finite (m), got {getattr(recipe, name):g}"
             )
     points = recipe.length / recipe.spacing
     if not points < MOST_POINTS:
-        raise ResultsError(
+        raise InputError(
             f"error: --length {recipe.length:g} m with --spacing {recipe.spacing:g} m makes {points:.3g} points, "
             f"more than {MOST_POINTS:g}"
         )
     if abs(points - round(points)) > 1e-6 or round(points) < 2:
-        raise ResultsError(
+        raise InputError(
             f"error: --spacing {recipe.spacing:g} m must divide --length {recipe.length:g} m into 2 parts or more"
         )
     if not 0.0 < low < high:
-        raise ResultsError(
+        raise InputError(
             f"error: --band must be two ascending positive wavenumbers (1/m), got {low:g} {high:g}"
         )
     if not high * recipe.spacing < 0.5:
-        raise ResultsError(
+        raise InputError(
             f"error: --band ends at {high:g} 1/m, which points every {recipe.spacing:g} m cannot show "
             f"(below {0.5 / recipe.spacing:g} 1/m)"
         )
     if not 0.0 <= 2.0 * recipe.ease < recipe.length:
-        raise ResultsError(
+        raise InputError(
             f"error: --ease must be at least 0 and below half of the length, got {recipe.ease:g} m"
         )
     if not np.isfinite(recipe.exponent):
-        raise ResultsError(f"error: --exponent must be a finite number, got {recipe.exponent:g}")
+        raise InputError(f"error: --exponent must be a finite number, got {recipe.exponent:g}")
     if not 0.0 < max(recipe.rms, recipe.density) < np.inf:
-        raise ResultsError(f"error: --rms must be positive and finite (m), got {recipe.rms:g}")
+        raise InputError(f"error: --rms must be positive and finite (m), got {recipe.rms:g}")
 
 
 def calc_waves(recipe):
-    """The numbers k of waves in the length whose wavenumber k/L lies in the band. ResultsError if there are none."""
+    """The numbers k of waves in the length whose wavenumber k/L lies in the band. InputError if there are none."""
     low, high = (limit * recipe.length for limit in recipe.band)
     waves = np.arange(max(1, int(np.ceil(low - WHOLE))), int(np.floor(high + WHOLE)) + 1)
     if waves.size == 0:
-        raise ResultsError(
+        raise InputError(
             f"error: --band {recipe.band[0]:g} {recipe.band[1]:g} 1/m holds no multiple of 1/{recipe.length:g} m"
         )
     return waves
@@ -121,7 +121,7 @@ def calc_easing(distance, ease):
 
 
 def make_profile(recipe):
-    """The profile of a recipe; equal recipes give equal profiles. ResultsError for a recipe that makes none, also where
+    """The profile of a recipe; equal recipes give equal profiles. InputError for a recipe that makes none, also where
     its heights vanish in the file's decimals or its spectrum leaves the range of numbers.
 
     The phases come from Python's `random.Random(seed).random()`, whose sequence Python guarantees to keep.
@@ -136,7 +136,7 @@ def make_profile(recipe):
     with np.errstate(over="ignore", under="ignore"):
         spectrum = density * (wavenumbers / REFERENCE_WAVENUMBER) ** -recipe.exponent
     if not (np.all(np.isfinite(spectrum)) and np.all(spectrum > 0.0)):
-        raise ResultsError(
+        raise InputError(
             f"error: --exponent {recipe.exponent:g} makes a spectrum beyond the range of numbers in this band"
         )
     amplitudes = np.sqrt(2.0 * spectrum / recipe.length)
@@ -154,10 +154,10 @@ def make_profile(recipe):
 
 
 def check_heights(height):
-    """ResultsError if a file's decimals cannot hold heights [n], or if they are not heights of a road."""
+    """InputError if a file's decimals cannot hold heights [n], or if they are not heights of a road."""
     highest = np.max(np.abs(height))
     if not LEAST_HEIGHT <= highest <= GREATEST_HEIGHT:
-        raise ResultsError(
+        raise InputError(
             f"error: the heights reach {highest:.3g} m, expected {LEAST_HEIGHT:g} to {GREATEST_HEIGHT:g} m; change --rms"
         )
 
@@ -191,18 +191,18 @@ def format_profile(recipe, profile, command):
 
 
 def read_profile(path):
-    """distance, height [n] of a road file with equal spacing. ResultsError if it cannot be used."""
+    """distance, height [n] of a road file with equal spacing. InputError if it cannot be used."""
     try:
         table = np.loadtxt(path, ndmin=2)
     except (OSError, ValueError) as error:
-        raise ResultsError(f"{path}: error: not a table of distances and heights ({error})") from error
+        raise InputError(f"{path}: error: not a table of distances and heights ({error})") from error
     if table.shape[0] < 3 or table.shape[1] != 2:
-        raise ResultsError(
+        raise InputError(
             f"{path}: error: expected 3 rows or more of a distance and a height, got {table.shape}"
         )
     steps = np.diff(table[:, 0])
     if not np.allclose(steps, steps[0], rtol=1e-4, atol=0.0):
-        raise ResultsError(f"{path}: error: the distances are not equally spaced")
+        raise InputError(f"{path}: error: the distances are not equally spaced")
     return table[:, 0], table[:, 1]
 
 

@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 
-from sprung_tools.files.results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 
 def make_parser(description, example):
@@ -18,12 +18,12 @@ def make_parser(description, example):
 
 
 def run_tool(main):
-    """Runs a tool's main() -> exit code, and exits; a ResultsError, or a file or folder that the system refuses, becomes
+    """Runs a tool's main() -> exit code, and exits; a InputError, or a file or folder that the system refuses, becomes
     a line on stderr and code 2, an interruption code 130."""
     try:
         code = main()
         sys.stdout.flush()
-    except ResultsError as error:
+    except InputError as error:
         print(error, file=sys.stderr)
         code = 2
     except BrokenPipeError:  # whoever read our output (head, less) has left
