@@ -7,9 +7,9 @@ import unittest
 import numpy as np
 from tool_test_case import ToolTestCase
 
-import benchmark_report
-import benchmark_runs
-from benchmark_runs import Case, Errors, Rung, Series
+from sprung_tools.benchmark import tables as benchmark_report
+from sprung_tools.benchmark import measurements as benchmark_runs
+from sprung_tools.benchmark.measurements import Case, Errors, Rung, Series
 
 
 def series_of(acceleration, height=0.0, deflection=0.0):

@@ -10,7 +10,7 @@ import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
 from tool_test_case import ROOT, ToolTestCase
 
-from results_file import open_results
+from sprung_tools.files.results_file import open_results
 
 
 def read_table(path):

@@ -15,7 +15,7 @@ import numpy as np
 from synthetic_results import write_results
 from tool_test_case import ROOT, ToolTestCase
 
-from results_file import open_results
+from sprung_tools.files.results_file import open_results
 
 RUN = ROOT / "dynamics/models/truck/bump.toml"
 CELLS = ("axial_force", "shear_force", "bending_moment")

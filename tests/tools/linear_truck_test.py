@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from tool_test_case import ROOT  # noqa: F401  puts tools/ on the path
 
-from paper_report.paper_runs import PaperRun, Programs, TRUCK, build_superelements, run_all
-from paper_report.run_numbers import RunNumbers
-from road_profile import read_profile
-from spectra import calc_rms
+from sprung_tools.paper_report.paper_runs import PaperRun, Programs, TRUCK, build_superelements, run_all
+from sprung_tools.paper_report.run_numbers import RunNumbers
+from sprung_tools.signals.road_profile import read_profile
+from sprung_tools.signals.spectra import calc_rms
 
 SCALE = 1.0 / 200.0  # of the terrain: the wheels stay on the ground and the springs all but linear
 DAMPING = 11527.5  # N·s/m, the mean of compression and rebound

@@ -1,4 +1,4 @@
-"""tools/make_road.py and road_profile.py: that a profile is what its recipe says, also the truck's own."""
+"""tools/make_road.py and signals/road_profile.py: that a profile is what its recipe says, also the truck's own."""
 
 import os
 import shlex
@@ -8,8 +8,15 @@ from pathlib import Path
 import numpy as np
 from tool_test_case import ROOT, ToolTestCase
 
-import road_profile
-from road_profile import Recipe, calc_iso_density, calc_waves, estimate_octaves, fit_exponent, make_profile
+from sprung_tools.signals import road_profile
+from sprung_tools.signals.road_profile import (
+    Recipe,
+    calc_iso_density,
+    calc_waves,
+    estimate_octaves,
+    fit_exponent,
+    make_profile,
+)
 
 TERRAIN = ROOT / "dynamics/models/truck/terrain_road.txt"
 RECIPE = Recipe(length=91.44, spacing=0.0508, band=(0.0545, 3.33), rms=0.0264, ease=3.0, seed=1)
@@ -197,7 +204,7 @@ class Tool(ToolTestCase):
         ):
             path = Path(self.folder, "bad.txt")
             path.write_text(text, encoding="utf-8")
-            with self.assertRaisesRegex(road_profile.ResultsError, complaint):
+            with self.assertRaisesRegex(road_profile.InputError, complaint):
                 road_profile.read_profile(path)
 
 

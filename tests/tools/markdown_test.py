@@ -4,7 +4,7 @@ import unittest
 
 import tool_test_case  # noqa: F401  puts tools/ on the path
 
-from paper_report.markdown import (
+from sprung_tools.paper_report.markdown import (
     cells_agree,
     find_differences,
     format_markdown,
@@ -13,7 +13,7 @@ from paper_report.markdown import (
     read_part,
     replace_part,
 )
-from results_file import ResultsError
+from sprung_tools.files.errors import InputError
 
 TEXT = "before\n<!-- begin one -->\nold\n<!-- end one -->\nbetween\n<!-- begin two -->\n\n<!-- end two -->\nafter\n"
 TABLE = (("", "mm", "holds?"), [("a", "12.3, -4.0", "yes"), ("b", "1.5", "no")])
@@ -28,7 +28,7 @@ class Parts(unittest.TestCase):
 
     def test_a_missing_or_repeated_part_is_refused(self):
         for text in ("no marker", TEXT + TEXT, TEXT.replace("end one", "end won")):
-            with self.assertRaisesRegex(ResultsError, "no single part 'one'"):
+            with self.assertRaisesRegex(InputError, "no single part 'one'"):
                 replace_part(text, "one", "new")
 
     def test_a_table_is_read_back_as_it_was_written(self):

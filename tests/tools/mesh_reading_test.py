@@ -7,10 +7,10 @@ import numpy as np
 from small_decks import ABAQUS, NASTRAN
 from tool_test_case import ROOT, ToolTestCase
 
-from abaqus_deck import read_abaqus
-from line_mesh import make_plane_frame, rename_for_gmsh
-from meshio_source import read_with_meshio
-from nastran_deck import read_nastran
+from sprung_tools.mesh_import.abaqus_deck import read_abaqus
+from sprung_tools.mesh_import.line_mesh import make_plane_frame, rename_for_gmsh
+from sprung_tools.mesh_import.meshio_reader import read_with_meshio
+from sprung_tools.mesh_import.nastran_deck import read_nastran
 
 DATA = ROOT / "tests/tools/data"
 FEM_DATA = ROOT / "tests/fem/data"

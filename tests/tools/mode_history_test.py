@@ -7,7 +7,7 @@ from mode_runs import write_adaptive_run
 from synthetic_results import NUM_SAMPLES, write_results
 from tool_test_case import ToolTestCase
 
-from mode_history import (
+from sprung_tools.runs.mode_history import (
     Neglect,
     count_active,
     find_change_times,
@@ -15,8 +15,9 @@ from mode_history import (
     read_mode_histories,
     read_neglected,
 )
-from mode_history_picture import find_spans
-from results_file import ResultsError, open_results
+from sprung_tools.plots.mode_history_picture import find_spans
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
 
 
 class ModeHistories(ToolTestCase):
@@ -53,7 +54,7 @@ class ModeHistories(ToolTestCase):
 
     def test_a_run_without_modes_is_refused(self):
         with open_results(write_results(self.folder / "rigid.h5", num_modes=0)) as results:
-            with self.assertRaisesRegex(ResultsError, "rigid.h5: error: no body of this run has modes"):
+            with self.assertRaisesRegex(InputError, "rigid.h5: error: no body of this run has modes"):
                 count_active(results)
 
 

@@ -18,8 +18,8 @@ from report_differences import (
 )
 from tool_test_case import ROOT
 
-from paper_report.claims import list_claims
-from paper_report.markdown import (
+from sprung_tools.paper_report.claims import list_claims
+from sprung_tools.paper_report.markdown import (
     NUMBER,
     cells_agree,
     find_differences,
@@ -28,10 +28,10 @@ from paper_report.markdown import (
     parse_markdown,
     read_part,
 )
-from paper_report.mode_claims import list_mode_claims
-from paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
-from paper_report.mode_tables import list_mode_tables, make_mode_cost_table
-from paper_report.paper_runs import (
+from sprung_tools.paper_report.mode_claims import list_mode_claims
+from sprung_tools.paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
+from sprung_tools.paper_report.mode_tables import list_mode_tables, make_mode_cost_table
+from sprung_tools.paper_report.paper_runs import (
     MODE_COUNTS,
     SPEEDS,
     TRUCK,
@@ -51,11 +51,13 @@ from paper_report.paper_runs import (
     run_all,
     write_roads,
 )
-from paper_report.run_numbers import MIDDLE, SEAT, Numbers
-from paper_report.tables import list_tables, list_texts
-from results_file import ResultsError, open_results, read_numbers
-from ride_measures import calc_contact
-from rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
+from sprung_tools.paper_report.tables import list_tables, list_texts
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.runs.ride_measures import calc_contact
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 
 OTHER_TERRAIN = "road_1_seed2"
 OTHER_SPEED = "speed8.5"
@@ -273,13 +275,13 @@ class Report(unittest.TestCase):
         rigid = self.numbers.run("bump_rigid").results
         for path in (*(self.folder / "other").glob("*.h5"), self.folder / "long_arm.h5"):
             with self.assertRaisesRegex(
-                ResultsError, f"{path}: error: is not the superelement that 'chassis' had"
+                InputError, f"{path}: error: is not the superelement that 'chassis' had"
             ):
                 calc_rigid_moments(rigid, "chassis", read_superelement(path))
 
     def test_a_run_that_fails_says_so(self):
         bad = PaperRun("bad", "bump.toml", ("modes.chassis=3",))
-        with self.assertRaisesRegex(ResultsError, "(?s)modes.chassis=3.*exit code 2"):
+        with self.assertRaisesRegex(InputError, "(?s)modes.chassis=3.*exit code 2"):
             run_all(self.programs, [bad], self.folder, report=lambda _: None)
         self.assertIn("modes.chassis=3", make_command(self.programs, bad, self.folder))
 
@@ -293,7 +295,7 @@ class Report(unittest.TestCase):
             run = PaperRun("untrusted", "bump.toml", ())
             arguments = (Programs(program, program), [run], folder, lambda _: None)
             if is_refused:
-                with self.assertRaisesRegex(ResultsError, "untrusted.h5: error: no run for a report: .* energy balance"):
+                with self.assertRaisesRegex(InputError, "untrusted.h5: error: no run for a report: .* energy balance"):
                     run_all(*arguments)
             else:
                 run_all(*arguments)
@@ -304,11 +306,11 @@ class Report(unittest.TestCase):
         self.assertEqual(
             [numbers.has(name) for name in ("bump_rigid", "bump_4modes", "bump_7modes")], [True, False, False]
         )
-        with self.assertRaisesRegex(ResultsError, "bump_4modes.h5: error: this run was not made"):
+        with self.assertRaisesRegex(InputError, "bump_4modes.h5: error: this run was not made"):
             numbers.run("bump_4modes")
 
     def test_a_missing_run_is_named(self):
-        with self.assertRaisesRegex(ResultsError, "bump_7modes.h5: error: no such file"):
+        with self.assertRaisesRegex(InputError, "bump_7modes.h5: error: no such file"):
             self.numbers.run("bump_7modes")
 
 

@@ -1,4 +1,4 @@
-"""tools/progress.py: a bar with the time left on a terminal, a line now and then elsewhere, silence for short work. The
+"""terminal/progress_bar.py: a bar with the time left on a terminal, a line now and then elsewhere, silence for short work. The
 clock is a stand-in."""
 
 import io
@@ -7,8 +7,8 @@ from unittest import mock
 
 from tool_test_case import TOOLS  # noqa: F401  puts tools/ on the path
 
-import progress
-from progress import Progress
+from sprung_tools.terminal import progress_bar as progress
+from sprung_tools.terminal.progress_bar import Progress
 
 
 class Terminal(io.StringIO):

@@ -4,7 +4,7 @@ import re
 
 import tool_test_case  # noqa: F401 (puts tools/ on the path)
 
-from paper_report.markdown import find_differences
+from sprung_tools.paper_report.markdown import find_differences
 
 # The report states these.
 RELATIVE = 0.01

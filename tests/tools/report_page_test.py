@@ -15,7 +15,7 @@ import numpy as np
 from browser import Browser
 from tool_test_case import ROOT, TOOLS
 
-from results_file import open_results
+from sprung_tools.files.results_file import open_results
 
 MODELS = ROOT / "dynamics/models"
 PICTURES = Path(os.environ.get("SPRUNG_SCREENSHOTS", tempfile.gettempdir()))

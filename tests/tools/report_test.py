@@ -13,11 +13,11 @@ import numpy as np
 from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement, write_texts
 from tool_test_case import ROOT, ToolTestCase
 
-from report_page.packing import find_kept
-from report_page.page import make_small_page
-from report_page.scene import find_spans
-from report_page.summary import shorten_numbers
-from runs import open_runs
+from sprung_tools.report.packing import find_kept
+from sprung_tools.report.page import make_small_page
+from sprung_tools.report.scene import find_spans
+from sprung_tools.report.summary import shorten_numbers
+from sprung_tools.runs.labelled_runs import open_runs
 
 
 def decode(text):

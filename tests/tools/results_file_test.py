@@ -1,4 +1,4 @@
-"""tools/results_file.py: what it reads, and each of its errors."""
+"""files/results_file.py: what it reads, and each of its errors."""
 
 import subprocess
 import sys
@@ -9,7 +9,9 @@ import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
 from tool_test_case import TOOLS, ToolTestCase
 
-from results_file import ResultsError, open_results, parse_quantity, read_attribute, read_texts
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results, parse_quantity
+from sprung_tools.files.hdf5_file import read_attribute, read_texts
 
 
 class Reading(ToolTestCase):
@@ -69,7 +71,7 @@ class Reading(ToolTestCase):
             "bodies/chassis/modal/amplitude.3": "component '3', expected 1 to 2",
             "bodies/chassis/modal/amplitude.x": "component 'x', expected 1 to 2",
         }.items():
-            with self.subTest(quantity), self.assertRaises(ResultsError) as caught:
+            with self.subTest(quantity), self.assertRaises(InputError) as caught:
                 self.results.series(quantity)
             self.assertTrue(str(caught.exception).startswith(f"{self.path}: error: "))
             self.assertIn(expected, str(caught.exception))
@@ -83,7 +85,7 @@ class Refusing(ToolTestCase):
         return path
 
     def assert_error(self, path, expected, quantity="bodies/chassis/position.y"):
-        with self.assertRaises(ResultsError) as caught, open_results(path) as results:
+        with self.assertRaises(InputError) as caught, open_results(path) as results:
             results.series(quantity)
         self.assertTrue(str(caught.exception).startswith(f"{path}: error: "), caught.exception)
         self.assertIn(expected, str(caught.exception))
@@ -193,15 +195,15 @@ class Parts(ToolTestCase):
             self.assertEqual(read_texts(results.file, "model/overrides"), ["speed=5", "Ü=1"])
             self.assertEqual(read_attribute(results.file, "model/bodies/chassis", "mass"), 1e4)
             for name in ("model/none", "model", "time"):
-                with self.assertRaisesRegex(ResultsError, f"run.h5: error: no dataset '{name}' of strings"):
+                with self.assertRaisesRegex(InputError, f"run.h5: error: no dataset '{name}' of strings"):
                     read_texts(results.file, name)
-            with self.assertRaisesRegex(ResultsError, "run.h5: error: no group 'model/bodies/cab'"):
+            with self.assertRaisesRegex(InputError, "run.h5: error: no group 'model/bodies/cab'"):
                 read_attribute(results.file, "model/bodies/cab", "mass")
-            with self.assertRaisesRegex(ResultsError, "run.h5: error: no attribute 'colour' of 'model/bodies/chassis'"):
+            with self.assertRaisesRegex(InputError, "run.h5: error: no attribute 'colour' of 'model/bodies/chassis'"):
                 read_attribute(results.file, "model/bodies/chassis", "colour")
 
     def test_an_interrupted_tool_says_so_without_a_traceback(self):
-        script = "import results_file\ndef main():\n    raise KeyboardInterrupt\nresults_file.run_tool(main)\n"
+        script = "from sprung_tools.terminal.program import run_tool\ndef main():\n    raise KeyboardInterrupt\nrun_tool(main)\n"
         process = subprocess.run([sys.executable, "-c", script], cwd=TOOLS, capture_output=True, text=True, check=False)
         self.assertEqual((process.returncode, process.stderr), (130, "interrupted\n"))
 

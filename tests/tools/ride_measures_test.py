@@ -1,4 +1,4 @@
-"""tools/ride_measures.py: each measure of histories whose values are known."""
+"""runs/ride_measures.py: each measure of histories whose values are known."""
 
 import unittest
 
@@ -14,17 +14,11 @@ from ride_results import (
 )
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError, open_results
-from ride_measures import (
-    calc_bending,
-    calc_comfort,
-    calc_contact,
-    calc_travel,
-    find_forces,
-    read_vehicle_file,
-    read_window,
-)
-from ride_weighting import calc_wk
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel, find_forces, read_window
+from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.signals.ride_weighting import calc_wk
 
 WINDOW = (1.0, 3.0)
 
@@ -96,18 +90,18 @@ class RideMeasures(ToolTestCase):
         results = self.open()
         results.time = results.time**2
         with self.assertRaisesRegex(
-            ResultsError, "0.h5: error: the samples in 'time' are not equally spaced"
+            InputError, "0.h5: error: the samples in 'time' are not equally spaced"
         ):
             calc_comfort(results, "points/body.seat", WINDOW)
         results.time = 10.0 * STEP * np.arange(results.time.size)
-        with self.assertRaisesRegex(ResultsError, "0.h5: error: a sample every 10 ms is too few"):
+        with self.assertRaisesRegex(InputError, "0.h5: error: a sample every 10 ms is too few"):
             calc_comfort(results, "points/body.seat", WINDOW)
 
     def test_a_file_without_its_vehicle_is_refused(self):
         with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
             del file["model/vehicle_text"]
         with open_results(self.folder / "b.h5") as results:
-            with self.assertRaisesRegex(ResultsError, "b.h5: error: no dataset 'model/vehicle_text'"):
+            with self.assertRaisesRegex(InputError, "b.h5: error: no dataset 'model/vehicle_text'"):
                 read_vehicle_file(results)
 
 

@@ -1,12 +1,12 @@
-"""tools/ride_weighting.py: ISO 2631-1's table, and that sampling does not bend the filter."""
+"""signals/ride_weighting.py: ISO 2631-1's table, and that sampling does not bend the filter."""
 
 import unittest
 
 import numpy as np
 import tool_test_case  # noqa: F401  puts tools/ on the path
 
-from ride_weighting import calc_dose, calc_wk, weight_acceleration
-from spectra import calc_rms
+from sprung_tools.signals.ride_weighting import calc_dose, calc_wk, weight_acceleration
+from sprung_tools.signals.spectra import calc_rms
 
 STEP = 1e-3
 # |Wk| by the formula at the exact third-octave centres 10^(n/10) Hz, n = -3 … 19

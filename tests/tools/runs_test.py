@@ -1,13 +1,22 @@
-"""tools/runs.py and tools/run_caption.py: labels, spans of time, captions."""
+"""runs/labelled_runs.py and runs/run_caption.py: labels, spans of time, captions."""
 
 import unittest
 
 from synthetic_results import write_results
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError, open_results
-from run_caption import make_caption
-from runs import Shown, describe, open_runs, runs_with, samples_between, shown_quantities, split_label
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.run_caption import make_caption
+from sprung_tools.runs.labelled_runs import (
+    Shown,
+    describe,
+    open_runs,
+    runs_with,
+    samples_between,
+    shown_quantities,
+    split_label,
+)
 
 
 class Labels(ToolTestCase):
@@ -47,7 +56,7 @@ class Labels(ToolTestCase):
         rigid, flexible = self.open(*(write_results(self.folder / f"{n}.h5", num_modes=n) for n in (0, 2)))
         deflection = Shown("deflection", "points/chassis.front_end/deflection.y")
         self.assertEqual(runs_with([rigid, flexible], deflection), [flexible])
-        with self.assertRaisesRegex(ResultsError, "no quantity 'points/chassis.front_end/deflection.y'"):
+        with self.assertRaisesRegex(InputError, "no quantity 'points/chassis.front_end/deflection.y'"):
             runs_with([rigid], deflection)
 
 
@@ -60,7 +69,7 @@ class Spans(ToolTestCase):
 
     def test_a_span_without_samples_is_refused(self):
         with open_results(write_results(self.folder / "run.h5")) as results:
-            with self.assertRaisesRegex(ResultsError, "no samples from 7 to 1 s"):
+            with self.assertRaisesRegex(InputError, "no samples from 7 to 1 s"):
                 samples_between(results, 7.0, None)
 
 

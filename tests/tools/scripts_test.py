@@ -54,7 +54,7 @@ class Scripts(ToolTestCase):
         self.assert_refuses(process, "taken: error: File exists")
 
     def test_an_interrupted_tool_says_so_in_a_line(self):
-        code = "import results_file\ndef main():\n    raise KeyboardInterrupt\nresults_file.run_tool(main)"
+        code = "from sprung_tools.terminal.program import run_tool\ndef main():\n    raise KeyboardInterrupt\nrun_tool(main)"
         process = subprocess.run(
             [sys.executable, "-c", code], cwd=TOOLS, capture_output=True, text=True, check=False
         )

@@ -4,7 +4,7 @@ import re
 import subprocess
 import unittest
 
-from tool_test_case import TOOLS, ToolTestCase
+from tool_test_case import ToolTestCase
 
 # What the script itself needs of the system; PATH holds nothing else, so that no real apt-get can be reached.
 NEEDED = ("bash", "cat", "dirname", "env", "mktemp", "readlink", "rm")

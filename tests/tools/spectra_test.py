@@ -1,11 +1,11 @@
-"""tools/spectra.py: known signals."""
+"""signals/spectra.py: known signals."""
 
 import unittest
 
 import numpy as np
 import tool_test_case  # noqa: F401  puts tools/ on the path
 
-from spectra import (
+from sprung_tools.signals.spectra import (
     calc_amplitude_spectrum,
     calc_band_rms,
     calc_power_spectrum,

@@ -1,4 +1,4 @@
-"""tools/whole_file.py: a file is written whole or stays as it was."""
+"""files/whole_file.py: a file is written whole or stays as it was."""
 
 import os
 import unittest
@@ -6,8 +6,8 @@ from unittest import mock
 
 from tool_test_case import ToolTestCase
 
-from results_file import ResultsError
-from whole_file import write_whole
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.whole_file import write_whole
 
 
 class WholeFile(ToolTestCase):
@@ -29,7 +29,7 @@ class WholeFile(ToolTestCase):
     def test_a_place_that_cannot_be_written_is_named(self):
         (self.folder / "taken").mkdir()
         for place in ("none/a.txt", "taken", "."):
-            with self.assertRaisesRegex(ResultsError, f"{place}: error: cannot write the file"):
+            with self.assertRaisesRegex(InputError, f"{place}: error: cannot write the file"):
                 write_whole(self.folder / place if place != "." else place, "text")
         self.assertEqual(os.listdir(self.folder), ["taken"])
 

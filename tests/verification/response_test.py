@@ -1,8 +1,6 @@
 #!/usr/bin/python3
 """Response of small vehicles to the road: against closed forms and a run in time, and what is refused."""
 
-import os
-import subprocess
 import unittest
 
 import h5py

@@ -6,7 +6,6 @@ import os
 import subprocess
 import unittest
 
-import numpy as np
 
 from verification_case import VerificationCase
 

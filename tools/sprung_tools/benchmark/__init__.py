@@ -1,0 +1,1 @@
+"""What evaluations and whole runs cost."""

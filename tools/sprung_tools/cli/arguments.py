@@ -1,0 +1,23 @@
+"""Arguments that several commands have."""
+
+
+def add_run_arguments(parser):
+    """The arguments that every tool on runs has: files, quantities, the span of time."""
+    parser.add_argument(
+        "runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the legend"
+    )
+    parser.add_argument(
+        "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
+        help="a quantity such as bodies/chassis/displacement.y, and its name; may be given several times",
+    )  # fmt: skip
+    add_span_arguments(parser)
+
+
+def add_span_arguments(parser):
+    """The span of time that is looked at."""
+    parser.add_argument(
+        "--from", dest="start", type=float, metavar="S", help="look at the run from this time, s"
+    )
+    parser.add_argument(
+        "--to", dest="end", type=float, metavar="S", help="look at the run up to this time, s"
+    )

@@ -1,0 +1,51 @@
+"""Prints the lowest clamped frequencies of a superelement beside known ones, with the differences."""
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
+from sprung_tools.terminal.program import make_parser
+from sprung_tools.terminal.text_table import format_table
+
+HEADINGS = ("body", "mode", "computed Hz", "printed Hz", "difference Hz", "difference %", "same digits")
+
+
+def num_decimals(text):
+    """Decimals a number was printed with: "6.11" → 2."""
+    return len(text.partition(".")[2])
+
+
+def parse_frequency(number, text):
+    """The number-th known frequency [Hz] of the command line. InputError if it is not positive."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0 < value < float("inf"):
+        raise InputError(f"--printed {number}: error: '{text}' is not a frequency > 0 Hz")
+    return value
+
+
+def main():
+    parser = make_parser(__doc__, "tools/compare_frequencies chassis.h5 --printed 6.11 6.11 38.31 38.31")
+    parser.add_argument("file", metavar="SUPERELEMENT", help="superelement file of sprung-reduce")
+    parser.add_argument(
+        "--printed", metavar="HZ", nargs="+", required=True, help="known frequencies from mode 1 on, Hz"
+    )
+    arguments = parser.parse_args()
+
+    printed = [parse_frequency(number, text) for number, text in enumerate(arguments.printed, start=1)]
+    with open_hdf5(arguments.file, SUPERELEMENT) as file:
+        name = text_of(file.attrs.get("name", ""))
+        frequencies, _ = read_numbers(file, "modes/frequency")
+    if frequencies.size < len(printed):
+        raise InputError(
+            f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given"
+        )
+
+    rows = []
+    for number, (computed, known, text) in enumerate(zip(frequencies, printed, arguments.printed), start=1):
+        difference = computed - known
+        digits = "yes" if f"{computed:.{num_decimals(text)}f}" == text else "NO"
+        percent = f"{100.0 * difference / known:+.4f}"
+        rows.append((name, str(number), f"{computed:.5f}", text, f"{difference:+.5f}", percent, digits))
+    print(format_table(HEADINGS, rows))
+    return 0

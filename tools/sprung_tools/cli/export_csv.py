@@ -1,0 +1,49 @@
+"""Writes quantities of a run over time as a CSV table: a column each, its name and unit in the first line."""
+
+import csv
+import io
+
+import numpy as np
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.files.whole_file import check_output, write_whole
+from sprung_tools.runs.labelled_runs import samples_between, shown_quantities
+from sprung_tools.terminal.program import make_parser
+
+
+def write_table(path, headings, columns):
+    """Writes columns [k] under their headings, whole or not at all, with the digits that give each number back."""
+    table = io.StringIO()
+    writer = csv.writer(table, lineterminator="\n")
+    writer.writerow(headings)
+    writer.writerows(zip(*(column.tolist() for column in columns)))
+    write_whole(path, table.getvalue())
+
+
+def main():
+    parser = make_parser(
+        __doc__,
+        "tools/export_csv bump_2modes.h5 -o bump.csv --show 'heave=bodies/chassis/displacement.y' \\\n"
+        "    --show points/chassis.seat/acceleration.y --show forces/front_tyre/force",
+    )
+    parser.add_argument("file", metavar="FILE", help="results file")
+    parser.add_argument("-o", "--output", required=True, metavar="TABLE", help="file to write (.csv)")
+    parser.add_argument(
+        "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
+        help="a quantity such as bodies/chassis/displacement.y, and its heading; may be given several times",
+    )  # fmt: skip
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
+    parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")
+    arguments = parser.parse_args()
+
+    with open_results(arguments.file) as results:
+        check_output(arguments.output, [arguments.file])
+        inside = samples_between(results, arguments.start, arguments.end)
+        headings, columns = ["time [s]"], [results.time[inside]]
+        for shown in shown_quantities(arguments.show):
+            values, unit = results.series(shown.quantity)
+            headings.append(f"{shown.label} [{unit or '1'}]")
+            columns.append(values[inside])
+    write_table(arguments.output, headings, columns)
+    print(f"{arguments.output}: {np.count_nonzero(inside)} rows, {len(columns)} columns")
+    return 0

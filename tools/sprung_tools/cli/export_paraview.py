@@ -1,0 +1,70 @@
+"""Writes a superelement's modes, or a run as a moving vehicle, for ParaView: VTU files and a PVD file that lists them.
+
+A superelement gives one file for each mode: the frame bent by it, with the vectors `displacement` and `rotation`. A run
+gives one file for each instant: bodies as lines where they are, with `velocity`, `acceleration`, `deflection` at their
+nodes and the beam resultants at both ends of each element (first, second)."""
+
+import math
+import os
+
+from sprung_tools.files.errors import InputError, WrongFormatError
+from sprung_tools.files.hdf5_file import RESULTS, SUPERELEMENT, open_hdf5
+from sprung_tools.paraview.collection import write_folder
+from sprung_tools.paraview.modes import export_modes
+from sprung_tools.paraview.run import export_run
+from sprung_tools.terminal.program import make_parser
+
+
+def find_format(path):
+    """Whether a file is a run (else a superelement). InputError if it is neither."""
+    try:
+        open_hdf5(path, RESULTS).close()
+    except WrongFormatError as error:
+        if error.found != SUPERELEMENT:
+            raise
+        return False
+    return True
+
+
+def check_arguments(arguments):
+    """InputError for a value that makes no sense, or that the file's kind has no use for."""
+    if not os.path.splitext(os.path.basename(arguments.output))[1] == ".pvd":
+        raise InputError(f"{arguments.output}: error: the output's name must end in .pvd")
+    if arguments.every is not None and not 0.0 < arguments.every < math.inf:
+        raise InputError(f"--every: error: {arguments.every:g}, expected a time > 0 s")
+    if not math.isfinite(arguments.magnify):
+        raise InputError(f"--magnify: error: {arguments.magnify:g}, expected a finite factor")
+    if arguments.is_run and arguments.modes:
+        raise InputError(f"--modes: error: {arguments.file} is a run, of which instants are written")
+    of_runs = {"--every": arguments.every, "--from": arguments.start, "--to": arguments.end}
+    for name, value in of_runs.items():
+        if not arguments.is_run and value is not None:
+            raise InputError(f"{name}: error: {arguments.file} is a superelement, which has no time")
+
+
+def main():
+    parser = make_parser(
+        __doc__,
+        "tools/export_paraview chassis.h5 -o modes.pvd --modes 1 2 3\n"
+        "  tools/export_paraview bump_2modes.h5 -o bump.pvd --every 0.01 --magnify 10",
+    )
+    parser.add_argument("file", metavar="FILE", help="superelement file or results file")
+    parser.add_argument("-o", "--output", required=True, metavar="NAME.pvd", help="list to write; NAME holds the files")
+    parser.add_argument("--modes", metavar="NUMBER", type=int, nargs="+", help="of a superelement (all, if not given)")
+    parser.add_argument("--magnify", metavar="FACTOR", type=float, default=1.0, help="of the deflections of a run, or of the modes")
+    parser.add_argument("--every", metavar="S", type=float, help="time between instants of a run, s (all samples)")
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
+    parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")
+    arguments = parser.parse_args()
+    arguments.is_run = find_format(arguments.file)
+    check_arguments(arguments)
+
+    def write_files(folder):
+        if arguments.is_run:
+            span = (arguments.start, arguments.end)
+            return export_run(arguments.file, folder, span, arguments.every, arguments.magnify)
+        return export_modes(arguments.file, folder, arguments.modes, arguments.magnify)
+
+    count = write_folder(arguments.output, write_files)
+    print(f"{arguments.output}: {count} {'instants' if arguments.is_run else 'modes'}")
+    return 0

@@ -1,0 +1,60 @@
+"""Draws how modes were chosen: the road's spectrum, what the vehicle makes of it, and the modes' frequencies, those kept
+marked; below, what each mode is worth.
+
+With --over-time what the modes of a run did: which took part, what those left out would have done, and below what the run
+did, beside other runs if they are given."""
+
+from sprung_tools.cli.arguments import add_span_arguments
+from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
+from sprung_tools.plots.mode_history_picture import make_mode_history_figure
+from sprung_tools.plots.picture_file import write_picture
+from sprung_tools.runs.labelled_runs import Shown, open_runs, shown_quantities
+from sprung_tools.runs.mode_history import read_mode_histories
+from sprung_tools.terminal.program import make_parser
+
+
+def parse_arguments():
+    parser = make_parser(
+        __doc__,
+        "tools/plot_modes -o choice.png choice.h5\n"
+        "  tools/plot_modes -o bump_modes.png --over-time adaptive=bump_adaptive.h5 '2 modes=bump_2modes.h5'",
+    )
+    parser.add_argument(
+        "files", metavar="[LABEL=]FILE", nargs="+",
+        help='file of select-modes, or results of a run with modes "auto"; with --over-time results of any run, and of others '
+        "to draw beside it",
+    )  # fmt: skip
+    parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
+    parser.add_argument("--over-time", action="store_true", help="what the modes did during the run")
+    parser.add_argument(
+        "--show", metavar="[LABEL=]QUANTITY", action="append",
+        help="with --over-time: a quantity below, and its name; may be given several times; the first body's vertical "
+        "acceleration if not given",
+    )  # fmt: skip
+    add_span_arguments(parser)
+    parser.add_argument("--title", default="", help="heading; the vehicle's name if not given")
+    arguments = parser.parse_args()
+    over_time_only = (arguments.show, arguments.start, arguments.end)
+    if not arguments.over_time and (len(arguments.files) > 1 or any(one is not None for one in over_time_only)):
+        parser.error("several files, --show, --from and --to go with --over-time")
+    return arguments
+
+
+def draw_histories(arguments):
+    runs = open_runs(arguments.files)
+    quantities = shown_quantities(arguments.show or [])
+    if not quantities:
+        body = read_mode_histories(runs[0].results)[0].body
+        quantities = [Shown(f"acceleration of {body}", f"bodies/{body}/acceleration.y")]
+    return make_mode_history_figure(runs, quantities, (arguments.start, arguments.end), arguments.title)
+
+
+def main():
+    arguments = parse_arguments()
+    if arguments.over_time:
+        figure = draw_histories(arguments)
+    else:
+        figure = make_choice_figure(open_choice(arguments.files[0]), arguments.title)
+    write_picture(figure, arguments.output)
+    print(arguments.output)
+    return 0

@@ -1,0 +1,32 @@
+"""Draws the frequency response of one or more vehicles to the road, or the spectral densities on a random road, a panel
+for each output."""
+
+from sprung_tools.plots.picture_file import write_picture
+from sprung_tools.plots.response_picture import make_response_figure, open_responses
+from sprung_tools.runs.labelled_runs import shown_quantities
+from sprung_tools.terminal.program import make_parser
+
+
+def main():
+    parser = make_parser(
+        __doc__,
+        "tools/plot_response -o response.png rigid=rigid.h5 '4 modes=modes.h5' \\\n"
+        "    --show 'seat=points/chassis.seat/acceleration.y' --show forces/front_tyre/force",
+    )
+    parser.add_argument("files", metavar="[LABEL=]FILE", nargs="+", help="response file, and its name in the legend")
+    parser.add_argument(
+        "--show", metavar="[LABEL=]OUTPUT", action="append", required=True,
+        help="an output such as points/chassis.seat/acceleration.y, and its name; may be given several times",
+    )  # fmt: skip
+    parser.add_argument(
+        "-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)"
+    )
+    parser.add_argument("--title", default="", help="heading; the vehicle's name if not given")
+    parser.add_argument("--spectrum", action="store_true", help="spectral densities, with the r.m.s.")
+    arguments = parser.parse_args()
+
+    responses = open_responses(arguments.files)
+    figure = make_response_figure(responses, shown_quantities(arguments.show), arguments.title, arguments.spectrum)
+    write_picture(figure, arguments.output)
+    print(arguments.output)
+    return 0

@@ -1,0 +1,146 @@
+"""Prints what runs mean for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk), suspension
+travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending moment of each flexible body.
+
+Statistics are over the run file's [statistics], or over the span given. Vibration is vertical, in m/s², the dose in
+m/s^1.75; travel is from static balance, compression positive; loads are those of all parallel members together. A tyre
+is without load also where it reaches the road but rises faster than it springs back. A moment is positive where it
+stretches the side of -y. With --superelements the bending moment of bodies that a run took as rigid is found from the
+forces on them."""
+
+import os
+
+from sprung_tools.files.hdf5_file import text_of
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.runs.labelled_runs import open_runs
+from sprung_tools.runs.ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_forces,
+    find_largest_moment,
+    read_window,
+)
+from sprung_tools.terminal.program import make_parser
+from sprung_tools.terminal.text_table import format_table
+
+COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV")
+TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
+CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
+           "without load s")  # fmt: skip
+BENDING = ("body", "run", "largest moment kN m", "at x m", "at s")
+
+
+def find_points(runs, wanted):
+    """The points to judge: those asked for, or every point called seat and its body's centre of mass, or all bodies'.
+
+    Returns quantities' folders such as `points/chassis.seat`. InputError for a point that a file does not hold.
+    """
+    results = runs[0].results
+    if not wanted:
+        seats = [f"points/{name}" for name in results.names("points") if name.rpartition(".")[2] == "seat"]
+        bodies = sorted({seat.split("/")[1].partition(".")[0] for seat in seats}) or results.names("bodies")
+        return seats + [f"bodies/{body}/center_of_mass" for body in bodies]
+    points = []
+    for name in wanted:
+        body, _, point = name.partition(".")
+        is_centre = point == "center_of_mass" and not results.has(f"points/{name}/acceleration")
+        points.append(f"bodies/{body}/center_of_mass" if is_centre else f"points/{name}")
+    return points
+
+
+def point_name(folder):
+    group, name, *_ = folder.split("/")
+    return name if group == "points" else f"{name}.center_of_mass"
+
+
+def make_comfort_rows(runs, points, windows):
+    for point in points:
+        for run, window in zip(runs, windows):
+            one = calc_comfort(run.results, point, window)
+            numbers = (one.rms, one.peak, one.weighted_rms, one.dose)
+            yield (point_name(point), run.label, *(f"{value:.4g}" for value in numbers))
+
+
+def make_travel_rows(runs, windows):
+    for name in find_forces(runs[0].results, "spring-damper"):
+        for run, window in zip(runs, windows):
+            one = calc_travel(run.results, name, window)
+            share = (
+                f"{100 * one.compression / one.whole:.0f} %"
+                if one.whole is not None and one.whole > 0.0
+                else "–"
+            )
+            hits = ("–", "–") if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
+            compression, rebound = (f"{1e3 * value:.1f}" for value in (one.compression, one.rebound))
+            yield (name, run.label, compression, share, rebound, *hits)
+
+
+def make_contact_rows(runs, windows):
+    for name in find_forces(runs[0].results, "tyre"):
+        for run, window in zip(runs, windows):
+            one = calc_contact(run.results, name, window)
+            yield (
+                name, run.label, f"{1e-3 * one.static:.2f}", f"{1e-3 * one.dynamic_rms:.2f}",
+                f"{one.dynamic_rms / one.static:.3f}", f"{1e-3 * one.greatest:.1f}", f"{one.off_ground:.3f}",
+                f"{one.unloaded:.3f}",
+            )  # fmt: skip
+
+
+def find_bending(results, body, window, superelements):
+    """A body's largest moment as calc_bending(); of a rigid one if its superelement is to be had, else None."""
+    found = calc_bending(results, body, window)
+    if found is not None or superelements is None or "model/bodies" not in results.file:
+        return found
+    name = text_of(results.file[f"model/bodies/{body}"].attrs.get("superelement", ""))
+    if not name:
+        return None
+    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
+    return find_largest_moment(results, *moments, window)
+
+
+def make_bending_rows(runs, windows, superelements):
+    for body in runs[0].results.names("bodies"):
+        for run, window in zip(runs, windows):
+            found = find_bending(run.results, body, window, superelements)
+            if found:
+                yield (
+                    body,
+                    run.label,
+                    f"{1e-3 * found.moment:.4g}",
+                    f"{found.station:.3f}",
+                    f"{found.time:.3f}",
+                )
+
+
+def main():
+    parser = make_parser(
+        __doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat"
+    )
+    parser.add_argument(
+        "runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the tables"
+    )
+    parser.add_argument(
+        "--points", nargs="+", metavar="BODY.POINT", default=(),
+        help="whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their bodies)",
+    )  # fmt: skip
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help="judge from this time, s")
+    parser.add_argument("--to", dest="end", type=float, metavar="S", help="judge up to this time, s")
+    parser.add_argument("--superelements", metavar="FOLDER", help="for the moments of bodies taken as rigid")
+    arguments = parser.parse_args()
+    runs = open_runs(arguments.runs)
+    windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
+    tables = (
+        (COMFORT, make_comfort_rows(runs, find_points(runs, arguments.points), windows)),
+        (TRAVEL, make_travel_rows(runs, windows)),
+        (CONTACT, make_contact_rows(runs, windows)),
+        (BENDING, make_bending_rows(runs, windows, arguments.superelements)),
+    )
+    spans = ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, windows))
+    text = [f"statistics over: {spans}"]
+    for headings, rows in tables:
+        rows = list(rows)
+        if rows:
+            text.append(format_table(headings, rows))
+    print("\n\n".join(text))
+    return 0

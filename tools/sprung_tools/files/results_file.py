@@ -1,0 +1,153 @@
+"""Reading the project's HDF5 files in Python: what all tools share.
+
+    with open_results("bump_2modes.h5") as results:
+        time = results.time                                              # [n] s
+        height, unit = results.series("bodies/chassis/displacement.y")   # [n] m, from static balance
+
+A *quantity* is written as the file names it (dynamics/output/results.md), with a component:
+`bodies/chassis/position.angle`, `bodies/chassis/center_of_mass/acceleration.y`, `points/chassis.seat/velocity.x`,
+`bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
+value per sample have none. `displacement` is position less its value in static balance.
+
+Every fault of a file, or of a name asked for, is a InputError whose text is `path: error: …`.
+"""
+
+import os
+from typing import NamedTuple
+
+import h5py
+import numpy as np
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, text_of
+
+COMPONENTS = ("x", "y", "angle")
+
+
+class Quantity(NamedTuple):
+    """A quantity's name taken apart: dataset, component ("" if none), whether its static value is subtracted."""
+
+    dataset: str
+    component: str
+    from_static: bool
+
+
+def parse_quantity(text):
+    """`bodies/chassis/displacement.y` → Quantity("bodies/chassis/position", "y", True)."""
+    folder, _, last = text.strip("/").rpartition("/")
+    name, _, component = last.partition(".")
+    from_static = name == "displacement"
+    return Quantity(f"{folder}/{'position' if from_static else name}".strip("/"), component, from_static)
+
+
+def open_results(path):
+    """Opens a results file. InputError if it cannot be used or its run did not finish."""
+    file = open_hdf5(str(path), RESULTS)
+    try:
+        return ResultsFile(file)
+    except InputError:
+        file.close()
+        raise
+
+
+class ResultsFile:
+    """A complete results file, open for reading; made by open_results()."""
+
+    def __init__(self, file):
+        self.file = file
+        self.path = file.filename
+        if int(file.attrs.get("complete", 0)) != 1:
+            raise InputError(
+                f"{self.path}: error: the run that wrote this file did not finish (complete = 0)"
+            )
+        self.time, _ = read_numbers(file, "time")
+        if self.time.ndim != 1 or self.time.size < 2 or np.any(np.diff(self.time) <= 0):
+            raise InputError(f"{self.path}: error: dataset 'time' must be two or more increasing values")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.file.close()
+
+    @property
+    def title(self):
+        """The run's title; the file's name if it has none."""
+        return text_of(self.file.attrs.get("title", "")) or os.path.basename(self.path)
+
+    @property
+    def is_from_balance(self):
+        """Whether the run starts from static balance, from which displacements are counted."""
+        equilibrium = self.file.get("model/equilibrium")
+        return equilibrium is not None and int(equilibrium.attrs.get("is_static_equilibrium", 0)) == 1
+
+    def names(self, group):
+        """What a group holds, e.g. names("bodies"); empty if there is no such group."""
+        found = self.file.get(group)
+        return sorted(found) if isinstance(found, h5py.Group) else []
+
+    def has(self, quantity):
+        """Whether the file holds the dataset behind a quantity."""
+        return isinstance(self.file.get(parse_quantity(quantity).dataset), h5py.Dataset)
+
+    def num_modes(self, body):
+        """Number of modes a body has in the run, 0 if it is rigid."""
+        dataset = self.file.get(f"bodies/{body}/modal/mode_number")
+        return dataset.shape[0] if isinstance(dataset, h5py.Dataset) else 0
+
+    def series(self, quantity):
+        """A quantity's history. Returns (values [n], unit). InputError names what there is instead."""
+        wanted = parse_quantity(quantity)
+        if not self.has(quantity):
+            raise self._no_such(quantity, wanted.dataset)
+        values, unit = read_numbers(self.file, wanted.dataset)
+        if values.ndim not in (1, 2) or values.shape[0] != self.time.size:
+            raise InputError(
+                f"{self.path}: error: dataset '{wanted.dataset}' has shape {values.shape}, "
+                f"expected {self.time.size} rows, one for each sample"
+            )
+        column = self._column(values, wanted, quantity)
+        if column is None:
+            return values, unit
+        values = values[:, column]
+        if wanted.from_static:
+            values = values - self._static_value(wanted.dataset, column)
+        units = [part.strip() for part in unit.split(",")]  # "m, m, rad": one for each column
+        return values, (units[column] if column < len(units) else unit)
+
+    def _no_such(self, quantity, dataset):
+        folder = dataset
+        while folder and not isinstance(self.file.get(folder), h5py.Group):
+            folder = folder.rpartition("/")[0]
+        there = ", ".join(self.names(folder or "/")) or "nothing"
+        return InputError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
+
+    def _column(self, values, wanted, quantity):
+        component = wanted.component
+        if values.ndim == 1 and component == "":
+            return None
+        columns = 1 if values.ndim == 1 else values.shape[1]
+        is_vector = (
+            columns in (2, 3)
+            and wanted.dataset.split("/")[0] in ("bodies", "points")
+            and "/modal/" not in wanted.dataset
+        )
+        known = list(COMPONENTS[:columns]) if is_vector else []
+        if values.ndim == 2 and component in known:
+            return known.index(component)
+        if values.ndim == 2 and component.isdecimal() and 1 <= int(component) <= columns:
+            return int(component) - 1
+        expected = "none" if values.ndim == 1 else ", ".join(known) or f"1 to {columns}"
+        raise InputError(
+            f"{self.path}: error: '{quantity}' has component '{component}', expected {expected}"
+        )
+
+    def _static_value(self, dataset, column):
+        if not self.is_from_balance:
+            raise InputError(
+                f"{self.path}: error: no displacement in '{dataset}': static balance was not sought"
+            )
+        # Bodies' frames and points, a centre of mass being a point: bodies/A/center_of_mass → points/A.center_of_mass.
+        group, name, *rest = dataset.split("/")[:-1]
+        place = f"points/{name}.{rest[0]}" if group == "bodies" and rest else f"{group}/{name}"
+        return read_numbers(self.file, f"model/equilibrium/{place}")[0][column]

@@ -1,0 +1,32 @@
+"""Writing a file whole or not at all: under another name beside its place, then renamed."""
+
+import os
+from pathlib import Path
+
+from sprung_tools.files.errors import InputError
+
+
+def write_whole(path, content):
+    """Writes text (as UTF-8) or bytes. An interrupted or failed write leaves an earlier file as it was.
+
+    InputError if the file cannot be written.
+    """
+    path = Path(path)
+    data = content.encode("utf-8") if isinstance(content, str) else content
+    unfinished = path.with_name(f".unfinished-{os.getpid()}-{path.name}") if path.name else path
+    try:
+        try:
+            unfinished.write_bytes(data)
+            os.replace(unfinished, path)
+        except BaseException:
+            if unfinished.is_file():
+                unfinished.unlink()
+            raise
+    except OSError as error:
+        raise InputError(f"{path}: error: cannot write the file ({error.strerror})") from error
+
+
+def check_output(path, inputs):
+    """InputError if the file to be written is one of those that are read."""
+    if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
+        raise InputError(f"{path}: error: is one of the input files, which the output would replace")

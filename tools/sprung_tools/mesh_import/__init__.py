@@ -1,0 +1,1 @@
+"""Frames from other programs' mesh files, written as gmsh meshes."""

@@ -1,0 +1,293 @@
+"""The report's tables: each a function from Numbers to (headings, rows of strings). Rows of runs that are not there are
+left out, so that a test can make those that are cheap."""
+
+import numpy as np
+
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.paper_report.claims import format_holds, list_claims
+from sprung_tools.paper_report.mode_claims import list_mode_claims
+from sprung_tools.paper_report.mode_tables import list_mode_tables
+from sprung_tools.paper_report.paper_runs import MODE_COUNTS, ROADS, name_modes
+from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, SEAT, chassis_frequencies
+from sprung_tools.paper_report.sensitivity_tables import make_sensitivity_table, make_speed_table
+from sprung_tools.runs.ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_largest_moment,
+    read_window,
+)
+from sprung_tools.signals.spectra import calc_rms
+
+PLACES = {"middle": MIDDLE, "centre of mass": CENTRE, "seat": SEAT}
+MODELS = {0: "rigid", 2: "2 modes", 4: "4 modes", 36: "36 modes"}
+
+
+def has_modes(numbers, road, count):
+    return numbers.has(f"{road}_{name_modes(count)}")
+
+
+def make_claims_table(numbers):
+    """What the paper says, criterion, what we find, whether it holds."""
+    return ("", "paper", "paper says", "criterion", "we find", "holds?"), list_judged(numbers, list_claims())
+
+
+def make_mode_claims_table(numbers):
+    """What is asked of modes that the program chooses, criterion, what we find, whether it holds."""
+    return ("", "run", "what", "criterion", "we find", "holds?"), list_judged(numbers, list_mode_claims())
+
+
+def list_judged(numbers, claims):
+    """A row for each claim whose runs are there."""
+    rows = []
+    for claim in claims:
+        if not all(map(numbers.has, claim.needs)) or (claim.timed and numbers.costs is None):
+            continue
+        finding = claim.judge(numbers)
+        holds = format_holds(finding.holds)
+        rows.append((claim.number, claim.source, claim.says, claim.criterion, finding.found, holds))
+    return rows
+
+
+def make_peaks_table(numbers):
+    """Over the bump: extremes of displacement and acceleration of three points."""
+    rows = []
+    for count, model in MODELS.items():
+        if not has_modes(numbers, "bump", count):
+            continue
+        run = numbers.modes("bump", count)
+        for name, point in PLACES.items():
+            displacement, acceleration = run.displacement(point), run.acceleration(point)
+            rows.append(
+                (
+                    f"{name}, {model}",
+                    f"{1e3 * displacement.max():.1f}",
+                    f"{1e3 * displacement.min():.1f}",
+                    f"{acceleration.max():.1f}",
+                    f"{acceleration.min():.1f}",
+                    f"{calc_rms(acceleration):.2f}",
+                )
+            )
+    headings = ("bump", "highest mm", "lowest mm", "acceleration up m/s²", "down m/s²", "r.m.s. m/s²")
+    return headings, sort_by_place(rows)
+
+
+def make_bands_table(numbers):
+    """Over terrain: r.m.s. acceleration by band of frequency."""
+    rows = []
+    for count, model in MODELS.items():
+        if not has_modes(numbers, "terrain", count):
+            continue
+        run = numbers.modes("terrain", count)
+        for name, point in PLACES.items():
+            bands = run.band_rms(point)
+            rows.append(
+                (
+                    f"{name}, {model}",
+                    *(f"{value:.2f}" for value in (*bands, calc_rms(run.acceleration(point)))),
+                )
+            )
+    return ("terrain, m/s²", "0 to 4 Hz", "4 to 8 Hz", "8 to 16 Hz", "above 16 Hz", "all"), sort_by_place(
+        rows
+    )
+
+
+def sort_by_place(rows):
+    places = list(PLACES)
+    return sorted(rows, key=lambda row: places.index(row[0].partition(",")[0]))
+
+
+def make_convergence_table(numbers):
+    """Against the number of chassis modes: frequencies, bump peaks, terrain accelerations, loads, evaluations."""
+    rows = []
+    for count in MODE_COUNTS:
+        if not all(has_modes(numbers, road, count) for road in ROADS):
+            continue
+        bump, terrain = (numbers.modes(road, count) for road in ROADS)
+        bending = calc_bending(terrain.results, "chassis", terrain.window)
+        end = terrain.front_end if count else None
+        rows.append(
+            (
+                str(count),
+                ", ".join(f"{value:.2f}" for value in chassis_frequencies(bump, 3)) or "–",
+                f"{1e3 * bump.displacement(MIDDLE).max():.1f}",
+                f"{bump.peak_acceleration(MIDDLE):.1f}",
+                f"{bump.peak_acceleration(CENTRE):.1f}",
+                f"{bump.peak_acceleration(SEAT):.1f}",
+                f"{terrain.rms_acceleration(MIDDLE):.3f}",
+                f"{terrain.rms_acceleration(CENTRE):.3f}",
+                f"{terrain.rms_acceleration(SEAT):.3f}",
+                f"{end.ratio:.1f}" if end else "–",
+                f"{1e-3 * abs(bending.moment):.1f}" if bending else "–",
+            )
+        )
+    headings = (
+        "modes", "bending of the assembled truck Hz", "bump: highest middle mm", "peak middle m/s²",
+        "peak centre of mass m/s²", "peak seat m/s²", "terrain: r.m.s. middle m/s²", "r.m.s. centre of mass m/s²",
+        "r.m.s. seat m/s²", "front end peak/static", "largest moment kN·m",
+    )  # fmt: skip
+    return headings, rows
+
+
+def make_effort_table(numbers):
+    """Evaluations of the equations of motion by the integrator, of both runs, and over rigid."""
+    rows = []
+    for count in MODE_COUNTS:
+        if not all(has_modes(numbers, road, count) for road in ROADS):
+            continue
+        cells = []
+        for road in ROADS:
+            evaluations = numbers.modes(road, count).evaluations
+            cells += [f"{evaluations}", f"{evaluations / numbers.modes(road, 0).evaluations:.2f}"]
+        rows.append((str(count), *cells))
+    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
+
+
+def make_adams_table(numbers):
+    """The same by Adams' method."""
+    rows = []
+    for count in (0, 2, 4):
+        cells = []
+        for road in ROADS:
+            evaluations, rigid = (
+                numbers.run(f"{road}_{name_modes(n)}_adams").evaluations for n in (count, 0)
+            )
+            cells += [f"{evaluations}", f"{evaluations / rigid:.2f}"]
+        rows.append((str(count), *cells))
+    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
+
+
+def make_cost_table(numbers):
+    """Measured processor times of the whole program, no results file; no rows without measured ones."""
+    rows = []
+    for road in ROADS if numbers.costs else ():
+        rigid = numbers.costs[f"{road}_rigid"]
+        for count in (0, 2, 4):
+            time = numbers.costs[f"{road}_{name_modes(count)}"]
+            rows.append((f"{road}, {MODELS[count]}", f"{time:.2f}", f"{time / rigid:.2f}"))
+    return ("", "processor time s", "over rigid"), rows
+
+
+def make_ride_table(numbers):
+    """What the ride means, a row for each measure and a column for each model and road."""
+    columns = [(road, count) for road in ROADS for count in MODELS if has_modes(numbers, road, count)]
+    cells = [
+        make_ride_column(numbers.modes(road, count).results, numbers.folder, count) for road, count in columns
+    ]
+    rows = [(name, *(column[name] for column in cells)) for name in cells[0]]
+    return ("", *(f"{road}, {MODELS[count]}" for road, count in columns)), rows
+
+
+def make_ride_column(results, superelements, count):
+    """One model's column of make_ride_table(): dict of measure → text."""
+    window = read_window(results)
+    column = {}
+    for name, point in PLACES.items():
+        comfort = calc_comfort(results, point, window)
+        column[f"{name}: r.m.s. m/s²"] = f"{comfort.rms:.2f}"
+        column[f"{name}: Wk-weighted r.m.s. m/s²"] = f"{comfort.weighted_rms:.2f}"
+        column[f"{name}: vibration dose value m/s^1.75"] = f"{comfort.dose:.1f}"
+    for axle in ("front", "rear"):
+        travel = calc_travel(results, f"{axle}_suspension", window)
+        column[
+            f"{axle} suspension: compression, rebound mm"
+        ] = f"{1e3 * travel.compression:.0f}, {1e3 * travel.rebound:.0f}"
+        column[f"{axle} bump stops: hits, time on them s"] = f"{travel.hits}, {travel.stopped:.2f}"
+    for axle in ("front", "rear"):
+        contact = calc_contact(results, f"{axle}_tyre", window)
+        column[
+            f"{axle} tyres: r.m.s. dynamic load over static"
+        ] = f"{contact.dynamic_rms / contact.static:.2f}"
+        column[f"{axle} tyres: greatest load over static"] = f"{contact.greatest / contact.static:.1f}"
+        column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
+        column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
+    if count == 0:
+        moments = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
+        bending = find_largest_moment(results, *moments, window)
+    else:
+        bending = calc_bending(results, "chassis", window)
+    column["largest bending moment kN·m, at x m"] = f"{1e-3 * bending.moment:.0f}, {bending.station:.2f}"
+    return column
+
+
+def make_tyres_table(numbers):
+    """Point contact beside distributed contact: the chassis, the front tyres, and the speed that the road takes."""
+    rows = []
+    for road in ROADS:
+        for count in (0, 2, 4):
+            for contact, suffix in (("point", ""), ("distributed", "_distributed")):
+                name = f"{road}_{name_modes(count)}{suffix}"
+                if not numbers.has(name):
+                    continue
+                run = numbers.run(name)
+                load = calc_contact(run.results, "front_tyre", run.window)
+                speed = np.abs(run.series("bodies/chassis/velocity.x"))
+                rows.append(
+                    (
+                        f"{road}, {MODELS[count]}, {contact}",
+                        f"{1e3 * run.displacement(MIDDLE).max():.1f}",
+                        f"{run.peak_acceleration(MIDDLE):.1f}",
+                        f"{run.rms_acceleration(MIDDLE):.2f}",
+                        f"{run.rms_acceleration(SEAT):.2f}",
+                        f"{load.greatest / load.static:.1f}",
+                        f"{load.off_ground:.2f}",
+                        f"{speed[-1]:.2f}",
+                    )
+                )
+    headings = (
+        "", "highest middle mm", "peak middle m/s²", "r.m.s. middle m/s²", "r.m.s. seat m/s²",
+        "greatest front load over static", "front wheels off the ground s", "speed at the end m/s",
+    )  # fmt: skip
+    return headings, rows
+
+
+def make_accuracy_table(numbers):
+    """The paper's cases with 4 modes at the runs' tolerance and at a hundredth of it."""
+    rows = []
+    for road in ROADS:
+        if not numbers.has(f"{road}_4modes_finer"):
+            continue
+        for name, run in (
+            (road, numbers.modes(road, 4)),
+            (f"{road}, finer", numbers.run(f"{road}_4modes_finer")),
+        ):
+            rows.append(
+                (
+                    name,
+                    f"{run.results.file['model'].attrs['relative_tolerance']:g}",
+                    *(f"{run.peak_acceleration(point):.4f}" for point in (MIDDLE, SEAT)),
+                    *(f"{run.rms_acceleration(point):.5f}" for point in (MIDDLE, SEAT)),
+                    f"{np.max(np.abs(run.displacement(MIDDLE))) * 1e3:.4f}",
+                )
+            )
+    headings = (
+        "4 modes", "tolerance", "peak middle m/s²", "peak seat m/s²", "r.m.s. middle m/s²", "r.m.s. seat m/s²",
+        "largest displacement mm",
+    )  # fmt: skip
+    return headings, rows
+
+
+def list_tables():
+    """All tables of the report by the names of their markers: dict of name → function of Numbers."""
+    return {
+        "claims": make_claims_table,
+        "bump peaks": make_peaks_table,
+        "terrain bands": make_bands_table,
+        "convergence": make_convergence_table,
+        "effort": make_effort_table,
+        "effort of Adams": make_adams_table,
+        "sensitivity": make_sensitivity_table,
+        "speed": make_speed_table,
+        "ride": make_ride_table,
+        "tyres": make_tyres_table,
+        "accuracy": make_accuracy_table,
+        "cost": make_cost_table,
+        "mode claims": make_mode_claims_table,
+        **list_mode_tables(),
+    }
+
+
+def list_texts():
+    """Parts of the report in a program's own words, by the names of their markers: dict of name → function of Numbers."""
+    return {"warning": lambda numbers: "\n".join(numbers.run("bump_2modes").warnings)}

@@ -1,0 +1,1 @@
+"""Modes and runs as files that ParaView reads."""

@@ -1,0 +1,78 @@
+"""A run for ParaView: a VTU file for each instant, bodies as lines where they are."""
+
+import os
+
+import meshio
+import numpy as np
+
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import open_results
+from sprung_tools.model.vehicle_shape import calc_motion, read_bodies
+from sprung_tools.paraview.vtu_file import RESULTANTS, in_space
+from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.terminal.progress_bar import Progress
+
+
+def choose_samples(results, span, every):
+    """The samples to write within a span (from, to) [s]: the first of each step of `every` seconds, to a thousandth of a
+    step; all of them if `every` is None."""
+    inside = np.flatnonzero(samples_between(results, *span))
+    if every is None:
+        return inside
+    time = results.time[inside]
+    step = np.floor((time - time[0]) / every + 1e-3)
+    return inside[np.unique(step, return_index=True)[1]]
+
+
+def read_resultants(results, bodies, samples):
+    """Name → [k×L×2] at the first and second end of every line; NaN where there is none (rigid bodies, offsets)."""
+    total = sum(len(body.lines) for body in bodies)
+    found = {name: np.full((len(samples), total, 2), np.nan) for name in RESULTANTS.values()}
+    first = 0
+    for body in bodies:
+        for what, name in RESULTANTS.items():
+            if results.has(f"recovery/{body.name}/{what}"):
+                values = read_numbers(results.file, f"recovery/{body.name}/{what}")[0][samples]
+                found[name][:, first : first + body.num_elements] = values.reshape(len(samples), -1, 2)
+        first += len(body.lines)
+    return found
+
+
+def export_run(path, folder, span, every, magnification):
+    """One VTU file for each instant that choose_samples() takes. Returns what the PVD file lists."""
+    with open_results(path) as results:
+        bodies = read_bodies(results)
+        samples = choose_samples(results, span, every)
+        motions = [calc_motion(results, body, samples, magnification) for body in bodies]
+        plain = [calc_motion(results, body, samples, 0.0).position for body in bodies]
+        places = [calc_motion(results, body, samples).position for body in bodies]
+        resultants = read_resultants(results, bodies, samples)
+        time = results.time[samples]
+    starts = np.cumsum([0, *(len(body.places) for body in bodies)])
+    lines = np.concatenate([body.lines + start for body, start in zip(bodies, starts)])
+    number = np.concatenate([np.full(len(body.lines), k) for k, body in enumerate(bodies, start=1)])
+
+    def gather(arrays):
+        return in_space(np.concatenate(arrays, axis=1))
+
+    position = gather([motion.position for motion in motions])
+    data = {
+        "velocity": gather([motion.velocity for motion in motions]),
+        "acceleration": gather([motion.acceleration for motion in motions]),
+        "deflection": gather([place - rigid for place, rigid in zip(places, plain)]),
+    }
+    entries = []
+    with Progress("instants", len(samples)) as progress:
+        for k, instant in enumerate(time):
+            mesh = meshio.Mesh(
+                position[k],
+                [("line", lines)],
+                point_data={name: values[k] for name, values in data.items()},
+                cell_data={"body": [number], **{name: [values[k]] for name, values in resultants.items()}},
+            )
+            name = f"instant_{k:06d}.vtu"
+            mesh.write(os.path.join(folder, name), binary=True)
+            entries.append((float(instant), name))
+            progress.step()
+    print("bodies: " + ", ".join(f"{k} {body.name}" for k, body in enumerate(bodies, start=1)))
+    return entries

@@ -1,0 +1,126 @@
+"""A picture of how modes were chosen: the road's spectrum, what the vehicle makes of it, and what each mode is worth."""
+
+from typing import NamedTuple
+
+import h5py
+import numpy as np
+
+from sprung_tools.files.errors import InputError, WrongFormatError
+from sprung_tools.files.hdf5_file import (
+    MODE_CHOICE,
+    RESULTS,
+    open_hdf5,
+    read_attribute,
+    read_numbers,
+    read_texts,
+    text_of,
+)
+from sprung_tools.plots.picture_file import COLOURS, PANEL_HEIGHT, label_unit, line_style, make_figure
+
+GROUP = "model/mode_choice"
+SHARES = {
+    "displacement": ("share/displacement_rms", "share/displacement_peak"),
+    "acceleration": ("share/acceleration_rms", "share/acceleration_peak"),
+    "forces": ("share/force_rms", "share/force_peak"),
+    "static": ("share/static",),
+}
+LEAST_SHARE = 1e-6  # of the lower panel, for modes that are worth nothing
+
+
+class Choice(NamedTuple):
+    """An open file that holds a choice of modes; n modes."""
+
+    file: h5py.File
+    tolerance: float
+    mode_frequency: np.ndarray  # [n] Hz
+    is_kept: np.ndarray  # [n]
+
+    def values(self, name):
+        """A dataset of the choice and its unit."""
+        return read_numbers(self.file, f"{GROUP}/{name}")
+
+    def points(self):
+        """The points that there are transfer functions of."""
+        group = self.file.get(f"{GROUP}/transfer")
+        return sorted(group) if group is not None else []
+
+    def share(self, datasets):
+        """Of each mode the larger of some shares [n]."""
+        return np.max([self.values(name)[0] for name in datasets], axis=0)
+
+
+def open_choice(path):
+    """Opens a file of select-modes, or a results file of a run with modes "auto". InputError for any other."""
+    try:
+        file = open_hdf5(path, RESULTS)
+    except WrongFormatError as error:
+        if error.found != MODE_CHOICE:
+            raise
+        file = open_hdf5(path, MODE_CHOICE)
+    if GROUP not in file:
+        raise InputError(
+            f'{path}: error: no modes were chosen in this run: its [modes] has none "auto"; what they did over time: --over-time'
+        )
+    if f"{GROUP}/frequency" not in file:
+        remarks = "; ".join(read_texts(file, f"{GROUP}/remarks"))
+        raise InputError(f"{path}: error: the forcing was not looked at: {remarks}")
+    return Choice(
+        file,
+        float(read_attribute(file, GROUP, "tolerance")),
+        read_numbers(file, f"{GROUP}/mode_frequency")[0],
+        np.asarray(file[f"{GROUP}/kept"][:], dtype=bool),
+    )
+
+
+def mark_modes(axes, choice):
+    """A line at each mode's frequency, whole for those kept, dotted for those left out."""
+    for kept, style, label in ((True, "-", "mode kept"), (False, ":", "mode left out")):
+        for place, frequency in enumerate(np.unique(choice.mode_frequency[choice.is_kept == kept])):
+            axes.axvline(frequency, color="0.45", linewidth=0.9, linestyle=style, zorder=0.5,
+                         label=label if place == 0 else None)  # fmt: skip
+
+
+def draw_curves(axes, choice, names, label):
+    """Curves over the frequency by their names in the legend."""
+    frequency = choice.values("frequency")[0]
+    unit = ""
+    with np.errstate(divide="ignore"):
+        for place, (name, dataset) in enumerate(names.items()):
+            values, unit = choice.values(dataset)
+            axes.loglog(frequency, np.where(values > 0.0, values, np.nan), label=name, **line_style(place, len(names)))
+    mark_modes(axes, choice)
+    axes.set_ylabel(f"{label}, {label_unit(unit)}")
+    axes.legend(loc="best", frameon=False)
+
+
+def draw_shares(axes, choice):
+    """What each mode is worth in each kind of quantity."""
+    for place, (name, datasets) in enumerate(SHARES.items()):
+        share = np.maximum(choice.share(datasets), LEAST_SHARE)
+        colour = COLOURS[place % len(COLOURS)]
+        for kept in (True, False):
+            axes.loglog(
+                choice.mode_frequency[choice.is_kept == kept], share[choice.is_kept == kept], linestyle="none", marker="o",
+                markersize=6, color=colour, markerfacecolor=colour if kept else "white", label=name if kept else None,
+            )  # fmt: skip
+    if choice.tolerance > 0.0:
+        axes.axhline(choice.tolerance, color="0.3", linewidth=0.9, linestyle="--", label="tolerance, of all left out")
+    axes.set_ylabel("share of a mode alone")
+    axes.legend(loc="best", frameon=False)
+
+
+def make_choice_figure(choice, title=""):
+    """Forcing, transfer functions and shares over one axis of frequencies."""
+    points = choice.points()
+    caption = (
+        f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
+        f"{read_attribute(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
+    )
+    title = title or text_of(choice.file.attrs["title"])
+    figure, panels = make_figure([PANEL_HEIGHT] * (3 if points else 2), title, caption)
+    draw_curves(panels[0], choice, {"road": "road"}, "road under the front wheel")
+    if points:
+        draw_curves(panels[1], choice, {point: f"transfer/{point}" for point in points}, "acceleration per road")
+    draw_shares(panels[-1], choice)
+    panels[-1].set_xlabel("frequency, Hz")
+    return figure

@@ -1,0 +1,82 @@
+"""A picture of the frequency response of one or more vehicles to the road, or of spectral densities on a random road."""
+
+import os
+from typing import NamedTuple
+
+import h5py
+import numpy as np
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers, text_of
+from sprung_tools.plots.picture_file import PANEL_HEIGHT, label_unit, line_style, make_figure
+from sprung_tools.runs.labelled_runs import split_label
+
+
+class Response(NamedTuple):
+    """An open response file with its name in the legend; frequency: [m] Hz."""
+
+    label: str
+    file: h5py.File
+    frequency: np.ndarray
+
+    def values(self, output, *, is_spectrum):
+        """Magnitude of an output's response, or its spectral density [m], and its unit. InputError if there is none."""
+        group = self.file.get(f"outputs/{output}")
+        if not isinstance(group, h5py.Group) or "response" not in group:
+            raise InputError(f"{self.file.filename}: error: no output '{output}'; there are: {', '.join(self.names())}")
+        if not is_spectrum:
+            pairs, unit = read_numbers(self.file, f"outputs/{output}/response")
+            return np.hypot(pairs[:, 0], pairs[:, 1]), unit
+        if "spectrum" not in group:
+            raise InputError(f"{self.file.filename}: error: has no spectra: its run file has no [response.road]")
+        return read_numbers(self.file, f"outputs/{output}/spectrum")
+
+    def rms(self, output):
+        """Root mean square of an output, of a file with spectra."""
+        return float(self.file[f"outputs/{output}"].attrs["rms"])
+
+    def names(self):
+        """The outputs in the file."""
+        found = []
+        self.file["outputs"].visititems(
+            lambda name, item: found.append(name) if isinstance(item, h5py.Group) and "response" in item else None
+        )
+        return found
+
+
+def open_responses(arguments):
+    """Opens files `[LABEL=]FILE`."""
+    responses = []
+    for argument in arguments:
+        label, path = split_label(argument)
+        file = open_hdf5(path, RESPONSE)
+        responses.append(Response(label or os.path.basename(path), file, read_numbers(file, "frequency")[0]))
+    return responses
+
+
+def draw_response_panel(axes, responses, shown, is_spectrum):
+    """One output of all files."""
+    for place, response in enumerate(responses):
+        values, unit = response.values(shown.quantity, is_spectrum=is_spectrum)
+        label = response.label
+        if is_spectrum:
+            plain = text_of(response.file[f"outputs/{shown.quantity}"].attrs["unit"])
+            label += f": r.m.s. {response.rms(shown.quantity):.3g} {label_unit(plain)}"
+        with np.errstate(divide="ignore"):
+            axes.loglog(response.frequency, values, label=label, **line_style(place, len(responses)))
+    axes.set_ylabel(f"{shown.label}, {label_unit(unit)}" if unit else shown.label)
+    axes.grid(which="both", color="0.9", linewidth=0.6)
+    axes.legend(loc="best", frameon=False)
+
+
+def make_response_figure(responses, outputs, title, is_spectrum):
+    """A panel for each output."""
+    speeds = sorted({float(response.file.attrs["speed"]) for response in responses})
+    what = "spectral density on a random road" if is_spectrum else "response to the road"
+    caption = f"{what}, linearised about static balance; speed {', '.join(f'{speed:g}' for speed in speeds)} m/s"
+    title = title or text_of(responses[0].file.attrs["title"])
+    figure, panels = make_figure([PANEL_HEIGHT] * len(outputs), title, caption)
+    for axes, shown in zip(panels, outputs):
+        draw_response_panel(axes, responses, shown, is_spectrum)
+    panels[-1].set_xlabel("frequency, Hz")
+    return figure

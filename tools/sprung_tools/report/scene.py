@@ -1,0 +1,86 @@
+"""What the animation is drawn from: how the vehicle looks, where it is at even times, its road."""
+
+import numpy as np
+
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.model.vehicle_shape import calc_motion, read_links, read_road
+from sprung_tools.report.histories import find_heavy, list_monitored
+from sprung_tools.report.packing import encode, find_kept
+
+MOST_SEEN = 400  # samples that the view of a mechanism is chosen by
+
+
+def pack_frames(results, bodies, wheels, most):
+    """What the animation is drawn from: each body's place and amplitudes, and each tyre's contact, at even times."""
+    count = min(results.time.size, most)
+    time = np.linspace(results.time[0], results.time[-1], count)
+
+    def at(values):
+        return encode(np.interp(time, results.time, values))
+
+    places, amplitudes, tyres = {}, {}, {}
+    for body in bodies:
+        position, _ = read_numbers(results.file, f"bodies/{body.name}/position")
+        places[body.name] = [at(column) for column in position.T]
+        if body.shapes.shape[2]:
+            values, _ = read_numbers(results.file, f"bodies/{body.name}/modal/amplitude")
+            amplitudes[body.name] = [at(column) for column in values.T]
+    nearest = np.clip(np.searchsorted(results.time, time), 0, results.time.size - 1)
+    for wheel in wheels:
+        contact, force = (results.series(f"forces/{wheel.name}/{what}")[0] for what in ("contact", "force"))
+        spans = find_spans(contact < 0.5, results.time)
+        tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans)}
+    return {
+        "first": float(time[0]), "last": float(time[-1]), "count": count, "places": places,
+        "amplitudes": amplitudes, "tyres": tyres,
+    }  # fmt: skip
+
+
+def find_spans(holds, time):
+    """When something holds [n]: [from, to, from, to, …], each from its first sample to the sample after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+    return time[np.minimum(edges, time.size - 1)]
+
+
+def pack_vehicle(results, bodies, wheels):
+    """How the vehicle looks, and the box [m] that it fills: at the start, or without wheels in all the run."""
+    links = read_links(results, bodies)
+    # A vehicle is followed by the view; a mechanism without wheels is seen from where all of its motion is in view.
+    samples = [0] if wheels else np.unique(np.linspace(0, results.time.size - 1, MOST_SEEN).astype(int))
+    boxes = [calc_motion(results, body, samples).position for body in bodies]
+    corners = [place for box in boxes for place in box.reshape(-1, 2)]
+    corners += [end[1] for link in links for end in link.ends if end[0] is None]
+    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+    for wheel in wheels:
+        centre = boxes[[body.name for body in bodies].index(wheel.body)][0, wheel.node]
+        low, high = np.minimum(low, centre - wheel.radius), np.maximum(high, centre + wheel.radius)
+    heavy = find_heavy(results)
+    monitored = {point for point in list_monitored(results) if not point.endswith((".origin", ".center_of_mass"))}
+    marks = [
+        {"body": body.name, "node": node, "name": f"{body.name}.{point}"}
+        for body in bodies for point, node in body.points.items() if f"{body.name}.{point}" in monitored
+    ]  # fmt: skip
+    return {
+        "bodies": [
+            {"name": body.name, "places": body.places.tolist(), "lines": body.lines.tolist(),
+             "shapes": np.round(body.shapes, 9).tolist(), "elements": body.num_elements, "points": body.points}
+            for body in bodies
+        ],
+        "wheels": [wheel._asdict() for wheel in wheels],
+        "links": [link._asdict() for link in links],
+        "marks": marks, "main": heavy[0] if heavy else bodies[0].name,
+        "heading": read_vehicle_file(results, required=False).get("heading", "+x"),
+        "box": [*low.tolist(), *high.tolist()],
+    }  # fmt: skip
+
+
+def pack_road(results, most=20000):
+    """The road as (x, height), thinned like the histories, and how distance along it is counted; None without a road."""
+    road = read_road(results)
+    if road is None:
+        return None
+    x, height = road
+    kept = find_kept(height, most)
+    origin, direction = (float(read_attribute(results.file, "model/road", name)) for name in ("origin", "direction"))
+    return {"x": encode(x[kept]), "h": encode(height[kept]), "direction": direction, "origin": origin}

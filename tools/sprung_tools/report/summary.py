@@ -1,0 +1,199 @@
+"""What the page says in tables: statistics of all samples, what was run, the vehicle's modes, the reduction's checks."""
+
+import hashlib
+import os
+
+import numpy as np
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.model.model_texts import read_run_file
+from sprung_tools.runs.run_caption import describe_road
+
+# Of forces of every kind, by the results file's names: what their greatest values are called, and their unit.
+LOADS = {
+    "force": ("force", "N"), "longitudinal_force": ("force along x", "N"), "force_x": ("force along x", "N"),
+    "force_y": ("force along y", "N"), "torque": ("torque", "N m"),
+}  # fmt: skip
+MOST_FREQUENCIES = 12  # of a superelement
+MOST_ALIKE = 6  # forces of one kind: where there are more, the summary leaves them to "All numbers"
+COMPUTATION = {
+    "steps": "steps", "evaluations": "evaluations", "switches": "switches located",
+    "energy_closure": "energy balance, relative error", "constraint_violation": "joints, largest violation",
+}  # fmt: skip
+
+
+def calc_hash(path):
+    """SHA-256 of a file."""
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        while part := file.read(1 << 20):
+            digest.update(part)
+    return digest.hexdigest()
+
+
+def calc_statistics(results, channels):
+    """The rows of the summary, of all samples: dicts of what they are of, name, unit and value."""
+    rows = list_point_rows(results)
+    kinds = {force: find_kind(results, force) for force in results.names("forces")}
+    many = {force for force, kind in kinds.items() if list(kinds.values()).count(kind) > MOST_ALIKE}
+    for force in kinds:
+        rows += calc_force_rows(results, force)
+    for channel in channels:
+        if channel.group == "Deflection":
+            point, _, what = channel.name.partition(", ")
+            largest = what if what.startswith("largest") else "deflection, largest"
+            rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values)))))
+    attributes = results.file["summary"].attrs if "summary" in results.file else {}
+    rows += [
+        ("computation", name, "", float(attributes[key])) for key, name in COMPUTATION.items() if key in attributes
+    ]
+    hidden = {"computation", *many}
+    return [
+        {"of": of, "name": name, "unit": unit, "value": value, "brief": of not in hidden}
+        for of, name, unit, value in rows
+    ]
+
+
+def find_kind(results, force):
+    """A force's kind, as the results file has it; empty if it does not say."""
+    return text_of(results.file[f"forces/{force}"].attrs.get("kind", ""))
+
+
+def list_point_rows(results):
+    """(point, quantity, unit, value) of what sprung-dynamics summed up itself."""
+    rows = []
+    for point in results.names("summary/points"):
+        attributes = results.file[f"summary/points/{point}"].attrs
+        for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
+            for part, name in (("max", "highest"), ("min", "lowest"), ("rms", "r.m.s.")):
+                if f"{what}_{part}" in attributes:
+                    rows.append((point, f"{what}, {name}", unit, float(attributes[f"{what}_{part}"])))
+    return rows
+
+
+def calc_force_rows(results, force):
+    """(force, quantity, unit, value): greatest loads by size; of tyres the time off the road, else the travel."""
+    rows = []
+    for what, (name, unit) in LOADS.items():
+        if results.has(f"forces/{force}/{what}"):
+            largest = float(np.max(np.abs(results.series(f"forces/{force}/{what}")[0])))
+            if largest > 0.0 or what == "force":  # an applied torque has forces that are 0
+                rows.append((force, f"{name}, largest", unit, largest))
+    if results.has(f"forces/{force}/contact"):
+        contact = results.series(f"forces/{force}/contact")[0] > 0.5
+        step = float(np.median(np.diff(results.time)))
+        rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~contact))))
+    elif results.has(f"forces/{force}/deflection"):
+        values, unit = results.series(f"forces/{force}/deflection")
+        largest = float(np.max(np.abs(values) if unit == "rad" else values))
+        rows.append((force, "turn, largest" if unit == "rad" else "compression, largest", unit, largest))
+    return rows
+
+
+def list_facts(results, has_tyres, sha256):
+    """What was run: (name, text) in order. Road and speed of a mechanism without tyres are passed over."""
+    run = read_run_file(results)
+    model = results.file["model"].attrs
+    facts = [("vehicle", results.title)]
+    if has_tyres and "road" in run:
+        facts.append(("road", describe_road(run["road"]).removeprefix("road: ")))
+    elif has_tyres and "model/road" in results.file:
+        facts.append(("road", text_of(results.file["model/road"].attrs.get("shape", ""))))
+    if "speed" in model and (has_tyres or float(model["speed"]) != 0.0):
+        facts.append(("initial speed", f"{float(model['speed']):g} m/s"))
+    step = float(np.median(np.diff(results.time)))
+    facts.append(("duration", f"{results.time[-1] - results.time[0]:g} s, a sample every {1e3 * step:g} ms"))
+    flexible = []
+    for body in results.names("bodies"):
+        if results.num_modes(body):
+            numbers = read_numbers(results.file, f"bodies/{body}/modal/mode_number")[0].astype(int)
+            flexible.append(f"{body}: modes {shorten_numbers(numbers)}")
+    facts.append(("flexible bodies", "; ".join(flexible) or "none"))
+    integrator = [f"{key.replace('_', ' ')} {value}" for key, value in run.get("integrator", {}).items()]
+    if integrator:
+        facts.append(("integrator", ", ".join(integrator)))
+    changed = read_texts(results.file, "model/overrides") if "model/overrides" in results.file else []
+    facts.append(("changed by --set", ", ".join(changed) or "nothing"))
+    facts.append(("starts from", "static balance" if results.is_from_balance else "the positions given"))
+    for name in results.names("model/superelements"):
+        version, content = (
+            text_of(read_attribute(results.file, f"model/superelements/{name}", attribute))
+            for attribute in ("program_version", "content_hash")
+        )
+        facts.append((f"superelement {name}", f"sprung-reduce {version}, content {content}"))
+    if "program_version" in results.file.attrs:
+        facts.append(("sprung-dynamics", text_of(results.file.attrs["program_version"])))
+    for name, dataset in (("vehicle file", "vehicle_text"), ("run file", "run_text")):
+        if f"model/{dataset}" in results.file:
+            (text,) = read_texts(results.file, f"model/{dataset}")
+            facts.append((f"{name}, SHA-256", hashlib.sha256(text.encode()).hexdigest()))
+    facts.append(("results file, SHA-256", sha256))
+    return facts
+
+
+def shorten_numbers(numbers):
+    """1, 2, 3, 7 → "1–3, 7"."""
+    parts, first = [], None
+    for number, after in zip(numbers, [*numbers[1:], None]):
+        first = number if first is None else first
+        if after != number + 1:
+            parts.append(f"{first}" if first == number else f"{first}–{number}")
+            first = None
+    return ", ".join(parts)
+
+
+def list_frequencies(results):
+    """The vehicle's modes about its equilibrium: undamped frequency, damping ratio, who takes part."""
+    if "model/modes/undamped_frequency" not in results.file:
+        return []
+    frequency, _ = read_numbers(results.file, "model/modes/undamped_frequency")
+    damping, _ = read_numbers(results.file, "model/modes/damping_ratio")
+    taking_part = read_texts(results.file, "model/modes/participants")
+    return [
+        {"f": float(f), "damping": float(d), "who": who}
+        for f, d, who in zip(frequency, damping, taking_part)
+        if f > 0.0
+    ]
+
+
+def read_checks(folder, runs):
+    """The checks that stage one made of each superelement that the runs used, from the files in a folder, if given.
+
+    A file is used only where its content hash is the one that the run names. Returns a list of dicts. InputError if
+    the folder is not there.
+    """
+    if folder and not os.path.isdir(folder):
+        raise InputError(f"{folder}: error: no such folder")
+    users = {}
+    for run in runs:
+        for name in run.results.names("model/superelements"):
+            content = text_of(read_attribute(run.results.file, f"model/superelements/{name}", "content_hash"))
+            users.setdefault((name, content), []).append(run.label)
+    return [
+        {"name": name, "hash": content, "runs": labels, "problem": "", "checks": [], "frequencies": [], "more": False}
+        | read_checks_of(folder, name, content)
+        for (name, content), labels in users.items()
+    ]
+
+
+def read_checks_of(folder, name, content_hash):
+    """What a superelement's file says of its checks; or the reason, as `problem`, why it cannot be shown."""
+    if not folder:
+        return {"problem": "Not shown: give the folder of the superelement files with --superelements."}
+    path = os.path.join(folder, f"{name}.h5")
+    if not os.path.exists(path):
+        return {"problem": f"Not shown: there is no {path}."}
+    with open_hdf5(path, SUPERELEMENT) as file:
+        if text_of(file.attrs.get("content_hash", "")) != content_hash:
+            return {"problem": f"Not shown: {path} is another superelement than the one that was run."}
+        values, _ = read_numbers(file, "checks/value")
+        tolerances, _ = read_numbers(file, "checks/tolerance")
+        frequencies, _ = read_numbers(file, "modes/frequency")
+        names = read_texts(file, "checks/name")
+    checks = [
+        {"name": check, "value": value, "tolerance": tolerance}
+        for check, value, tolerance in zip(names, values.tolist(), tolerances.tolist())
+    ]
+    return {"checks": checks, "frequencies": frequencies[:MOST_FREQUENCIES].tolist(),
+            "more": frequencies.size > MOST_FREQUENCIES}  # fmt: skip

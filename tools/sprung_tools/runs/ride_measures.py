@@ -1,0 +1,152 @@
+"""What a run means for the driver, the wheels and the frame: numbers from one results file over a span of time."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers, text_of
+from sprung_tools.model.model_texts import read_compression_stop, read_run_file
+from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
+from sprung_tools.signals.spectra import calc_rms
+
+LONGITUDINAL, VERTICAL = 0, 1  # columns of a station's place
+
+
+class Comfort(NamedTuple):
+    """Of a point's vertical acceleration [m/s²]; dose in m/s^1.75."""
+
+    rms: float
+    peak: float
+    weighted_rms: float
+    dose: float
+
+
+class Travel(NamedTuple):
+    """Of a suspension: deflections from balance [m], compression positive; whole: balance to the compression stop [m]
+    or None; hits: how often the stop was struck, or None where there is none; stopped: time on it [s]."""
+
+    compression: float
+    rebound: float
+    whole: float | None
+    hits: int | None
+    stopped: float
+
+
+class Contact(NamedTuple):
+    """Of a tyre: static and greatest load [N], r.m.s. of the load's departure from the static one [N], time off the
+    ground [s], time without load [s]: also where the tyre still reaches the road, but rises faster than it springs back.
+    """
+
+    static: float
+    greatest: float
+    dynamic_rms: float
+    off_ground: float
+    unloaded: float
+
+
+class Bending(NamedTuple):
+    """The largest bending moment of a body [N·m] with its sign, the station's x in the body frame [m], the time [s]."""
+
+    moment: float
+    station: float
+    time: float
+
+
+def read_window(results, start=None, end=None):
+    """The span of time that is judged (from, to) [s]: as given, else the run file's [statistics], else the whole run."""
+    statistics = read_run_file(results).get("statistics", {})
+    first = statistics.get("from", results.time[0]) if start is None else start
+    last = statistics.get("to", results.time[-1]) if end is None else end
+    return float(first), float(last)
+
+
+def sampling_step(results):
+    """The time between samples [s]. InputError if they are not equally spaced (the last one may come early)."""
+    steps = np.diff(results.time)
+    step = float(np.median(steps))
+    if np.any(np.abs(steps[:-1] - step) > 1e-6 * step):
+        raise InputError(f"{results.path}: error: the samples in 'time' are not equally spaced")
+    return step
+
+
+def calc_comfort(results, point, window):
+    """How a point's vertical acceleration feels. point: `points/chassis.seat` or `bodies/chassis/center_of_mass`."""
+    step = sampling_step(results)
+    inside = samples_between(results, *window)
+    acceleration, _ = results.series(f"{point}/acceleration.y")
+    try:
+        weighted = weight_acceleration(acceleration, step)[inside]
+    except ValueError as error:
+        raise InputError(f"{results.path}: error: {error}") from error
+    acceleration = acceleration[inside]
+    return Comfort(
+        calc_rms(acceleration),
+        float(np.max(np.abs(acceleration))),
+        calc_rms(weighted),
+        calc_dose(weighted, step),
+    )
+
+
+def find_forces(results, kind):
+    """Names of the forces of a kind, `spring-damper` or `tyre`."""
+    groups = {name: results.file[f"forces/{name}"] for name in results.names("forces")}
+    return [name for name, group in groups.items() if text_of(group.attrs.get("kind", "")) == kind]
+
+
+def calc_travel(results, name, window):
+    """How far a suspension moves from its balance; samples decide what counts as a hit of the stop."""
+    inside = samples_between(results, *window)
+    deflection, _ = results.series(f"forces/{name}/deflection")
+    static = calc_static(results, deflection, inside)
+    stop = read_compression_stop(results, name)
+    deflection = deflection[inside]
+    struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
+    hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
+    return Travel(
+        float(deflection.max() - static),
+        float(deflection.min() - static),
+        None if stop is None else stop - static,
+        None if stop is None else hits,
+        float(np.count_nonzero(struck) * sampling_step(results)),
+    )
+
+
+def calc_static(results, values, inside):
+    """A quantity's value in static balance: where the run began if that was a balance, else its mean over the span."""
+    if results.file["model/equilibrium"].attrs.get("is_static_equilibrium", 0) == 1:
+        return float(values[0])
+    return float(np.mean(values[inside]))
+
+
+def calc_contact(results, name, window):
+    """A tyre's loads, all its wheels together, its time off the ground and without load."""
+    inside = samples_between(results, *window)
+    force, _ = results.series(f"forces/{name}/force")
+    contact, _ = results.series(f"forces/{name}/contact")
+    static = calc_static(results, force, inside)
+    off_ground, unloaded = (
+        float(np.count_nonzero(bare) * sampling_step(results))
+        for bare in (contact[inside] == 0, force[inside] <= 0.0)
+    )
+    return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
+
+
+def calc_bending(results, body, window):
+    """A flexible body's largest bending moment; None for a body of which the file holds no moments."""
+    if not results.has(f"recovery/{body}/moment"):
+        return None
+    moments, _ = read_numbers(results.file, f"recovery/{body}/moment")
+    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    return find_largest_moment(results, moments, stations, window)
+
+
+def find_largest_moment(results, moments, stations, window):
+    """Bending from moments [n×stations] and the stations' places [stations×2] in the body frame."""
+    inside = np.flatnonzero(samples_between(results, *window))
+    row, column = np.unravel_index(np.argmax(np.abs(moments[inside])), (inside.size, moments.shape[1]))
+    sample = inside[row]
+    return Bending(
+        float(moments[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample])
+    )

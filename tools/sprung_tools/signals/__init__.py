@@ -1,0 +1,1 @@
+"""Sampled signals: spectra, the weighting of vibration by people, random roads."""

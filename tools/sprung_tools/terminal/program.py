@@ -1,0 +1,40 @@
+"""How every command ends, and how its help looks."""
+
+import argparse
+import os
+import sys
+
+from sprung_tools.files.errors import InputError
+
+
+def make_parser(description, example):
+    """A parser whose help ends in an example."""
+    return argparse.ArgumentParser(
+        description=description,
+        epilog=f"Example:\n  {example}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+
+
+def run_tool(main):
+    """Runs a tool's main() -> exit code, and exits; a InputError, or a file or folder that the system refuses, becomes
+    a line on stderr and code 2, an interruption code 130."""
+    try:
+        code = main()
+        sys.stdout.flush()
+    except InputError as error:
+        print(error, file=sys.stderr)
+        code = 2
+    except BrokenPipeError:  # whoever read our output (head, less) has left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 0
+    except OSError as error:
+        if error.filename is None:
+            raise
+        print(f"{error.filename}: error: {error.strerror}", file=sys.stderr)
+        code = 2
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        code = 130
+    sys.exit(code)
