@@ -13,6 +13,14 @@
 
 namespace sprung::dynamics {
 
+/// Which coordinate of a body one of the system's is.
+struct BodyCoordinate {
+  int body = 0;   ///< position in Model::bodies
+  int local = 0;  ///< 0: x, 1: y, 2: angle, 3 + k: the body's k-th active mode
+
+  bool is_modal() const { return local >= 3; }
+};
+
 /// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes
 /// another model with the same joints and forces, as `hold_modes` does.
 struct Model {
@@ -35,6 +43,7 @@ struct Model {
   double time_resolution = 0.0;     ///< step in time that misses nothing of any function of time [s]
 
   int num_freedoms() const { return num_coordinates - num_constraints; }
+  BodyCoordinate body_coordinate(int coordinate) const;
   /// "chassis.x", "chassis.angle", "chassis.mode 3"
   std::string coordinate_name(int coordinate) const;
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what
