@@ -29,7 +29,9 @@ std::vector<const TimeFunction*> AppliedForce::time_functions() const {
 }
 
 std::span<const Channel> AppliedForce::channels() const {
-  static constexpr std::array<Channel, 3> kChannels{{{"force_x", "N"}, {"force_y", "N"}, {"torque", "N m"}}};
+  static constexpr std::array<Channel, 3> kChannels{{{"force_x", "N", ChannelRole::kGiven},
+                                                     {"force_y", "N", ChannelRole::kGiven},
+                                                     {"torque", "N m", ChannelRole::kGiven}}};
   return kChannels;
 }
 

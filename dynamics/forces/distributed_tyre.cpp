@@ -176,12 +176,13 @@ void DistributedTyre::add_road_response(const Instant& instant, std::span<const 
 }
 
 std::span<const Channel> DistributedTyre::channels() const {
-  static constexpr std::array<Channel, 6> kChannels{{{"force", "N"},
-                                                     {"penetration", "m"},
-                                                     {"rate", "m/s"},
-                                                     {"contact", "1"},
-                                                     {"road_height", "m"},
-                                                     {"longitudinal_force", "N"}}};
+  static constexpr std::array<Channel, 6> kChannels{
+      {{"force", "N", ChannelRole::kForce},
+       {"penetration", "m", ChannelRole::kDeflection},
+       {"rate", "m/s", ChannelRole::kRate},
+       {"contact", "1", ChannelRole::kContact},
+       {"road_height", "m", ChannelRole::kRoadHeight},
+       {"longitudinal_force", "N", ChannelRole::kLongitudinalForce}}};
   return kChannels;
 }
 

@@ -32,11 +32,28 @@ struct Power {
   double input = 0.0;
 };
 
+/// What a channel says, for readers that do not know the element.
+enum class ChannelRole {
+  kForce,              ///< force that the element exerts: along its line, or the vertical one on a wheel
+  kLongitudinalForce,  ///< horizontal force on a wheel
+  kTorque,             ///< torque that it exerts
+  kGiven,              ///< force or torque that the input file gives as a function of time
+  kExtent,             ///< length, or angle, between its points
+  kDeflection,         ///< what a spring's law depends on: compression, penetration
+  kRate,               ///< rate of that deflection
+  kContact,            ///< 1 while a wheel touches the road, else 0
+  kRoadHeight,         ///< height of the road under a wheel
+};
+
 /// A column of a force element's results.
 struct Channel {
   std::string_view name;
   std::string_view unit;
+  ChannelRole role;
 };
+
+/// As in results files: "road-height".
+std::string_view role_name(ChannelRole role);
 
 /// A force between markers, or on one. Open to new kinds: the solver knows no more than this.
 ///

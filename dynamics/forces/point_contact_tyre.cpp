@@ -141,8 +141,11 @@ void PointContactTyre::add_road_response(const Instant& instant, std::span<const
 }
 
 std::span<const Channel> PointContactTyre::channels() const {
-  static constexpr std::array<Channel, 5> kChannels{
-      {{"force", "N"}, {"penetration", "m"}, {"rate", "m/s"}, {"contact", "1"}, {"road_height", "m"}}};
+  static constexpr std::array<Channel, 5> kChannels{{{"force", "N", ChannelRole::kForce},
+                                                     {"penetration", "m", ChannelRole::kDeflection},
+                                                     {"rate", "m/s", ChannelRole::kRate},
+                                                     {"contact", "1", ChannelRole::kContact},
+                                                     {"road_height", "m", ChannelRole::kRoadHeight}}};
   return kChannels;
 }
 

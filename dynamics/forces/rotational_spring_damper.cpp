@@ -28,8 +28,10 @@ double RotationalSpringDamper::calc_stored_energy(const Instant& instant,
 }
 
 std::span<const Channel> RotationalSpringDamper::channels() const {
-  static constexpr std::array<Channel, 4> kChannels{
-      {{"angle", "rad"}, {"deflection", "rad"}, {"rate", "rad/s"}, {"torque", "N m"}}};
+  static constexpr std::array<Channel, 4> kChannels{{{"angle", "rad", ChannelRole::kExtent},
+                                                     {"deflection", "rad", ChannelRole::kDeflection},
+                                                     {"rate", "rad/s", ChannelRole::kRate},
+                                                     {"torque", "N m", ChannelRole::kTorque}}};
   return kChannels;
 }
 

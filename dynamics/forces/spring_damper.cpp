@@ -48,8 +48,10 @@ SpringDamper::Deflection SpringDamper::calc_deflection(const Instant& instant) c
 }
 
 std::span<const Channel> SpringDamper::channels() const {
-  static constexpr std::array<Channel, 4> kChannels{
-      {{"length", "m"}, {"deflection", "m"}, {"rate", "m/s"}, {"force", "N"}}};
+  static constexpr std::array<Channel, 4> kChannels{{{"length", "m", ChannelRole::kExtent},
+                                                     {"deflection", "m", ChannelRole::kDeflection},
+                                                     {"rate", "m/s", ChannelRole::kRate},
+                                                     {"force", "N", ChannelRole::kForce}}};
   return kChannels;
 }
 

@@ -28,6 +28,12 @@ CoordinateJoint::CoordinateJoint(std::string joint_name, int marker_of_a, int ma
   }
 }
 
+// What holds a distance alone pushes along the line through both points.
+bool CoordinateJoint::carries_torque() const {
+  return std::any_of(parts_.held.begin(), parts_.held.end(),
+                     [](const Held& one) { return one.coordinate.kind() != Kind::kDistance; });
+}
+
 void CoordinateJoint::calc_residual(const MarkerState& a, const MarkerState& b, double time,
                                     JointVector& phi) const {
   phi.resize(num_constraints());

@@ -32,6 +32,7 @@ class CoordinateJoint final : public Joint {
   bool is_motion() const override { return parts_.is_motion; }
   std::optional<RelativeCoordinate> coordinate() const override { return parts_.coordinate; }
 
+  bool carries_torque() const override;
   int num_constraints() const override { return static_cast<int>(parts_.held.size()); }
   std::string_view constraint_name(int k) const override { return held(k).name; }
   std::string_view constraint_unit(int k) const override {

@@ -40,6 +40,9 @@ class Joint {
   /// one.
   virtual std::optional<RelativeCoordinate> coordinate() const { return std::nullopt; }
 
+  /// Whether it can carry a torque at its point a.
+  virtual bool carries_torque() const = 0;
+
   virtual int num_constraints() const = 0;
   /// What constraint k (0-based) holds, for messages: "x", "y".
   virtual std::string_view constraint_name(int k) const = 0;

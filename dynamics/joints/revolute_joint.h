@@ -12,6 +12,7 @@ class RevoluteJoint final : public Joint {
   std::optional<RelativeCoordinate> coordinate() const override {
     return RelativeCoordinate(RelativeCoordinate::Kind::kAngle);
   }
+  bool carries_torque() const override { return false; }
   int num_constraints() const override { return 2; }
   std::string_view constraint_name(int k) const override { return k == 0 ? "x" : "y"; }
   void calc_residual(const MarkerState& a, const MarkerState& b, double time,

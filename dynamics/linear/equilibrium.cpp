@@ -95,8 +95,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   for (int axis = 0; axis < 2; ++axis) {
     bool translation = true;
     for (int i = 0; i < model.num_coordinates; ++i) {
-      const std::string name = model.coordinate_name(i);
-      const bool along = name.ends_with(axis == 0 ? ".x" : ".y");
+      const bool along = model.body_coordinate(i).local == axis;
       translation &= std::abs(neutral.direction[i] / model.coordinate_scale(i) - (along ? 1.0 : 0.0)) < 1e-4;
     }
     if (translation) {

@@ -11,8 +11,12 @@ namespace sprung::dynamics {
 
 namespace {
 
+using Kind = OutputSubject::Kind;
+using Derivative = OutputSubject::Derivative;
+
 constexpr std::array<const char*, 3> kComponents{"x", "y", "angle"};
-constexpr std::array<const char*, 3> kDerivatives{"displacement", "velocity", "acceleration"};
+constexpr std::array<const char*, 3> kDerivatives{"displacement", "velocity",
+                                                  "acceleration"};  // as Derivative
 
 // p outputs without names, all zero.
 LinearOutputs make_empty(const LinearVehicle& vehicle, Eigen::Index p) {
@@ -26,11 +30,14 @@ LinearOutputs make_empty(const LinearVehicle& vehicle, Eigen::Index p) {
 
 // Motion by the independent coordinates, 3×f, as displacement, velocity or acceleration: rows from `row` on.
 void add_motion(LinearOutputs& outputs, Eigen::Index row, std::size_t derivative,
-                const Eigen::MatrixXd& motion, const std::string& group) {
+                const Eigen::MatrixXd& motion, const std::string& group, OutputSubject subject) {
   static constexpr std::array<const char*, 3> kSuffixes{"", "/s", "/s^2"};
   for (std::size_t c = 0; c < 3; ++c) {
     outputs.names.push_back(fmt::format("{}/{}.{}", group, kDerivatives[derivative], kComponents[c]));
     outputs.units.push_back(fmt::format("{}{}", c == 2 ? "rad" : "m", kSuffixes[derivative]));
+    subject.derivative = static_cast<Derivative>(derivative);
+    subject.component = static_cast<int>(c);
+    outputs.subjects.push_back(subject);
   }
   Eigen::MatrixXd& target = derivative == 0   ? outputs.by_position
                             : derivative == 1 ? outputs.by_velocity
@@ -92,7 +99,7 @@ void differentiate(const LinearVehicle& vehicle, const StateFunction& function, 
 }
 
 bool is_quantity(const Channel& channel) {
-  return channel.name != "contact" && channel.name != "road_height";
+  return channel.role != ChannelRole::kContact && channel.role != ChannelRole::kRoadHeight;
 }
 
 }  // namespace
@@ -100,6 +107,7 @@ bool is_quantity(const Channel& channel) {
 void LinearOutputs::append(const LinearOutputs& other) {
   names.insert(names.end(), other.names.begin(), other.names.end());
   units.insert(units.end(), other.units.begin(), other.units.end());
+  subjects.insert(subjects.end(), other.subjects.begin(), other.subjects.end());
   channels.insert(channels.end(), other.channels.begin(), other.channels.end());
   const auto put_below = [](Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower) {
     const Eigen::Index rows = upper.rows();
@@ -115,6 +123,7 @@ void LinearOutputs::append(const LinearOutputs& other) {
 LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
   LinearOutputs picked{.names = {},
                        .units = {},
+                       .subjects = {},
                        .by_position = by_position(rows, Eigen::all),
                        .by_velocity = by_velocity(rows, Eigen::all),
                        .by_acceleration = by_acceleration(rows, Eigen::all),
@@ -124,6 +133,7 @@ LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
     const auto i = static_cast<std::size_t>(row);
     picked.names.push_back(names[i]);
     picked.units.push_back(units[i]);
+    picked.subjects.push_back(subjects[i]);
     picked.channels.push_back(channels[i]);
   }
   return picked;
@@ -135,7 +145,8 @@ LinearOutputs make_point_outputs(const LinearVehicle& vehicle, int marker) {
   LinearOutputs outputs = make_empty(vehicle, 9);
   const std::string group = "points/" + vehicle.model().markers[static_cast<std::size_t>(marker)].name;
   for (std::size_t derivative = 0; derivative < 3; ++derivative) {
-    add_motion(outputs, 3 * static_cast<Eigen::Index>(derivative), derivative, motion, group);
+    add_motion(outputs, 3 * static_cast<Eigen::Index>(derivative), derivative, motion, group,
+               {.kind = Kind::kPoint, .object = marker});
   }
   return outputs;
 }
@@ -151,21 +162,27 @@ LinearOutputs make_mode_share_outputs(const LinearVehicle& vehicle, int marker) 
     const Eigen::MatrixXd motion = jacobian.col(coordinate) * vehicle.system().directions.row(coordinate);
     const std::string group =
         fmt::format("points/{}/mode {}", point.name, body.mode_numbers[static_cast<std::size_t>(k)]);
-    add_motion(outputs, 6 * k, 0, motion, group);
-    add_motion(outputs, 6 * k + 3, 2, motion, group);
+    const OutputSubject subject{.kind = Kind::kModeShare, .object = marker};
+    add_motion(outputs, 6 * k, 0, motion, group, subject);
+    add_motion(outputs, 6 * k + 3, 2, motion, group, subject);
   }
   return outputs;
 }
 
 LinearOutputs make_modal_outputs(const LinearVehicle& vehicle) {
   LinearOutputs outputs = make_empty(vehicle, 0);
-  for (const Body& body : vehicle.model().bodies) {
+  for (std::size_t b = 0; b < vehicle.model().bodies.size(); ++b) {
+    const Body& body = vehicle.model().bodies[b];
     LinearOutputs one = make_empty(vehicle, 2 * body.num_modes());
     for (int k = 0; k < body.num_modes(); ++k) {
       const Eigen::RowVectorXd row = vehicle.system().directions.row(body.first_coordinate + 3 + k);
       one.names.push_back(fmt::format("bodies/{}/modal/amplitude.{}", body.name, k + 1));
       one.names.push_back(fmt::format("bodies/{}/modal/acceleration.{}", body.name, k + 1));
       one.units.insert(one.units.end(), {"kg^0.5 m", "kg^0.5 m/s^2"});
+      for (const Derivative derivative : {Derivative::kDisplacement, Derivative::kAcceleration}) {
+        one.subjects.push_back(
+            {.kind = Kind::kMode, .object = static_cast<int>(b), .derivative = derivative, .component = k});
+      }
       one.by_position.row(2 * k) = row;
       one.by_acceleration.row(2 * k + 1) = row;
     }
@@ -179,6 +196,7 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle) {
   differentiate(vehicle, calc_channels, by_position, by_velocity);
   std::vector<int> rows;
   std::vector<std::string> names, units;
+  std::vector<OutputSubject> subjects;
   for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
     const ForceElement& force = *vehicle.model().forces[f];
     for (std::size_t c = 0; c < force.channels().size(); ++c) {
@@ -187,6 +205,7 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle) {
       rows.push_back(vehicle.channel_rows()[f] + static_cast<int>(c));
       names.push_back(fmt::format("forces/{}/{}", force.name, channel.name));
       units.emplace_back(channel.unit);
+      subjects.push_back({.kind = Kind::kChannel, .object = static_cast<int>(f), .role = channel.role});
     }
   }
   LinearOutputs outputs = make_empty(vehicle, static_cast<Eigen::Index>(rows.size()));
@@ -197,6 +216,7 @@ LinearOutputs make_force_outputs(const LinearVehicle& vehicle) {
   outputs.channels = std::move(rows);
   outputs.names = std::move(names);
   outputs.units = std::move(units);
+  outputs.subjects = std::move(subjects);
   return outputs;
 }
 
@@ -212,10 +232,14 @@ LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle) {
   for (Eigen::Index i = 0; i < multipliers.cols(); ++i) {
     outputs.by_force.col(i) = calc_reactions(vehicle.equations(), multipliers.col(i));
   }
-  for (const auto& joint : vehicle.model().joints) {
-    for (const char* component : {"x", "y", "torque"}) {
-      outputs.names.push_back(fmt::format("joints/{}/reaction.{}", joint->name, component));
-      outputs.units.emplace_back(std::string_view(component) == "torque" ? "N m" : "N");
+  static constexpr std::array<const char*, 3> kReactions{"x", "y", "torque"};
+  for (std::size_t j = 0; j < vehicle.model().joints.size(); ++j) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      outputs.names.push_back(
+          fmt::format("joints/{}/reaction.{}", vehicle.model().joints[j]->name, kReactions[c]));
+      outputs.units.emplace_back(c == 2 ? "N m" : "N");
+      outputs.subjects.push_back(
+          {.kind = Kind::kReaction, .object = static_cast<int>(j), .component = static_cast<int>(c)});
     }
   }
   return outputs;

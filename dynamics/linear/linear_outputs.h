@@ -8,11 +8,23 @@
 
 namespace sprung::dynamics {
 
+/// What an output is, for those that pick among them.
+struct OutputSubject {
+  enum class Kind { kPoint, kModeShare, kMode, kChannel, kReaction };
+  enum class Derivative { kDisplacement, kVelocity, kAcceleration };
+  Kind kind = Kind::kPoint;
+  int object = 0;  ///< marker, for kMode the body; for kChannel the force element, for kReaction the joint
+  Derivative derivative = Derivative::kDisplacement;  ///< of motion
+  int component = 0;                                  ///< 0: x, 1: y, 2: angle or torque; of kMode the mode
+  ChannelRole role = ChannelRole::kForce;             ///< of a channel
+};
+
 /// p quantities read off from a linear vehicle, named as in a results file: of the motion x of its f
 /// independent coordinates and what the road does at nq coordinates and directly (linear, eq. 10).
 struct LinearOutputs {
   std::vector<std::string> names;  ///< "points/chassis.seat/acceleration.y"
   std::vector<std::string> units;
+  std::vector<OutputSubject> subjects;
   Eigen::MatrixXd by_position, by_velocity, by_acceleration;  ///< p×f
   Eigen::MatrixXd by_force;                                   ///< p×nq, of the road's generalized forces
   std::vector<int> channels;  ///< p, the channel (of all) whose direct part is added; −1: none

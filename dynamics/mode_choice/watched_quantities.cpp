@@ -1,10 +1,5 @@
 #include "dynamics/mode_choice/watched_quantities.h"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <string_view>
-
 namespace sprung::dynamics {
 
 namespace {
@@ -23,25 +18,30 @@ std::vector<int> append(WatchedQuantities& watched, const LinearOutputs& outputs
   return rows;
 }
 
-// Outputs of a group by the ends of their names, those that there are.
-std::vector<int> find_outputs(const LinearOutputs& outputs, const std::string& group,
-                              std::initializer_list<std::string_view> ends) {
+// Outputs whose subject fits.
+template <typename Fits>
+std::vector<int> find_outputs(const LinearOutputs& outputs, Fits fits) {
   std::vector<int> rows;
   for (int i = 0; i < outputs.size(); ++i) {
-    for (const std::string_view end : ends) {
-      if (outputs.names[static_cast<std::size_t>(i)] == fmt::format("{}/{}", group, end)) rows.push_back(i);
-    }
+    if (fits(outputs.subjects[static_cast<std::size_t>(i)])) rows.push_back(i);
   }
   return rows;
 }
 
 void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
   const LinearOutputs outputs = make_force_outputs(vehicle);
-  for (const auto& force : vehicle.model().forces) {
-    if (force->kind() == "applied") continue;
-    const std::string group = "forces/" + force->name;
-    const std::vector<int> forces = find_outputs(outputs, group, {"force", "longitudinal_force"});
-    const std::vector<int> torques = find_outputs(outputs, group, {"torque"});
+  for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
+    const auto& force = vehicle.model().forces[f];
+    const auto is_of_force = [&](const OutputSubject& subject) {
+      return subject.object == static_cast<int>(f);
+    };
+    const std::vector<int> forces = find_outputs(outputs, [&](const OutputSubject& subject) {
+      return is_of_force(subject) &&
+             (subject.role == ChannelRole::kForce || subject.role == ChannelRole::kLongitudinalForce);
+    });
+    const std::vector<int> torques = find_outputs(outputs, [&](const OutputSubject& subject) {
+      return is_of_force(subject) && subject.role == ChannelRole::kTorque;
+    });
     if (!forces.empty())
       watched.list.push_back(
           {"force of " + force->name, Kind::kForce, append(watched, outputs.pick(forces))});
@@ -53,13 +53,19 @@ void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
 
 void add_reactions(const LinearVehicle& vehicle, WatchedQuantities& watched) {
   const LinearOutputs outputs = make_reaction_outputs(vehicle);
-  for (const auto& joint : vehicle.model().joints) {
-    const std::string group = "joints/" + joint->name;
-    const std::vector<int> forces = find_outputs(outputs, group, {"reaction.x", "reaction.y"});
-    const std::vector<int> torques = find_outputs(outputs, group, {"reaction.torque"});
+  for (std::size_t j = 0; j < vehicle.model().joints.size(); ++j) {
+    const auto& joint = vehicle.model().joints[j];
+    const auto is_of_joint = [&](const OutputSubject& subject) {
+      return subject.object == static_cast<int>(j);
+    };
+    const std::vector<int> forces = find_outputs(
+        outputs, [&](const OutputSubject& subject) { return is_of_joint(subject) && subject.component < 2; });
+    const std::vector<int> torques = find_outputs(outputs, [&](const OutputSubject& subject) {
+      return is_of_joint(subject) && subject.component == 2;
+    });
     watched.list.push_back(
         {"reaction of " + joint->name, Kind::kForce, append(watched, outputs.pick(forces))});
-    if (joint->kind() == "revolute") continue;
+    if (!joint->carries_torque()) continue;
     watched.list.push_back(
         {"reaction torque of " + joint->name, Kind::kTorque, append(watched, outputs.pick(torques))});
   }

@@ -70,7 +70,7 @@ std::string format_equilibrium(const BalanceReport& report) {
       const std::vector<double> values = resting.channels(f);
       for (std::size_t c = 0; c < values.size(); ++c) {
         const Channel& channel = report.model.forces[f]->channels()[c];
-        if (channel.name == "rate" || channel.name == "road_height") continue;
+        if (channel.role == ChannelRole::kRate || channel.role == ChannelRole::kRoadHeight) continue;
         forces.add_row({c == 0 ? report.model.forces[f]->name : "", std::string(channel.name),
                         fmt::format("{:.6g}", values[c]), std::string(channel.unit)});
       }

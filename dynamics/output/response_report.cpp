@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
@@ -15,13 +11,12 @@ using support::Json;
 
 namespace {
 
-bool is_shown(const std::string& name) {
-  static constexpr std::array<std::string_view, 7> kEndings{
-      "/displacement.y", "/velocity.y", "/acceleration.y", "/force",
-      "/torque",         "/deflection", "/penetration"};
-  return (name.starts_with("points/") || name.starts_with("forces/")) &&
-         std::any_of(kEndings.begin(), kEndings.end(),
-                     [&](std::string_view end) { return name.ends_with(end); });
+// In the table for people: vertical motion of points, what force elements exert and how they deflect.
+bool is_shown(const OutputSubject& subject) {
+  if (subject.kind == OutputSubject::Kind::kPoint) return subject.component == 1;
+  if (subject.kind != OutputSubject::Kind::kChannel) return false;
+  return subject.role == ChannelRole::kForce || subject.role == ChannelRole::kTorque ||
+         subject.role == ChannelRole::kDeflection;
 }
 
 std::vector<double> row_of(const Eigen::MatrixXd& matrix, Eigen::Index row) {
@@ -45,7 +40,7 @@ std::string format_response(const ResponseResult& result) {
   if (result.has_road()) header.emplace_back("r.m.s.");
   support::TextTable table(header);
   for (std::size_t i = 0; i < result.names.size(); ++i) {
-    if (!is_shown(result.names[i])) continue;
+    if (!is_shown(result.subjects[i])) continue;
     const auto row = static_cast<Eigen::Index>(i);
     Eigen::Index peak = 0;
     const double largest = result.response.row(row).cwiseAbs().maxCoeff(&peak);

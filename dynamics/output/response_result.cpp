@@ -13,6 +13,7 @@ ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, cons
                         .inputs = linear.inputs(),
                         .names = outputs.names,
                         .units = outputs.units,
+                        .subjects = outputs.subjects,
                         .frequency_hz = list_frequencies(run.response),
                         .response = {},
                         .transfer = {},

@@ -19,6 +19,7 @@ struct ResponseResult {
   std::vector<std::string> remarks;    ///< what was linearised how, and what takes no part
   std::vector<RoadInput> inputs;
   std::vector<std::string> names, units;   ///< p, of the outputs
+  std::vector<OutputSubject> subjects;     ///< p
   std::vector<double> frequency_hz;        ///< m
   Eigen::MatrixXcd response;               ///< p×m, of the vehicle on a wave of 1 m
   std::vector<Eigen::MatrixXcd> transfer;  ///< m of p×k, from each input alone

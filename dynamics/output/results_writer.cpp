@@ -23,7 +23,7 @@ void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& valu
 }  // namespace
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header)
-    : model_(&header.model), file_(path, partial_name(path)) {
+    : model_(&header.model), points_(list_points(header.vehicle)), file_(path, partial_name(path)) {
   file_.attribute("/", "format", kResultsFormat);
   file_.attribute("/", "version", kResultsVersion);
   file_.attribute("/", "title", header.vehicle.name);
@@ -57,19 +57,24 @@ void ResultsWriter::add_series(const std::string& dataset, std::size_t columns, 
   series_.push_back({&growing, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
 }
 
+void ResultsWriter::add_marker_motion(const std::string& group, std::size_t marker) {
+  const std::size_t i = marker;
+  add_series(group + "/position", 2, "m",
+             [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].r); });
+  add_series(group + "/velocity", 2, "m/s",
+             [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].v); });
+  add_series(group + "/acceleration", 2, "m/s^2",
+             [i](const Snapshot& now, std::vector<double>& row) { put(row, now.calc_acceleration(i)); });
+}
+
 void ResultsWriter::add_point_series() {
   for (std::size_t i = 0; i < model_->markers.size(); ++i) {
     const Marker& marker = model_->markers[i];
-    if (marker.body == kGround || marker.name.ends_with(".center_of_mass")) continue;
+    if (marker.body == kGround || points_[i].kind == VehiclePoint::Kind::kCenterOfMass) continue;
     const std::string group = "/points/" + marker.name;
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
-    add_series(group + "/position", 2, "m",
-               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].r); });
-    add_series(group + "/velocity", 2, "m/s",
-               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].v); });
-    add_series(group + "/acceleration", 2, "m/s^2",
-               [i](const Snapshot& now, std::vector<double>& row) { put(row, now.calc_acceleration(i)); });
+    add_marker_motion(group, i);
     if (body.num_modes() == 0) continue;
     add_series(group + "/deflection", 2, "m",
                [&marker, first, size](const Snapshot& now, std::vector<double>& row) {
@@ -79,7 +84,8 @@ void ResultsWriter::add_point_series() {
 }
 
 void ResultsWriter::add_body_series() {
-  for (const Body& body : model_->bodies) {
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
     const std::string group = "/bodies/" + body.name;
     const int first = body.first_coordinate, n = body.num_modes();
     const std::string per_second = " 1/s", per_second_squared = " 1/s^2";
@@ -90,18 +96,10 @@ void ResultsWriter::add_body_series() {
     add_series(
         group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
         [first](const Snapshot& now, std::vector<double>& row) { put(row, now.v_dot.segment<3>(first)); });
-    const int center = model_->find_marker(body.name + ".center_of_mass");
-    if (center >= 0) {
-      const auto i = static_cast<std::size_t>(center);
-      add_series(
-          group + "/center_of_mass/position", 2, "m",
-          [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].r); });
-      add_series(
-          group + "/center_of_mass/velocity", 2, "m/s",
-          [i](const Snapshot& now, std::vector<double>& row) { put(row, now.terms().markers()[i].v); });
-      add_series(group + "/center_of_mass/acceleration", 2, "m/s^2",
-                 [i](const Snapshot& now, std::vector<double>& row) { put(row, now.calc_acceleration(i)); });
-    }
+    const auto center = std::find_if(points_.begin(), points_.end(), [b](const VehiclePoint& point) {
+      return point.kind == VehiclePoint::Kind::kCenterOfMass && point.body == static_cast<int>(b);
+    });
+    add_marker_motion(group + "/center_of_mass", static_cast<std::size_t>(center - points_.begin()));
     if (n == 0) continue;
     const auto columns = static_cast<std::size_t>(n);
     const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
@@ -198,12 +196,14 @@ void ResultsWriter::add_force_series() {
     const std::span<double> values = channels_.back();
     for (std::size_t c = 0; c < force.channels().size(); ++c) {
       const Channel& channel = force.channels()[c];
-      add_series(fmt::format("/forces/{}/{}", force.name, channel.name), 0, std::string(channel.unit),
+      const std::string dataset = fmt::format("/forces/{}/{}", force.name, channel.name);
+      add_series(dataset, 0, std::string(channel.unit),
                  [&force, first, count, c, values](const Snapshot& now, std::vector<double>& row) {
                    if (c == 0)
                      force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
                  });
+      file_.attribute(dataset, "role", role_name(channel.role));
     }
     file_.attribute("/forces/" + force.name, "kind", force.kind());
   }

@@ -62,6 +62,7 @@ class ResultsWriter {
 
   void add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
                   std::function<void(const Snapshot&, std::vector<double>&)> fill);
+  void add_marker_motion(const std::string& group, std::size_t marker);
   void add_point_series();
   void add_body_series();
   void add_joint_series();
@@ -72,6 +73,7 @@ class ResultsWriter {
   void write_events();
 
   const Model* model_;
+  std::vector<VehiclePoint> points_;  // of the model's markers
   support::Hdf5Writer file_;
   std::vector<Series> series_;
   std::vector<std::vector<double>> channels_;  // of each force element, at the snapshot being added

@@ -40,8 +40,7 @@ bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   const std::vector<int>& free = equations.partition().independent;
-  return std::all_of(free.begin(), free.end(),
-                     [&](int i) { return model.coordinate_name(i).find(".mode ") != std::string::npos; });
+  return std::all_of(free.begin(), free.end(), [&](int i) { return model.body_coordinate(i).is_modal(); });
 }
 
 // The motion that a run's start is in balance in.

@@ -12,14 +12,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-const Body& body_of_coordinate(const Model& model, int coordinate) {
-  if (coordinate < 0 || coordinate >= model.num_coordinates) {
-    throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, model.num_coordinates));
-  }
-  return *std::prev(std::upper_bound(model.bodies.begin(), model.bodies.end(), coordinate,
-                                     [](int i, const Body& body) { return i < body.first_coordinate; }));
-}
-
 void collect_time_functions(Model& model) {
   model.has_motions = false;
   model.time_breaks.clear();
@@ -42,18 +34,27 @@ void collect_time_functions(Model& model) {
 
 }  // namespace
 
+BodyCoordinate Model::body_coordinate(int coordinate) const {
+  if (coordinate < 0 || coordinate >= num_coordinates) {
+    throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, num_coordinates));
+  }
+  const auto behind = std::upper_bound(bodies.begin(), bodies.end(), coordinate,
+                                       [](int i, const Body& body) { return i < body.first_coordinate; });
+  const auto body = std::prev(behind);
+  return {.body = static_cast<int>(body - bodies.begin()), .local = coordinate - body->first_coordinate};
+}
+
 std::string Model::coordinate_name(int coordinate) const {
-  const Body& body = body_of_coordinate(*this, coordinate);
-  const int local = coordinate - body.first_coordinate;
+  const auto [index, local] = body_coordinate(coordinate);
+  const Body& body = bodies[static_cast<std::size_t>(index)];
   if (local < 3) return fmt::format("{}.{}", body.name, local == 0 ? "x" : local == 1 ? "y" : "angle");
   return fmt::format("{}.mode {}", body.name, body.mode_numbers[static_cast<std::size_t>(local - 3)]);
 }
 
 double Model::coordinate_scale(int coordinate) const {
-  const Body& body = body_of_coordinate(*this, coordinate);
-  const int local = coordinate - body.first_coordinate;
+  const auto [body, local] = body_coordinate(coordinate);
   if (local < 2) return length_scale;
-  return local == 2 ? 1.0 : length_scale / body.mode_scale[local - 3];
+  return local == 2 ? 1.0 : length_scale / bodies[static_cast<std::size_t>(body)].mode_scale[local - 3];
 }
 
 double Model::calc_rounding(const Eigen::VectorXd& q) const {

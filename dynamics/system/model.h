@@ -13,6 +13,14 @@
 
 namespace sprung::dynamics {
 
+/// Which coordinate of a body one of the system's is.
+struct BodyCoordinate {
+  int body = 0;   ///< position in Model::bodies
+  int local = 0;  ///< 0: x, 1: y, 2: angle, 3 + k: the body's k-th active mode
+
+  bool is_modal() const { return local >= 3; }
+};
+
 /// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes
 /// another model with the same joints and forces, as `hold_modes` does.
 struct Model {
@@ -41,6 +49,7 @@ struct Model {
     return std::span(branches).subspan(static_cast<std::size_t>(force_branches[f]),
                                        static_cast<std::size_t>(forces[f]->num_branches()));
   }
+  BodyCoordinate body_coordinate(int coordinate) const;
   /// "chassis.x", "chassis.angle", "chassis.mode 3"
   std::string coordinate_name(int coordinate) const;
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what
