@@ -12,6 +12,7 @@
 #include <cmath>
 #include <optional>
 
+#include "dynamics/integration/throw_stopped.h"
 #include "dynamics/integration/touch_search.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -175,8 +176,7 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
 void CvodeIntegrator::calc_switches(double time, Eigen::VectorXd& switches) {
   if (switches.size() == 0) return;
   if (evaluate_switches(time, memory_->y, switches.data(), &memory_->callback) == 0) return;
-  throw support::NumericalError(
-      fmt::format("integration stopped at t = {:.9g} s: no positions can be found there", time));
+  throw_stopped(time, "no positions can be found there");
 }
 
 // CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found
@@ -217,8 +217,7 @@ Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   const double from = time_;
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {
-    throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time_,
-                                              explain_stop(code, memory.callback.message)));
+    throw_stopped(time_, explain_stop(code, memory.callback.message));
   }
   if (code == CV_ROOT_RETURN || locate_touch(from)) return StepResult::kSwitched;
   return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;

@@ -1,13 +1,11 @@
 #include "dynamics/integration/exponential/exponential_integrator.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "tools/support/errors/numerical_error.h"
+#include "dynamics/integration/throw_stopped.h"
 
 namespace sprung::dynamics {
 
@@ -43,6 +41,11 @@ constexpr double kOfHiding = 0.5, kForgetting = 1.1;
 constexpr double kTruncationOfFirst =
     0.3;  // part of fourth degree, of that of third, where no step was before
 
+// Time of a switch: a force that sets in late by this, at a tolerance of 1, changes the velocity by far less
+// than is allowed.
+constexpr double kSwitchTolerance = 1e-4;        // s
+constexpr double kLeastSwitchTolerance = 1e-12;  // s
+
 std::span<double> span_of(Eigen::VectorXd& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
@@ -52,28 +55,19 @@ std::span<double> span_of(Eigen::VectorXd& x) {
 ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_tolerance)
     : system_(system),
       tolerance_(relative_tolerance),
-      f_(system.num_freedoms()),
-      num_quadratures_(system.size() - 2 * system.num_freedoms()),
-      num_switches_(system.num_switches()),
-      contraction_(kFirstContraction),
-      switch_search_(num_switches_) {
-  if (f_ == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
-  origin_ = Vector::Zero(f_);
-  y_ = y_dot_ = inverse_scales_ = stage_y_ = difference_y_ = between_y_ = Vector::Zero(system.size());
-  now_ = last_ = CollocationStep(f_, num_quadratures_);
-  prediction_ = DrivePrediction(f_, num_quadratures_);
+      coordinates_(system.num_freedoms(), system.size()),
+      y_(Vector::Zero(system.size())),
+      now_(system.num_freedoms(), system.size() - 2 * system.num_freedoms()),
+      last_(now_),
+      switches_(system, now_.motion),
+      prediction_(system.num_freedoms(), now_.motion.w.size()),
+      contraction_(kFirstContraction) {
+  if (system.num_freedoms() == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
+  y_dot_ = stage_y_ = between_y_ = y_;
   end_ = difference_ = between_motion_ = now_.motion;
   stages_.fill(now_.motion);
-  between_ = LobattoPropagator(f_);
+  between_ = LobattoPropagator(system.num_freedoms());
   propagators_.fill(between_);
-  lookers_.fill(between_);
-  for (std::size_t k = 0; k < kLooks.size(); ++k) look_weights_[k] = cubic_weights(kLooks[k]);
-  switches_ = Eigen::MatrixXd::Zero(num_switches_, kNumNodes);
-  end_switches_ = Vector::Zero(num_switches_);
-}
-
-void ExponentialIntegrator::throw_stopped(double time, const char* reason) {
-  throw support::NumericalError(fmt::format("integration stopped at t = {:.9g} s: {}", time, reason));
 }
 
 void ExponentialIntegrator::start(double time, std::span<const double> y, double end_time) {
@@ -88,61 +82,38 @@ void ExponentialIntegrator::start(double time, std::span<const double> y, double
   if (next_length_ == 0.0) next_length_ = kFirstLength;
 }
 
-// Any basis is right: what it leaves out of the accelerations stays in the drive.
+// Any pairs are right: what they leave out of the accelerations stays in the drive.
 void ExponentialIntegrator::linearise() {
   SmallMotion motion;
   if (!system_.calc_small_motion(time_, y(), motion)) {
-    motion = {Eigen::MatrixXd::Identity(f_, f_), Eigen::MatrixXd::Zero(f_, f_),
-              Eigen::MatrixXd::Zero(f_, f_)};
+    const Eigen::Index f = system_.num_freedoms();
+    motion = {Eigen::MatrixXd::Identity(f, f), Eigen::MatrixXd::Zero(f, f), Eigen::MatrixXd::Zero(f, f)};
   }
-  basis_ = make_vibration_basis(motion);
-  pair_sizes_ = (inverse_scales_.head(2 * f_).asDiagonal() * basis_.T).colwise().norm().transpose();
-  pair_sizes_ /= std::sqrt(static_cast<double>(system_.size()));
-  origin_ = y_.head(f_);
+  coordinates_.update(motion, y_);
+  switches_.forget_propagators();
+  propagator_length_ = 0.0;
   version_ = system_.coordinate_version();
   wants_linearisation_ = has_begun_ = false;
   last_linearisation_ = statistics_.steps;
   failures_ = 0.0;
-  propagator_length_ = looker_length_ = 0.0;
   past_ = Past::kNone;
 }
 
 void ExponentialIntegrator::begin() {
-  difference_y_ = y_;
-  difference_y_.head(f_) -= origin_;
-  basis_.to_pairs(difference_y_.data(), now_.motion.u.data());
-  now_.motion.w = y_.tail(num_quadratures_);
+  coordinates_.to_pairs(y_, now_.motion);
   stage_y_ = y_;
   if (!evaluate(time_, now_.motion, 0))
     throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
-  begin_switches(0);
+  switches_.start_from(0);
   has_begun_ = true;
-}
-
-void ExponentialIntegrator::to_physical(const PairedMotion& motion, Vector& y) const {
-  basis_.to_state(motion.u, y.data());
-  y.head(f_) += origin_;
-  y.tail(num_quadratures_) = motion.w;
-}
-
-// Root mean square over the components of y, each by its size that is allowed.
-double ExponentialIntegrator::calc_norm(const PairedMotion& difference) {
-  basis_.to_state(difference.u, difference_y_.data());
-  difference_y_.tail(num_quadratures_) = difference.w;
-  return std::sqrt((difference_y_.array() * inverse_scales_.array()).square().mean());
 }
 
 // The drive at stage_y_, which `motion` stands for.
 bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
-  auto pairs = now_.drive.pairs.col(node);
-  basis_.to_pairs(y_dot_.data(), pairs.data());
-  basis_.blocks.subtract_product(motion.u, pairs);
-  now_.drive.rates.col(node) = y_dot_.tail(num_quadratures_);
-  if (num_switches_ == 0) return true;
-  return system_.calc_switches(time, span_of(stage_y_),
-                               {switches_.col(node).data(), static_cast<std::size_t>(num_switches_)});
+  coordinates_.calc_drive(y_dot_, motion, now_.drive, node);
+  return switches_.is_empty() || switches_.evaluate(time, span_of(stage_y_), node);
 }
 
 // Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
@@ -151,17 +122,17 @@ bool ExponentialIntegrator::iterate() {
   for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
     for (int i = 1; i < kNumNodes; ++i) {
       const auto node = static_cast<std::size_t>(i);
-      now_.propagate(propagators_[node], basis_.blocks, stages_[node]);
-      to_physical(stages_[node], stage_y_);
+      now_.propagate(propagators_[node], coordinates_.blocks(), stages_[node]);
+      coordinates_.to_state(stages_[node], stage_y_);
       if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
       if (sweep == 1) prediction_.learn(i, now_);
     }
     double change = 0.0;
     for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-      now_.propagate(propagators_[node], basis_.blocks, end_);
+      now_.propagate(propagators_[node], coordinates_.blocks(), end_);
       difference_.u = end_.u - stages_[node].u;
       difference_.w.setZero();
-      change = std::max(change, calc_norm(difference_));
+      change = std::max(change, coordinates_.calc_norm(difference_));
     }
     if (!std::isfinite(change)) return false;
     if (sweep > 1 && last_change > 0.0) {
@@ -200,8 +171,8 @@ double ExponentialIntegrator::calc_truncation() {
   estimate_quartic();
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-    now_.propagate_quartic(propagators_[node], basis_.blocks, difference_);
-    const double size = calc_norm(difference_);
+    now_.propagate_quartic(propagators_[node], coordinates_.blocks(), difference_);
+    const double size = coordinates_.calc_norm(difference_);
     sum += size * size;
   }
   return std::sqrt(sum);
@@ -209,7 +180,7 @@ double ExponentialIntegrator::calc_truncation() {
 
 double ExponentialIntegrator::choose_length(double longest_step) const {
   const double left = end_time_ - time_;
-  double length = std::min({next_length_, longest_step, 0.99 * seen_length_});
+  double length = std::min({next_length_, longest_step, 0.99 * hiding_length_});
   if (propagator_length_ <= length && length < kWorthwhile * propagator_length_) length = propagator_length_;
   if (length >= left * (1.0 - 1e-9)) return left;
   return 2.0 * length > left ? 0.5 * left : length;
@@ -220,8 +191,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     time_ = end_time_;
     return StepResult::kEnded;
   }
-  system_.calc_error_scales(y(), span_of(inverse_scales_));
-  inverse_scales_ = (tolerance_ * inverse_scales_).cwiseInverse();
+  system_.calc_error_scales(y(), span_of(stage_y_));
+  coordinates_.set_allowed_error(tolerance_, stage_y_);
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();
 
@@ -237,7 +208,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     }
     if (now_.length != propagator_length_) {
       for (int i = 1; i < kNumNodes; ++i) {
-        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, basis_.blocks);
+        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length,
+                                                         coordinates_.blocks());
       }
       propagator_length_ = now_.length;
     }
@@ -259,15 +231,15 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     factor = std::clamp(factor, kLeastFactor, kLargestFactor);
     last_error_ = error;
     if (error <= 1.0) {
-      if (num_switches_ == 0 || !may_hide_switches()) break;
-      seen_length_ = now_.length;
+      if (switches_.is_empty() || !switches_.may_hide(now_, stages_, coordinates_)) break;
+      hiding_length_ = now_.length;
       factor = kOfHiding;
     }
     ++statistics_.error_test_failures;
     next_length_ = std::min(factor, 0.9) * now_.length;
   }
   ++statistics_.steps;
-  seen_length_ *= kForgetting;
+  hiding_length_ *= kForgetting;
   failures_ *= kFailureMemory;
   if (contraction_ > kSlowContraction) failures_ += kSlowness;
   if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps)
@@ -281,31 +253,39 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
 // now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true
 // if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
-  if (num_switches_ > 0 && crosses()) {
+  if (switches_.crosses()) {
     locate_switch();
     std::swap(now_, last_);
-    to_physical(between_motion_, y_);
+    coordinates_.to_state(between_motion_, y_);
     has_begun_ = false;
     return true;
   }
   time_ = end_time_ - now_.start <= now_.length ? end_time_ : now_.start + now_.length;
-  now_.add_quartic(propagators_[kNumNodes - 1], basis_.blocks, end_);
-  to_physical(end_, y_);
+  now_.add_quartic(propagators_[kNumNodes - 1], coordinates_.blocks(), end_);
+  coordinates_.to_state(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
   last_.calc_drive(1.0, difference_);
   now_.drive.set(0, difference_);
-  if (num_switches_ > 0) begin_switches(kNumNodes - 1);
+  switches_.start_from(kNumNodes - 1);
   past_ = Past::kSmooth;
   return false;
 }
 
+// The first zero of a switch function in now_. time_ and between_motion_ are there.
+void ExponentialIntegrator::locate_switch() {
+  const double tolerance =
+      std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)});
+  const double theta = switches_.locate(now_, coordinates_, tolerance, between_motion_);
+  time_ = now_.start + theta * now_.length;
+}
+
 void ExponentialIntegrator::interpolate(double time, std::span<double> y) const {
   const double theta = (time - last_.start) / last_.length;
-  between_.update(theta, last_.length, basis_.blocks);
-  last_.propagate(between_, basis_.blocks, between_motion_);
-  last_.add_quartic(between_, basis_.blocks, between_motion_);
-  to_physical(between_motion_, between_y_);
+  between_.update(theta, last_.length, coordinates_.blocks());
+  last_.propagate(between_, coordinates_.blocks(), between_motion_);
+  last_.add_quartic(between_, coordinates_.blocks(), between_motion_);
+  coordinates_.to_state(between_motion_, between_y_);
   std::copy(between_y_.begin(), between_y_.end(), y.begin());
 }
 

@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "dynamics/integration/exponential/collocation_step.h"
+#include "dynamics/integration/exponential/pair_coordinates.h"
+#include "dynamics/integration/exponential/step_switches.h"
 #include "dynamics/integration/integrator.h"
-#include "dynamics/integration/switch_search.h"
 
 namespace sprung::dynamics {
 
@@ -33,8 +34,6 @@ class ExponentialIntegrator final : public Integrator {
   static constexpr int kNumNodes = lobatto::kNumNodes;
   using Vector = Eigen::VectorXd;
 
-  [[noreturn]] static void throw_stopped(double time, const char* reason);
-
   void linearise();
   void begin();
   double choose_length(double longest_step) const;
@@ -43,54 +42,35 @@ class ExponentialIntegrator final : public Integrator {
   bool iterate();
   double calc_truncation();
   bool finish_step();
-  bool crosses() const;
-  void move_between(const LobattoPropagator& propagator);
-  bool is_surprising(std::size_t look);
-  bool may_hide_switches();
-  void begin_switches(int node);
   void locate_switch();
-  void to_physical(const PairedMotion& motion, Vector& y) const;
-  double calc_norm(const PairedMotion& difference);
 
   OdeSystem& system_;
   double tolerance_;
-  Eigen::Index f_, num_quadratures_;
-  int num_switches_;
   Statistics statistics_;
 
-  VibrationBasis basis_;
-  Vector origin_;    // f positions from which the pairs count: large ones would leave them few digits
-  int version_ = 0;  // of the coordinates that it is for
+  PairCoordinates coordinates_;
+  int version_ = 0;  // of the coordinates in y that the pairs are for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
   double failures_ = 0.0;        // of the iteration, those of earlier steps counting less and less
 
   double time_ = 0.0, end_time_ = 0.0;
-  double next_length_ = 0.0;
   Vector y_;                    // at time_
   CollocationStep now_, last_;  // being made; finished
+  StepSwitches switches_;       // of now_
+  StepSwitches::Stages stages_;
   DrivePrediction prediction_;
   bool has_begun_ = false;
   Past past_ = Past::kNone;
-  double contraction_;                                    // of the iteration, from sweep to sweep
-  double last_error_ = 0.0;                               // of the step before, of the tolerance
-  std::array<LobattoPropagator, kNumNodes> propagators_;  // to each node but the first
+  double next_length_ = 0.0;
+  double hiding_length_ = std::numeric_limits<double>::infinity();  // steps of this length may hide switches
+  double contraction_;                                              // of the iteration, from sweep to sweep
+  double last_error_ = 0.0;                                         // of the step before, of the tolerance
+  std::array<LobattoPropagator, kNumNodes> propagators_;            // to each node but the first
   double propagator_length_ = 0.0;
-  // Where a step is looked at for switches that its nodes do not show: not both as far from the middle, so
-  // that no swing looks like a cubic at both.
-  static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
-  std::array<LobattoPropagator, kLooks.size()> lookers_;
-  std::array<lobatto::NodeWeights, kLooks.size()> look_weights_;
-  double looker_length_ = 0.0;
-  double seen_length_ = std::numeric_limits<double>::infinity();  // steps of this length may hide switches
-  std::array<PairedMotion, kNumNodes> stages_;
-  Eigen::MatrixXd switches_;  // num_switches × 4
-  SwitchSearch switch_search_;
 
   PairedMotion end_, difference_;
-  Vector end_switches_;
-  Vector y_dot_, inverse_scales_, stage_y_, difference_y_;
-  Vector pair_sizes_;  // 2f: what one of each adds to calc_norm, at the linearisation
+  Vector y_dot_, stage_y_;
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;
   mutable Vector between_y_;

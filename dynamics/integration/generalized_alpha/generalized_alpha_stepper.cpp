@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/integration/throw_stopped.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -22,11 +23,6 @@ constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFacto
 // A step is kept as it is where a better one would hardly be longer: equal steps make the smoother
 // multipliers.
 constexpr double kWorthwhile = 1.2;
-
-[[noreturn]] void throw_stopped(double time, const char* reason, const char* remark = "") {
-  throw support::NumericalError(
-      fmt::format("integration stopped at t = {:.9g} s: {}{}", time, reason, remark));
-}
 
 // Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
 const char* remark_on_radius(double spectral_radius) {
@@ -152,16 +148,15 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   while (true) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
-      throw_stopped(
-          time_,
-          "the step has become too short; look at forces and positions just before that time, which may be "
-          "a singular one",
-          remark_on_radius(spectral_radius_));
+      throw_stopped(time_, std::string("the step has become too short; look at forces and positions just "
+                                       "before that time, which may be "
+                                       "a singular one") +
+                               remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {
       if (fixed_step_ > 0.0)
-        throw_stopped(time_, "the iteration of a step does not converge; shorten fixed_step",
-                      remark_on_radius(spectral_radius_));
+        throw_stopped(time_, std::string("the iteration of a step does not converge; shorten fixed_step") +
+                                 remark_on_radius(spectral_radius_));
       next_length_ = 0.25 * length;
       continue;
     }

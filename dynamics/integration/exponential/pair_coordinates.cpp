@@ -1,0 +1,47 @@
+#include "dynamics/integration/exponential/pair_coordinates.h"
+
+#include <cmath>
+
+namespace sprung::dynamics {
+
+PairCoordinates::PairCoordinates(Eigen::Index num_freedoms, Eigen::Index size)
+    : f_(num_freedoms),
+      origin_(Eigen::VectorXd::Zero(num_freedoms)),
+      inverse_allowed_(Eigen::VectorXd::Zero(size)),
+      work_(Eigen::VectorXd::Zero(size)) {}
+
+void PairCoordinates::update(const SmallMotion& motion, const Eigen::VectorXd& y) {
+  basis_ = make_vibration_basis(motion);
+  pair_sizes_ = (inverse_allowed_.head(2 * f_).asDiagonal() * basis_.T).colwise().norm().transpose();
+  pair_sizes_ /= std::sqrt(static_cast<double>(y.size()));
+  origin_ = y.head(f_);
+}
+
+void PairCoordinates::to_pairs(const Eigen::VectorXd& y, PairedMotion& motion) {
+  work_ = y;
+  work_.head(f_) -= origin_;
+  basis_.to_pairs(work_.data(), motion.u.data());
+  motion.w = y.tail(motion.w.size());
+}
+
+void PairCoordinates::to_state(const PairedMotion& motion, Eigen::VectorXd& y) const {
+  basis_.to_state(motion.u, y.data());
+  y.head(f_) += origin_;
+  y.tail(motion.w.size()) = motion.w;
+}
+
+void PairCoordinates::calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive,
+                                 int node) const {
+  auto pairs = drive.pairs.col(node);
+  basis_.to_pairs(y_dot.data(), pairs.data());
+  basis_.blocks.subtract_product(motion.u, pairs);
+  drive.rates.col(node) = y_dot.tail(motion.w.size());
+}
+
+double PairCoordinates::calc_norm(const PairedMotion& difference) {
+  basis_.to_state(difference.u, work_.data());
+  work_.tail(difference.w.size()) = difference.w;
+  return std::sqrt((work_.array() * inverse_allowed_.array()).square().mean());
+}
+
+}  // namespace sprung::dynamics

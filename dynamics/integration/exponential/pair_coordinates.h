@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/integration/exponential/collocation_step.h"
+#include "dynamics/integration/exponential/vibration_basis.h"
+
+namespace sprung::dynamics {
+
+/// The coordinates in which the exponential method integrates: uncoupled pairs of small motion in place of
+/// positions and velocities (integration/exponential, eqs. 1 and 2), and the error norm of the state in them.
+/// State y = (q, v, w), f freedoms.
+class PairCoordinates {
+ public:
+  PairCoordinates() = default;
+  /// @param size  of y
+  PairCoordinates(Eigen::Index num_freedoms, Eigen::Index size);
+
+  /// Takes the pairs of another small motion. Positions count from those in y from now on: large ones would
+  /// leave the pairs few digits.
+  void update(const SmallMotion& motion, const Eigen::VectorXd& y);
+  const PairBlocks& blocks() const { return basis_.blocks; }
+
+  void to_pairs(const Eigen::VectorXd& y, PairedMotion& motion);
+  void to_state(const PairedMotion& motion, Eigen::VectorXd& y) const;
+  /// The drive at a node of a step: what the pairs leave of the derivatives ẏ.
+  void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node) const;
+
+  /// The error allowed in each component of y is `tolerance` times its entry of `sizes`, > 0.
+  void set_allowed_error(double tolerance, const Eigen::VectorXd& sizes) {
+    inverse_allowed_ = (tolerance * sizes).cwiseInverse();
+  }
+  /// Root mean square over the components of y, each divided by the error allowed in it.
+  double calc_norm(const PairedMotion& difference);
+  /// An estimate of calc_norm from the pairs alone, with the errors allowed at the last `update`.
+  template <class Pairs>
+  double estimate_norm(const Pairs& difference) const {
+    return pair_sizes_.cwiseProduct(difference).norm();
+  }
+
+ private:
+  Eigen::Index f_ = 0;
+  VibrationBasis basis_;
+  Eigen::VectorXd origin_;           // f positions
+  Eigen::VectorXd inverse_allowed_;  // of y
+  Eigen::VectorXd pair_sizes_;       // 2f: what one of each pair adds to calc_norm
+  Eigen::VectorXd work_;             // of y
+};
+
+}  // namespace sprung::dynamics
