@@ -28,6 +28,15 @@ std::vector<const TimeFunction*> AppliedForce::time_functions() const {
   return {&parameters_.force_x, &parameters_.force_y, &parameters_.torque};
 }
 
+ElementDescription AppliedForce::describe() const {
+  const std::string axes = parameters_.axes == Axes::kWorld ? "world" : "following";
+  return {.points = {"point"},
+          .parameters = {{"axes", axes},
+                         {"force_x", parameters_.force_x, "N", "s"},
+                         {"force_y", parameters_.force_y, "N", "s"},
+                         {"torque", parameters_.torque, "N m", "s"}}};
+}
+
 std::span<const Channel> AppliedForce::channels() const {
   static constexpr std::array<Channel, 3> kChannels{{{"force_x", "N", ChannelRole::kGiven},
                                                      {"force_y", "N", ChannelRole::kGiven},

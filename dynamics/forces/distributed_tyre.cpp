@@ -175,6 +175,18 @@ void DistributedTyre::add_road_response(const Instant& instant, std::span<const 
   channels[5] = along;
 }
 
+ElementDescription DistributedTyre::describe() const {
+  return {.points = {"wheel"},
+          .parameters = {{"contact", std::string("distributed")},
+                         {"radius", parameters_.radius, "m"},
+                         {"multiplicity", parameters_.multiplicity, "1"},
+                         {"spring", parameters_.spring, "N", "m"},
+                         {"damping", parameters_.damping, "N s/m"},
+                         {"one_sided", true}},
+          .drawing = Drawing::kWheel,
+          .on_road = true};
+}
+
 std::span<const Channel> DistributedTyre::channels() const {
   static constexpr std::array<Channel, 6> kChannels{
       {{"force", "N", ChannelRole::kForce},

@@ -25,6 +25,7 @@ class DistributedTyre final : public ForceElement {
 
   std::string_view kind() const override { return "tyre"; }
   std::vector<int> markers() const override { return {parameters_.marker}; }
+  ElementDescription describe() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

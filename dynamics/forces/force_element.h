@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/description/element_description.h"
 #include "dynamics/forces/road_response.h"
 #include "dynamics/functions/time_function.h"
 
@@ -68,6 +69,8 @@ class ForceElement {
   virtual std::string_view kind() const = 0;
   /// The markers that it sees.
   virtual std::vector<int> markers() const = 0;
+  /// Its points in the order of markers(), and what it was made with.
+  virtual ElementDescription describe() const = 0;
 
   /// Adds the element's wrenches on its markers.
   /// @param branches  the element's own, as chosen last

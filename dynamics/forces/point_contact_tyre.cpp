@@ -140,6 +140,18 @@ void PointContactTyre::add_road_response(const Instant& instant, std::span<const
   channels[4] = 1.0;
 }
 
+ElementDescription PointContactTyre::describe() const {
+  return {.points = {"wheel"},
+          .parameters = {{"contact", std::string("point")},
+                         {"radius", parameters_.radius, "m"},
+                         {"multiplicity", parameters_.multiplicity, "1"},
+                         {"spring", parameters_.spring, "N", "m"},
+                         {"damping", parameters_.damping, "N s/m"},
+                         {"one_sided", parameters_.one_sided}},
+          .drawing = Drawing::kWheel,
+          .on_road = true};
+}
+
 std::span<const Channel> PointContactTyre::channels() const {
   static constexpr std::array<Channel, 5> kChannels{{{"force", "N", ChannelRole::kForce},
                                                      {"penetration", "m", ChannelRole::kDeflection},

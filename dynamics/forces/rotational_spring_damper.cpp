@@ -27,6 +27,13 @@ double RotationalSpringDamper::calc_stored_energy(const Instant& instant,
   return parameters_.multiplicity * parameters_.spring.integral(calc_deflection(instant).value);
 }
 
+ElementDescription RotationalSpringDamper::describe() const {
+  ElementDescription description{.points = {"a", "b"},
+                                 .parameters = {{"free_angle", parameters_.free_angle, "rad"}}};
+  describe_laws({.deflection = "rad", .rate = "rad/s", .force = "N m"}, parameters_, description);
+  return description;
+}
+
 std::span<const Channel> RotationalSpringDamper::channels() const {
   static constexpr std::array<Channel, 4> kChannels{{{"angle", "rad", ChannelRole::kExtent},
                                                      {"deflection", "rad", ChannelRole::kDeflection},

@@ -16,6 +16,8 @@ class RotationalSpringDamper final : public SpringAndDamper {
     double multiplicity = 1.0;   ///< how many of them act side by side, > 0
     PiecewisePolynomial spring;  ///< T(d) [N·m], with its stops
     PiecewisePolynomial damper;  ///< T(ḋ) [N·m]
+    std::optional<double> compression_stop,
+        rebound_stop;  ///< where they begin, part of the spring's law [rad]
   };
   RotationalSpringDamper(std::string element_name, Parameters parameters)
       : SpringAndDamper(std::move(element_name)), parameters_(std::move(parameters)) {}
@@ -23,6 +25,7 @@ class RotationalSpringDamper final : public SpringAndDamper {
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "rotational-spring-damper"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
+  ElementDescription describe() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

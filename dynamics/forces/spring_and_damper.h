@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "dynamics/forces/force_element.h"
 #include "dynamics/functions/piecewise_polynomial.h"
 
@@ -23,6 +25,23 @@ class SpringAndDamper : public ForceElement {
     double value;  ///< d [m or rad]
     double rate;   ///< ḋ
   };
+  /// Units of the two laws.
+  struct Units {
+    const char *deflection, *rate, *force;
+  };
+  /// Adds what both kinds are made with: multiplicity, laws, stops.
+  template <typename Parameters>
+  static void describe_laws(const Units& units, const Parameters& parameters,
+                            ElementDescription& description) {
+    std::vector<Parameter>& list = description.parameters;
+    list.push_back({"multiplicity", parameters.multiplicity, "1"});
+    list.push_back({"spring", parameters.spring, units.force, units.deflection});
+    list.push_back({"damper", parameters.damper, units.force, units.rate});
+    if (parameters.compression_stop) {
+      list.push_back({"compression_stop", *parameters.compression_stop, units.deflection});
+    }
+    if (parameters.rebound_stop) list.push_back({"rebound_stop", *parameters.rebound_stop, units.deflection});
+  }
   virtual Deflection calc_deflection(const Instant& instant) const = 0;
   virtual const PiecewisePolynomial& spring() const = 0;
   virtual const PiecewisePolynomial& damper() const = 0;

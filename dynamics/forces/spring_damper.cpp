@@ -47,6 +47,14 @@ SpringDamper::Deflection SpringDamper::calc_deflection(const Instant& instant) c
   return {line.deflection, line.rate};
 }
 
+ElementDescription SpringDamper::describe() const {
+  ElementDescription description{.points = {"a", "b"},
+                                 .parameters = {{"free_length", parameters_.free_length, "m"}},
+                                 .drawing = Drawing::kSpring};
+  describe_laws({.deflection = "m", .rate = "m/s", .force = "N"}, parameters_, description);
+  return description;
+}
+
 std::span<const Channel> SpringDamper::channels() const {
   static constexpr std::array<Channel, 4> kChannels{{{"length", "m", ChannelRole::kExtent},
                                                      {"deflection", "m", ChannelRole::kDeflection},

@@ -12,10 +12,11 @@ class SpringDamper final : public SpringAndDamper {
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
-    double free_length = 0.0;    ///< > 0 [m]
-    double multiplicity = 1.0;   ///< how many of them act side by side, > 0
-    PiecewisePolynomial spring;  ///< F(d) [N], with its stops
-    PiecewisePolynomial damper;  ///< F(ḋ) [N]
+    double free_length = 0.0;                              ///< > 0 [m]
+    double multiplicity = 1.0;                             ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;                            ///< F(d) [N], with its stops
+    PiecewisePolynomial damper;                            ///< F(ḋ) [N]
+    std::optional<double> compression_stop, rebound_stop;  ///< where they begin, part of the spring's law [m]
   };
   SpringDamper(std::string element_name, Parameters parameters)
       : SpringAndDamper(std::move(element_name)), parameters_(std::move(parameters)) {}
@@ -23,6 +24,7 @@ class SpringDamper final : public SpringAndDamper {
   const Parameters& parameters() const { return parameters_; }
   std::string_view kind() const override { return "spring-damper"; }
   std::vector<int> markers() const override { return {parameters_.marker_a, parameters_.marker_b}; }
+  ElementDescription describe() const override;
   Power add_wrenches(const Instant& instant, std::span<const int> branches,
                      std::span<Wrench> wrenches) const override;
   double calc_stored_energy(const Instant& instant, std::span<const int> branches) const override;

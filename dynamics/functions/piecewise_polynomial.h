@@ -45,6 +45,11 @@ class PiecewisePolynomial {
 
   std::span<const double> breaks() const { return breaks_; }  ///< between pieces, ascending
 
+  std::size_t num_pieces() const { return pieces_.size(); }
+  /// Of piece k: Σ coefficients_j (x − origin)^j.
+  double origin(std::size_t k) const { return origins_[k]; }
+  std::span<const double> coefficients(std::size_t k) const { return pieces_[k]; }
+
   /// A piece's polynomial, at x that may lie beyond its ends.
   double value_in_piece(int piece, double x) const;
   /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band

@@ -53,6 +53,10 @@ class TimeFunction {
   double acceleration(double time) const;
   bool is_constant() const;
 
+  /// The function is the sum of these two; the second is none where its amplitude is 0.
+  const PiecewisePolynomial& polynomials() const { return value_; }
+  const Harmonic& oscillation() const { return harmonic_; }
+
   /// Where a derivative may jump, ascending [s].
   std::span<const double> breaks() const { return breaks_; }
   /// Step in time that misses nothing of the function [s]; infinite for one that is smooth as a whole.

@@ -93,7 +93,8 @@ CoordinateJoint::Parts make_translational_joint(const Eigen::Vector2d& axis, dou
   return {.kind = "translational",
           .held = {{RelativeCoordinate(Kind::kAlong, turned(axis)), TimeFunction(0.0), "across the axis"},
                    {RelativeCoordinate(Kind::kAngle), TimeFunction(angle), "angle"}},
-          .coordinate = RelativeCoordinate(Kind::kAlong, axis)};
+          .coordinate = RelativeCoordinate(Kind::kAlong, axis),
+          .parameters = {{"axis", Eigen::Vector2d(axis.normalized()), "1"}, {"angle", angle, "rad"}}};
 }
 
 CoordinateJoint::Parts make_fixed_joint(double angle) {
@@ -101,25 +102,34 @@ CoordinateJoint::Parts make_fixed_joint(double angle) {
           .held = {{RelativeCoordinate(Kind::kX), TimeFunction(0.0), "x"},
                    {RelativeCoordinate(Kind::kY), TimeFunction(0.0), "y"},
                    {RelativeCoordinate(Kind::kAngle), TimeFunction(angle), "angle"}},
-          .coordinate = {}};
+          .coordinate = {},
+          .parameters = {{"angle", angle, "rad"}}};
 }
 
-CoordinateJoint::Parts make_distance_joint(TimeFunction length) {
+CoordinateJoint::Parts make_distance_joint(const TimeFunction& length) {
   return {.kind = "distance",
-          .held = {{RelativeCoordinate(Kind::kDistance), std::move(length), "distance"}},
-          .coordinate = RelativeCoordinate(Kind::kDistance)};
+          .held = {{RelativeCoordinate(Kind::kDistance), length, "distance"}},
+          .coordinate = RelativeCoordinate(Kind::kDistance),
+          .parameters = {{"length", length, "m", "s"}},
+          .drawing = Drawing::kRod};
 }
 
 CoordinateJoint::Parts make_pin_in_slot_joint(const Eigen::Vector2d& axis) {
   return {.kind = "pin-in-slot",
           .held = {{RelativeCoordinate(Kind::kAlong, turned(axis)), TimeFunction(0.0), "across the slot"}},
-          .coordinate = RelativeCoordinate(Kind::kAlong, axis)};
+          .coordinate = RelativeCoordinate(Kind::kAlong, axis),
+          .parameters = {{"axis", Eigen::Vector2d(axis.normalized()), "1"}}};
 }
 
-CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, TimeFunction value) {
+CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, const TimeFunction& value) {
+  std::vector<Parameter> parameters{{"coordinate", std::string(coordinate_kind_name(coordinate.kind()))},
+                                    {"value", value, coordinate.is_angle() ? "rad" : "m", "s"}};
+  if (coordinate.kind() == Kind::kAlong) parameters.push_back({"axis", coordinate.axis(), "1"});
   return {.kind = "motion",
-          .held = {{coordinate, std::move(value), "motion"}},
+          .held = {{coordinate, value, "motion"}},
           .coordinate = coordinate,
+          .parameters = std::move(parameters),
+          .drawing = Drawing::kNone,
           .is_motion = true};
 }
 

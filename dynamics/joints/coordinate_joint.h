@@ -22,13 +22,18 @@ class CoordinateJoint final : public Joint {
     std::string_view kind;
     std::vector<Held> held;                        ///< 1 to 3
     std::optional<RelativeCoordinate> coordinate;  ///< what the joint is moved in; none where nothing is free
-    bool is_motion = false;                        ///< prescribed motion: the first held coordinate is driven
+    std::vector<Parameter> parameters = {};        ///< what it was made with
+    Drawing drawing = Drawing::kPin;
+    bool is_motion = false;  ///< prescribed motion: the first held coordinate is driven
   };
   /// @throws std::invalid_argument for no held coordinate, or more than three
   CoordinateJoint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where,
                   Parts parts);
 
   std::string_view kind() const override { return parts_.kind; }
+  ElementDescription describe() const override {
+    return {.points = {"a", "b"}, .parameters = parts_.parameters, .drawing = parts_.drawing};
+  }
   bool is_motion() const override { return parts_.is_motion; }
   std::optional<RelativeCoordinate> coordinate() const override { return parts_.coordinate; }
 
@@ -64,12 +69,12 @@ CoordinateJoint::Parts make_translational_joint(const Eigen::Vector2d& axis, dou
 CoordinateJoint::Parts make_fixed_joint(double angle);
 /// A massless link: b keeps its distance from a, free to turn at both ends: one constraint.
 /// @param length  > 0 at all times [m]
-CoordinateJoint::Parts make_distance_joint(TimeFunction length);
+CoordinateJoint::Parts make_distance_joint(const TimeFunction& length);
 /// A pin, b, stays on a line through a that turns with a, free to turn: one constraint.
 /// @param axis  in the axes of a's body, not zero
 CoordinateJoint::Parts make_pin_in_slot_joint(const Eigen::Vector2d& axis);
 /// Prescribed motion: a coordinate follows a function of time, one constraint.
 /// @param value  continuous with its first derivative [m, rad]
-CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, TimeFunction value);
+CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, const TimeFunction& value);
 
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/bodies/marker.h"
+#include "dynamics/description/element_description.h"
 #include "dynamics/functions/time_function.h"
 #include "dynamics/joints/relative_coordinate.h"
 #include "tools/support/errors/input_error.h"
@@ -34,6 +35,8 @@ class Joint {
   virtual ~Joint() = default;
 
   virtual std::string_view kind() const = 0;
+  /// Its points in the order a, b, and what it was made with.
+  virtual ElementDescription describe() const = 0;
   /// Prescribed motion: moves its markers by a function of time, doing work.
   virtual bool is_motion() const { return false; }
   /// What the joint leaves free and prescribed motion may drive; none where it leaves nothing, or more than

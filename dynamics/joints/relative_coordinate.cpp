@@ -75,4 +75,20 @@ double RelativeCoordinate::drift(const MarkerState& a, const MarkerState& b) con
   return 0.0;
 }
 
+std::string_view coordinate_kind_name(RelativeCoordinate::Kind kind) {
+  switch (kind) {
+    case RelativeCoordinate::Kind::kX:
+      return "x";
+    case RelativeCoordinate::Kind::kY:
+      return "y";
+    case RelativeCoordinate::Kind::kAngle:
+      return "angle";
+    case RelativeCoordinate::Kind::kAlong:
+      return "along";
+    case RelativeCoordinate::Kind::kDistance:
+      return "distance";
+  }
+  return "";
+}
+
 }  // namespace sprung::dynamics

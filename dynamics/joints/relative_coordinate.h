@@ -23,6 +23,8 @@ class RelativeCoordinate {
       : kind_(kind), axis_(axis.normalized()) {}
 
   Kind kind() const { return kind_; }
+  /// Of kAlong, in the axes of a's body, of length 1.
+  const Eigen::Vector2d& axis() const { return axis_; }
   bool is_angle() const { return kind_ == Kind::kAngle; }
 
   double value(const MarkerState& a, const MarkerState& b) const;
@@ -45,5 +47,8 @@ class RelativeCoordinate {
   Kind kind_;
   Eigen::Vector2d axis_;  // unit, axes of a's body
 };
+
+/// As in results files: "along".
+std::string_view coordinate_kind_name(RelativeCoordinate::Kind kind);
 
 }  // namespace sprung::dynamics

@@ -9,6 +9,9 @@ class RevoluteJoint final : public Joint {
  public:
   using Joint::Joint;
   std::string_view kind() const override { return "revolute"; }
+  ElementDescription describe() const override {
+    return {.points = {"a", "b"}, .parameters = {}, .drawing = Drawing::kPin};
+  }
   std::optional<RelativeCoordinate> coordinate() const override {
     return RelativeCoordinate(RelativeCoordinate::Kind::kAngle);
   }

@@ -20,6 +20,17 @@ BumpRoad::BumpRoad(const Parameters& parameters) : parameters_(parameters) {
   }
 }
 
+std::string_view BumpRoad::shape() const {
+  return bump_shape_names()[static_cast<std::size_t>(parameters_.shape)];
+}
+
+ElementDescription BumpRoad::describe() const {
+  return {.points = {},
+          .parameters = {{"start", parameters_.start, "m"},
+                         {"length", parameters_.length, "m"},
+                         {"height", parameters_.height, "m"}}};
+}
+
 // Segments: flat, the bump (two for the triangle), flat.
 int BumpRoad::num_segments() const {
   return parameters_.shape == BumpShape::kTriangle ? 4 : 3;

@@ -30,6 +30,8 @@ class BumpRoad final : public Road {
   /// @throws std::invalid_argument if length is not positive
   explicit BumpRoad(const Parameters& parameters);
 
+  std::string_view shape() const override;
+  ElementDescription describe() const override;
   int num_segments() const override;
   double segment_end(int k) const override;
   RoadSample sample(int segment, double s) const override;

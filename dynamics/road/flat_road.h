@@ -9,6 +9,8 @@ namespace sprung::dynamics {
 /// Height 0 everywhere.
 class FlatRoad final : public Road {
  public:
+  std::string_view shape() const override { return "flat"; }
+  ElementDescription describe() const override { return {}; }
   int num_segments() const override { return 1; }
   double segment_end(int /*k*/) const override { return std::numeric_limits<double>::infinity(); }
   RoadSample sample(int /*segment*/, double /*s*/) const override { return {}; }

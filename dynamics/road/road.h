@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
+
+#include "dynamics/description/element_description.h"
 
 namespace sprung::dynamics {
 
@@ -16,6 +19,9 @@ struct RoadSample {
 class Road {
  public:
   virtual ~Road() = default;
+
+  virtual std::string_view shape() const = 0;  ///< as in run files: "half-sine", "table"
+  virtual ElementDescription describe() const = 0;
 
   virtual int num_segments() const = 0;
   /// End of segment k, where segment k + 1 begins; k < num_segments() − 1.

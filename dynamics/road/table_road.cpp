@@ -119,6 +119,11 @@ std::size_t TableRoad::find_interval(double s) const {
   return static_cast<std::size_t>(above - s_.begin()) - 1;
 }
 
+ElementDescription TableRoad::describe() const {
+  return {.points = {},
+          .parameters = {{"distance", s_, "m"}, {"height", height_, "m"}, {"slope", slope_, "1"}}};
+}
+
 RoadSample TableRoad::sample(int segment, double s) const {
   if (segment == 0) return {};
   if (segment == 2) return {height_.back(), 0.0};

@@ -29,6 +29,8 @@ class TableRoad final : public Road {
   /// @throws std::invalid_argument
   TableRoad(double start, std::span<const double> s, std::span<const double> height);
 
+  std::string_view shape() const override { return "table"; }
+  ElementDescription describe() const override;
   int num_segments() const override { return 3; }
   double segment_end(int k) const override { return k == 0 ? s_.front() : s_.back(); }
   RoadSample sample(int segment, double s) const override;
