@@ -89,14 +89,14 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
     window->high = std::max(window->high, eta);
     window->largest_acceleration = std::max(window->largest_acceleration, acceleration);
     window->share = indicator_.share(j, window->high - window->low, window->largest_acceleration).worst();
-    if (window->share > options_.drop) window = {time, eta, eta, acceleration, window->share};
+    if (window->share > options_.thresholds.drop) window = {time, eta, eta, acceleration, window->share};
   }
 }
 
 bool ModeAdaptation::misses_any() const {
   double square = 0.0;
   for (const ModeShare& share : indicator_.neglected()) square += share.worst() * share.worst();
-  return square > options_.recall * options_.recall;
+  return square > options_.thresholds.recall * options_.thresholds.recall;
 }
 
 void ModeAdaptation::raise(LeftOut& largest) const {
@@ -119,7 +119,7 @@ std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
   double square = 0.0;
   auto first = left_out.begin();
   while (first != left_out.end() &&
-         (square += first->first * first->first) <= options_.recall * options_.recall)
+         (square += first->first * first->first) <= options_.thresholds.recall * options_.thresholds.recall)
     ++first;
   std::vector<int> missed;
   for (; first != left_out.end(); ++first) missed.push_back(first->second);
@@ -129,12 +129,13 @@ std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
 
 std::vector<int> ModeAdaptation::find_idle() const {
   std::vector<int> idle;
-  if (indicator_.time() - last_change_ < options_.residence) return idle;
+  if (indicator_.time() - last_change_ < options_.thresholds.residence) return idle;
   std::vector<std::pair<double, int>> candidates;
   for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
     if (!indicator_.is_active(j) || !windows_[j]) continue;
     const double frequency = indicator_.frequency(j);
-    const double stay = std::max(options_.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
+    const double stay =
+        std::max(options_.thresholds.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
     if (indicator_.time() - windows_[j]->since >= stay) {
       candidates.emplace_back(windows_[j]->share, indicator_.modal_coordinates()[j]);
     }
@@ -144,7 +145,7 @@ std::vector<int> ModeAdaptation::find_idle() const {
   double sum = 0.0;
   for (const auto& [share, coordinate] : candidates) {
     sum += share;
-    if (sum > kLeaveTogether * options_.recall) break;
+    if (sum > kLeaveTogether * options_.thresholds.recall) break;
     idle.push_back(coordinate);
   }
   std::sort(idle.begin(), idle.end());
@@ -161,7 +162,7 @@ std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle,
   double square = 0.0;
   for (const auto& [share, coordinate] : candidates) {
     square += share * share;
-    if (std::sqrt(square) > kRinging * options_.recall) break;
+    if (std::sqrt(square) > kRinging * options_.thresholds.recall) break;
     stoppable.push_back(coordinate);
   }
   std::sort(stoppable.begin(), stoppable.end());
@@ -193,7 +194,8 @@ void ModeAdaptation::activate(const std::vector<int>& coordinates) {
 
 double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates,
                                          const std::vector<double>& forces) const {
-  return indicator_.calc_release_time(coordinates, forces, kRinging * options_.recall, options_.residence);
+  return indicator_.calc_release_time(coordinates, forces, kRinging * options_.thresholds.recall,
+                                      options_.thresholds.residence);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {

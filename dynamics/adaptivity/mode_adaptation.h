@@ -9,8 +9,16 @@
 
 namespace sprung::dynamics {
 
-/// How modes join and leave during a run. Shares are of the largest deflection and acceleration of the asked
-/// points.
+/// When modes join and leave. Shares are of the largest deflection and acceleration of the asked points.
+struct AdaptivityThresholds {
+  double recall = 8e-2;  ///< share of all left out together at which modes join
+  double drop = 2e-3;    ///< share below which it may leave, < recall
+  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before
+  /// modes join [s]
+  double residence = 0.05;
+};
+
+/// How modes join and leave during a run.
 struct AdaptivityOptions {
   const Model* full = nullptr;  ///< with every mode that is available; has to outlive the run
   /// Of `full` about the start, where it is known; needed until the run has begun.
@@ -18,11 +26,7 @@ struct AdaptivityOptions {
   std::vector<bool> active;  ///< at the start, for each coordinate of `full`
   std::vector<int> points;   ///< markers whose motion is asked for
   bool changes = true;       ///< false: modes stay as they are, the indicator alone is followed
-  double recall = 8e-2;      ///< share of all left out together at which modes join
-  double drop = 2e-3;        ///< share below which it may leave, < recall
-  /// Shortest time below before it leaves, and from one change to a leaving; how far is looked ahead before
-  /// modes join [s]
-  double residence = 0.05;
+  AdaptivityThresholds thresholds;
 };
 
 /// The largest share that a mode left out has had in a run.

@@ -7,11 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "dynamics/forces/applied_force.h"
-#include "dynamics/forces/distributed_tyre.h"
-#include "dynamics/forces/point_contact_tyre.h"
-#include "dynamics/forces/rotational_spring_damper.h"
-#include "dynamics/forces/spring_damper.h"
 #include "dynamics/input/characteristic_input.h"
 #include "dynamics/input/time_function_input.h"
 
@@ -22,13 +17,15 @@ namespace {
 // Reads the keys of one type of force into a description that has name and place already.
 using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force);
 
-PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table, const LawUnits& units) {
+// The spring with its stops, and where these begin.
+template <typename Parameters>
+void read_spring_with_stops(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
   const std::optional<support::TomlTable> law = table.find_table("spring");
-  PiecewisePolynomial spring = law ? read_spring(*law, units) : PiecewisePolynomial();
+  if (law) parameters.spring = read_spring(*law, units);
   const std::optional<support::TomlTable> compression = table.find_table("compression_stop");
   const std::optional<support::TomlTable> rebound = table.find_table("rebound_stop");
-  std::optional<double> begins;
-  if (compression) begins = read_stop(*compression, false, spring, units);
+  std::optional<double>& begins = parameters.compression_stop;
+  if (compression) begins = read_stop(*compression, false, parameters.spring, units);
   if (rebound) {
     const support::TomlValue at = rebound->at("deflection");
     const double deflection = at.number(support::any(units.deflection));
@@ -36,16 +33,15 @@ PiecewisePolynomial read_spring_with_stops(const support::TomlTable& table, cons
       throw at.error(fmt::format("must lie below the compression stop's {} {}, got {} {}", *begins,
                                  units.deflection, deflection, units.deflection));
     }
-    read_stop(*rebound, true, spring, units);
+    parameters.rebound_stop = read_stop(*rebound, true, parameters.spring, units);
   }
-  return spring;
 }
 
 // Spring, stops and damper, of which there must be one.
 template <typename Parameters>
 void read_laws(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
   parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
-  parameters.spring = read_spring_with_stops(table, units);
+  read_spring_with_stops(table, units, parameters);
   const std::optional<support::TomlTable> damper = table.find_table("damper");
   if (damper) parameters.damper = read_damper(*damper, units);
   if (!damper && !table.has("spring") && !table.has("compression_stop") && !table.has("rebound_stop")) {
@@ -60,12 +56,7 @@ void read_spring_damper(const support::TomlTable& table, ForceDescription& force
   SpringDamper::Parameters parameters;
   parameters.free_length = table.number("free_length", support::positive("m"));
   read_laws(table, kTranslation, parameters);
-  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
-    SpringDamper::Parameters placed = parameters;
-    placed.marker_a = markers[0];
-    placed.marker_b = markers[1];
-    return std::make_unique<SpringDamper>(name, std::move(placed));
-  };
+  force.parameters = std::move(parameters);
 }
 
 void read_rotational_spring_damper(const support::TomlTable& table, ForceDescription& force) {
@@ -73,12 +64,7 @@ void read_rotational_spring_damper(const support::TomlTable& table, ForceDescrip
   RotationalSpringDamper::Parameters parameters;
   parameters.free_angle = table.number_or("free_angle", 0.0, support::any("rad"));
   read_laws(table, kRotation, parameters);
-  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
-    RotationalSpringDamper::Parameters placed = parameters;
-    placed.marker_a = markers[0];
-    placed.marker_b = markers[1];
-    return std::make_unique<RotationalSpringDamper>(name, std::move(placed));
-  };
+  force.parameters = std::move(parameters);
 }
 
 void read_applied(const support::TomlTable& table, ForceDescription& force) {
@@ -103,11 +89,7 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
     table.reject_unknown_keys();
     throw table.error("must have a 'force' or a 'torque'");
   }
-  force.make = [name = force.name, parameters](std::span<const int> markers, const PlacedRoad& /*road*/) {
-    AppliedForce::Parameters placed = parameters;
-    placed.marker = markers[0];
-    return std::make_unique<AppliedForce>(name, std::move(placed));
-  };
+  force.parameters = std::move(parameters);
 }
 
 // What both kinds of tyre are made from; DistributedTyre has no use for one_sided.
@@ -145,22 +127,14 @@ void read_tyre(const support::TomlTable& table, ForceDescription& force) {
   if (is_distributed && !parameters.one_sided) {
     throw table.at("one_sided").error("must be true of a tyre with distributed contact, which cannot pull");
   }
-  force.make = [name = force.name, parameters, is_distributed](
-                   std::span<const int> markers, const PlacedRoad& road) -> std::unique_ptr<ForceElement> {
-    if (is_distributed) {
-      return std::make_unique<DistributedTyre>(
-          name,
-          DistributedTyre::Parameters{.marker = markers[0],
-                                      .radius = parameters.radius,
-                                      .multiplicity = parameters.multiplicity,
-                                      .spring = parameters.spring,
-                                      .damping = parameters.damping},
-          road);
-    }
-    PointContactTyre::Parameters placed = parameters;
-    placed.marker = markers[0];
-    return std::make_unique<PointContactTyre>(name, std::move(placed), road);
-  };
+  if (is_distributed) {
+    force.parameters = DistributedTyre::Parameters{.radius = parameters.radius,
+                                                   .multiplicity = parameters.multiplicity,
+                                                   .spring = parameters.spring,
+                                                   .damping = parameters.damping};
+  } else {
+    force.parameters = parameters;
+  }
 }
 
 const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
@@ -171,6 +145,39 @@ const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
       {"tyre", read_tyre},
   };
   return readers;
+}
+
+// Of each kind the element, its markers put in.
+std::unique_ptr<ForceElement> place(const std::string& name, SpringDamper::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker_a = markers[0];
+  parameters.marker_b = markers[1];
+  return std::make_unique<SpringDamper>(name, std::move(parameters));
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, RotationalSpringDamper::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker_a = markers[0];
+  parameters.marker_b = markers[1];
+  return std::make_unique<RotationalSpringDamper>(name, std::move(parameters));
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, AppliedForce::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker = markers[0];
+  return std::make_unique<AppliedForce>(name, std::move(parameters));
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, PointContactTyre::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& road) {
+  parameters.marker = markers[0];
+  return std::make_unique<PointContactTyre>(name, std::move(parameters), road);
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, DistributedTyre::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& road) {
+  parameters.marker = markers[0];
+  return std::make_unique<DistributedTyre>(name, std::move(parameters), road);
 }
 
 }  // namespace
@@ -188,6 +195,12 @@ ForceDescription read_force(const support::TomlTable& table) {
   force_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, force);
   table.reject_unknown_keys();
   return force;
+}
+
+std::unique_ptr<ForceElement> make_force(const ForceDescription& force, std::span<const int> markers,
+                                         const PlacedRoad& road) {
+  return std::visit([&](const auto& parameters) { return place(force.name, parameters, markers, road); },
+                    force.parameters);
 }
 
 }  // namespace sprung::dynamics

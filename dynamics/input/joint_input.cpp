@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,15 +21,6 @@ using Kind = RelativeCoordinate::Kind;
 // Reads the keys of one type of joint into a description that has name, points and place already.
 using JointReader = void (*)(const support::TomlTable& table, JointDescription& joint);
 
-// @param make_parts  (place) → CoordinateJoint::Parts
-template <typename MakeParts>
-void make_of_coordinates(JointDescription& joint, MakeParts make_parts) {
-  joint.make = [name = joint.name, location = joint.location, make_parts](const JointPlace& place) {
-    return std::make_unique<CoordinateJoint>(name, place.marker_a, place.marker_b, location,
-                                             make_parts(place));
-  };
-}
-
 std::optional<double> read_angle(const support::TomlTable& table) {
   const std::optional<support::TomlValue> angle = table.find("angle");
   return angle ? std::optional(angle->number(support::any("rad"))) : std::nullopt;
@@ -36,23 +28,17 @@ std::optional<double> read_angle(const support::TomlTable& table) {
 
 void read_revolute(const support::TomlTable& /*table*/, JointDescription& joint) {
   joint.coordinate = RelativeCoordinate(Kind::kAngle);
-  joint.make = [name = joint.name, location = joint.location](const JointPlace& place) {
-    return std::make_unique<RevoluteJoint>(name, place.marker_a, place.marker_b, location);
-  };
+  joint.parameters = RevoluteParameters{};
 }
 
 void read_translational(const support::TomlTable& table, JointDescription& joint) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
   joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
-  make_of_coordinates(joint, [axis, angle = read_angle(table)](const JointPlace& place) {
-    return make_translational_joint(axis, angle.value_or(place.angle));
-  });
+  joint.parameters = TranslationalParameters{.axis = axis, .angle = read_angle(table)};
 }
 
 void read_fixed(const support::TomlTable& table, JointDescription& joint) {
-  make_of_coordinates(joint, [angle = read_angle(table)](const JointPlace& place) {
-    return make_fixed_joint(angle.value_or(place.angle));
-  });
+  joint.parameters = FixedParameters{.angle = read_angle(table)};
 }
 
 void read_distance(const support::TomlTable& table, JointDescription& joint) {
@@ -60,16 +46,13 @@ void read_distance(const support::TomlTable& table, JointDescription& joint) {
   const TimeFunction length = read_time_function(value, "m", TimeFunctionUse::kMotion);
   if (!(length.value(0.0) > 0.0)) throw value.error(fmt::format("must be > 0 m, got {}", length.value(0.0)));
   joint.needs_distance = true;
-  make_of_coordinates(joint, [length](const JointPlace& place) {
-    return make_distance_joint(place.motions == MotionUse::kMoving ? length
-                                                                   : TimeFunction(length.value(0.0)));
-  });
+  joint.parameters = DistanceParameters{.length = length};
 }
 
 void read_pin_in_slot(const support::TomlTable& table, JointDescription& joint) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
   joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
-  make_of_coordinates(joint, [axis](const JointPlace& /*place*/) { return make_pin_in_slot_joint(axis); });
+  joint.parameters = PinInSlotParameters{.axis = axis};
 }
 
 const std::vector<std::pair<std::string, JointReader>>& joint_readers() {
@@ -78,6 +61,34 @@ const std::vector<std::pair<std::string, JointReader>>& joint_readers() {
       {"distance", read_distance}, {"pin-in-slot", read_pin_in_slot},
   };
   return readers;
+}
+
+CoordinateJoint::Parts make_parts(const TranslationalParameters& parameters, const JointPlace& place) {
+  return make_translational_joint(parameters.axis, parameters.angle.value_or(place.angle));
+}
+
+CoordinateJoint::Parts make_parts(const FixedParameters& parameters, const JointPlace& place) {
+  return make_fixed_joint(parameters.angle.value_or(place.angle));
+}
+
+CoordinateJoint::Parts make_parts(const DistanceParameters& parameters, const JointPlace& place) {
+  const TimeFunction& length = parameters.length;
+  return make_distance_joint(place.motions == MotionUse::kMoving ? length : TimeFunction(length.value(0.0)));
+}
+
+CoordinateJoint::Parts make_parts(const PinInSlotParameters& parameters, const JointPlace& /*place*/) {
+  return make_pin_in_slot_joint(parameters.axis);
+}
+
+template <typename Parameters>
+std::unique_ptr<Joint> place_joint(const JointDescription& joint, const Parameters& parameters,
+                                   const JointPlace& place) {
+  if constexpr (std::is_same_v<Parameters, RevoluteParameters>) {
+    return std::make_unique<RevoluteJoint>(joint.name, place.marker_a, place.marker_b, joint.location);
+  } else {
+    return std::make_unique<CoordinateJoint>(joint.name, place.marker_a, place.marker_b, joint.location,
+                                             make_parts(parameters, place));
+  }
 }
 
 }  // namespace
@@ -98,6 +109,11 @@ JointDescription read_joint(const support::TomlTable& table) {
   joint_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, joint);
   table.reject_unknown_keys();
   return joint;
+}
+
+std::unique_ptr<Joint> make_joint(const JointDescription& joint, const JointPlace& place) {
+  return std::visit([&](const auto& parameters) { return place_joint(joint, parameters, place); },
+                    joint.parameters);
 }
 
 }  // namespace sprung::dynamics

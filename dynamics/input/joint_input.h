@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "dynamics/input/point_reference.h"
 #include "dynamics/joints/joint.h"
@@ -22,7 +22,25 @@ struct JointPlace {
   MotionUse motions = MotionUse::kMoving;
 };
 
-/// A joint as the vehicle file has it: where it is, and how it is made once the markers have their numbers.
+/// What a joint of each kind is made with; an angle that is not given is the one in the vehicle file.
+struct RevoluteParameters {};
+struct TranslationalParameters {
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  ///< in the axes of a's body
+  std::optional<double> angle;                      ///< of b against a [rad]
+};
+struct FixedParameters {
+  std::optional<double> angle;  ///< of b against a [rad]
+};
+struct DistanceParameters {
+  TimeFunction length;  ///< > 0 [m]
+};
+struct PinInSlotParameters {
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  ///< in the axes of a's body
+};
+using JointParameters = std::variant<RevoluteParameters, TranslationalParameters, FixedParameters,
+                                     DistanceParameters, PinInSlotParameters>;
+
+/// A joint as the vehicle file has it.
 struct JointDescription {
   std::string name;
   std::string kind;  ///< the file's `type`
@@ -31,7 +49,7 @@ struct JointDescription {
   std::optional<RelativeCoordinate>
       coordinate;               ///< that prescribed motion may drive; none: the joint leaves none free
   bool needs_distance = false;  ///< its two points must not coincide
-  std::function<std::unique_ptr<Joint>(const JointPlace& place)> make;
+  JointParameters parameters;
 };
 
 /// Reads one entry of `[[joints]]`: name, type, a, b and the keys of its type. A new kind of joint is one
@@ -39,5 +57,8 @@ struct JointDescription {
 /// @throws support::InputError for a missing, unknown or unfit key; whether the points exist is the vehicle's
 /// matter
 JointDescription read_joint(const support::TomlTable& table);
+
+/// The joint described.
+std::unique_ptr<Joint> make_joint(const JointDescription& joint, const JointPlace& place);
 
 }  // namespace sprung::dynamics

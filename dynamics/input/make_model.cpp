@@ -117,10 +117,10 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
     model.markers.push_back(make_marker(vehicle, point, model.bodies));
   }
   for (const JointDescription& joint : vehicle.joints) {
-    model.joints.push_back(joint.make(place_joint(vehicle, model, joint.a, joint.b, motions)));
+    model.joints.push_back(make_joint(joint, place_joint(vehicle, model, joint.a, joint.b, motions)));
   }
   for (const MotionDescription& motion : vehicle.motions) {
-    model.joints.push_back(motion.make(place_joint(vehicle, model, motion.a, motion.b, motions)));
+    model.joints.push_back(make_joint(motion, place_joint(vehicle, model, motion.a, motion.b, motions)));
   }
   for (const ForceDescription& force : vehicle.forces) {
     if (force.on_road && road.road == nullptr) {
@@ -128,7 +128,7 @@ Model make_model(const Vehicle& vehicle, const ModeSelection& selection, const P
     }
     std::vector<int> markers;
     for (const PointReference& point : force.points) markers.push_back(model.find_marker(point.name));
-    model.forces.push_back(force.make(markers, road));
+    model.forces.push_back(make_force(force, markers, road));
   }
   number_model(model);
   return model;

@@ -28,9 +28,10 @@ void read_driven_joint(const support::TomlValue& value, std::span<const JointDes
                                   support::nearest_name_hint(value.string(), names)));
   }
   if (!found->coordinate) {
-    throw value.error(
-        fmt::format("names a {} joint, which has no coordinate to be driven{}", found->kind,
-                    found->kind == "distance" ? "; its 'length' may be a function of time" : ""));
+    throw value.error(fmt::format("names a {} joint, which has no coordinate to be driven{}", found->kind,
+                                  std::holds_alternative<DistanceParameters>(found->parameters)
+                                      ? "; its 'length' may be a function of time"
+                                      : ""));
   }
   motion.a = found->a;
   motion.b = found->b;
@@ -48,12 +49,6 @@ void read_driven_point(const support::TomlTable& table, MotionDescription& motio
 }
 
 }  // namespace
-
-std::unique_ptr<Joint> MotionDescription::make(const JointPlace& place) const {
-  const TimeFunction held = place.motions == MotionUse::kMoving ? value : TimeFunction(value.value(0.0));
-  return std::make_unique<CoordinateJoint>(name, place.marker_a, place.marker_b, location,
-                                           make_motion(coordinate, held));
-}
 
 MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints) {
   MotionDescription motion;
@@ -74,6 +69,13 @@ MotionDescription read_motion(const support::TomlTable& table, std::span<const J
                                     TimeFunctionUse::kMotion);
   table.reject_unknown_keys();
   return motion;
+}
+
+std::unique_ptr<Joint> make_joint(const MotionDescription& motion, const JointPlace& place) {
+  const TimeFunction& moving = motion.value;
+  const TimeFunction value = place.motions == MotionUse::kMoving ? moving : TimeFunction(moving.value(0.0));
+  return std::make_unique<CoordinateJoint>(motion.name, place.marker_a, place.marker_b, motion.location,
+                                           make_motion(motion.coordinate, value));
 }
 
 }  // namespace sprung::dynamics

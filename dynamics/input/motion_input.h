@@ -17,8 +17,6 @@ struct MotionDescription {
   RelativeCoordinate coordinate = RelativeCoordinate(RelativeCoordinate::Kind::kX);
   TimeFunction value;
   support::SourceLocation location;
-
-  std::unique_ptr<Joint> make(const JointPlace& place) const;
 };
 
 /// Reads one entry of `[[motions]]`: name, `joint` or `point` with `coordinate`, and the function of time.
@@ -26,5 +24,8 @@ struct MotionDescription {
 /// @throws support::InputError for a missing, unknown or unfit key, and for a joint that has no free
 /// coordinate; whether the point exists is the vehicle's matter
 MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints);
+
+/// The motion described, as the joint that it is to the solver.
+std::unique_ptr<Joint> make_joint(const MotionDescription& motion, const JointPlace& place);
 
 }  // namespace sprung::dynamics

@@ -2,10 +2,14 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
+
+/// The name that points of the ground have in front.
+inline constexpr std::string_view kGroundName = "ground";
 
 /// A point as an input file names it: "body.point", or "ground.point".
 struct PointReference {

@@ -13,6 +13,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kMostOutputs = 1e7;
+const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
 
 void read_times(const support::TomlTable& root, Run& run) {
   run.duration = root.number("duration", support::positive("s"));
@@ -57,40 +58,44 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   IntegratorSettings settings;
   if (const std::optional<support::TomlValue> method = table.find("method")) {
     const std::string name = method->one_of(kMethods);
-    settings.method = name == "adams"               ? Method::kAdams
-                      : name == "bdf"               ? Method::kBdf
-                      : name == "generalized-alpha" ? Method::kGeneralizedAlpha
-                                                    : Method::kExponential;
+    settings.names_method = true;
+    settings.options.method = name == "adams"               ? Method::kAdams
+                              : name == "bdf"               ? Method::kBdf
+                              : name == "generalized-alpha" ? Method::kGeneralizedAlpha
+                                                            : Method::kExponential;
   }
   // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
-  settings.relative_tolerance = table.number_or("relative_tolerance", settings.relative_tolerance,
-                                                {.unit = "", .at_least = 1e-13, .at_most = 1e-1});
+  settings.options.relative_tolerance =
+      table.number_or("relative_tolerance", settings.options.relative_tolerance,
+                      {.unit = "", .at_least = 1e-13, .at_most = 1e-1});
   if (const std::optional<support::TomlValue> step = table.find("largest_step")) {
     settings.largest_step = step->number(support::positive("s"));
   }
   const std::optional<support::TomlValue> radius = table.find("spectral_radius");
   const std::optional<support::TomlValue> fixed_step = table.find("fixed_step");
   for (const auto& value : {radius, fixed_step}) {
-    if (value && settings.method != Method::kGeneralizedAlpha) {
+    if (value && !(settings.names_method && settings.options.method == Method::kGeneralizedAlpha)) {
       throw value->error("has a meaning with method = \"generalized-alpha\" alone");
     }
   }
-  if (radius) settings.spectral_radius = radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
-  if (fixed_step) settings.fixed_step = fixed_step->number(support::positive("s"));
+  if (radius)
+    settings.options.spectral_radius = radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
+  if (fixed_step) settings.options.fixed_step = fixed_step->number(support::positive("s"));
   table.reject_unknown_keys();
   return settings;
 }
 
 AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
   AdaptivitySettings settings;
+  AdaptivityThresholds& thresholds = settings.thresholds;
   settings.location = table.location();
   if (const auto enabled = table.find("enabled")) settings.enabled = enabled->boolean();
   if (const auto indicator = table.find("indicator")) settings.indicator = indicator->boolean();
-  settings.recall =
-      table.number_or("recall", settings.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
-  settings.drop =
-      table.number_or("drop", std::min(settings.drop, 0.2 * settings.recall), support::non_negative(""));
-  settings.residence = table.number_or("residence", settings.residence, support::non_negative("s"));
+  thresholds.recall =
+      table.number_or("recall", thresholds.recall, {.unit = "", .at_least = 1e-9, .at_most = 1.0});
+  thresholds.drop =
+      table.number_or("drop", std::min(thresholds.drop, 0.2 * thresholds.recall), support::non_negative(""));
+  thresholds.residence = table.number_or("residence", thresholds.residence, support::non_negative("s"));
   if (const auto available = table.find_table("available")) {
     settings.available = read_modes(*available);
     for (const auto& [body, request] : settings.available) {
@@ -103,9 +108,9 @@ AdaptivitySettings read_adaptivity(const support::TomlTable& table) {
     }
   }
   table.reject_unknown_keys();
-  if (!(settings.drop < settings.recall)) {
+  if (!(thresholds.drop < thresholds.recall)) {
     throw table.error(
-        fmt::format("must have 'drop' below 'recall', got {} and {}", settings.drop, settings.recall));
+        fmt::format("must have 'drop' below 'recall', got {} and {}", thresholds.drop, thresholds.recall));
   }
   return settings;
 }
@@ -182,6 +187,10 @@ void add_modal_values(const Body& body, const std::vector<double>& values, const
 
 }  // namespace
 
+std::string_view start_name(Run::Start start) {
+  return kStarts[static_cast<std::size_t>(start)];
+}
+
 Run read_run(const support::TomlDocument& document) {
   const support::TomlTable root = document.root();
   const std::filesystem::path folder = std::filesystem::path(document.name()).parent_path();
@@ -194,7 +203,6 @@ Run read_run(const support::TomlDocument& document) {
   read_times(root, run);
   read_statistics(root, run);
   if (const std::optional<support::TomlValue> start = root.find("start")) {
-    static const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
     const auto found = std::find(kStarts.begin(), kStarts.end(), start->one_of(kStarts));
     run.start = static_cast<Run::Start>(found - kStarts.begin());
     run.start_location = start->location();

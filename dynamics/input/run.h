@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
@@ -31,11 +33,9 @@ struct InitialMotion {
 };
 
 struct IntegratorSettings {
-  std::optional<Integrator::Method> method;  ///< none: default_method()
-  double relative_tolerance = 1e-6;
-  std::optional<double> largest_step;     ///< > 0 [s]
-  std::optional<double> spectral_radius;  ///< 0 to 1; of generalized-α alone
-  std::optional<double> fixed_step;       ///< > 0 [s]; of generalized-α alone
+  Integrator::Options options;
+  bool names_method = false;                                      ///< else the method is default_method()
+  double largest_step = std::numeric_limits<double>::infinity();  ///< > 0 [s]
 };
 
 /// `[adaptivity]`: modes that join and leave during the run.
@@ -43,7 +43,7 @@ struct AdaptivitySettings {
   support::SourceLocation location;
   bool enabled = false;
   bool indicator = true;  ///< whether a run with a fixed set is told what it misses
-  double recall = 8e-2, drop = 2e-3, residence = 0.05;  ///< as in AdaptivityOptions
+  AdaptivityThresholds thresholds;
   ModeRequests available;  ///< bodies that are not named have all modes of their file
 };
 
@@ -77,6 +77,9 @@ struct Run {
   std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
   ResponseRequest response;
 };
+
+/// As in run files: "as-given".
+std::string_view start_name(Run::Start start);
 
 /// Reads a run file; the vehicle's own file is not opened.
 /// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the

@@ -60,7 +60,7 @@ std::vector<MotionDescription> read_motions(const support::TomlTable& root,
                                 fmt::format("motion '{}' has the name of a joint", motion.name));
     }
     check_point(motion.b, points);
-    if (motion.b.name.starts_with("ground.")) {
+    if (body_of_point(motion.b.name) == kGroundName) {
       throw support::InputError(motion.b.location, fmt::format("motion '{}' moves the ground", motion.name));
     }
     motions.push_back(std::move(motion));

@@ -147,8 +147,8 @@ void write_results_model(support::Hdf5Writer& file, const ResultsHeader& header)
   file.attribute("/model", "speed", header.run.speed);
   file.attribute("/model", "duration", header.run.duration);
   file.attribute("/model", "output_step", header.run.output_step);
-  file.attribute("/model", "integrator", std::string(method_name(header.run.integrator.method.value())));
-  file.attribute("/model", "relative_tolerance", header.run.integrator.relative_tolerance);
+  file.attribute("/model", "integrator", std::string(method_name(header.run.integrator.options.method)));
+  file.attribute("/model", "relative_tolerance", header.run.integrator.options.relative_tolerance);
   write_bodies(file, header);
   write_superelements(file, header.vehicle);
   write_road(file, header);

@@ -68,7 +68,7 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
   }
   text += fmt::format("Road: {}; speed {} m/s; {} s, output every {} s; {}, relative tolerance {}\n",
                       run.road.shape, run.speed, run.duration, run.output_step,
-                      method_name(run.integrator.method.value()), run.integrator.relative_tolerance);
+                      method_name(run.integrator.options.method), run.integrator.options.relative_tolerance);
   return text;
 }
 

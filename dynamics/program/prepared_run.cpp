@@ -143,8 +143,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
   prepared.model =
       make_model(vehicle, prepared.available, prepared.placed_road, damping, MotionUse::kMoving, stiffened);
-  std::optional<Integrator::Method>& method = prepared.run.integrator.method;
-  if (!method) method = default_method(prepared.model.num_freedoms());
+  IntegratorSettings& integrator = prepared.run.integrator;
+  if (!integrator.names_method) integrator.options.method = default_method(prepared.model.num_freedoms());
   if (preparation == Preparation::kBalance) {
     prepared.start = make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates));
     return prepared;
@@ -169,9 +169,7 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
   if (!settings.enabled && !settings.indicator) return std::nullopt;
   AdaptivityOptions options;
   options.changes = settings.enabled;
-  options.recall = settings.recall;
-  options.drop = settings.drop;
-  options.residence = settings.residence;
+  options.thresholds = settings.thresholds;
   if (settings.enabled) {
     options.full = &prepared.model;
     // On the road the vehicle stands as it does on level ground.

@@ -24,12 +24,8 @@ TransientOptions make_options(const Run& run) {
   TransientOptions options;
   options.end_time = run.duration;
   options.output_step = run.output_step;
-  options.largest_step = run.integrator.largest_step.value_or(std::numeric_limits<double>::infinity());
-  options.integrator.relative_tolerance = run.integrator.relative_tolerance;
-  options.integrator.method = run.integrator.method.value();
-  options.integrator.spectral_radius =
-      run.integrator.spectral_radius.value_or(options.integrator.spectral_radius);
-  options.integrator.fixed_step = run.integrator.fixed_step.value_or(options.integrator.fixed_step);
+  options.largest_step = run.integrator.largest_step;
+  options.integrator = run.integrator.options;
   return options;
 }
 

@@ -173,8 +173,8 @@ void AdaptiveStepper::take_back(Integrator::StepResult result) {
   const EnergyFlow flow = energy_flow();
   const std::vector<int> branches = piece().branches();
   if (!(step_start_ < looked_until_)) {
-    look_ahead(result, step_start_ + options_.residence);
-    looked_until_ = step_start_ + options_.residence;
+    look_ahead(result, step_start_ + options_.thresholds.residence);
+    looked_until_ = step_start_ + options_.thresholds.residence;
   }
   motion_->go_to(q, v);
   modes_->go_back(memory_);
@@ -269,7 +269,7 @@ void AdaptiveStepper::let_modes_go() {
   for (const int coordinate : leaving) {
     listener_.on_change(rest, coordinate,
                         fmt::format("leaves: below {:.2g} %; energy lost by all that leave {:.1e} J",
-                                    100.0 * options_.drop, lost));
+                                    100.0 * options_.thresholds.drop, lost));
   }
   ++num_changes_;
   const std::vector<int> branches = piece().branches();

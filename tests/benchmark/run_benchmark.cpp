@@ -89,7 +89,7 @@ Cost run_once(const dynamics::PreparedRun& prepared, const Request& request, dou
   dynamics::TransientOptions options;
   options.end_time = duration;
   options.output_step = series ? kOutputStep : duration;
-  options.integrator = {.method = prepared.run.integrator.method.value(), .relative_tolerance = tolerance};
+  options.integrator = {.method = prepared.run.integrator.options.method, .relative_tolerance = tolerance};
   if (series) {
     options.on_output = [&](const dynamics::Snapshot& snapshot) {
       series->push_back(chassis.row(snapshot.time, snapshot.q, snapshot.v_dot));

@@ -30,7 +30,8 @@ std::string tyre(const std::string& rest) {
 
 // Force channel of a spring-damper at this deflection and rate: markers on a line of general direction.
 double force_of(const std::string& laws, double deflection, double rate) {
-  const std::unique_ptr<dynamics::ForceElement> force = read(spring_damper(laws)).make(std::array{0, 1}, {});
+  const std::unique_ptr<dynamics::ForceElement> force =
+      dynamics::make_force(read(spring_damper(laws)), std::array{0, 1}, {});
   const Eigen::Vector2d along(0.6, -0.8);
   std::array<dynamics::MarkerState, 2> markers;
   markers[0].r = {3.0, 4.0};
@@ -46,7 +47,8 @@ double force_of(const std::string& laws, double deflection, double rate) {
 // Force channel of a tyre at this penetration and rate, on flat ground.
 double tyre_force_of(const std::string& rest, double penetration, double rate) {
   const dynamics::FlatRoad flat;
-  const std::unique_ptr<dynamics::ForceElement> force = read(tyre(rest)).make(std::array{0}, {.road = &flat});
+  const std::unique_ptr<dynamics::ForceElement> force =
+      dynamics::make_force(read(tyre(rest)), std::array{0}, {.road = &flat});
   std::array<dynamics::MarkerState, 1> markers;
   markers[0].r = {7.0, 0.5 - penetration};
   markers[0].v = {2.0, -rate};
@@ -199,9 +201,9 @@ TEST_CASE("A tyre begins to push where it touches") {
 TEST_CASE("A rotational spring-damper's laws are over angles") {
   const std::string head =
       "name = \"r\"\ntype = \"rotational-spring-damper\"\na = \"p.origin\"\nb = \"q.origin\"\n";
-  const std::unique_ptr<dynamics::ForceElement> force =
-      read(head + "free_angle = 0.2\nspring = { polynomial = [0.0, 50.0] }\ndamper = { coefficient = 3.0 }")
-          .make(std::array{0, 1}, {});
+  const std::unique_ptr<dynamics::ForceElement> force = dynamics::make_force(
+      read(head + "free_angle = 0.2\nspring = { polynomial = [0.0, 50.0] }\ndamper = { coefficient = 3.0 }"),
+      std::array{0, 1}, {});
   std::array<dynamics::MarkerState, 2> markers;
   markers[1].angle = 0.3;
   markers[1].omega = -2.0;
@@ -216,9 +218,9 @@ TEST_CASE("A rotational spring-damper's laws are over angles") {
 
 TEST_CASE("An applied force has components in time, in the world's axes or following") {
   const std::string head = "name = \"a\"\ntype = \"applied\"\npoint = \"p.origin\"\n";
-  const std::unique_ptr<dynamics::ForceElement> force =
-      read(head + "axes = \"following\"\nforce = [2.0, { polynomial = [0.0, 3.0] }]\ntorque = 5.0")
-          .make(std::array{0}, {});
+  const std::unique_ptr<dynamics::ForceElement> force = dynamics::make_force(
+      read(head + "axes = \"following\"\nforce = [2.0, { polynomial = [0.0, 3.0] }]\ntorque = 5.0"),
+      std::array{0}, {});
   std::array<dynamics::MarkerState, 1> markers;
   markers[0].angle = 0.7;
   std::array<double, 3> channels{};

@@ -23,7 +23,7 @@ std::string error_of(const std::string& rest) {
 dynamics::JointVector residual_of(const std::string& rest, const MarkerState& b,
                                   const dynamics::JointPlace& place = {}, double time = 0.0) {
   dynamics::JointVector phi;
-  read(rest).make(place)->calc_residual(MarkerState(), b, time, phi);
+  dynamics::make_joint(read(rest), place)->calc_residual(MarkerState(), b, time, phi);
   return phi;
 }
 

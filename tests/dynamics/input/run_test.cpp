@@ -1,5 +1,7 @@
 #include "dynamics/input/run.h"
 
+#include <limits>
+
 #include "dynamics/input/make_model.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
@@ -67,8 +69,8 @@ TEST_CASE("A run file is read as it is written, its paths relative to its folder
   CHECK(run.start == dynamics::Run::Start::kAsGiven);
   CHECK(run.statistics_from == 0.5);
   CHECK(run.statistics_to == 4.5);
-  CHECK(run.integrator.method == dynamics::Integrator::Method::kBdf);
-  CHECK(run.integrator.relative_tolerance == 1e-8);
+  CHECK(run.integrator.options.method == dynamics::Integrator::Method::kBdf);
+  CHECK(run.integrator.options.relative_tolerance == 1e-8);
   CHECK(run.integrator.largest_step == 0.01);
   CHECK(dynamics::make_road(run)->height(2.0) == 0.2);
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
@@ -86,9 +88,9 @@ TEST_CASE("Only vehicle and duration are needed") {
   CHECK(run.start == dynamics::Run::Start::kEquilibrium);
   CHECK(run.statistics_from == 0.0);
   CHECK(run.statistics_to == 2.0);
-  CHECK_FALSE(run.integrator.method.has_value());
-  CHECK(run.integrator.relative_tolerance == 1e-6);
-  CHECK_FALSE(run.integrator.largest_step.has_value());
+  CHECK_FALSE(run.integrator.names_method);
+  CHECK(run.integrator.options.relative_tolerance == 1e-6);
+  CHECK(run.integrator.largest_step == std::numeric_limits<double>::infinity());
   CHECK(dynamics::make_road(run)->height(2.0) == 0.0);
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   CHECK(dynamics::resolve_modes(run, cart).empty());
@@ -212,9 +214,9 @@ TEST_CASE("Generalized-α takes a spectral radius and a fixed step") {
   const dynamics::Run run =
       read(test::with_change(kText, "method = \"bdf\"\n",
                              "method = \"generalized-alpha\"\nspectral_radius = 0.6\nfixed_step = 1e-4\n"));
-  CHECK(run.integrator.method == dynamics::Integrator::Method::kGeneralizedAlpha);
-  CHECK(run.integrator.spectral_radius == 0.6);
-  CHECK(run.integrator.fixed_step == 1e-4);
+  CHECK(run.integrator.options.method == dynamics::Integrator::Method::kGeneralizedAlpha);
+  CHECK(run.integrator.options.spectral_radius == 0.6);
+  CHECK(run.integrator.options.fixed_step == 1e-4);
 }
 
 TEST_CASE("Output points that the vehicle lacks are refused") {

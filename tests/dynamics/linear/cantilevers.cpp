@@ -63,8 +63,8 @@ Run drive(const Model& model, const Case& test_case) {
   dynamics::AdaptivityOptions adaptivity;
   adaptivity.full = &model;
   adaptivity.changes = test_case.changes;
-  adaptivity.recall = test_case.recall;
-  adaptivity.drop = test_case.drop;
+  adaptivity.thresholds.recall = test_case.recall;
+  adaptivity.thresholds.drop = test_case.drop;
   adaptivity.points = {test_case.watched};
   int mode = 0;
   for (int i = 0; i < model.num_coordinates; ++i) {

@@ -46,8 +46,8 @@ AdaptiveRun drive(int num_available, int num_start, double recall, double durati
     }
     adaptivity.points = {bump.model.find_marker("chassis.origin"),
                          bump.model.find_marker("chassis.front_end")};
-    adaptivity.recall = recall;
-    adaptivity.drop = std::min(2e-3, 0.2 * recall);
+    adaptivity.thresholds.recall = recall;
+    adaptivity.thresholds.drop = std::min(2e-3, 0.2 * recall);
     options.adaptivity = adaptivity;
   }
   std::vector<double> origin, deflection;

@@ -84,7 +84,7 @@ struct Turning {
     Run run;
     dynamics::AdaptivityOptions adaptivity;
     adaptivity.full = &model;
-    adaptivity.drop = drop;
+    adaptivity.thresholds.drop = drop;
     adaptivity.points = {beam.tip};
     adaptivity.active.assign(static_cast<std::size_t>(model.num_coordinates), true);
     const int first = model.bodies[static_cast<std::size_t>(beam.body)].first_coordinate;
@@ -243,7 +243,7 @@ TEST_CASE("Modes are stopped together only where the impulse leaves little ringi
   CHECK(rings < 2.3 * share * largest);  // five vibrations, each at its largest at once: √5
 
   // The slow one is at rest; the other goes with it only where a tenth of the threshold is kept.
-  const double allowed = 0.1 * options.recall;
+  const double allowed = 0.1 * options.thresholds.recall;
   v[fast] *= 1.1 * allowed / adaptation.indicator().calc_stopping_shares({slow, fast}, v)[1];
   CHECK(adaptation.find_stoppable({slow, fast}, v) == std::vector<int>{slow});
   v[fast] *= 0.9 / 1.1;
