@@ -1,6 +1,7 @@
 #include "dynamics/output/results_model.h"
 
 #include "dynamics/output/choice_report.h"
+#include "dynamics/output/resolved_model.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -149,6 +150,7 @@ void write_results_model(support::Hdf5Writer& file, const ResultsHeader& header)
   file.attribute("/model", "output_step", header.run.output_step);
   file.attribute("/model", "integrator", std::string(method_name(header.run.integrator.options.method)));
   file.attribute("/model", "relative_tolerance", header.run.integrator.options.relative_tolerance);
+  write_resolved_model(file, header);
   write_bodies(file, header);
   write_superelements(file, header.vehicle);
   write_road(file, header);

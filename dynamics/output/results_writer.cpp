@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr std::int64_t kResultsVersion = 1;
+constexpr std::int64_t kResultsVersion = 2;
 
 std::filesystem::path partial_name(const std::filesystem::path& path) {
   return path.parent_path() / (path.stem().string() + ".partial" + path.extension().string());
@@ -35,7 +35,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   add_series("/time", 0, "s", [](const Snapshot& now, std::vector<double>& row) { row[0] = now.time; });
   add_point_series();
   add_body_series();
-  if (header.full) add_neglected_series(*header.full);
+  if (header.adaptivity) add_neglected_series(*header.adaptivity->full);
   add_joint_series();
   add_force_series();
   add_recovery_series(header.vehicle);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/linear/equilibrium.h"
@@ -27,11 +28,12 @@ struct ResultsHeader {
   const Model& model;
   const PlacedRoad& road;
   const State& start;
-  std::vector<std::string> overrides;        ///< assignments of the command line, as given
-  const Equilibrium* equilibrium = nullptr;  ///< null for a run that starts as given
-  std::vector<VehicleMode> modes;            ///< about the equilibrium
-  const Model* full = nullptr;               ///< with the modes whose neglect is told, null for none
-  const BasisChoice* choice = nullptr;       ///< of modes "auto"; null where there are none
+  std::vector<std::string> overrides;             ///< assignments of the command line, as given
+  const Equilibrium* equilibrium = nullptr;       ///< null for a run that starts as given
+  std::vector<VehicleMode> modes;                 ///< about the equilibrium
+  const std::vector<std::string>& output_points;  ///< whose motion is reported
+  const AdaptivityOptions* adaptivity = nullptr;  ///< null where no modes change, nor is their neglect told
+  const BasisChoice* choice = nullptr;            ///< of modes "auto"; null where there are none
 };
 
 /// Root attribute `format` of a results file.

@@ -79,7 +79,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
         output.results,
         ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
                       request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                      std::move(modes), options.adaptivity ? options.adaptivity->full : nullptr,
+                      std::move(modes), prepared.output_points,
+                      options.adaptivity ? &*options.adaptivity : nullptr,
                       prepared.choice ? &*prepared.choice : nullptr});
   }
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "dynamics/description/element_description.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+namespace sprung::dynamics {
+
+/// Writes a number as the attribute `name` of a group, with its unit in the attribute `name`_unit.
+void write_number(support::Hdf5Writer& file, const std::string& group, const std::string& name, double value,
+                  std::string_view unit);
+
+/// Writes what an element says of itself into its group: how it is drawn, what its points are to it, and the
+/// group `parameters` (dynamics/output/results.md, "Parameters").
+/// @param group  of the element, made already
+void write_description(support::Hdf5Writer& file, const std::string& group,
+                       const ElementDescription& description);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,154 @@
+#include "dynamics/output/resolved_model.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "dynamics/output/parameter_writer.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+const std::string kRoot = "/model/resolved";
+
+void write_integrator(support::Hdf5Writer& file, const IntegratorSettings& settings) {
+  const std::string group = kRoot + "/settings/integrator";
+  const Integrator::Options& options = settings.options;
+  file.make_group(group);
+  file.attribute(group, "method", method_name(options.method));
+  write_number(file, group, "relative_tolerance", options.relative_tolerance, "1");
+  write_number(file, group, "largest_step", settings.largest_step, "s");
+  if (options.method != Integrator::Method::kGeneralizedAlpha) return;
+  write_number(file, group, "spectral_radius", options.spectral_radius, "1");
+  write_number(file, group, "fixed_step", options.fixed_step, "s");
+}
+
+void write_adaptivity(support::Hdf5Writer& file, const AdaptivityOptions* adaptivity) {
+  const std::string group = kRoot + "/settings/adaptivity";
+  file.make_group(group);
+  file.attribute(group, "enabled", std::int64_t{adaptivity != nullptr && adaptivity->changes});
+  file.attribute(group, "indicator", std::int64_t{adaptivity != nullptr});
+  if (adaptivity == nullptr) return;
+  write_number(file, group, "recall", adaptivity->thresholds.recall, "1");
+  write_number(file, group, "drop", adaptivity->thresholds.drop, "1");
+  write_number(file, group, "residence", adaptivity->thresholds.residence, "s");
+}
+
+void write_settings(support::Hdf5Writer& file, const ResultsHeader& header) {
+  const std::string group = kRoot + "/settings";
+  const Run& run = header.run;
+  file.make_group(group);
+  write_number(file, group, "speed", run.speed, "m/s");
+  write_number(file, group, "duration", run.duration, "s");
+  write_number(file, group, "output_step", run.output_step, "s");
+  write_number(file, group, "statistics_from", run.statistics_from, "s");
+  write_number(file, group, "statistics_to", run.statistics_to, "s");
+  file.attribute(group, "start", start_name(run.start));
+  file.write(group + "/output_points", header.output_points);
+  write_integrator(file, run.integrator);
+  write_adaptivity(file, header.adaptivity);
+}
+
+void write_modes_of(support::Hdf5Writer& file, const std::string& group, const Body& body,
+                    const AdaptivityOptions* adaptivity) {
+  const int n = body.num_modes();
+  std::vector<std::int64_t> active(static_cast<std::size_t>(n), 1);
+  Eigen::VectorXd frequency(n), ratio(n);
+  for (int k = 0; k < n; ++k) {
+    const auto coordinate = static_cast<std::size_t>(body.first_coordinate + 3 + k);
+    if (adaptivity != nullptr && adaptivity->changes) {
+      active[static_cast<std::size_t>(k)] = adaptivity->active[coordinate] ? 1 : 0;
+    }
+    const double omega = std::sqrt(body.stiffness(k, k) / body.M_ff(k, k));
+    frequency[k] = omega / (2.0 * std::acos(-1.0));
+    ratio[k] = 0.5 * body.damping(k, k) / (omega * body.M_ff(k, k));
+  }
+  const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
+  file.write(group + "/mode_number", numbers);
+  file.write(group + "/active_at_start", active);
+  file.write(group + "/frequency", frequency, "Hz");
+  file.write(group + "/damping_ratio", ratio, "1");
+}
+
+void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
+  for (std::size_t b = 0; b < header.model.bodies.size(); ++b) {
+    const Body& body = header.model.bodies[b];
+    const BodyDescription& description = header.vehicle.bodies[b];
+    const std::string group = kRoot + "/bodies/" + body.name;
+    file.make_group(group);
+    const Eigen::Vector2d center = body.first_moment / body.mass;
+    write_number(file, group, "mass", body.mass, "kg");
+    write_number(file, group, "inertia", body.second_moment - body.mass * center.squaredNorm(), "kg m^2");
+    file.attribute(group, "superelement", description.superelement);
+    file.attribute(group, "num_modes", std::int64_t{body.num_modes()});
+    file.attribute(group, "is_stiffened", std::int64_t{body.stiffening.has_value()});
+    file.write(group + "/center_of_mass", center, "m");
+    const Eigen::Vector3d place(description.position.x(), description.position.y(), description.angle);
+    file.write(group + "/position", place, "m, m, rad");
+    if (body.num_modes() > 0) write_modes_of(file, group, body, header.adaptivity);
+  }
+}
+
+void write_points(support::Hdf5Writer& file, const Model& model) {
+  for (const Marker& marker : model.markers) {
+    const std::string group = kRoot + "/points/" + marker.name;
+    file.make_group(group);
+    file.write(group + "/position", marker.p_BP, "m");
+    if (marker.body == kGround) {
+      file.attribute(group, "body", kGroundName);
+      continue;
+    }
+    file.attribute(group, "body", model.bodies[static_cast<std::size_t>(marker.body)].name);
+    if (marker.Phi.cols() > 0) {
+      file.write(group + "/shapes", Eigen::MatrixXd(marker.Phi), "m, m, rad per unit amplitude");
+    }
+  }
+}
+
+// What joints and force elements have in common.
+template <typename Element>
+void write_element(support::Hdf5Writer& file, const std::string& group, const Element& element,
+                   std::span<const int> markers, const Model& model) {
+  file.make_group(group);
+  file.attribute(group, "kind", element.kind());
+  const ElementDescription description = element.describe();
+  std::vector<std::string> points;
+  for (const int marker : markers) points.push_back(model.markers[static_cast<std::size_t>(marker)].name);
+  file.write(group + "/points", points);
+  file.write(group + "/point_roles", description.points);
+  write_description(file, group, description);
+}
+
+void write_road(support::Hdf5Writer& file, const PlacedRoad& road) {
+  const std::string group = kRoot + "/road";
+  file.make_group(group);
+  file.attribute(group, "shape", road.road->shape());
+  file.attribute(group, "direction", road.direction);
+  write_number(file, group, "origin", road.origin, "m");
+  write_description(file, group, road.road->describe());
+}
+
+}  // namespace
+
+void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header) {
+  const Model& model = header.model;
+  file.make_group(kRoot);
+  file.attribute(kRoot, "direction", header.vehicle.direction);
+  file.write(kRoot + "/gravity", model.gravity, "m/s^2");
+  write_settings(file, header);
+  write_bodies(file, header);
+  write_points(file, model);
+  for (const std::string kind : {"/joints", "/forces"}) file.make_group(kRoot + kind);
+  for (const auto& joint : model.joints) {
+    const std::string group = kRoot + "/joints/" + joint->name;
+    write_element(file, group, *joint, std::array{joint->marker_a, joint->marker_b}, model);
+    file.attribute(group, "is_motion", std::int64_t{joint->is_motion()});
+  }
+  for (const auto& force : model.forces) {
+    write_element(file, kRoot + "/forces/" + force->name, *force, force->markers(), model);
+  }
+  write_road(file, header.road);
+}
+
+}  // namespace sprung::dynamics
