@@ -90,11 +90,14 @@ void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
   }
 }
 
-void write_points(support::Hdf5Writer& file, const Model& model) {
-  for (const Marker& marker : model.markers) {
+void write_points(support::Hdf5Writer& file, const Model& model, const Vehicle& vehicle) {
+  const std::vector<VehiclePoint> points = list_points(vehicle);  // of the markers
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Marker& marker = model.markers[i];
     const std::string group = kRoot + "/points/" + marker.name;
     file.make_group(group);
     file.write(group + "/position", marker.p_BP, "m");
+    file.attribute(group, "node", std::int64_t{points[i].node});
     if (marker.body == kGround) {
       file.attribute(group, "body", kGroundName);
       continue;
@@ -120,10 +123,11 @@ void write_element(support::Hdf5Writer& file, const std::string& group, const El
   write_description(file, group, description);
 }
 
-void write_road(support::Hdf5Writer& file, const PlacedRoad& road) {
+void write_road(support::Hdf5Writer& file, const PlacedRoad& road, const RoadDescription& description) {
   const std::string group = kRoot + "/road";
   file.make_group(group);
   file.attribute(group, "shape", road.road->shape());
+  file.attribute(group, "file", description.file.filename().string());
   file.attribute(group, "direction", road.direction);
   write_number(file, group, "origin", road.origin, "m");
   write_description(file, group, road.road->describe());
@@ -138,7 +142,7 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
   file.write(kRoot + "/gravity", model.gravity, "m/s^2");
   write_settings(file, header);
   write_bodies(file, header);
-  write_points(file, model);
+  write_points(file, model, header.vehicle);
   for (const std::string kind : {"/joints", "/forces"}) file.make_group(kRoot + kind);
   for (const auto& joint : model.joints) {
     const std::string group = kRoot + "/joints/" + joint->name;
@@ -148,7 +152,7 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
   for (const auto& force : model.forces) {
     write_element(file, kRoot + "/forces/" + force->name, *force, force->markers(), model);
   }
-  write_road(file, header.road);
+  write_road(file, header.road, header.run.road);
 }
 
 }  // namespace sprung::dynamics

@@ -149,17 +149,21 @@ void ResultsWriter::add_joint_series() {
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     const Joint& joint = *model_->joints[j];
     const int row_of_joint = model_->joint_rows[j];
-    // What the joint does to its point a: −Gaᵀλ.
-    add_series("/joints/" + joint.name + "/reaction", 3, "N, N, N m",
-               [&joint, row_of_joint](const Snapshot& now, std::vector<double>& row) {
-                 JointJacobian Ga, Gb;
-                 const auto markers = now.terms().markers();
-                 joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
-                                     markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
-                 const Eigen::Vector3d reaction =
-                     -Ga.transpose() * now.multipliers().segment(row_of_joint, joint.num_constraints());
-                 put(row, reaction);
-               });
+    // What the joint does to its points: −Gaᵀλ, −Gbᵀλ.
+    for (const bool of_a : {true, false}) {
+      const std::string dataset = "/joints/" + joint.name + (of_a ? "/reaction" : "/reaction_b");
+      add_series(dataset, 3, "N, N, N m",
+                 [&joint, row_of_joint, of_a](const Snapshot& now, std::vector<double>& row) {
+                   JointJacobian Ga, Gb;
+                   const auto markers = now.terms().markers();
+                   joint.calc_jacobian(markers[static_cast<std::size_t>(joint.marker_a)],
+                                       markers[static_cast<std::size_t>(joint.marker_b)], Ga, Gb);
+                   const Eigen::Vector3d reaction =
+                       -(of_a ? Ga : Gb).transpose() *
+                       now.multipliers().segment(row_of_joint, joint.num_constraints());
+                   put(row, reaction);
+                 });
+    }
     file_.attribute("/joints/" + joint.name, "kind", joint.kind());
     add_joint_coordinate(joint, row_of_joint);
   }
@@ -206,6 +210,27 @@ void ResultsWriter::add_force_series() {
       file_.attribute(dataset, "role", role_name(channel.role));
     }
     file_.attribute("/forces/" + force.name, "kind", force.kind());
+    add_wrench_series(f);
+  }
+}
+
+void ResultsWriter::add_wrench_series(std::size_t f) {
+  const ForceElement& force = *model_->forces[f];
+  const std::vector<int> markers = force.markers();
+  const std::vector<std::string> roles = force.describe().points;
+  wrenches_.resize(model_->markers.size());
+  for (std::size_t p = 0; p < markers.size(); ++p) {
+    const auto marker = static_cast<std::size_t>(markers[p]);
+    // All wrenches of the element come at once, with the first of them.
+    add_series(fmt::format("/forces/{}/on_{}", force.name, roles[p]), 3, "N, N, N m",
+               [this, &force, f, markers, marker, p](const Snapshot& now, std::vector<double>& row) {
+                 if (p == 0) {
+                   for (const int one : markers) wrenches_[static_cast<std::size_t>(one)] = {};
+                   force.add_wrenches(now.terms().instant(), model_->branches_of(f, now.branches), wrenches_);
+                 }
+                 const Wrench& wrench = wrenches_[marker];
+                 row = {wrench.force.x(), wrench.force.y(), wrench.torque};
+               });
   }
 }
 

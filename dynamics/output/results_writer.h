@@ -70,6 +70,7 @@ class ResultsWriter {
   void add_joint_series();
   void add_joint_coordinate(const Joint& joint, int row_of_joint);
   void add_force_series();
+  void add_wrench_series(std::size_t force_index);
   void add_neglected_series(const Model& full);
   void add_recovery_series(const Vehicle& vehicle);
   void write_events();
@@ -79,6 +80,7 @@ class ResultsWriter {
   support::Hdf5Writer file_;
   std::vector<Series> series_;
   std::vector<std::vector<double>> channels_;  // of each force element, at the snapshot being added
+  std::vector<Wrench> wrenches_;               // on all markers, of the force element being added
   std::vector<Event> events_;
   std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
 };

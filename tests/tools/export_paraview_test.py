@@ -199,7 +199,7 @@ class OfIncompleteFiles(ToolTestCase):
         self.assertFalse(np.any(mesh.point_data["deflection"]))
 
     def test_what_a_file_lacks_is_named(self):
-        for lacking in ("bodies/chassis/velocity", "model/bodies", "model/bodies/chassis/point_names",
+        for lacking in ("bodies/chassis/velocity", "model/bodies", "model/resolved/points",
                         "model/superelements/chassis/shapes"):  # fmt: skip
             with self.subTest(lacking):
                 write_results(self.folder / "run.h5")

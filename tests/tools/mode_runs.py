@@ -13,8 +13,8 @@ def write_adaptive_run(path, *, numbers=(1, 3, 4), is_adaptive=True):
     numbers: of the modes in the superelement. Left out: superelement mode 3 misses 3 % of the deflection at 0.5 s, mode 2
     0.8 % of the acceleration at 0.2 s. is_adaptive: else a fixed set without an indicator. Returns the path.
     """
-    overrides = ("adaptivity.enabled=true", "adaptivity.recall=0.01") if is_adaptive else ()
-    write_results(path, num_modes=len(numbers), overrides=overrides)
+    adaptivity = {"enabled": 1, "recall": 0.01} if is_adaptive else {}
+    write_results(path, num_modes=len(numbers), adaptivity=adaptivity)
     time = np.linspace(0.0, 1.0, NUM_SAMPLES)
     with h5py.File(path, "a") as file:
         modal = "bodies/chassis/modal"

@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 import numpy as np
-from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement, write_texts
+from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement
 from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.report.packing import find_kept
@@ -79,7 +79,7 @@ class Report(ToolTestCase):
         with h5py.File(self.folder / "soft.h5", "a") as file:
             file.attrs["program_version"] = np.bytes_("7.8.9")
         facts = dict(self.report("soft.h5")[1]["runs"][0]["facts"])
-        self.assertEqual(facts["road"], "half-sine, height 0.2 m, length 0.4 m")
+        self.assertEqual(facts["road"], "half-sine, length 0.4 m, height 0.2 m")
         self.assertEqual((facts["initial speed"], facts["changed by --set"]), ("3 m/s", "modes.chassis=2"))
         self.assertEqual(facts["flexible bodies"], "chassis: modes 1–2")
         self.assertEqual(
@@ -173,7 +173,7 @@ class Refusing(ToolTestCase):
         self.refuse("run.h5", "-o", "a.html", fragment="did not finish (complete = 0)")
 
     def test_what_a_file_lacks_is_named(self):
-        for lacking in ("bodies/chassis/position", "model/bodies", "model/bodies/chassis/point_positions", "forces/front_tyre/force",
+        for lacking in ("bodies/chassis/position", "model/bodies", "model/resolved/points/chassis.seat/position", "forces/front_tyre/force",
                         "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
             with self.subTest(lacking):
                 write_results(self.folder / "run.h5")
@@ -181,15 +181,16 @@ class Refusing(ToolTestCase):
                     del file[lacking]
                 self.refuse("run.h5", "-o", "a.html", fragment=lacking.rpartition("/")[2])
 
-    def test_values_that_are_not_finite_and_texts_that_are_not_toml(self):
+    def test_values_that_are_not_finite(self):
         with h5py.File(self.folder / "run.h5", "a") as file:
             file["bodies/chassis/position"][3, 1] = np.nan
         self.refuse("run.h5", "-o", "a.html", fragment="'bodies/chassis/position' holds values that are not finite")
-        write_results(self.folder / "run.h5")
+
+    def test_a_file_of_version_1_without_the_model_as_run(self):
         with h5py.File(self.folder / "run.h5", "a") as file:
-            del file["model/vehicle_text"]
-            write_texts(file, "model/vehicle_text", ["name = = 1"])
-        self.refuse("run.h5", "-o", "a.html", fragment="'model/vehicle_text' is not TOML")
+            file.attrs["version"] = 1
+            del file["model/resolved"]
+        self.refuse("run.h5", "-o", "a.html", fragment="run.h5: error: holds no 'model/resolved', the model as run")
 
     def test_places_that_cannot_be_written_and_quantities_that_are_not_there(self):
         (self.folder / "folder").mkdir()

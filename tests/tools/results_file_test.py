@@ -124,8 +124,8 @@ class Refusing(ToolTestCase):
 
     def test_a_newer_version(self):
         self.assert_error(
-            self.changed(lambda file: file.attrs.modify("version", 2)),
-            "version 2 of sprung-results; this tool",
+            self.changed(lambda file: file.attrs.modify("version", 3)),
+            "version 3 of sprung-results; this tool",
         )
 
     def test_a_run_that_did_not_finish(self):

@@ -17,7 +17,6 @@ from tool_test_case import ToolTestCase
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel, find_forces, read_window
-from sprung_tools.model.model_texts import read_vehicle_file
 from sprung_tools.signals.ride_weighting import calc_wk
 
 WINDOW = (1.0, 3.0)
@@ -36,10 +35,10 @@ class RideMeasures(ToolTestCase):
         self.addCleanup(results.file.close)
         return results
 
-    def test_the_window_is_the_run_files_unless_another_is_given(self):
+    def test_the_window_is_the_runs_unless_another_is_given(self):
         self.assertEqual(read_window(self.open()), (1.0, 3.0))
         self.assertEqual(read_window(self.open(), None, 2.0), (1.0, 2.0))
-        self.assertEqual(read_window(self.open(overrides=("statistics.to=2.5",))), (1.0, 2.5))
+        self.assertEqual(read_window(self.open(settings={"statistics_to": 2.5})), (1.0, 2.5))
 
     def test_comfort_of_a_sine_is_its_weighted_amplitude(self):
         comfort = calc_comfort(self.open(), "points/body.seat", WINDOW)
@@ -51,7 +50,7 @@ class RideMeasures(ToolTestCase):
 
     def test_travel_counts_from_balance_and_every_stroke_into_the_stop_is_a_hit(self):
         results = self.open()
-        self.assertEqual(find_forces(results, "spring-damper"), ["link", "suspension"])
+        self.assertEqual(find_forces(results, "spring"), ["link", "suspension"])
         travel = calc_travel(results, "suspension", WINDOW)
         self.assertAlmostEqual(travel.compression, 0.1, places=6)
         self.assertAlmostEqual(travel.rebound, -0.1, places=6)
@@ -62,10 +61,8 @@ class RideMeasures(ToolTestCase):
         # 0.1 sin > 0.09: 2 · (1/2 - asin(0.9)/π) of each period
         self.assertAlmostEqual(travel.stopped, 2.0 * (0.5 - np.arcsin(0.9) / np.pi), delta=4 * STEP)
 
-    def test_a_stop_moved_on_the_command_line_counts_where_it_is(self):
-        for name in ("suspension", "0"):
-            results = self.open(overrides=(f"vehicle.forces.{name}.compression_stop.deflection=0.17",))
-            self.assertEqual(calc_travel(results, "suspension", WINDOW).hits, 0)
+    def test_the_stop_is_where_the_run_had_it(self):
+        self.assertEqual(calc_travel(self.open(stop=0.17), "suspension", WINDOW).hits, 0)
 
     def test_a_suspension_without_a_stop_has_neither_hits_nor_a_whole(self):
         travel = calc_travel(self.open(), "link", WINDOW)
@@ -97,12 +94,13 @@ class RideMeasures(ToolTestCase):
         with self.assertRaisesRegex(InputError, "0.h5: error: a sample every 10 ms is too few"):
             calc_comfort(results, "points/body.seat", WINDOW)
 
-    def test_a_file_without_its_vehicle_is_refused(self):
+    def test_a_file_without_the_model_as_run_is_refused(self):
         with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
-            del file["model/vehicle_text"]
+            del file["model/resolved"]
         with open_results(self.folder / "b.h5") as results:
-            with self.assertRaisesRegex(InputError, "b.h5: error: no dataset 'model/vehicle_text'"):
-                read_vehicle_file(results)
+            for judge in (read_window, lambda results: calc_travel(results, "suspension", WINDOW)):
+                with self.assertRaisesRegex(InputError, "b.h5: error: holds no 'model/resolved', the model as run"):
+                    judge(results)
 
 
 class Tool(ToolTestCase):
@@ -123,9 +121,7 @@ class Tool(ToolTestCase):
         self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
 
     def test_no_share_of_travel_is_told_where_the_vehicle_stands_on_its_stop(self):
-        write_ride_results(
-            self.folder / "a.h5", overrides=("vehicle.forces.suspension.compression_stop.deflection=0.05",)
-        )
+        write_ride_results(self.folder / "a.h5", stop=0.05)
         rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
         self.assertEqual(
             [row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]]

@@ -2,7 +2,7 @@
 
 import h5py
 import numpy as np
-from synthetic_results import write_series
+from synthetic_results import write_element, write_series, write_settings
 
 STEP = 1e-3
 DURATION = 4.0
@@ -11,32 +11,21 @@ STATIC_DEFLECTION, STOP = 0.06, 0.15  # m
 STATIC_LOAD = 5e4  # N
 BEAT = 1.0  # Hz, of suspension and tyre
 AIRBORNE = -0.8  # of the sine, below which the tyre is off the ground; its load has gone below -2/3
-VEHICLE_TEXT = """name = "synthetic"
-[[forces]]
-name = "suspension"
-type = "spring-damper"
-compression_stop = { deflection = 0.15, rate = 1e6 }
-[[forces]]
-name = "link"
-type = "spring-damper"
-"""
-RUN_TEXT = """speed = 3.0
-[statistics]
-from = 1.0
-to = 3.0
-"""
+SETTINGS = {"speed": 3.0, "statistics_from": 1.0, "statistics_to": 3.0}
+STOP_UNIT = {"compression_stop_unit": np.bytes_("m")}
 
 
-def write_ride_results(path, with_moments=True, overrides=()):
+def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
     """Writes the file. Deflection: static + 0.1 sin; load: static (1 + 1.5 sin), cut off at 0; moment: at
-    the second of three stations, greatest at 2 s: 3 kN·m. The link has no stop. Returns the path."""
+    the second of three stations, greatest at 2 s: 3 kN·m. The link has no stop. settings: of the resolved
+    model, as a dict; stop: of the suspension [m]. Returns the path."""
     time = STEP * np.arange(round(DURATION / STEP) + 1)
     beat = np.sin(2.0 * np.pi * BEAT * time)
     nothing = np.zeros_like(time)
     load = STATIC_LOAD * np.maximum(0.0, 1.0 + 1.5 * beat)
     with h5py.File(path, "w") as file:
         file.attrs.update(
-            {"format": np.bytes_("sprung-results"), "version": 1, "complete": 1, "title": "synthetic"}
+            {"format": np.bytes_("sprung-results"), "version": 2, "complete": 1, "title": "synthetic"}
         )
         write_series(file, "time", time, "s")
         seat = SEAT_AMPLITUDE * np.sin(2.0 * np.pi * SEAT_FREQUENCY * time)
@@ -44,17 +33,19 @@ def write_ride_results(path, with_moments=True, overrides=()):
             write_series(file, f"{name}/acceleration", (nothing, factor * seat), "m/s^2")
         for name in ("suspension", "link"):
             write_series(file, f"forces/{name}/deflection", STATIC_DEFLECTION + 0.1 * beat, "m")
-            file[f"forces/{name}"].attrs["kind"] = np.bytes_("spring-damper")
+            file[f"forces/{name}/deflection"].attrs["role"] = np.bytes_("deflection")
+            stops = {"compression_stop": stop, **STOP_UNIT} if name == "suspension" else {}
+            write_element(file, f"forces/{name}", "spring-damper", "spring", {}, stops)
         write_series(file, "forces/tyre/force", load, "N")
         write_series(file, "forces/tyre/contact", (beat > AIRBORNE).astype(float), "1")
-        file["forces/tyre"].attrs["kind"] = np.bytes_("tyre")
+        for name in ("force", "contact"):
+            file[f"forces/tyre/{name}"].attrs["role"] = np.bytes_(name)
+        write_element(file, "forces/tyre", "tyre", "wheel", {}, {})
         if with_moments:
             moment = 3e3 * np.cos(0.5 * np.pi * (time - 2.0))
             write_series(file, "recovery/body/moment", (0.5 * moment, -moment, 0.2 * moment), "N m")
             write_series(file, "recovery/body/station", np.array([[-1.0, 0.0], [0.25, 0.1], [1.0, 0.0]]), "m")
         equilibrium = file.create_group("model/equilibrium")
         equilibrium.attrs["is_static_equilibrium"] = 1
-        file["model/run_text"] = np.array([RUN_TEXT.encode()])
-        file["model/vehicle_text"] = np.array([VEHICLE_TEXT.encode()])
-        file["model/overrides"] = np.array([text.encode() for text in overrides], dtype="S80")
+        write_settings(file, SETTINGS | dict(settings))
     return str(path)

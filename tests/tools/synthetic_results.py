@@ -11,23 +11,13 @@ CIRCULAR = 2.0 * np.pi * 2.0  # rad/s, two periods in the run
 SPEED = 3.0  # m/s, towards -x
 STATIC_LOAD = 7e4  # N
 RADIUS = 0.6  # m
-RUN_TEXT = """title = "synthetic"
-speed = 3.0
-[road]
-shape = "half-sine"
-height = 0.2
-length = 0.4
-[integrator]
-method = "adams"
-relative_tolerance = 1e-6
-"""
-VEHICLE_TEXT = """name = "synthetic"
-heading = "-x"
-[[forces]]
-name = "front_tyre"
-type = "tyre"
-wheel = "chassis.front_end"
-"""
+SETTINGS = {
+    "speed": SPEED, "duration": 1.0, "output_step": 5e-3, "statistics_from": 0.0, "statistics_to": 1.0,
+    "start": np.bytes_("equilibrium"),
+}  # fmt: skip
+INTEGRATOR = {"method": np.bytes_("adams"), "relative_tolerance": 1e-6, "largest_step": np.inf}
+ADAPTIVITY = {"enabled": 0, "indicator": 1, "recall": 0.08, "drop": 0.002, "residence": 0.05}
+ROAD = {"start": 1.0, "length": 0.4, "height": 0.2}
 
 
 def write_series(file, name, columns, unit):
@@ -40,22 +30,46 @@ def write_texts(file, name, texts):
     file[name] = np.array([text.encode() for text in texts], dtype="S400")
 
 
-def write_results(path, num_modes=2, scale=1.0, start_offset=0.0, overrides=()):
+def write_group(file, name, attributes):
+    """A group with its attributes: numbers, or bytes."""
+    group = file.require_group(name)
+    group.attrs.update(attributes)
+    return group
+
+
+def write_element(file, name, kind, drawing, points, parameters):
+    """A joint or force of /model/resolved. points: role → body.point; parameters: attributes."""
+    texts = {"kind": np.bytes_(kind), "drawing": np.bytes_(drawing)}
+    group = write_group(file, f"model/resolved/{name}", {**texts, "on_road": int(drawing == "wheel")})
+    write_texts(group, "point_roles", list(points))
+    write_texts(group, "points", list(points.values()))
+    write_group(group, "parameters", parameters)
+
+
+def write_settings(file, settings, integrator=INTEGRATOR, adaptivity=ADAPTIVITY):
+    write_group(file, "model/resolved/settings", settings)
+    write_group(file, "model/resolved/settings/integrator", integrator)
+    write_group(file, "model/resolved/settings/adaptivity", adaptivity)
+
+
+def write_results(path, num_modes=2, scale=1.0, start_offset=0.0, overrides=(), settings=(), integrator=(), adaptivity=()):
     """A truck whose chassis heaves as scale · HEAVE · sin(CIRCULAR t) about its static height. Returns the path.
 
     num_modes: of the chassis, 0 = rigid; start_offset: m, how far above balance the whole motion lies;
-    overrides: of the run file, as --set gives them.
+    overrides: what the file says of --set; settings, integrator, adaptivity: of the resolved model, as dicts.
     """
     time = np.linspace(0.0, 1.0, NUM_SAMPLES)
     heave = scale * HEAVE * np.sin(CIRCULAR * time)
     with h5py.File(path, "w") as file:
-        file.attrs.update({"format": np.bytes_("sprung-results"), "version": 1, "complete": 1, "title": "synthetic"})
+        file.attrs.update({"format": np.bytes_("sprung-results"), "version": 2, "complete": 1, "title": "synthetic"})
         write_series(file, "time", time, "s")
         write_motion(file, time, heave, start_offset)
         write_tyre(file, time, heave)
         if num_modes > 0:
             write_modes(file, time, heave, num_modes)
         write_model(file, num_modes)
+        write_resolved_model(file, num_modes)
+        write_settings(file, SETTINGS | dict(settings), INTEGRATOR | dict(integrator), ADAPTIVITY | dict(adaptivity))
         write_texts(file, "model/overrides", overrides)
     return str(path)
 
@@ -87,6 +101,9 @@ def write_tyre(file, time, heave):
     penetration = RADIUS - (STATIC_HEIGHT + heave - road_height)
     write_series(file, "forces/front_tyre/penetration", penetration, "m")
     file["forces/front_tyre"].attrs["kind"] = np.bytes_("tyre")
+    roles = {"road_height": "road-height", "force": "force", "contact": "contact", "penetration": "deflection"}
+    for name, role in roles.items():
+        file[f"forces/front_tyre/{name}"].attrs["role"] = np.bytes_(role)
 
 
 def write_modes(file, time, heave, num_modes):
@@ -111,14 +128,33 @@ def write_model(file, num_modes):
         write_series(file, f"model/equilibrium/{name}", np.array(position), "m")
     file["model/equilibrium"].attrs["is_static_equilibrium"] = 1
     file["model"].attrs["speed"] = SPEED
-    write_texts(file, "model/run_text", [RUN_TEXT])
-    write_texts(file, "model/vehicle_text", [VEHICLE_TEXT])
+    write_texts(file, "model/run_text", ["speed = 3.0"])
+    write_texts(file, "model/vehicle_text", ['name = "synthetic"'])
     chassis = file.create_group("model/bodies/chassis")
     chassis.attrs.update({"mass": 1e4, "inertia": 5e4, "superelement": np.bytes_("chassis" if num_modes else "")})
     write_texts(chassis, "point_names", ["chassis.origin", "chassis.front_end", "chassis.seat"])
     write_series(chassis, "point_positions", np.array([(0.0, 0.0), (FRONT, 0.0), (0.0, SEAT_HEIGHT)]), "m")
     if num_modes > 0:
         write_superelement_part(file, num_modes)
+
+
+def write_resolved_model(file, num_modes):
+    """The vehicle as run, towards -x: the chassis with its points, one tyre, the road."""
+    write_group(file, "model/resolved", {"direction": -1.0})
+    write_series(file, "model/resolved/gravity", np.array([0.0, -9.80665]), "m/s^2")
+    points = {"origin": (0.0, 0.0), "center_of_mass": (0.0, 0.01), "front_end": (FRONT, 0.0), "seat": (0.0, SEAT_HEIGHT)}
+    nodes = {"front_end": 0, "seat": 1} if num_modes else {}
+    for name, place in points.items():
+        attributes = {"body": np.bytes_("chassis"), "node": nodes.get(name, -1)}
+        point = write_group(file, f"model/resolved/points/chassis.{name}", attributes)
+        write_series(point, "position", np.array(place), "m")
+        if num_modes:
+            write_series(point, "shapes", np.zeros((3, num_modes)), "m, m, rad per unit amplitude")
+    tyre = {"radius": RADIUS, "radius_unit": np.bytes_("m")}
+    write_element(file, "forces/front_tyre", "tyre", "wheel", {"wheel": "chassis.front_end"}, tyre)
+    file.require_group("model/resolved/joints")
+    write_group(file, "model/resolved/road", {"shape": np.bytes_("half-sine"), "file": np.bytes_("")})
+    write_group(file, "model/resolved/road/parameters", ROAD)
 
 
 def write_superelement_part(file, num_modes):

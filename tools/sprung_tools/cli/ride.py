@@ -63,7 +63,7 @@ def make_comfort_rows(runs, points, windows):
 
 
 def make_travel_rows(runs, windows):
-    for name in find_forces(runs[0].results, "spring-damper"):
+    for name in find_forces(runs[0].results, "spring"):
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
             share = (
@@ -77,7 +77,7 @@ def make_travel_rows(runs, windows):
 
 
 def make_contact_rows(runs, windows):
-    for name in find_forces(runs[0].results, "tyre"):
+    for name in find_forces(runs[0].results, "wheel"):
         for run, window in zip(runs, windows):
             one = calc_contact(run.results, name, window)
             yield (

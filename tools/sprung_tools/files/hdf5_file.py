@@ -12,7 +12,7 @@ from sprung_tools.files.errors import InputError, WrongFormatError
 
 RESULTS, SUPERELEMENT = "sprung-results", "sprung-superelement"
 RESPONSE, MODE_CHOICE = "sprung-response", "sprung-mode-choice"
-NEWEST_VERSIONS = {RESULTS: 1, SUPERELEMENT: 2, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
+NEWEST_VERSIONS = {RESULTS: 2, SUPERELEMENT: 2, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
 
 
 def text_of(value):

@@ -1,9 +1,12 @@
 """The bending moment in a body that a run took as rigid: from the forces on it and its own inertia, by its superelement.
 
 With the deformation left out of the motion, the modal equations (bodies, eqs. 3–5) become a statics
-problem, the loads being the forces F on the points and d'Alembert's forces of the rigid motion:
+problem, the loads being forces F and torques T on the points and d'Alembert's forces of the rigid motion:
 
-    K η = Σ Φᵀ Aᵀ F + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                           (1)
+    K η = Σ (Φᵀ Aᵀ F + φᵀ T) + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                  (1)
+
+Φ and φ are displacement and rotation of a point by the modes, T is the torque on it. What joints and force elements do
+to each of their points stands in the results file.
 
 All modes of the superelement take part, so η is the finite element solution.
 """
@@ -14,7 +17,7 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
-from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.model.resolved_model import read_elements, read_gravity, read_point
 
 MOMENTS = (2, 5)  # of the resultants N, Q, M at both ends of an element
 
@@ -29,7 +32,6 @@ class Superelement(NamedTuple):
     shape: np.ndarray  # N×3×n
     positions: np.ndarray  # N×2, m
     elements: np.ndarray  # E×2, nodes
-    points: dict  # name → node
     P: np.ndarray  # 2×n
     c: np.ndarray  # n
     d: np.ndarray  # n
@@ -38,7 +40,6 @@ class Superelement(NamedTuple):
 def read_superelement(path):
     """Reads a superelement file for (1). InputError if it cannot be used."""
     with open_hdf5(str(path), SUPERELEMENT) as file:
-        names = [text_of(name) for name in file["points/name"]]
         return Superelement(
             path=str(path),
             content_hash=text_of(file.attrs.get("content_hash", "")),
@@ -47,7 +48,6 @@ def read_superelement(path):
             shape=read_numbers(file, "modes/shape")[0],
             positions=read_numbers(file, "nodes/position")[0],
             elements=read_numbers(file, "elements/node")[0].astype(int),
-            points=dict(zip(names, read_numbers(file, "points/node")[0].astype(int))),
             P=read_numbers(file, "inertia/P")[0],
             c=read_numbers(file, "inertia/c")[0],
             d=read_numbers(file, "inertia/d")[0],
@@ -64,15 +64,15 @@ def check_same(results, body, superelement):
         )
 
 
-def calc_point_shape(vehicle, body, point, superelement):
-    """Displacement of a point of a body by each mode [2×n]; an offset from a node turns with it."""
-    described = vehicle["bodies"][body].get("points", {}).get(point, {"node": point})
-    node = superelement.points[described["node"]] if isinstance(described, dict) else None
-    if node is None:
-        raise KeyError(point)
-    x, y = described.get("offset", (0.0, 0.0))
-    rotation = superelement.shape[node, 2]
-    return superelement.shape[node, :2] + np.array([[-y], [x]]) * rotation
+def calc_point_shape(point, superelement):
+    """Displacement and rotation of a point by each mode [3×n]: those of its node, about which an offset turns. A point of
+    the body frame has none."""
+    if point.node < 0:
+        return np.zeros((3, superelement.stiffness.shape[0]))
+    shape = superelement.shape[point.node].copy()
+    x, y = point.position - superelement.positions[point.node]
+    shape[:2] += np.array([[-y], [x]]) * shape[2]
+    return shape
 
 
 def turn_into_body(vectors, angle):
@@ -83,56 +83,21 @@ def turn_into_body(vectors, angle):
     )
 
 
-def collect_loads(results, vehicle, body):
-    """The forces on a body's points: a list of (point, world force [m×2]). InputError if a kind not known here, or a
-    torque, acts on the body; what acts on others does not matter."""
+def collect_loads(results, body):
+    """What acts on a body's points: a list of (point, [m×3] force x, y and torque, world axes)."""
     loads = []
 
-    def add(reference, force):
-        owner, _, point = reference.partition(".")
-        if owner == body:
-            loads.append((point, force))
+    def add(name, dataset):
+        point = read_point(results, name)
+        if point.body == body:
+            loads.append((point, read_numbers(results.file, dataset)[0]))
 
-    def acts_on_body(*references):
-        return any(reference.partition(".")[0] == body for reference in references)
-
-    joints = {joint["name"]: joint for joint in vehicle.get("joints", ())}
-    for motion in vehicle.get("motions", ()):
-        driven = joints.get(motion.get("joint"), {"a": motion.get("point", ""), "b": ""})
-        if acts_on_body(driven["a"], driven["b"]):
-            raise InputError(
-                f"{results.path}: error: motion '{motion['name']}' drives '{body}', not known here"
-            )
-    for joint in joints.values():
-        if not acts_on_body(joint["a"], joint["b"]):
-            continue
-        reaction, _ = read_numbers(results.file, f"joints/{joint['name']}/reaction")
-        if np.any(np.abs(reaction[:, 2]) > 1e-9 * max(1.0, np.max(np.abs(reaction)))):
-            raise InputError(
-                f"{results.path}: error: joint '{joint['name']}' carries a torque, not known here"
-            )
-        add(joint["a"], reaction[:, :2])
-        add(joint["b"], -reaction[:, :2])
-    for force in vehicle.get("forces", ()):
-        if not acts_on_body(*(force.get(end, "") for end in ("a", "b", "wheel", "point"))):
-            continue
-        group = f"forces/{force['name']}"
-        if force["type"] in ("tyre", "spring-damper"):
-            values, _ = read_numbers(results.file, f"{group}/force")
-        if force["type"] == "tyre":
-            longitudinal = np.zeros_like(values)
-            if f"{group}/longitudinal_force" in results.file:
-                longitudinal, _ = read_numbers(results.file, f"{group}/longitudinal_force")
-            add(force["wheel"], np.stack([longitudinal, values], axis=1))
-        elif force["type"] == "spring-damper":
-            a, b = (read_numbers(results.file, f"points/{force[end]}/position")[0] for end in "ab")
-            along = (b - a) / np.linalg.norm(b - a, axis=1, keepdims=True)
-            add(force["a"], -values[:, None] * along)
-            add(force["b"], values[:, None] * along)
-        else:
-            raise InputError(
-                f"{results.path}: error: force '{force['name']}' of type '{force['type']}' not known here"
-            )
+    for joint in read_elements(results, "joints").values():
+        for role, dataset in (("a", "reaction"), ("b", "reaction_b")):
+            add(joint.points[role], f"joints/{joint.name}/{dataset}")
+    for force in read_elements(results, "forces").values():
+        for role, name in force.points.items():
+            add(name, f"forces/{force.name}/on_{role}")
     return loads
 
 
@@ -141,23 +106,16 @@ def calc_rigid_moments(results, body, superelement):
     layout of /recovery: both ends of each element. InputError if the superelement is another than the run's.
     """
     check_same(results, body, superelement)
-    vehicle = read_vehicle_file(results)
     position, _ = read_numbers(results.file, f"bodies/{body}/position")
     velocity, _ = read_numbers(results.file, f"bodies/{body}/velocity")
     acceleration, _ = read_numbers(results.file, f"bodies/{body}/acceleration")
     angle = position[:, 2]
-    gravity = np.array(vehicle.get("gravity", (0.0, -9.80665)))
-    loads = turn_into_body(gravity - acceleration[:, :2], angle) @ superelement.P
+    loads = turn_into_body(read_gravity(results) - acceleration[:, :2], angle) @ superelement.P
     loads -= np.outer(acceleration[:, 2], superelement.c)
     loads += np.outer(velocity[:, 2] ** 2, superelement.d)
-    for point, force in collect_loads(results, vehicle, body):
-        try:
-            shape = calc_point_shape(vehicle, body, point, superelement)
-        except KeyError as error:
-            raise InputError(
-                f"{results.path}: error: '{body}.{point}' is no node of the superelement"
-            ) from error
-        loads += turn_into_body(force, angle) @ shape
+    for point, wrench in collect_loads(results, body):
+        shape = calc_point_shape(point, superelement)
+        loads += turn_into_body(wrench[:, :2], angle) @ shape[:2] + np.outer(wrench[:, 2], shape[2])
     amplitudes = np.linalg.solve(superelement.stiffness, loads.T).T
     moments = (
         amplitudes @ superelement.resultants[:, MOMENTS, :].reshape(-1, superelement.stiffness.shape[0]).T

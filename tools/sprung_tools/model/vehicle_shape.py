@@ -12,11 +12,12 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers, read_texts, text_of
-from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers, text_of
+from sprung_tools.model.resolved_model import GROUND, read_elements, read_points
 
-HANGS_ON = 1e-6  # of the body's extent: a point nearer to a node than this is that node
+HANGS_ON = 1e-6  # of the body's extent: a point nearer to its node than this is that node
 UNDRAWN = ("center_of_mass",)
+LINKS = {"spring": "spring", "rod": "rod", "pin": "joint"}  # drawings between two points: kinds of links
 
 
 class DrawnBody(NamedTuple):
@@ -58,23 +59,19 @@ class Link(NamedTuple):
 
 def read_bodies(results):
     """All bodies of a run, in the order of their names. InputError if there is none."""
-    vehicle = read_vehicle_file(results, required=False)
     names = results.names("model/bodies")
     if not names:
         raise InputError(f"{results.path}: error: no bodies in 'model/bodies'")
-    return [read_body(results, name, vehicle) for name in names]
+    return [read_body(results, name) for name in names]
 
 
-def read_body(results, name, vehicle):
+def read_body(results, name):
     group = results.file[f"model/bodies/{name}"]
-    positions, _ = read_numbers(results.file, f"model/bodies/{name}/point_positions")
-    names = [one.partition(".")[2] or one for one in read_texts(results.file, f"model/bodies/{name}/point_names")]
-    points = {point: place for point, place in zip(names, positions) if point not in UNDRAWN}
+    points = {point: one for point, one in read_points(results, name).items() if point not in UNDRAWN}
     superelement = text_of(group.attrs.get("superelement", ""))
     if not superelement:
-        return join_to_origin(name, points)
-    nodes_of = vehicle.get("bodies", {}).get(name, {}).get("points", {})
-    return hang_on_nodes(results, name, superelement, points, nodes_of)
+        return join_to_origin(name, {point: one.position for point, one in points.items()})
+    return hang_on_nodes(results, name, superelement, points)
 
 
 def join_to_origin(name, points):
@@ -86,8 +83,8 @@ def join_to_origin(name, points):
     return DrawnBody(name, places, lines, np.zeros((len(places), 2, 0)), numbers, 0)
 
 
-def hang_on_nodes(results, name, superelement, points, nodes_of):
-    """A body of a superelement: its frame, and the points away from nodes, each turning with the node it hangs on."""
+def hang_on_nodes(results, name, superelement, points):
+    """A body of a superelement: its frame, and the points away from nodes, each joined to the node it moves with."""
     where = f"model/superelements/{superelement}"
     places, _ = read_numbers(results.file, f"{where}/node_positions")
     elements = read_numbers(results.file, f"{where}/elements")[0].astype(int)
@@ -97,21 +94,15 @@ def hang_on_nodes(results, name, superelement, points, nodes_of):
     shapes = read_numbers(results.file, f"{where}/shapes")[0][:, :, chosen]
     extent = np.linalg.norm(np.ptp(places, axis=0))
     numbers, new_places, new_lines, new_shapes = {}, [], [], []
-    for point, place in points.items():
-        away = np.linalg.norm(places - place, axis=1)
-        node = int(np.argmin(away))
-        if away[node] <= HANGS_ON * extent:
+    for point, one in points.items():
+        node = one.node if one.node >= 0 else int(np.argmin(np.linalg.norm(places - one.position, axis=1)))
+        if np.linalg.norm(one.position - places[node]) <= HANGS_ON * extent:
             numbers[point] = node
             continue
-        described = nodes_of.get(point)
-        if isinstance(described, dict) and described.get("node") in numbers:
-            node = numbers[described["node"]]
-        arm = place - places[node]
         numbers[point] = len(places) + len(new_places)
-        new_places.append(place)
+        new_places.append(one.position)
         new_lines.append((node, numbers[point]))
-        turn = shapes[node, 2]
-        new_shapes.append(shapes[node, :2] + np.stack([-turn * arm[1], turn * arm[0]]))
+        new_shapes.append(one.shapes[:2])
     count = len(new_places)
     return DrawnBody(
         name,
@@ -156,47 +147,34 @@ def calc_motion(results, body, samples, magnification=1.0):
 
 
 def read_wheels(results, bodies):
-    """The tyres. A radius is what penetration, axle and road say while the tyre is on the road, else the file's."""
+    """The tyres."""
     wheels = []
-    for force in read_vehicle_file(results, required=False).get("forces", []):
-        if force.get("type") != "tyre":
-            continue
-        place = find_point(force.get("wheel", ""), bodies, {})
-        name = force.get("name", "")
-        if place is None or not results.has(f"forces/{name}/penetration"):
-            continue
-        values = [
-            results.series(f"forces/{name}/{what}")[0] for what in ("penetration", "road_height", "contact")
-        ]
-        touching = np.flatnonzero(values[2] > 0.5)
-        radius = float(force.get("radius", 0.0))
-        if touching.size:
-            height = results.series(f"points/{force['wheel']}/position.y")[0]
-            radius = float(np.median((values[0] + height - values[1])[touching]))
-        wheels.append(Wheel(name, *place, radius))
+    for force in read_elements(results, "forces").values():
+        if force.drawing == "wheel":
+            (centre,) = force.points.values()
+            place = find_point(centre, bodies, {})
+            if place is not None:
+                wheels.append(Wheel(force.name, *place, force.parameters["radius"]))
     return wheels
 
 
 def read_links(results, bodies):
-    """Spring-dampers and joints between two points; not those that turn alone, which have no length."""
-    vehicle = read_vehicle_file(results, required=False)
-    ground = vehicle.get("ground", {}).get("points", {})
+    """What is drawn between two points: springs, rods and joints."""
+    ground = read_points(results, GROUND)
     links = []
     for group in ("forces", "joints"):
-        for item in vehicle.get(group, []):
-            ends = tuple(find_point(item.get(end, ""), bodies, ground) for end in ("a", "b"))
-            if None in ends or item.get("type") == "rotational-spring-damper":
-                continue
-            kind = "spring" if group == "forces" else "rod" if item.get("type") == "distance" else "joint"
-            links.append(Link(item.get("name", ""), kind, ends))
+        for element in read_elements(results, group).values():
+            ends = tuple(find_point(point, bodies, ground) for point in element.points.values())
+            if element.drawing in LINKS and None not in ends:
+                links.append(Link(element.name, LINKS[element.drawing], ends))
     return links
 
 
 def find_point(reference, bodies, ground):
-    """`body.point` → (body, node); on the ground (None, (x, y)); None if there is no such point."""
+    """`body.point` → (body, node); on the ground (None, (x, y)); None for a point that is not drawn."""
     body_name, _, point = reference.partition(".")
-    if body_name == "ground" and (point in ground or point == "origin"):
-        return None, tuple(map(float, ground.get(point, (0.0, 0.0))))
+    if body_name == GROUND and point in ground:
+        return None, tuple(map(float, ground[point].position))
     for body in bodies:
         if body.name == body_name and point in body.points:
             return body.name, body.points[point]

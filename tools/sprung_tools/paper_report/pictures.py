@@ -10,7 +10,7 @@ from PIL import Image
 
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.whole_file import write_whole
-from sprung_tools.model.model_texts import read_run_file
+from sprung_tools.model.resolved_model import read_settings
 from sprung_tools.paper_report.mode_pictures import draw_mode_pictures
 from sprung_tools.paper_report.run_numbers import CENTRE, FRONT_END, MIDDLE, chassis_frequencies
 from sprung_tools.runs.run_caption import make_caption
@@ -213,7 +213,7 @@ def draw_spectra(numbers):
 
 
 def speed_of(curves):
-    return f"{read_run_file(curves['rigid'].results)['speed']:g} m/s"
+    return f"{read_settings(curves['rigid'].results)['speed']:g} m/s"
 
 
 def draw_spectrum(axes, frequency, values, label, place):

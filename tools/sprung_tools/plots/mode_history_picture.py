@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sprung_tools.model.model_texts import read_run_file
+from sprung_tools.model.resolved_model import has_resolved_model, read_settings
 from sprung_tools.plots.history_panel import draw_panel
 from sprung_tools.plots.picture_file import COLOURS, make_figure
 from sprung_tools.runs.labelled_runs import samples_between
@@ -58,7 +58,7 @@ def draw_modes(axes, results, history):
 
 
 def draw_neglected(axes, results):
-    """What the mode left out that misses most would have reached; the share at which it joins, if the run file tells."""
+    """What the mode left out that misses most would have reached; the share at which it joins, in a run whose modes join and leave."""
     found = np.max([values[:, :2] for values in read_neglected(results).values()], axis=0)
     for column, (name, colour) in enumerate(NEGLECT.items()):
         percent = 100.0 * found[:, column]
@@ -68,8 +68,9 @@ def draw_neglected(axes, results):
             label += f": {100.0 * worst.share:.3g} % at most, {worst.body} mode {worst.mode} at {worst.time:.4g} s"
         drawn = np.where(percent > LEAST_PERCENT, percent, np.nan)
         axes.semilogy(results.time, drawn, color=colour, linewidth=0.9, label=label)
-    recall = read_run_file(results).get("adaptivity", {}).get("recall")
-    if recall is not None:
+    adaptivity = read_settings(results)["adaptivity"] if has_resolved_model(results) else {}
+    if adaptivity.get("enabled"):
+        recall = adaptivity["recall"]
         axes.axhline(100.0 * recall, color="0.3", linewidth=0.9, linestyle="--", label=f"recall, {100.0 * recall:g} %")
     axes.set_ylim(LEAST_PERCENT, None)
     axes.set_ylabel("left out, %")

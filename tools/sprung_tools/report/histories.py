@@ -5,19 +5,14 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.model.force_channels import DEFLECTION, EXTENT, GIVEN, TORQUE, describe_load, list_force_channels
+from sprung_tools.model.resolved_model import read_elements
 from sprung_tools.report.packing import encode, find_kept
 from sprung_tools.signals.spectra import calc_power_spectrum
 
 MOST_MODES = 12  # of a body whose amplitudes are drawn: the largest
 SEGMENT = 4.0  # s, of the averaged spectra at most: lines 0.25 Hz apart
 HIGHEST_FREQUENCY = 200.0  # Hz, of the spectra drawn
-
-# Of forces of every kind, by the results file's names: what they are called here.
-FORCE_HISTORIES = {
-    "force": "force", "longitudinal_force": "force along x", "force_x": "force along x", "force_y": "force along y",
-    "torque": "torque", "deflection": "compression", "penetration": "penetration", "angle": "angle",
-}  # fmt: skip
-UNLESS_ZERO = ("force_x", "force_y", "torque")  # of which an applied force may have one alone
 
 
 class Channel(NamedTuple):
@@ -57,15 +52,28 @@ def list_channels(results, bodies, extra):
         for point in find_most_bent(results, body):
             add("Deflection", f"{point}, in the body frame", f"points/{point}/deflection.y")
         channels.extend(calc_moment_envelope(results, body))
+    forces = read_elements(results, "forces")
     for force in results.names("forces"):
-        for what, name in FORCE_HISTORIES.items():
-            add("Forces", f"{force}, {name}", f"forces/{force}/{what}", unless_zero=what in UNLESS_ZERO)
+        for channel in list_force_channels(results, force):
+            name = describe_history(channel, on_road=forces[force].on_road)
+            if name:  # an applied force may have one of its components alone
+                unless_zero = channel.role in (GIVEN, TORQUE)
+                add("Forces", f"{force}, {name}", channel.quantity, unless_zero=unless_zero)
     for body in find_heavy(results):
         add("Whole vehicle", f"{body}, angle", f"bodies/{body}/position.angle")
         add("Whole vehicle", f"{body}, horizontal velocity", f"bodies/{body}/velocity.x")
     for name in results.names("energy"):
         add("Energy", name, f"energy/{name}")
     return channels
+
+
+def describe_history(channel, on_road):
+    """What the page calls a channel of a force element; "" for one that it does not show."""
+    if channel.role == DEFLECTION:
+        return "penetration" if on_road else "compression"
+    if channel.role == EXTENT and channel.unit == "rad":
+        return "angle"
+    return describe_load(channel)
 
 
 def find_heavy(results):

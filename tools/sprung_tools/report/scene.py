@@ -3,11 +3,13 @@
 import numpy as np
 
 from sprung_tools.files.hdf5_file import read_attribute, read_numbers
-from sprung_tools.model.model_texts import read_vehicle_file
+from sprung_tools.model.force_channels import CONTACT, FORCE, read_force_channel
+from sprung_tools.model.resolved_model import read_direction
 from sprung_tools.model.vehicle_shape import calc_motion, read_links, read_road
 from sprung_tools.report.histories import find_heavy, list_monitored
 from sprung_tools.report.packing import encode, find_kept
 
+UNMARKED = ("origin", "center_of_mass")  # points that every body has
 MOST_SEEN = 400  # samples that the view of a mechanism is chosen by
 
 
@@ -28,7 +30,7 @@ def pack_frames(results, bodies, wheels, most):
             amplitudes[body.name] = [at(column) for column in values.T]
     nearest = np.clip(np.searchsorted(results.time, time), 0, results.time.size - 1)
     for wheel in wheels:
-        contact, force = (results.series(f"forces/{wheel.name}/{what}")[0] for what in ("contact", "force"))
+        contact, force = (read_force_channel(results, wheel.name, role)[0] for role in (CONTACT, FORCE))
         spans = find_spans(contact < 0.5, results.time)
         tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans)}
     return {
@@ -56,7 +58,7 @@ def pack_vehicle(results, bodies, wheels):
         centre = boxes[[body.name for body in bodies].index(wheel.body)][0, wheel.node]
         low, high = np.minimum(low, centre - wheel.radius), np.maximum(high, centre + wheel.radius)
     heavy = find_heavy(results)
-    monitored = {point for point in list_monitored(results) if not point.endswith((".origin", ".center_of_mass"))}
+    monitored = {point for point in list_monitored(results) if point.partition(".")[2] not in UNMARKED}
     marks = [
         {"body": body.name, "node": node, "name": f"{body.name}.{point}"}
         for body in bodies for point, node in body.points.items() if f"{body.name}.{point}" in monitored
@@ -70,7 +72,7 @@ def pack_vehicle(results, bodies, wheels):
         "wheels": [wheel._asdict() for wheel in wheels],
         "links": [link._asdict() for link in links],
         "marks": marks, "main": heavy[0] if heavy else bodies[0].name,
-        "heading": read_vehicle_file(results, required=False).get("heading", "+x"),
+        "heading": "+x" if read_direction(results) > 0.0 else "-x",
         "box": [*low.tolist(), *high.tolist()],
     }  # fmt: skip
 

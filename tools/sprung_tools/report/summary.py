@@ -7,14 +7,17 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_attribute, read_numbers, read_texts, text_of
-from sprung_tools.model.model_texts import read_run_file
-from sprung_tools.runs.run_caption import describe_road
+from sprung_tools.model.force_channels import (
+    CONTACT,
+    DEFLECTION,
+    FORCE,
+    describe_load,
+    find_force_channel,
+    list_force_channels,
+)
+from sprung_tools.model.resolved_model import read_road_settings, read_settings
+from sprung_tools.runs.run_caption import describe_integrator, describe_road
 
-# Of forces of every kind, by the results file's names: what their greatest values are called, and their unit.
-LOADS = {
-    "force": ("force", "N"), "longitudinal_force": ("force along x", "N"), "force_x": ("force along x", "N"),
-    "force_y": ("force along y", "N"), "torque": ("torque", "N m"),
-}  # fmt: skip
 MOST_FREQUENCIES = 12  # of a superelement
 MOST_ALIKE = 6  # forces of one kind: where there are more, the summary leaves them to "All numbers"
 COMPUTATION = {
@@ -75,17 +78,20 @@ def list_point_rows(results):
 def calc_force_rows(results, force):
     """(force, quantity, unit, value): greatest loads by size; of tyres the time off the road, else the travel."""
     rows = []
-    for what, (name, unit) in LOADS.items():
-        if results.has(f"forces/{force}/{what}"):
-            largest = float(np.max(np.abs(results.series(f"forces/{force}/{what}")[0])))
-            if largest > 0.0 or what == "force":  # an applied torque has forces that are 0
-                rows.append((force, f"{name}, largest", unit, largest))
-    if results.has(f"forces/{force}/contact"):
-        contact = results.series(f"forces/{force}/contact")[0] > 0.5
+    for channel in list_force_channels(results, force):
+        name = describe_load(channel)
+        if not name:
+            continue
+        largest = float(np.max(np.abs(results.series(channel.quantity)[0])))
+        if largest > 0.0 or channel.role == FORCE:  # an applied torque has forces that are 0
+            rows.append((force, f"{name}, largest", channel.unit, largest))
+    contact, deflection = (find_force_channel(results, force, role) for role in (CONTACT, DEFLECTION))
+    if contact:
+        on_road = results.series(contact)[0] > 0.5
         step = float(np.median(np.diff(results.time)))
-        rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~contact))))
-    elif results.has(f"forces/{force}/deflection"):
-        values, unit = results.series(f"forces/{force}/deflection")
+        rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~on_road))))
+    elif deflection:
+        values, unit = results.series(deflection)
         largest = float(np.max(np.abs(values) if unit == "rad" else values))
         rows.append((force, "turn, largest" if unit == "rad" else "compression, largest", unit, largest))
     return rows
@@ -93,15 +99,12 @@ def calc_force_rows(results, force):
 
 def list_facts(results, has_tyres, sha256):
     """What was run: (name, text) in order. Road and speed of a mechanism without tyres are passed over."""
-    run = read_run_file(results)
-    model = results.file["model"].attrs
+    settings = read_settings(results)
     facts = [("vehicle", results.title)]
-    if has_tyres and "road" in run:
-        facts.append(("road", describe_road(run["road"]).removeprefix("road: ")))
-    elif has_tyres and "model/road" in results.file:
-        facts.append(("road", text_of(results.file["model/road"].attrs.get("shape", ""))))
-    if "speed" in model and (has_tyres or float(model["speed"]) != 0.0):
-        facts.append(("initial speed", f"{float(model['speed']):g} m/s"))
+    if has_tyres:
+        facts.append(("road", describe_road(read_road_settings(results)).removeprefix("road: ")))
+    if has_tyres or settings["speed"] != 0.0:
+        facts.append(("initial speed", f"{settings['speed']:g} m/s"))
     step = float(np.median(np.diff(results.time)))
     facts.append(("duration", f"{results.time[-1] - results.time[0]:g} s, a sample every {1e3 * step:g} ms"))
     flexible = []
@@ -110,9 +113,7 @@ def list_facts(results, has_tyres, sha256):
             numbers = read_numbers(results.file, f"bodies/{body}/modal/mode_number")[0].astype(int)
             flexible.append(f"{body}: modes {shorten_numbers(numbers)}")
     facts.append(("flexible bodies", "; ".join(flexible) or "none"))
-    integrator = [f"{key.replace('_', ' ')} {value}" for key, value in run.get("integrator", {}).items()]
-    if integrator:
-        facts.append(("integrator", ", ".join(integrator)))
+    facts.append(("integrator", describe_integrator(settings["integrator"])))
     changed = read_texts(results.file, "model/overrides") if "model/overrides" in results.file else []
     facts.append(("changed by --set", ", ".join(changed) or "nothing"))
     facts.append(("starts from", "static balance" if results.is_from_balance else "the positions given"))

@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_numbers, text_of
-from sprung_tools.model.model_texts import read_compression_stop, read_run_file
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.model.force_channels import CONTACT, DEFLECTION, FORCE, read_force_channel
+from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
 from sprung_tools.signals.spectra import calc_rms
@@ -55,11 +56,12 @@ class Bending(NamedTuple):
 
 
 def read_window(results, start=None, end=None):
-    """The span of time that is judged (from, to) [s]: as given, else the run file's [statistics], else the whole run."""
-    statistics = read_run_file(results).get("statistics", {})
-    first = statistics.get("from", results.time[0]) if start is None else start
-    last = statistics.get("to", results.time[-1]) if end is None else end
-    return float(first), float(last)
+    """The span of time that is judged (from, to) [s]: as given, else the statistics window of the run."""
+    if start is None or end is None:
+        settings = read_settings(results)
+        start = settings["statistics_from"] if start is None else start
+        end = settings["statistics_to"] if end is None else end
+    return float(start), float(end)
 
 
 def sampling_step(results):
@@ -89,18 +91,17 @@ def calc_comfort(results, point, window):
     )
 
 
-def find_forces(results, kind):
-    """Names of the forces of a kind, `spring-damper` or `tyre`."""
-    groups = {name: results.file[f"forces/{name}"] for name in results.names("forces")}
-    return [name for name, group in groups.items() if text_of(group.attrs.get("kind", "")) == kind]
+def find_forces(results, drawing):
+    """Names of the force elements that are drawn as `spring`, suspensions, or as `wheel`, tyres."""
+    return [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]
 
 
 def calc_travel(results, name, window):
     """How far a suspension moves from its balance; samples decide what counts as a hit of the stop."""
     inside = samples_between(results, *window)
-    deflection, _ = results.series(f"forces/{name}/deflection")
+    deflection, _ = read_force_channel(results, name, DEFLECTION)
     static = calc_static(results, deflection, inside)
-    stop = read_compression_stop(results, name)
+    stop = read_elements(results, "forces")[name].parameters.get("compression_stop")
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
@@ -123,8 +124,8 @@ def calc_static(results, values, inside):
 def calc_contact(results, name, window):
     """A tyre's loads, all its wheels together, its time off the ground and without load."""
     inside = samples_between(results, *window)
-    force, _ = results.series(f"forces/{name}/force")
-    contact, _ = results.series(f"forces/{name}/contact")
+    force, _ = read_force_channel(results, name, FORCE)
+    contact, _ = read_force_channel(results, name, CONTACT)
     static = calc_static(results, force, inside)
     off_ground, unloaded = (
         float(np.count_nonzero(bare) * sampling_step(results))

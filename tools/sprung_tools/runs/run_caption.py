@@ -1,8 +1,14 @@
 """The small print under a picture: what its runs have in common, so that the picture can be judged alone."""
 
+import math
 import textwrap
 
-from sprung_tools.model.model_texts import read_run_file
+from sprung_tools.model.resolved_model import (
+    has_resolved_model,
+    read_elements,
+    read_road_settings,
+    read_settings,
+)
 
 LINE_LENGTH = 118  # letters that fit under a picture
 
@@ -19,27 +25,31 @@ def make_caption(results, remarks=()):
 
 
 def calc_parts(results):
-    """The caption's parts of one run, in order."""
-    run = read_run_file(results)
+    """The caption's parts of one run, in order; of a file of version 1 the sampling alone."""
     parts = []
-    if "speed" in run:
-        parts.append(f"initial speed {run['speed']:g} m/s")
-    if "road" in run:
-        parts.append(describe_road(run["road"]))
-    if "integrator" in run:
-        settings = [f"{key.replace('_', ' ')} {value}" for key, value in run["integrator"].items()]
-        parts.append("integrator: " + ", ".join(settings))
+    if has_resolved_model(results):
+        settings = read_settings(results)
+        on_road = any(force.on_road for force in read_elements(results, "forces").values())
+        if on_road or settings["speed"] != 0.0:
+            parts.append(f"initial speed {settings['speed']:g} m/s")
+        if on_road:
+            parts.append(describe_road(read_road_settings(results)))
+        parts.append("integrator: " + describe_integrator(settings["integrator"]))
     step = (results.time[-1] - results.time[0]) / (results.time.size - 1)
     parts.append(f"a sample every {1e3 * step:g} ms")
     return parts
 
 
+def describe_integrator(settings):
+    """`method exponential, relative tolerance 1e-06`; an unlimited step and a step that is not fixed are not told."""
+    told = {key: value for key, value in settings.items() if value not in (math.inf, 0.0)}
+    return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in told.items())
+
+
 def describe_road(road):
-    """`road: half-sine, length 0.4 m, height 0.2 m` from a run file's table; its numbers are lengths in metres."""
-    parts = [f"road: {road.get('shape', 'flat')}"]
-    for key, value in road.items():
-        if isinstance(value, (int, float)) and key != "start":
-            parts.append(f"{key} {value:g} m")
-        elif key == "file":
-            parts.append(str(value))
+    """`road: half-sine, length 0.4 m, height 0.2 m` from its settings; of a table its file."""
+    parts = [f"road: {road['shape']}"]
+    parts += [f"{name} {road[name]:g} m" for name in ("length", "height") if name in road]
+    if road.get("file"):
+        parts.append(road["file"])
     return ", ".join(parts)
