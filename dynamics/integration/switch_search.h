@@ -6,6 +6,8 @@
 #include <cmath>
 #include <span>
 
+#include "dynamics/functions/find_zero.h"
+
 namespace sprung::dynamics {
 
 /// Finds where the first of several functions of one variable becomes negative, by cubics through four places
@@ -102,27 +104,8 @@ class SwitchSearch {
       for (std::size_t k = n; k-- > 0;) sum = sum * (theta - places_[k]) + c[k];
       return sum;
     };
-    return find_zero(value, values_(i, 0), values_(i, 1), tolerance);
-  }
-
-  // By the Illinois rule [Dowell & Jarratt 1971]. The value at high may be 0.
-  template <class Function>
-  double find_zero(const Function& value, double at_low, double at_high, double tolerance) const {
-    double a = low(), b = high(), f_a = at_low, f_b = at_high;
-    for (int iteration = 0; iteration < kMaxIterations && f_b != 0.0; ++iteration) {
-      if (std::abs(b - a) <= tolerance) break;
-      const double x = b - f_b * (b - a) / (f_b - f_a);
-      const double f = value(x);
-      if (f * f_b < 0.0) {
-        a = b;
-        f_a = f_b;
-      } else {
-        f_a *= 0.5;
-      }
-      b = x;
-      f_b = f;
-    }
-    return b;
+    return find_zero(value, {low(), values_(i, 0), high(), values_(i, 1)},
+                     {.width = tolerance, .max_evaluations = kMaxIterations});
   }
 
   int num_places_ = 0;

@@ -23,11 +23,16 @@ class SystemStepper {
     Statistics& operator+=(const Statistics& later);  ///< of steppers one after the other
   };
 
-  /// All there is to see at one instant, until the next call of anything else.
+  /// What `evaluate` brings up to date; each level contains those before it.
+  enum class Level {
+    kMotion,         ///< joints closed, positions and velocities of the markers that joints and forces see
+    kAccelerations,  ///< accelerations and multipliers
+    kAllMarkers,     ///< positions and velocities of the markers that only results ask for
+  };
+
+  /// The motion evaluated last, until the next call of anything else.
   struct Observation {
-    /// The equations of the model that is run: positions, mass, velocities and accelerations up to date, all
-    /// markers.
-    const ConstrainedEquations& equations;
+    const ConstrainedEquations& equations;  ///< of the model that is run
     /// In coordinates of the model that the run was given; modes that are held in the other are at rest.
     const Eigen::VectorXd &q, &v, &v_dot;
     double held_strain = 0.0;  ///< strain energy of modes that are held [J]
@@ -35,33 +40,34 @@ class SystemStepper {
 
   virtual ~SystemStepper() = default;
 
-  /// Small motion about a state like that which the run starts from, for who treats it apart. Before `start`.
+  /// Small motion about a state like that which the run starts from, for methods that treat it separately. To
+  /// be called before `start`.
   virtual void suggest(KnownMotion) {}
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
-  /// Goes on from where `evaluate` or `evaluate_motion` was called last with the branches of piece(), up to
-  /// `end_time`.
+  /// Restarts at the time evaluated last with the branches of piece(), up to `end_time`.
   /// @throws support::NumericalError where there are no accelerations
   virtual void resume(double end_time) = 0;
   /// One step of at most `longest_step`.
   /// @throws support::NumericalError with the time and the reason
   virtual Integrator::StepResult step(double longest_step) = 0;
   virtual double time() const = 0;  ///< end of the last step, or of its part up to a switch
-  /// Longest step that the piece would not regret, at the state evaluated last [s].
+  /// Longest step that misses nothing that force elements and prescribed motion know ahead, at the state
+  /// evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
-  /// Brings equations() and energy_flow() to a time within the last step: joints closed, accelerations and
-  /// multipliers those of the equations; markers that joints and forces see.
+  /// Brings equations() and energy_flow() to a time within the last step.
   /// @throws support::NumericalError if the joints cannot be closed
-  virtual void evaluate(double time) = 0;
-  /// `evaluate` without accelerations and multipliers, which what comes next need not ask for.
-  virtual void evaluate_motion(double time) { evaluate(time); }
-  /// Brings equations() to the end of the last step, or leaves them as near to it as the last iterate that
-  /// the integrator tried there: for who watches, not for who goes on from it.
-  virtual void look() { evaluate(time()); }
-  /// `evaluate`, and what it has come to with all markers.
-  virtual Observation observe(double time) = 0;
+  virtual void evaluate(double time, Level level) = 0;
+  /// `evaluate` at the end of the last step up to kAccelerations, or as near to it as the last iterate of the
+  /// integrator where the equations are still there: good enough to be watched, not to continue from.
+  virtual void evaluate_end_nearly() { evaluate(time(), Level::kAccelerations); }
   virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
+  /// After `evaluate` up to kAccelerations or further.
+  virtual Observation observation() {
+    const ConstrainedEquations& now = equations();
+    return {.equations = now, .q = now.q(), .v = now.v(), .v_dot = now.v_dot()};
+  }
   virtual EnergyFlow energy_flow() const = 0;
 
   virtual SmoothPiece& piece() = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/functions/find_zero.h"
 #include "dynamics/simulation/make_stepper.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -66,19 +67,13 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
   return leg;
 }
 
-void AdaptiveStepper::evaluate(double time) {
-  leg_->stepper->evaluate(time);
+void AdaptiveStepper::evaluate(double time, Level level) {
+  leg_->stepper->evaluate(time, level);
   evaluated_time_ = time;
 }
 
-void AdaptiveStepper::evaluate_motion(double time) {
-  leg_->stepper->evaluate_motion(time);
-  evaluated_time_ = time;
-}
-
-SystemStepper::Observation AdaptiveStepper::observe(double time) {
-  evaluated_time_ = time;
-  Observation now = leg_->stepper->observe(time);
+SystemStepper::Observation AdaptiveStepper::observation() {
+  Observation now = leg_->stepper->observation();
   if (!options_.changes) return now;
   motion_->take(leg_->held, now.equations);
   return {.equations = now.equations,
@@ -92,7 +87,7 @@ SystemStepper::Observation AdaptiveStepper::observe(double time) {
 void AdaptiveStepper::resume(double end_time) {
   end_time_ = end_time;
   rest_.reset();
-  evaluate(evaluated_time_);
+  evaluate(evaluated_time_, Level::kAccelerations);
   watch(evaluated_time_);
   leg_->stepper->resume(end_time);
 }
@@ -151,9 +146,9 @@ bool AdaptiveStepper::follow_step() {
   for (int i = 1; i <= parts; ++i) {
     const double time = i == parts ? end : begin + length * i / parts;
     if (i == parts) {
-      leg_->stepper->look();
+      leg_->stepper->evaluate_end_nearly();
     } else {
-      leg_->stepper->evaluate(time);
+      leg_->stepper->evaluate(time, Level::kAccelerations);
     }
     watch(time);
     modes_->raise(largest_);
@@ -167,7 +162,7 @@ bool AdaptiveStepper::follow_step() {
 // where the step did, from where they are held, at rest, and the force that held them fades. What those call
 // in turn joins as the step itself tells: how large all becomes is known by then.
 void AdaptiveStepper::take_back(Integrator::StepResult result) {
-  evaluate(step_start_);
+  evaluate(step_start_, Level::kAccelerations);
   motion_->take(leg_->held, equations());
   const Eigen::VectorXd q = motion_->q(), v = motion_->v();
   const EnergyFlow flow = energy_flow();
@@ -210,7 +205,7 @@ void AdaptiveStepper::look_ahead(Integrator::StepResult result, double until) {
   try {
     while (result != Integrator::StepResult::kEnded && time() < until) {
       if (result == Integrator::StepResult::kSwitched) {
-        stepper.evaluate(time());
+        stepper.evaluate(time(), Level::kAccelerations);
         stepper.piece().update_branches(stepper.equations().terms());
         stepper.resume(end_time_);
       }
@@ -230,7 +225,7 @@ void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
   flow_before_ = flow;
   leg_ = make_leg(std::move(held), time, branches);
   piece().update_next_break(time);
-  evaluate(time);
+  evaluate(time, Level::kAccelerations);
   watch(time);
   leg_->stepper->resume(end_time_);
 }
@@ -252,7 +247,7 @@ std::optional<double> AdaptiveStepper::find_rest() {
 void AdaptiveStepper::let_modes_go() {
   const double rest = *rest_;
   rest_.reset();
-  evaluate(rest);
+  evaluate(rest, Level::kAccelerations);
   motion_->take(leg_->held, equations());
   const std::vector<int> leaving = modes_->find_stoppable(idle_, motion_->v());
   modes_->go_back(memory_);
@@ -281,31 +276,18 @@ double AdaptiveStepper::rate_of(int coordinate) const {
   return equations().v()[std::lower_bound(places.begin(), places.end(), coordinate) - places.begin()];
 }
 
-// Where a modal rate is zero within the step just made. By the secant, the older value halved where it stays
-// [Dowell & Jarratt 1971].
+// Where a modal rate is zero within the step just made. The equations are evaluated there.
 std::optional<double> AdaptiveStepper::find_rest_of(int coordinate) {
-  double low = step_start_, high = time();
-  evaluate(low);
-  double rate_low = rate_of(coordinate);
-  evaluate(high);
-  double rate_high = rate_of(coordinate);
+  const auto rate_at = [&](double time) {
+    evaluate(time, Level::kAccelerations);
+    return rate_of(coordinate);
+  };
+  const double low = step_start_, high = time();
+  const double rate_low = rate_at(low), rate_high = rate_at(high);
   if (rate_low * rate_high > 0.0) return std::nullopt;
   const double small = kAtRest * std::max(std::abs(rate_low), std::abs(rate_high));
-  double place = high, rate = rate_high;
-  for (int i = 0; i < kMaxSearch && std::abs(rate) > small; ++i) {
-    place = high - rate_high * (high - low) / (rate_high - rate_low);
-    evaluate(place);
-    rate = rate_of(coordinate);
-    if (rate * rate_high < 0.0) {
-      low = high;
-      rate_low = rate_high;
-    } else {
-      rate_low *= 0.5;
-    }
-    high = place;
-    rate_high = rate;
-  }
-  return place;
+  return find_zero(rate_at, {low, rate_low, high, rate_high},
+                   {.value = small, .max_evaluations = kMaxSearch});
 }
 
 }  // namespace sprung::dynamics

@@ -32,9 +32,8 @@ class AdaptiveStepper final : public SystemStepper {
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return rest_ ? *rest_ : leg_->stepper->time(); }
   double calc_longest_step() const override { return leg_->stepper->calc_longest_step(); }
-  void evaluate(double time) override;
-  void evaluate_motion(double time) override;
-  Observation observe(double time) override;
+  void evaluate(double time, Level level) override;
+  Observation observation() override;
   const ConstrainedEquations& equations() const override { return leg_->stepper->equations(); }
   EnergyFlow energy_flow() const override;
   SmoothPiece& piece() override { return leg_->stepper->piece(); }

@@ -42,7 +42,7 @@ class TransientRun {
     start_time_ = start.time;
     stepper_->start(start);
     find_end_of_smoothness(start.time);
-    stepper_->evaluate(start.time);
+    stepper_->evaluate(start.time, SystemStepper::Level::kAccelerations);
     piece().update_branches(stepper_->equations().terms());
     stepper_->resume(smooth_end_);
     // Modes that join at the very start are there from the first output on.
@@ -93,7 +93,7 @@ class TransientRun {
   // Goes on with the branches that hold at the end of the last step.
   void start_anew(double time) {
     find_end_of_smoothness(time);
-    stepper_->evaluate_motion(time);
+    stepper_->evaluate(time, SystemStepper::Level::kMotion);
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
       tell({time, "switch", change.element, change.text});
     }
@@ -123,8 +123,9 @@ class TransientRun {
 
   void write_output(double time) {
     ++statistics_.output_evaluations;
-    const SystemStepper::Observation now = stepper_->observe(time);
+    stepper_->evaluate(time, SystemStepper::Level::kAllMarkers);
     if (!options_.on_output) return;
+    const SystemStepper::Observation now = stepper_->observation();
     const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
     Energy stored = calc_energy(now.equations.terms(), piece().branches());
     stored.strain += now.held_strain;

@@ -100,7 +100,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
                                                                      std::span<const double> q_independent) {
   // The dependents go along with the independents by the last factors, and with the last accelerations where
   // those are known: with both, to second order in time. Then Newton closes the joints.
-  const double since = time - terms().instant().time;
+  const double since = time - terms().time();
   const double bend = has_accelerations_ ? 0.5 * since * since : 0.0;
   has_accelerations_ = false;
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {

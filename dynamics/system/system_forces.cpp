@@ -18,6 +18,7 @@ void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench,
 }
 
 void SystemTerms::update_forces(std::span<const int> branches) {
+  assert(has(Term::kPositions) && has(Term::kVelocities));
   for (const int i : model_->acting_markers) wrenches_[static_cast<std::size_t>(i)] = Wrench{};
   power_ = {};
   const Instant now = instant();
@@ -37,6 +38,7 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     Q_[body.first_coordinate + 1] += body.mass * model_->gravity.y();
   }
   for (const std::size_t b : varying_bodies_) add_body_forces(b);
+  set(Term::kForces);
 }
 
 // Weight, quadratic velocity terms, stiffness, damping.
@@ -67,6 +69,7 @@ void SystemTerms::add_body_forces(std::size_t b) {
 }
 
 void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const {
+  assert(has(Term::kJacobian) && has(Term::kForces));
   std::copy(wrenches_.begin(), wrenches_.end(), loads.begin());
   for (const JointTerms& terms : joints_) {
     for (const JointSide* side : {&terms.a, &terms.b}) {

@@ -62,10 +62,13 @@ void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::Vector
   q_ = q;
   for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = nearby_rotations_[b].at(q_[angles_[b]]);
   place_markers(joint_markers_);
+  set_only(Term::kJointPositions);
 }
 
 void SystemTerms::place_others() {
+  assert(has(Term::kJointPositions));
   place_markers(other_markers_);
+  set(Term::kPositions);
 }
 
 void SystemTerms::place_markers(std::span<const MovingMarker> markers) {
@@ -94,15 +97,18 @@ void SystemTerms::move_markers(std::span<const MovingMarker> markers) {
 }
 
 void SystemTerms::update_all_markers() {
+  assert(has(Term::kVelocities));
   for (int i = 0; i < static_cast<int>(markers_.size()); ++i) {
     if (model_->markers[static_cast<std::size_t>(i)].body == kGround) continue;
     const MovingMarker moving = find_body(i);
     place_markers({&moving, 1});
     move_markers({&moving, 1});
   }
+  set(Term::kAllMarkers);
 }
 
 void SystemTerms::calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const {
+  assert(has(Term::kJointPositions));
   JointVector residual;
   for (const JointTerms& terms : joints_) {
     terms.joint->calc_residual(markers_[terms.a.marker], markers_[terms.b.marker], time_, residual);
@@ -187,6 +193,7 @@ void SystemTerms::fill_block(const JointSide& side) {
 }
 
 void SystemTerms::update_jacobian() {
+  assert(has(Term::kJointPositions));
   double* values = Phi_q_.data();
   for (const TurningRow& row : turning_rows_) {
     fill_turning(row.G, markers_[row.marker], values + row.value);
@@ -199,9 +206,11 @@ void SystemTerms::update_jacobian() {
     fill_block(terms.a);
     fill_block(terms.b);
   }
+  set(Term::kJacobian);
 }
 
 void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
+  assert(has(Term::kJointPositions));
   if (!model_->has_motions) {
     phi_t.setZero();
     return;
@@ -214,19 +223,26 @@ void SystemTerms::calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const {
 }
 
 void SystemTerms::update_mass() {
+  assert(has(Term::kJointPositions));
   for (const std::size_t b : varying_bodies_) {
     const Body& body = model_->bodies[b];
     masses_[b].update(rotations_[b], q_.segment(body.first_coordinate + 3, body.num_modes()));
   }
+  set(Term::kMass);
 }
 
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
+  assert(has(Term::kPositions));
   v_ = v;
   move_markers(joint_markers_);
   move_markers(other_markers_);
+  reset(Term::kForces);
+  reset(Term::kAllMarkers);
+  set(Term::kVelocities);
 }
 
 void SystemTerms::calc_gamma(Eigen::Ref<Eigen::VectorXd> gamma) const {
+  assert(has(Term::kJacobian) && has(Term::kVelocities));
   JointVector drift;
   for (const JointTerms& terms : joints_) {
     const MarkerState& a = markers_[terms.a.marker];

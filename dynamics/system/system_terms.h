@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,8 +13,9 @@
 namespace sprung::dynamics {
 
 /// The terms of the constrained equations M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at one state, in preallocated storage:
-/// the workspace beside the immutable model. Call the functions in the order they stand in; each needs those
-/// before it. nq coordinates, m constraints.
+/// the workspace beside the immutable model. It knows its time, q and v and which of its terms belong to them
+/// (`has`); new positions make all others out of date. Debug builds assert that no term is read that is out
+/// of date. nq coordinates, m constraints.
 class SystemTerms {
  public:
   /// Which markers are kept up to date.
@@ -21,7 +23,19 @@ class SystemTerms {
     kAll,
     kActing,  ///< those that joints and forces see; the others by `update_all_markers`
   };
+  /// A term, or group of terms, that is brought up to date by one function.
+  enum class Term : unsigned {
+    kJointPositions = 1,  ///< of the markers that joints see
+    kPositions = 2,       ///< of all markers of the scope
+    kJacobian = 4,
+    kMass = 8,
+    kVelocities = 16,
+    kForces = 32,
+    kAllMarkers = 64,  ///< positions and velocities of all markers, whatever the scope
+  };
   explicit SystemTerms(const Model& model, Markers scope = Markers::kAll);
+  /// Whether a term belongs to the present time, q and, where it depends on them, v.
+  bool has(Term term) const { return (up_to_date_ & static_cast<unsigned>(term)) != 0; }
 
   /// Positions of the markers: `place_joints` and `place_others`.
   void update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q);
@@ -31,12 +45,15 @@ class SystemTerms {
   void place_others();
   void calc_residual(Eigen::Ref<Eigen::VectorXd> phi) const;  ///< m, of the constraints
   void update_jacobian();
-  const BlockJacobian& jacobian() const { return Phi_q_; }       ///< φ_q, m×nq
+  const BlockJacobian& jacobian() const { return Phi_q_; }       ///< φ_q, m×nq; its pattern is always right
   void calc_time_rate(Eigen::Ref<Eigen::VectorXd> phi_t) const;  ///< m
 
   void update_mass();
   /// Mass matrix of body b, (3+n)×(3+n), at Body::first_coordinate of the system's block-diagonal M.
-  const Eigen::MatrixXd& mass(std::size_t body) const { return masses_[body].matrix(); }
+  const Eigen::MatrixXd& mass(std::size_t body) const {
+    assert(has(Term::kMass));
+    return masses_[body].matrix();
+  }
   const std::vector<BodyMass>& masses() const { return masses_; }
 
   /// Velocities of the markers.
@@ -45,8 +62,14 @@ class SystemTerms {
 
   /// Generalized forces of force elements, gravity, stiffness, damping and quadratic velocity terms.
   void update_forces(std::span<const int> branches);
-  const Eigen::VectorXd& forces() const { return Q_; }  ///< nq
-  const Power& power() const { return power_; }
+  const Eigen::VectorXd& forces() const {  ///< nq
+    assert(has(Term::kForces));
+    return Q_;
+  }
+  const Power& power() const {
+    assert(has(Term::kForces));
+    return power_;
+  }
   /// What force elements, and joints under multipliers λ, do to each marker; after `update_jacobian` and
   /// `update_forces`. @param[out] loads  of all markers, world axes
   void calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const;
@@ -55,8 +78,12 @@ class SystemTerms {
   /// Positions and velocities of all markers at the present q and v, whatever the scope.
   void update_all_markers();
 
-  std::span<const MarkerState> markers() const { return markers_; }
-  Instant instant() const { return {time_, markers_}; }
+  double time() const { return time_; }  ///< [s]
+  std::span<const MarkerState> markers() const {
+    assert(has(Term::kPositions));
+    return markers_;
+  }
+  Instant instant() const { return {time_, markers()}; }
   const Model& model() const { return *model_; }
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
@@ -95,6 +122,9 @@ class SystemTerms {
     std::size_t marker;
     MarkerRow G;
   };
+  void set_only(Term term) { up_to_date_ = static_cast<unsigned>(term); }
+  void set(Term term) { up_to_date_ |= static_cast<unsigned>(term); }
+  void reset(Term term) { up_to_date_ &= ~static_cast<unsigned>(term); }
   MovingMarker find_body(int marker_index) const;
   void place_markers(std::span<const MovingMarker> markers);
   void move_markers(std::span<const MovingMarker> markers);
@@ -113,6 +143,7 @@ class SystemTerms {
   std::vector<int> angles_;  // coordinates, of each body
   std::vector<ConstantBody> constant_bodies_;
   std::vector<std::size_t> varying_bodies_;
+  unsigned up_to_date_ = 0;  // set of Term
   double time_ = 0.0;
   Eigen::VectorXd q_, v_, Q_;
   std::vector<FrameRotation> rotations_;

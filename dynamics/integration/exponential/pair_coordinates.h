@@ -8,7 +8,7 @@
 namespace sprung::dynamics {
 
 /// The coordinates in which the exponential method integrates: uncoupled pairs of small motion in place of
-/// positions and velocities (integration/exponential, eqs. 1 and 2), and the error norm of the state in them.
+/// positions and velocities (integration/exponential, eqs. 1–2), and the error norm of the state in them.
 /// State y = (q, v, w), f freedoms.
 class PairCoordinates {
  public:

@@ -217,7 +217,8 @@ bool GeneralizedAlphaStepper::locate_switch() {
   return theta.has_value();
 }
 
-void GeneralizedAlphaStepper::evaluate(double time) {
+// Accelerations are evaluated at all levels: they tell whether the position is a regular one.
+void GeneralizedAlphaStepper::evaluate(double time, Level level) {
   if (has_step_) {
     step_.interpolate(time, q_, v_, energy_);
   } else {
@@ -233,12 +234,7 @@ void GeneralizedAlphaStepper::evaluate(double time) {
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
   statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
-}
-
-SystemStepper::Observation GeneralizedAlphaStepper::observe(double time) {
-  evaluate(time);
-  equations_.terms().update_all_markers();
-  return {.equations = equations_, .q = equations_.q(), .v = equations_.v(), .v_dot = equations_.v_dot()};
+  if (level == Level::kAllMarkers) equations_.terms().update_all_markers();
 }
 
 SystemStepper::Statistics GeneralizedAlphaStepper::statistics() const {

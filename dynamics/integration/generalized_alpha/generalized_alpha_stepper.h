@@ -26,8 +26,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return time_; }
   double calc_longest_step() const override { return piece_.calc_longest_step(step_.residual().terms()); }
-  void evaluate(double time) override;
-  Observation observe(double time) override;
+  void evaluate(double time, Level level) override;
   const ConstrainedEquations& equations() const override { return equations_; }
   EnergyFlow energy_flow() const override { return {energy_.x(), energy_.y()}; }
   SmoothPiece& piece() override { return piece_; }

@@ -56,7 +56,7 @@ void PartitionedStepper::choose_partition() {
   integrator_->start(now, ode_.y(), end_time_);
 }
 
-void PartitionedStepper::go_to(double time) {
+void PartitionedStepper::evaluate(double time, Level level) {
   if (is_running_) {
     if (time >= integrator_->time())
       std::copy(integrator_->y().begin(), integrator_->y().end(), y_.begin());
@@ -64,27 +64,15 @@ void PartitionedStepper::go_to(double time) {
       integrator_->interpolate(time, y_);
   }
   evaluated_time_ = time;
+  if (level == Level::kMotion)
+    ode_.close_joints(time, y_);
+  else
+    ode_.make_state(time, y_);
+  if (level == Level::kAllMarkers) ode_.equations().update_all_markers();
 }
 
-void PartitionedStepper::evaluate(double time) {
-  go_to(time);
-  ode_.make_state(time, y_);
-}
-
-void PartitionedStepper::evaluate_motion(double time) {
-  go_to(time);
-  ode_.close_joints(time, y_);
-}
-
-void PartitionedStepper::look() {
-  if (!ode_.has_accelerations(time())) evaluate(time());
-}
-
-SystemStepper::Observation PartitionedStepper::observe(double time) {
-  evaluate(time);
-  ode_.equations().update_all_markers();
-  const ConstrainedEquations& now = equations();
-  return {.equations = now, .q = now.q(), .v = now.v(), .v_dot = now.v_dot()};
+void PartitionedStepper::evaluate_end_nearly() {
+  if (!ode_.has_accelerations(time())) evaluate(time(), Level::kAccelerations);
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

@@ -26,10 +26,8 @@ class PartitionedStepper final : public SystemStepper {
   double calc_longest_step() const override {
     return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
   }
-  void evaluate(double time) override;
-  void evaluate_motion(double time) override;
-  void look() override;
-  Observation observe(double time) override;
+  void evaluate(double time, Level level) override;
+  void evaluate_end_nearly() override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
   EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
   SmoothPiece& piece() override { return ode_.piece(); }
@@ -37,7 +35,6 @@ class PartitionedStepper final : public SystemStepper {
 
  private:
   void choose_partition();
-  void go_to(double time);
 
   PartitionedOde ode_;
   std::unique_ptr<Integrator> integrator_;

@@ -120,7 +120,7 @@ TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
     const test::BumpStart bump({.num_chassis_modes = num_modes});
     dynamics::GeneralizedAlphaStepper stepper(bump.model, {.relative_tolerance = 1e-4});
     stepper.start(bump.state);
-    stepper.evaluate(0.0);
+    stepper.evaluate(0.0, dynamics::SystemStepper::Level::kAccelerations);
     stepper.piece().update_branches(stepper.equations().terms());
     stepper.resume(0.6);
     stepper.step(1e-3);  // lists the entries of its matrix
@@ -128,7 +128,7 @@ TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
     while (stepper.time() < 0.6) {
       const long before = test::num_allocations();
       const dynamics::Integrator::StepResult result = stepper.step(stepper.calc_longest_step());
-      stepper.evaluate(stepper.time());
+      stepper.evaluate(stepper.time(), dynamics::SystemStepper::Level::kAccelerations);
       taken += test::num_allocations() - before;
       ++steps;
       if (result != dynamics::Integrator::StepResult::kSwitched) continue;

@@ -57,7 +57,7 @@ Integrator::Options fixed_steps(double length, double spectral_radius = 0.8) {
 
 void begin(GeneralizedAlphaStepper& stepper, const dynamics::State& state, double end_time) {
   stepper.start(state);
-  stepper.evaluate(state.time);
+  stepper.evaluate(state.time, dynamics::SystemStepper::Level::kAccelerations);
   stepper.piece().update_branches(stepper.equations().terms());
   stepper.resume(end_time);
 }
@@ -237,7 +237,7 @@ TEST_CASE("Positions, velocities and multipliers converge with order 2", "[analy
       begin(stepper, test_case.start, test_case.end);
       finish(stepper);
       const dynamics::ConstrainedMotion& end = stepper.motion();
-      stepper.evaluate(test_case.end);
+      stepper.evaluate(test_case.end, dynamics::SystemStepper::Level::kAccelerations);
       // As integrated; and the multipliers as they are put out, from closed positions and velocities.
       const Eigen::Array4d error((end.q - reference.q.back()).norm(), (end.v - reference.v.back()).norm(),
                                  (end.lambda - reference.lambda.back()).norm(),
