@@ -29,6 +29,8 @@ class WavyRoad final : public dynamics::Road {
  public:
   WavyRoad(double amplitude, double wavenumber, double phase)
       : amplitude_(amplitude), wavenumber_(wavenumber), phase_(phase) {}
+  std::string_view shape() const override { return "wave"; }
+  dynamics::ElementDescription describe() const override { return {}; }
   int num_segments() const override { return 1; }
   double segment_end(int /*k*/) const override { return std::numeric_limits<double>::infinity(); }
   dynamics::RoadSample sample(int /*segment*/, double s) const override {
