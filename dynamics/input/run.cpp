@@ -53,16 +53,12 @@ void read_statistics(const support::TomlTable& root, Run& run) {
 }
 
 IntegratorSettings read_integrator(const support::TomlTable& table) {
-  using Method = Integrator::Method;
-  static const std::array<std::string, 4> kMethods{"exponential", "generalized-alpha", "adams", "bdf"};
+  static const std::vector<std::string> kNames(kMethodNames.begin(), kMethodNames.end());
   IntegratorSettings settings;
   if (const std::optional<support::TomlValue> method = table.find("method")) {
-    const std::string name = method->one_of(kMethods);
+    const auto place = std::find(kNames.begin(), kNames.end(), method->one_of(kNames));
     settings.names_method = true;
-    settings.options.method = name == "adams"               ? Method::kAdams
-                              : name == "bdf"               ? Method::kBdf
-                              : name == "generalized-alpha" ? Method::kGeneralizedAlpha
-                                                            : Method::kExponential;
+    settings.options.method = static_cast<SteppingMethod>(place - kNames.begin());
   }
   // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
   settings.options.relative_tolerance =
@@ -74,13 +70,14 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   const std::optional<support::TomlValue> radius = table.find("spectral_radius");
   const std::optional<support::TomlValue> fixed_step = table.find("fixed_step");
   for (const auto& value : {radius, fixed_step}) {
-    if (value && !(settings.names_method && settings.options.method == Method::kGeneralizedAlpha)) {
+    if (value && !(settings.names_method && settings.options.method == SteppingMethod::kGeneralizedAlpha)) {
       throw value->error("has a meaning with method = \"generalized-alpha\" alone");
     }
   }
   if (radius)
-    settings.options.spectral_radius = radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
-  if (fixed_step) settings.options.fixed_step = fixed_step->number(support::positive("s"));
+    settings.options.generalized_alpha.spectral_radius =
+        radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
+  if (fixed_step) settings.options.generalized_alpha.fixed_step = fixed_step->number(support::positive("s"));
   table.reject_unknown_keys();
   return settings;
 }

@@ -16,7 +16,7 @@
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/stiffening_input.h"
 #include "dynamics/input/vehicle.h"
-#include "dynamics/integration/integrator.h"
+#include "dynamics/integration/stepping_options.h"
 #include "dynamics/system/model.h"
 #include "tools/support/toml/toml.h"
 
@@ -33,7 +33,7 @@ struct InitialMotion {
 };
 
 struct IntegratorSettings {
-  Integrator::Options options;
+  SteppingOptions options;
   bool names_method = false;                                      ///< else the method is default_method()
   double largest_step = std::numeric_limits<double>::infinity();  ///< > 0 [s]
 };

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "dynamics/integration/ode_system.h"
 
@@ -14,16 +13,10 @@ class Integrator {
     kAdams,        ///< CVODE, orders 1–12, functional iteration: smooth motion that is not stiff
     kBdf,          ///< CVODE, orders 1–5, Newton iteration: stiff systems
     kExponential,  ///< exponential collocation: linear vibration exactly, the rest by a quadrature of order 6
-    kGeneralizedAlpha,  ///< on the constrained system itself, without independent coordinates: see
-                        ///< make_stepper
   };
   struct Options {
     Method method = Method::kExponential;
     double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
-    // Of generalized-α alone:
-    double spectral_radius = 0.8;  ///< 0 to 1, at infinite frequency
-    double fixed_step =
-        0.0;  ///< all steps at most this long and equal, whatever their error; 0: by the error [s]
   };
   enum class StepResult {
     kStepped,   ///< one step taken
@@ -50,11 +43,5 @@ class Integrator {
   virtual void interpolate(double time, std::span<double> y) const = 0;
   virtual Statistics statistics() const = 0;
 };
-
-/// As in run files: "exponential".
-std::string_view method_name(Integrator::Method method);
-/// The method for who does not choose: exponential where there are vibrations to be known beforehand, and not
-/// so many freedoms that its full matrices, 2f×2f, cost more than the equations.
-Integrator::Method default_method(int num_freedoms);
 
 }  // namespace sprung::dynamics

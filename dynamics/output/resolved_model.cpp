@@ -14,14 +14,14 @@ const std::string kRoot = "/model/resolved";
 
 void write_integrator(support::Hdf5Writer& file, const IntegratorSettings& settings) {
   const std::string group = kRoot + "/settings/integrator";
-  const Integrator::Options& options = settings.options;
+  const SteppingOptions& options = settings.options;
   file.make_group(group);
   file.attribute(group, "method", method_name(options.method));
   write_number(file, group, "relative_tolerance", options.relative_tolerance, "1");
   write_number(file, group, "largest_step", settings.largest_step, "s");
-  if (options.method != Integrator::Method::kGeneralizedAlpha) return;
-  write_number(file, group, "spectral_radius", options.spectral_radius, "1");
-  write_number(file, group, "fixed_step", options.fixed_step, "s");
+  if (options.method != SteppingMethod::kGeneralizedAlpha) return;
+  write_number(file, group, "spectral_radius", options.generalized_alpha.spectral_radius, "1");
+  write_number(file, group, "fixed_step", options.generalized_alpha.fixed_step, "s");
 }
 
 void write_adaptivity(support::Hdf5Writer& file, const AdaptivityOptions* adaptivity) {

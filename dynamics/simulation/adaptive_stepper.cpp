@@ -32,7 +32,7 @@ State expand(const Model& model, const AdaptivityOptions& options, const State& 
 
 }  // namespace
 
-AdaptiveStepper::AdaptiveStepper(const Model& model, const Integrator::Options& integrator,
+AdaptiveStepper::AdaptiveStepper(const Model& model, const SteppingOptions& integrator,
                                  const AdaptivityOptions& options, Listener listener)
     : model_(&model), integrator_(integrator), options_(options), listener_(std::move(listener)) {}
 
@@ -54,12 +54,7 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
   leg->num_modes = modes_->num_active_modes();
   if (options_.changes) leg->held_strain = motion_->calc_held_strain(modes_->active());
   const Model& model = options_.changes ? leg->held.model : *model_;
-  Integrator::Options integrator = integrator_;
-  // Where only modes are free and all have left, there is no small motion to know beforehand.
-  if (model.num_freedoms() == 0 && integrator.method == Integrator::Method::kExponential) {
-    integrator.method = Integrator::Method::kAdams;
-  }
-  leg->stepper = make_stepper(model, integrator, listener_.on_repartition);
+  leg->stepper = make_stepper(model, integrator_, listener_.on_repartition);
   if (std::optional<KnownMotion> known = modes_->indicator().calc_small_motion(leg->held)) {
     leg->stepper->suggest(std::move(*known));
   }

@@ -9,6 +9,7 @@
 
 #include "dynamics/adaptivity/full_motion.h"
 #include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/system_stepper.h"
 
 namespace sprung::dynamics {
@@ -24,7 +25,7 @@ class AdaptiveStepper final : public SystemStepper {
     std::function<void(double time, int coordinate, const std::string& what)> on_change;
   };
   /// @param model  that the run was given: the full one where modes change; has to outlive this
-  AdaptiveStepper(const Model& model, const Integrator::Options& integrator, const AdaptivityOptions& options,
+  AdaptiveStepper(const Model& model, const SteppingOptions& integrator, const AdaptivityOptions& options,
                   Listener listener);
 
   void start(const State& state) override;
@@ -66,7 +67,7 @@ class AdaptiveStepper final : public SystemStepper {
   double rate_of(int coordinate) const;
 
   const Model* model_;
-  Integrator::Options integrator_;
+  SteppingOptions integrator_;
   AdaptivityOptions options_;
   Listener listener_;
 

@@ -7,12 +7,13 @@
 
 namespace sprung::dynamics {
 
-std::unique_ptr<SystemStepper> make_stepper(const Model& model, const Integrator::Options& options,
+std::unique_ptr<SystemStepper> make_stepper(const Model& model, const SteppingOptions& options,
                                             std::function<void(double time)> on_repartition) {
-  if (options.method == Integrator::Method::kGeneralizedAlpha) {
-    return std::make_unique<GeneralizedAlphaStepper>(model, options);
+  if (options.method == SteppingMethod::kGeneralizedAlpha) {
+    return std::make_unique<GeneralizedAlphaStepper>(model, options.relative_tolerance,
+                                                     options.generalized_alpha);
   }
-  return std::make_unique<PartitionedStepper>(model, options, std::move(on_repartition));
+  return std::make_unique<PartitionedStepper>(model, integrator_options(options), std::move(on_repartition));
 }
 
 }  // namespace sprung::dynamics

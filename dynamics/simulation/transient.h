@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/adaptivity/mode_adaptation.h"
-#include "dynamics/integration/integrator.h"
+#include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/system_stepper.h"
 #include "dynamics/system/model.h"
 
@@ -47,7 +47,7 @@ struct TransientOptions {
   double end_time = 0.0;                                          ///< [s]
   double output_step = 1e-3;                                      ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
-  Integrator::Options integrator;
+  SteppingOptions integrator;
   /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the
   /// run are the full ones.
   std::optional<AdaptivityOptions> adaptivity;

@@ -46,7 +46,7 @@ struct BumpRun {
   double duration = 5.0;  ///< [s]
   double shift = 0.0;     ///< of the start along x [m]
   bool mirrored = false;  ///< mirrored truck, driving towards +x
-  dynamics::Integrator::Method method = dynamics::Integrator::Method::kExponential;
+  dynamics::SteppingMethod method = dynamics::SteppingMethod::kExponential;
 };
 struct BumpResult {
   /// Chassis frame at each output (1 ms): distance along the heading and height from static balance [m],

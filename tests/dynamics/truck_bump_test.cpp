@@ -63,7 +63,7 @@ TEST_CASE("Three integrators take the truck over the bump alike", "[truck]") {
   for (const int num_modes : {0, 4}) {
     const test::BumpResult exponential =
         test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0});
-    for (const auto method : {dynamics::Integrator::Method::kAdams, dynamics::Integrator::Method::kBdf}) {
+    for (const auto method : {dynamics::SteppingMethod::kAdams, dynamics::SteppingMethod::kBdf}) {
       const test::BumpResult other =
           test::drive_over_bump({.num_chassis_modes = num_modes, .duration = 2.0, .method = method});
       INFO(num_modes << " chassis modes");
@@ -82,7 +82,7 @@ TEST_CASE("Generalized-α without a partition takes the truck over the bump alik
           test::drive_over_bump({.num_chassis_modes = num_modes,
                                  .relative_tolerance = tolerance,
                                  .duration = 2.0,
-                                 .method = dynamics::Integrator::Method::kGeneralizedAlpha});
+                                 .method = dynamics::SteppingMethod::kGeneralizedAlpha});
       const double difference = (other.chassis - exponential.chassis).cwiseAbs().maxCoeff();
       INFO(num_modes << " chassis modes, tolerance " << tolerance << ", difference " << difference);
       CHECK(difference < 0.1 * last);

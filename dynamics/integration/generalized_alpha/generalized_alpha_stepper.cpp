@@ -31,14 +31,15 @@ const char* remark_on_radius(double spectral_radius) {
 
 }  // namespace
 
-GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, const Integrator::Options& options)
+GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double relative_tolerance,
+                                                 const GeneralizedAlphaOptions& options)
     : model_(&model),
       method_(options.spectral_radius),
       spectral_radius_(options.spectral_radius),
       fixed_step_(options.fixed_step),
       piece_(model),
       equations_(model, SystemTerms::Markers::kActing),
-      step_(model, piece_, method_, options.relative_tolerance),
+      step_(model, piece_, method_, relative_tolerance),
       next_length_(kFirstLength),
       switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()),

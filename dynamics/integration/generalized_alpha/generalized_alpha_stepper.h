@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/integration/generalized_alpha/generalized_alpha_step.h"
+#include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/switch_search.h"
 #include "dynamics/integration/system_stepper.h"
 #include "dynamics/integration/touch_search.h"
@@ -19,7 +20,8 @@ class GeneralizedAlphaStepper final : public SystemStepper {
  public:
   /// @param model  has to outlive this
   /// @throws std::invalid_argument for a spectral radius outside 0 … 1
-  GeneralizedAlphaStepper(const Model& model, const Integrator::Options& options);
+  GeneralizedAlphaStepper(const Model& model, double relative_tolerance,
+                          const GeneralizedAlphaOptions& options);
 
   void start(const State& state) override;
   void resume(double end_time) override;

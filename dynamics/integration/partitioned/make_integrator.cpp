@@ -1,7 +1,5 @@
 #include "dynamics/integration/partitioned/make_integrator.h"
 
-#include <stdexcept>
-
 #include "dynamics/integration/cvode/cvode_integrator.h"
 #include "dynamics/integration/exponential/exponential_integrator.h"
 
@@ -15,9 +13,6 @@ std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator:
       return std::make_unique<CvodeIntegrator>(system, adams);
     }
     return std::make_unique<ExponentialIntegrator>(system, options.relative_tolerance);
-  }
-  if (options.method == Integrator::Method::kGeneralizedAlpha) {
-    throw std::invalid_argument("make_integrator: generalized-alpha is a stepper of the whole system");
   }
   return std::make_unique<CvodeIntegrator>(system, options);
 }

@@ -8,7 +8,6 @@ namespace sprung::dynamics {
 
 /// @param system  has to outlive the integrator
 /// @return for the exponential method without a freedom, which has no vibration to know, Adams
-/// @throws std::invalid_argument for generalized-α, which has no use for independent coordinates
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const Integrator::Options& options);
 
 }  // namespace sprung::dynamics

@@ -69,7 +69,7 @@ TEST_CASE("A run file is read as it is written, its paths relative to its folder
   CHECK(run.start == dynamics::Run::Start::kAsGiven);
   CHECK(run.statistics_from == 0.5);
   CHECK(run.statistics_to == 4.5);
-  CHECK(run.integrator.options.method == dynamics::Integrator::Method::kBdf);
+  CHECK(run.integrator.options.method == dynamics::SteppingMethod::kBdf);
   CHECK(run.integrator.options.relative_tolerance == 1e-8);
   CHECK(run.integrator.largest_step == 0.01);
   CHECK(dynamics::make_road(run)->height(2.0) == 0.2);
@@ -214,9 +214,9 @@ TEST_CASE("Generalized-α takes a spectral radius and a fixed step") {
   const dynamics::Run run =
       read(test::with_change(kText, "method = \"bdf\"\n",
                              "method = \"generalized-alpha\"\nspectral_radius = 0.6\nfixed_step = 1e-4\n"));
-  CHECK(run.integrator.options.method == dynamics::Integrator::Method::kGeneralizedAlpha);
-  CHECK(run.integrator.options.spectral_radius == 0.6);
-  CHECK(run.integrator.options.fixed_step == 1e-4);
+  CHECK(run.integrator.options.method == dynamics::SteppingMethod::kGeneralizedAlpha);
+  CHECK(run.integrator.options.generalized_alpha.spectral_radius == 0.6);
+  CHECK(run.integrator.options.generalized_alpha.fixed_step == 1e-4);
 }
 
 TEST_CASE("Output points that the vehicle lacks are refused") {

@@ -142,7 +142,7 @@ TEST_CASE("A stop that a flying body touches for less than a step is found by ea
                                          .spring = spring,
                                          .damper = PiecewisePolynomial(std::vector<double>{0.0})}));
   dynamics::number_model(model);
-  using Method = dynamics::Integrator::Method;
+  using Method = dynamics::SteppingMethod;
   for (const Method method :
        {Method::kExponential, Method::kAdams, Method::kBdf, Method::kGeneralizedAlpha}) {
     INFO("method " << static_cast<int>(method));

@@ -11,7 +11,7 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using dynamics::Integrator;
+using dynamics::SteppingMethod;
 using dynamics::Model;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -29,7 +29,7 @@ struct Motion {
 };
 
 Motion run(const Model& model, const VectorXd& q, const VectorXd& v, double end_time, double output_step,
-           double tolerance, Integrator::Method method = Integrator::Method::kAdams) {
+           double tolerance, SteppingMethod method = SteppingMethod::kAdams) {
   Motion motion;
   double energy = 0.0;
   dynamics::TransientOptions options;
@@ -101,8 +101,7 @@ TEST_CASE("A pendulum going round keeps its period while its partition changes o
   // [Landau & Lifshitz 1976], §11: T = 2 k K(k)/√(g/l) for one turn, k = 2√(g/l)/rate
   const double k = 2.0 * std::sqrt(kGravity / kLength) / bottom_rate;
   const double turn = 2.0 * k * std::comp_ellint_1(k) / std::sqrt(kGravity / kLength);
-  for (const auto method :
-       {Integrator::Method::kAdams, Integrator::Method::kBdf, Integrator::Method::kExponential}) {
+  for (const auto method : {SteppingMethod::kAdams, SteppingMethod::kBdf, SteppingMethod::kExponential}) {
     const Motion motion = run(model, test::place_pendulum(kArm, -0.5 * pi), turning(-0.5 * pi, bottom_rate),
                               10.0 * turn, turn / 20.0, 1e-9, method);
     CHECK(motion.statistics.stepper.repartitions >= 10);
@@ -245,7 +244,7 @@ TEST_CASE("Mechanisms move the same where they have turned often or stand far aw
   const Eigen::Vector3d start = test::place_pendulum(kArm, 0.0);
   const Eigen::Vector3d turned = start + Eigen::Vector3d(0.0, 0.0, 2.0 * pi * 160e3);
   const Eigen::Vector3d away = start + Eigen::Vector3d(1e5, -3e5, 0.0);
-  using Method = Integrator::Method;
+  using Method = SteppingMethod;
   for (const Method method : {Method::kExponential, Method::kAdams, Method::kBdf}) {
     INFO("method " << static_cast<int>(method));
     const auto fall = [&](const Model& of, const Eigen::Vector3d& from) {

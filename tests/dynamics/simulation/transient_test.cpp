@@ -16,7 +16,7 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using dynamics::Integrator;
+using dynamics::SteppingMethod;
 using dynamics::Model;
 using dynamics::PiecewisePolynomial;
 using Eigen::VectorXd;
@@ -97,8 +97,8 @@ TEST_CASE("A wheel dropped on the ground touches and leaves it at the instants t
   const double contact = (2.0 * std::numbers::pi - 2.0 * std::atan(speed * omega / kGravity)) / omega;
   const std::vector<double> expected{fall, fall + contact, 3.0 * fall + contact, 3.0 * fall + 2.0 * contact};
   // The error of generalized-α goes with the tolerance to the power ⅔.
-  for (const auto& [method, margin] : {std::pair{Integrator::Method::kExponential, 1e-8},
-                                       std::pair{Integrator::Method::kGeneralizedAlpha, 1e-6}}) {
+  for (const auto& [method, margin] :
+       {std::pair{SteppingMethod::kExponential, 1e-8}, std::pair{SteppingMethod::kGeneralizedAlpha, 1e-6}}) {
     std::vector<dynamics::Event> events;
     double highest = 0.0;
     dynamics::TransientOptions options;

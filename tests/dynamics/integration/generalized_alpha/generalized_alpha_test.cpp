@@ -25,8 +25,9 @@ using namespace sprung;
 using Catch::Matchers::Contains;
 using dynamics::GeneralizedAlpha;
 using dynamics::GeneralizedAlphaStepper;
-using dynamics::Integrator;
 using dynamics::Model;
+using dynamics::SteppingMethod;
+using dynamics::SteppingOptions;
 using Eigen::VectorXd;
 
 namespace {
@@ -48,11 +49,14 @@ Eigen::Matrix4d amplification(const GeneralizedAlpha& method, double Omega) {
   return after.fullPivLu().solve(before);
 }
 
-Integrator::Options fixed_steps(double length, double spectral_radius = 0.8) {
-  return {.method = Integrator::Method::kGeneralizedAlpha,
+SteppingOptions fixed_steps(double length, double spectral_radius = 0.8) {
+  return {.method = SteppingMethod::kGeneralizedAlpha,
           .relative_tolerance = 1e-10,  // of the iteration
-          .spectral_radius = spectral_radius,
-          .fixed_step = length};
+          .generalized_alpha = {.spectral_radius = spectral_radius, .fixed_step = length}};
+}
+
+GeneralizedAlphaStepper make_stepper(const Model& model, const SteppingOptions& options) {
+  return {model, options.relative_tolerance, options.generalized_alpha};
 }
 
 void begin(GeneralizedAlphaStepper& stepper, const dynamics::State& state, double end_time) {
@@ -63,7 +67,7 @@ void begin(GeneralizedAlphaStepper& stepper, const dynamics::State& state, doubl
 }
 
 void finish(GeneralizedAlphaStepper& stepper) {
-  while (stepper.step(kInfinity) != Integrator::StepResult::kEnded) {
+  while (stepper.step(kInfinity) != dynamics::Integrator::StepResult::kEnded) {
   }
 }
 
@@ -121,7 +125,7 @@ struct Outputs {
 };
 
 Outputs run(const Model& model, const dynamics::State& start, double end_time,
-            const Integrator::Options& options) {
+            const SteppingOptions& options) {
   Outputs outputs;
   dynamics::TransientOptions transient;
   transient.end_time = end_time;
@@ -187,7 +191,7 @@ TEST_CASE("A stiff oscillator loses its amplitude by the spectral radius in each
   for (const double radius : {0.0, 0.5, 0.8, 0.95}) {
     INFO("spectral radius " << radius);
     const GeneralizedAlpha method(radius);
-    GeneralizedAlphaStepper stepper(model, fixed_steps(length, radius));
+    GeneralizedAlphaStepper stepper = make_stepper(model, fixed_steps(length, radius));
     begin(stepper, test::make_state(model, start, VectorXd::Zero(3)), 40.0 * length);
     const auto x_and_v = [&] {
       return Eigen::Vector2d(stepper.motion().q[0] - kFar, length * stepper.motion().v[0]);
@@ -230,10 +234,10 @@ TEST_CASE("Positions, velocities and multipliers converge with order 2", "[analy
   for (const Case& test_case : cases) {
     const Model& model = test_case.model;
     const Outputs reference = run(model, test_case.start, test_case.end,
-                                  {.method = Integrator::Method::kAdams, .relative_tolerance = 1e-12});
+                                  {.method = SteppingMethod::kAdams, .relative_tolerance = 1e-12});
     Eigen::Array4d last = Eigen::Array4d::Zero();
     for (int halving = 0; halving < 3; ++halving) {
-      GeneralizedAlphaStepper stepper(model, fixed_steps(test_case.longest / std::pow(2.0, halving)));
+      GeneralizedAlphaStepper stepper = make_stepper(model, fixed_steps(test_case.longest / std::pow(2.0, halving)));
       begin(stepper, test_case.start, test_case.end);
       finish(stepper);
       const dynamics::ConstrainedMotion& end = stepper.motion();
@@ -276,12 +280,12 @@ TEST_CASE("Velocities break their constraints to second order, outputs do not", 
 TEST_CASE("A mechanism with a flexible link moves as the other integrators move it", "[analysis]") {
   const FourBar mechanism({1, 2, 3});
   const Outputs reference = run(mechanism.model, mechanism.start, 0.5,
-                                {.method = Integrator::Method::kExponential, .relative_tolerance = 1e-9});
+                                {.method = SteppingMethod::kExponential, .relative_tolerance = 1e-9});
   double last = kInfinity;
   for (const double tolerance : {1e-5, 1e-7}) {
     const Outputs outputs =
         run(mechanism.model, mechanism.start, 0.5,
-            {.method = Integrator::Method::kGeneralizedAlpha, .relative_tolerance = tolerance});
+            {.method = SteppingMethod::kGeneralizedAlpha, .relative_tolerance = tolerance});
     const double difference = largest_difference(outputs.q, reference.q);
     INFO("tolerance " << tolerance << ", difference " << difference);
     CHECK(difference < 0.1 * last);
@@ -323,7 +327,7 @@ TEST_CASE("Motion that leads nowhere is refused with the time and the reason", "
   VectorXd v = VectorXd::Zero(6);
   dynamics::project_velocities(model, 0.0, q, v);
   const auto run_beyond = [&] {
-    run(model, test::make_state(model, q, v), 1.0, {.method = Integrator::Method::kGeneralizedAlpha});
+    run(model, test::make_state(model, q, v), 1.0, {.method = SteppingMethod::kGeneralizedAlpha});
   };
   CHECK_THROWS_AS(run_beyond(), support::NumericalError);
   CHECK_THROWS_WITH(run_beyond(), Contains("at t = 0.") && Contains("singular"));

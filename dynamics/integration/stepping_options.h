@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "dynamics/integration/integrator.h"
+
+namespace sprung::dynamics {
+
+/// Every method by which a vehicle can be run: the integrators of ordinary differential equations, and
+/// generalized-α.
+enum class SteppingMethod { kExponential, kGeneralizedAlpha, kAdams, kBdf };
+
+/// The names of the methods as in run files, in the order of SteppingMethod.
+inline constexpr std::array<std::string_view, 4> kMethodNames = {"exponential", "generalized-alpha", "adams",
+                                                                 "bdf"};
+inline std::string_view method_name(SteppingMethod method) {
+  return kMethodNames[static_cast<std::size_t>(method)];
+}
+
+/// What generalized-α alone asks for.
+struct GeneralizedAlphaOptions {
+  double spectral_radius = 0.8;  ///< 0 to 1, at infinite frequency
+  /// All steps are equal and at most this long, whatever their error; 0: the error decides [s].
+  double fixed_step = 0.0;
+};
+
+struct SteppingOptions {
+  SteppingMethod method = SteppingMethod::kExponential;
+  double relative_tolerance = 1e-6;  ///< > 0, of each component's natural size
+  GeneralizedAlphaOptions generalized_alpha = {};
+};
+
+/// The method where none is asked for: exponential, or Adams for more freedoms than make its full matrices, 2f×2f,
+/// dearer than the equations, and for none.
+SteppingMethod default_method(int num_freedoms);
+
+/// @throws std::invalid_argument for generalized-α, which is no integrator of ordinary differential equations
+Integrator::Options integrator_options(const SteppingOptions& options);
+
+}  // namespace sprung::dynamics
