@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sprung::reduce {
@@ -101,8 +102,11 @@ struct Superelement {
   int num_nodes() const { return static_cast<int>(node_ids.size()); }
 };
 
-/// Newest version of the file format; every earlier one can be read (reduce/superelement/superelement.md).
-inline constexpr std::int64_t kSuperelementVersion = 2;
+/// The file format (reduce/superelement/superelement.md): its name, and its versions, all of which are read.
+inline constexpr std::string_view kSuperelementFormat = "sprung-superelement";
+inline constexpr std::int64_t kFirstVersion = 1;
+inline constexpr std::int64_t kStiffeningVersion = 2;                     ///< brought the geometric stiffness
+inline constexpr std::int64_t kSuperelementVersion = kStiffeningVersion;  ///< the newest
 
 /// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it
 /// is a file of version 1.

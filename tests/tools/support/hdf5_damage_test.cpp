@@ -32,18 +32,17 @@ std::string make_file(const TemporaryFolder& folder) {
 struct Content {
   std::vector<double> shape, time;
   std::vector<std::int64_t> ids;
-  std::vector<std::string> names, members;
+  std::vector<std::string> names;
   std::string format, unit;
   bool operator==(const Content&) const = default;
 };
 
 Content read_all(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
-  return {.shape = reader.array("modes/shape", std::array<std::size_t, 1>{3}),
-          .time = reader.array("time", std::array<std::size_t, 2>{1, 2}),
-          .ids = reader.integers("ids", 3),
-          .names = reader.strings("names"),
-          .members = reader.members("/"),
+  return {.shape = reader.reals("modes/shape", {3}),
+          .time = reader.reals("time", {1, 2}),
+          .ids = reader.integers("ids", {3}),
+          .names = reader.strings("names", {-1}),
           .format = reader.string_attribute("/", "format"),
           .unit = reader.string_attribute("modes/shape", "unit")};
 }

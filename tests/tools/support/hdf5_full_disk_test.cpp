@@ -106,7 +106,7 @@ int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf
   lift_limit();
   Hdf5Writer writer(target);
   write_at_once(writer);
-  return Hdf5Reader(target).vector("x49", 1000)[999] == 0.25 ? kAsExpected : kUnusable;
+  return Hdf5Reader(target).reals("x49", {1000})[999] == 0.25 ? kAsExpected : kUnusable;
 }
 
 }  // namespace
