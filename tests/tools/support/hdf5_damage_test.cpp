@@ -23,8 +23,7 @@ std::string make_file(const TemporaryFolder& folder) {
   writer.write("modes/shape", std::vector{1.0, kMarker, 3.0}, "m");
   writer.write("ids", std::vector<std::int64_t>{7, 8, 9});
   writer.write("names", std::vector<std::string>{"first", "second"});
-  writer.make_growing("time", 2, "s");
-  writer.append("time", std::array{0.1, 0.2});
+  writer.append(writer.make_growing("time", 2, "s"), std::array{0.1, 0.2});
   writer.commit();
   return read_bytes(folder / "a.h5");
 }

@@ -175,13 +175,13 @@ TEST_CASE("a growing dataset holds all rows in the order of their coming") {
   const std::vector<double> values = make_values(3 * num_rows);
   {
     Hdf5Writer writer(folder / "a.h5");
-    writer.make_growing("time", 0, "s");
-    writer.make_growing("bodies/chassis/position", 3, "m");
+    Hdf5GrowingDataset& time = writer.make_growing("time", 0, "s");
+    Hdf5GrowingDataset& position = writer.make_growing("bodies/chassis/position", 3, "m");
     const std::span<const double> all(values);
     for (std::size_t row = 0; row < num_rows; row += rows_at_once) {
       const std::size_t count = std::min(rows_at_once, num_rows - row);
-      writer.append("time", all.subspan(row, count));
-      writer.append("bodies/chassis/position", all.subspan(3 * row, 3 * count));
+      writer.append(time, all.subspan(row, count));
+      writer.append(position, all.subspan(3 * row, 3 * count));
       if (row % 700 == 0) writer.flush();
     }
     writer.commit();

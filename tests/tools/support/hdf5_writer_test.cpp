@@ -24,8 +24,8 @@ void write_file(const std::filesystem::path& path) {
   writer.attribute("/", "format", "test");
   writer.write("/a/values", kValues, "m");
   writer.write("/names", std::vector<std::string>{"x", "long"});
-  writer.make_growing("/time", 0, "s");
-  for (int i = 0; i < 3000; ++i) writer.append("/time", std::array{1e-3 * i});
+  Hdf5GrowingDataset& time = writer.make_growing("/time", 0, "s");
+  for (int i = 0; i < 3000; ++i) writer.append(time, std::array{1e-3 * i});
   writer.attribute("/", "complete", std::int64_t{1});
   writer.commit();
 }
@@ -85,8 +85,7 @@ TEST_CASE("what is not committed leaves nothing behind, and the old file whole")
   {
     Hdf5Writer writer(folder / "a.h5");
     writer.write("x", kValues, "m");
-    writer.make_growing("t", 0, "s");
-    writer.append("t", kValues);
+    writer.append(writer.make_growing("t", 0, "s"), kValues);
   }
   CHECK(read_bytes(folder / "a.h5") == before);
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
@@ -96,8 +95,7 @@ TEST_CASE("a temporary file that is kept can be read") {
   const TemporaryFolder folder;
   {
     Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
-    writer.make_growing("t", 0, "s");
-    writer.append("t", kValues);
+    writer.append(writer.make_growing("t", 0, "s"), kValues);
     writer.keep_temporary();
   }
   CHECK_FALSE(std::filesystem::exists(folder / "run.h5"));
@@ -161,15 +159,14 @@ TEST_CASE("a caller's mistake is told from a bad file") {
   const TemporaryFolder folder;
   Hdf5Writer writer(folder / "a.h5");
   writer.write("x", kValues, "m");
-  writer.make_growing("t", 2, "s");
+  Hdf5GrowingDataset& growing = writer.make_growing("t", 2, "s");
   const auto error = [](const auto& call) { return error_message<std::invalid_argument>(call); };
   CHECK(error([&] { writer.write("/x", kValues, "m"); }) == "Hdf5Writer: dataset '/x' is there already");
   CHECK(error([&] {
           writer.write("y", kValues, {1, 2, 2}, "m");
         }) == "Hdf5Writer::write: 'y' has 3 values, its shape asks for 4");
-  CHECK(error([&] { writer.append("t", kValues); }) ==
+  CHECK(error([&] { writer.append(growing, kValues); }) ==
         "Hdf5Writer::append: 3 values are not whole rows of 't' (2 columns)");
-  CHECK(error([&] { writer.append("x", kValues); }) == "Hdf5Writer::append: there is no growing dataset 'x'");
   CHECK(error([&] { writer.attribute("z", "a", 1.0); }) == "Hdf5Writer::attribute: there is no 'z'");
   CHECK(error([&] { writer.write("s", std::vector{std::string(1, '\0')}); }) ==
         "Hdf5Writer: a string of 's' contains NUL");

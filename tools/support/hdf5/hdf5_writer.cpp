@@ -252,14 +252,6 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
   return growing_.at(dataset);
 }
 
-void Hdf5Writer::append(const std::string& dataset, std::span<const double> values) {
-  const auto found = growing_.find(dataset);
-  if (found == growing_.end()) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer::append: there is no growing dataset '{}'", dataset));
-  }
-  append(found->second, values);
-}
-
 void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> values) {
   attempt([&] { dataset.append(values); });
 }

@@ -62,10 +62,9 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
-  /// @return for the faster `append`, up to `commit` or `keep_temporary`
+  /// @return for `append`, up to `commit` or `keep_temporary`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
   /// Appends whole rows, row-major. Rows are gathered to chunks, so that an error may show later.
-  void append(const std::string& dataset, std::span<const double> values);
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
   void flush();  ///< all that was appended goes to the file
 
