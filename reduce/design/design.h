@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem/beam_model.h"
-#include "reduce/modes/mode_request.h"
+#include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
 
@@ -16,7 +16,7 @@ struct Design {
   std::string name;
   fem::BeamModel model;
   int reference_node = 0;  ///< 0-based; held, and the origin of the body frame
-  ModeRequest modes;
+  WantedModes modes;
   std::vector<double> damping_ratio;  ///< of critical: one for all modes, or one for each
   support::SourceLocation damping_where = {};
   Provenance provenance;
