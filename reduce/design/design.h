@@ -34,7 +34,7 @@ Design read_design(const std::filesystem::path& path);
 /// @throws support::InputError if it cannot be read
 std::string calc_file_hash(const std::filesystem::path& path);
 
-/// Raised whenever the same design gives other numbers than before: files of an earlier revision are made
+/// Increased whenever the same design gives other numbers than before. Files of an earlier revision are made
 /// again.
 inline constexpr std::int64_t kAlgorithmRevision = 2;
 
