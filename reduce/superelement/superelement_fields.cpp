@@ -76,7 +76,8 @@ void unpack(const FieldValue& value, std::string& text) {
 template <typename Derived>
 void unpack(const FieldValue& value, Eigen::PlainObjectBase<Derived>& matrix) {
   if constexpr (Derived::RowsAtCompileTime == 1) {
-    matrix = value.reals.front().transpose();
+    const RowMatrix& values = value.reals.front();  // a column in the file
+    matrix = Eigen::Map<const Derived>(values.data(), 1, values.size());
   } else {
     matrix = value.reals.front();
   }
