@@ -29,10 +29,4 @@ AssembledMatrices assemble(const BeamModel& model);
 Eigen::SparseMatrix<double> assemble_geometric_stiffness(const BeamModel& model,
                                                          const std::vector<AxialForce>& axial_forces);
 
-/// The three rigid motions of a frame: unit translation along x, along y, unit rotation about a point.
-///
-/// @param origin  the point [m]
-/// @return 3N×3, dof order of AssembledMatrices [-, -, m; rotation in rad]
-Eigen::MatrixXd calc_rigid_motions(const Mesh& mesh, const Eigen::Vector2d& origin);
-
 }  // namespace sprung::fem

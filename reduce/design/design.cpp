@@ -54,7 +54,7 @@ ModeNumbers read_numbers(const TomlValue& value) {
   return wanted;
 }
 
-ModeRequest read_modes(const TomlTable& table) {
+WantedModes read_modes(const TomlTable& table) {
   expect_keys(table, {"count", "highest_frequency", "all", "numbers", "damping_ratio"});
   const auto count = table.find("count"), highest = table.find("highest_frequency");
   const auto all = table.find("all"), numbers = table.find("numbers");

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fem/beam_model.h"
-#include "reduce/modes/mode_request.h"
+#include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
 
@@ -16,7 +16,7 @@ struct Design {
   std::string name;
   fem::BeamModel model;
   int reference_node = 0;  ///< 0-based; held, and the origin of the body frame
-  ModeRequest modes;
+  WantedModes modes;
   std::vector<double> damping_ratio;  ///< of critical: one for all modes, or one for each
   support::SourceLocation damping_where = {};
   Provenance provenance;
@@ -34,7 +34,7 @@ Design read_design(const std::filesystem::path& path);
 /// @throws support::InputError if it cannot be read
 std::string calc_file_hash(const std::filesystem::path& path);
 
-/// Raised whenever the same design gives other numbers than before: files of an earlier revision are made
+/// Increased whenever the same design gives other numbers than before. Files of an earlier revision are made
 /// again.
 inline constexpr std::int64_t kAlgorithmRevision = 2;
 

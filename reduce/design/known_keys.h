@@ -7,8 +7,8 @@
 
 namespace sprung::reduce {
 
-/// Declares all keys of a table at once and rejects every other, before any is read: a misspelt key is then
-/// called misspelt, and not the right one missing.
+/// Declares all keys of a table and rejects every other one before any key is read. The message about a
+/// misspelt key then names that key, and does not say that the right one is missing.
 /// @throws support::InputError at the first unknown key, with the nearest known one
 void expect_keys(const support::TomlTable& table, std::initializer_list<std::string_view> keys);
 

@@ -8,9 +8,9 @@
 
 namespace sprung::reduce {
 
-/// What the modes are, apart from their frequencies.
+/// The kind of motion of each mode.
 struct ModeKinds {
-  Eigen::VectorXd axial_share;     ///< n, of the strain energy; the rest is bending and shear [-]
+  Eigen::VectorXd axial_share;     ///< n, share of the strain energy; the rest is bending and shear [-]
   Eigen::MatrixXd effective_mass;  ///< 3×n, shares of m in x, of m in y, of J₀ about the reference [-]
 };
 ModeKinds calc_mode_kinds(const Superelement& superelement);

@@ -17,12 +17,12 @@ constexpr double kMomentGap = 1e-3;  // of the radius: nearer values of ∫x φ�
 constexpr double kTie = 0.01;        // participations nearer than this share count as equal
 
 // Directions fixed so far and an orthonormal basis of those still free, as columns over a cluster's members.
-struct Partition {
+struct ClusterDirections {
   Eigen::MatrixXd fixed;
   Eigen::MatrixXd free;
 };
 
-void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   const Eigen::Index old = matrix.cols();
   matrix.conservativeResize(columns.rows(), old + columns.cols());
   matrix.rightCols(columns.cols()) = columns;
@@ -30,49 +30,49 @@ void append(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
 
 // Fixes the direction along which a linear functional of the modes acts, so that it vanishes on what stays
 // free.
-// @param row  the functional's values on the columns of partition.free
-void fix_direction(Partition& partition, const Eigen::RowVectorXd& row) {
+// @param row  the functional's values on the columns of directions.free
+void fix_direction(ClusterDirections& directions, const Eigen::RowVectorXd& row) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row.transpose());
   const Eigen::MatrixXd rotation = qr.householderQ();
-  append(partition.fixed, partition.free * rotation.leftCols(1));
-  const Eigen::MatrixXd rest = partition.free * rotation.rightCols(rotation.cols() - 1);
-  partition.free = rest;
+  append_columns(directions.fixed, directions.free * rotation.leftCols(1));
+  const Eigen::MatrixXd rest = directions.free * rotation.rightCols(rotation.cols() - 1);
+  directions.free = rest;
 }
 
 // Rule 1. @param participation  3×m, divided by the scales
-void fix_by_participation(Partition& partition, const Eigen::MatrixXd& participation) {
-  for (Eigen::Index i = 0; i < 3 && partition.free.cols() > 0; ++i) {
-    const Eigen::RowVectorXd row = participation.row(i) * partition.free;
-    if (row.norm() >= kParticipationThreshold) fix_direction(partition, row);
+void fix_by_participation(ClusterDirections& directions, const Eigen::MatrixXd& participation) {
+  for (Eigen::Index i = 0; i < 3 && directions.free.cols() > 0; ++i) {
+    const Eigen::RowVectorXd row = participation.row(i) * directions.free;
+    if (row.norm() >= kParticipationThreshold) fix_direction(directions, row);
   }
 }
 
 // Rule 3.
-void fix_by_displacement(Partition& partition, const Eigen::MatrixXd& shapes,
+void fix_by_displacement(ClusterDirections& directions, const Eigen::MatrixXd& shapes,
                          const Eigen::Matrix2Xd& node_positions) {
-  while (partition.free.cols() > 0) {
-    const Eigen::MatrixXd rest = shapes * partition.free;
-    fix_direction(partition, rest.row(find_largest_displacement(rest, node_positions)));
+  while (directions.free.cols() > 0) {
+    const Eigen::MatrixXd rest = shapes * directions.free;
+    fix_direction(directions, rest.row(find_largest_displacement(rest, node_positions)));
   }
 }
 
 // Rule 2, and rule 3 for each group that it leaves equal.
-void fix_by_moment(Partition& partition, const Eigen::MatrixXd& shapes, const BasisFrame& frame) {
-  const Eigen::MatrixXd rest = shapes * partition.free;
+void fix_by_moment(ClusterDirections& directions, const Eigen::MatrixXd& shapes, const BasisFrame& frame) {
+  const Eigen::MatrixXd rest = shapes * directions.free;
   const Eigen::MatrixXd moment = rest.transpose() * (frame.weighted_mass * rest);
   const auto eigen = support::solve_symmetric(0.5 * (moment + moment.transpose()));
   if (!eigen) throw support::NumericalError("modes: a cluster's moments have no eigenvectors");
   const Eigen::VectorXd& values = eigen->values;
-  const Eigen::MatrixXd ordered = partition.free * eigen->vectors;
+  const Eigen::MatrixXd ordered = directions.free * eigen->vectors;
   const double gap = kMomentGap * frame.node_positions.colwise().norm().maxCoeff();
   for (Eigen::Index begin = 0, end = 0; begin < values.size(); begin = end) {
     end = begin + 1;
     while (end < values.size() && values(end) - values(end - 1) < gap) ++end;
-    Partition group{.fixed = {}, .free = ordered.middleCols(begin, end - begin)};
+    ClusterDirections group{.fixed = {}, .free = ordered.middleCols(begin, end - begin)};
     fix_by_displacement(group, shapes, frame.node_positions);
-    append(partition.fixed, group.fixed);
+    append_columns(directions.fixed, group.fixed);
   }
-  partition.free.resize(partition.free.rows(), 0);
+  directions.free.resize(directions.free.rows(), 0);
 }
 
 double calc_sign(const Eigen::VectorXd& participation, const Eigen::VectorXd& shape,
@@ -115,14 +115,14 @@ Eigen::MatrixXd calc_canonical_rotation(const Eigen::MatrixXd& shapes, const Eig
     range = find_cluster_of(cluster, range.begin);
     const Eigen::MatrixXd members = shapes.middleCols(range.begin, range.size());
     const Eigen::MatrixXd parts = participation.middleCols(range.begin, range.size());
-    Partition partition{.fixed = {}, .free = Eigen::MatrixXd::Identity(range.size(), range.size())};
-    fix_by_participation(partition, parts);
-    if (partition.free.cols() > 0) fix_by_moment(partition, members, frame);
+    ClusterDirections directions{.fixed = {}, .free = Eigen::MatrixXd::Identity(range.size(), range.size())};
+    fix_by_participation(directions, parts);
+    if (directions.free.cols() > 0) fix_by_moment(directions, members, frame);
     for (Eigen::Index i = 0; i < range.size(); ++i) {
-      const Eigen::VectorXd direction = partition.fixed.col(i);
-      partition.fixed.col(i) *= calc_sign(parts * direction, members * direction, frame.node_positions);
+      const Eigen::VectorXd direction = directions.fixed.col(i);
+      directions.fixed.col(i) *= calc_sign(parts * direction, members * direction, frame.node_positions);
     }
-    rotation.block(range.begin, range.begin, range.size(), range.size()) = partition.fixed;
+    rotation.block(range.begin, range.begin, range.size(), range.size()) = directions.fixed;
   }
   return rotation;
 }

@@ -24,8 +24,8 @@ struct ClampedModes {
   int num_below = 0;  ///< modes counted below it (eigenvalue_count.h), k
 };
 
-/// Solves for the lowest modes and counts them independently; asks for more and starts anew while the count
-/// differs or the gap above the last cluster is not in sight. A basis that is not proved complete is never
+/// Solves for the lowest modes and counts them independently. While the count differs, or no gap above the
+/// last cluster was found, it solves again for more modes. A basis that is not proved complete is never
 /// returned.
 ///
 /// @param num_modes  1 … n
@@ -36,10 +36,10 @@ struct ClampedModes {
 ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
                                 const ClampedModeOptions& options = {});
 
-/// Whether solutions are all there are up to the end of the last wanted mode's cluster.
+/// Whether the solutions found are complete up to the end of the last wanted mode's cluster.
 struct ModeProof {
-  std::optional<ClampedModes> modes;  ///< if so: the modes up to there
-  std::string reason;                 ///< if not: what was found and what counted
+  std::optional<ClampedModes> modes;  ///< where they are complete: the modes up to there
+  std::string reason;                 ///< where they are not: the numbers found and counted
 };
 
 /// Counts the modes below a frequency in the gap above the last wanted one's cluster and compares.
@@ -50,7 +50,8 @@ struct ModeProof {
 /// Checked by tests/reduce/modes/clamped_modes_test.cpp
 ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, int num_modes);
 
-/// The largest n whose modes can all be had: beyond it the dense solution takes too long and too much memory.
+/// The largest n for which all modes can be asked for: the dense solution of a larger problem takes too much
+/// time and memory.
 inline constexpr int kMaxDenseSize = 3000;
 
 }  // namespace sprung::reduce

@@ -5,7 +5,8 @@
 namespace sprung::reduce {
 
 /// Number of modes with ω² below a shift σ: the negative entries of D in K − σ M = L D Lᵀ, by Sylvester's law
-/// of inertia (reduce, eq. 6). Independent of any eigenvalue solver, and it counts repeated ones.
+/// of inertia (reduce, eq. 6). It needs no eigenvalue solver, and counts a repeated
+/// eigenvalue as often as it occurs.
 ///
 /// @param omega_squared  σ ≥ 0 [rad²/s²]
 /// @throws support::NumericalError if the factors do not reproduce K − σ M (σ too near an eigenvalue)

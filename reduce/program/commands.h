@@ -8,7 +8,7 @@ namespace sprung::reduce {
 struct BuildOptions {
   std::vector<std::filesystem::path> designs;
   std::filesystem::path output_dir = ".";
-  bool force = false;  ///< make files again that are up to date, and replace what is no superelement
+  bool force = false;  ///< make files again that are up to date, and replace files that are no superelement
   bool quiet = false;  ///< errors only
 };
 

@@ -34,7 +34,7 @@ PreviousFile read_previous_file(const std::filesystem::path& path) {
     previous.superelement = read_superelement(path);
   } catch (const support::InputError& error) {
     previous.reason = error.what();
-    previous.foreign = support::is_foreign_file(path, "sprung-superelement") || is_newer(path);
+    previous.foreign = support::is_foreign_file(path, kSuperelementFormat) || is_newer(path);
   }
   return previous;
 }

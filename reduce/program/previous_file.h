@@ -8,12 +8,12 @@
 
 namespace sprung::reduce {
 
-/// What stands where a superelement is to be written.
+/// The file that is already there under the name of a superelement to be written.
 struct PreviousFile {
   bool exists = false;
-  std::optional<Superelement> superelement;  ///< if it can be read and verifies
-  bool foreign =
-      false;  ///< whole, but another program's or of a newer version: not to be replaced without asking
+  std::optional<Superelement> superelement;  ///< if it can be read
+  /// Another program's file, or a superelement of a newer version: it is replaced only with --force.
+  bool foreign = false;
   std::string reason;  ///< why it cannot be read
 };
 

@@ -6,13 +6,13 @@
 
 namespace sprung::reduce {
 
-/// Of bodies with more modes, the lowest ones that geometric stiffness is made for: its matrices are three
-/// for each point.
+/// Largest number of modes that get a geometric stiffness, because it takes three matrices for each point. Of
+/// a body with more modes they are the lowest.
 inline constexpr int kMaxStiffenedModes = 200;
 
-/// Geometric stiffness of modes under the reference loads (reduce, eqs. 19–22): for each, the frame
-/// held at its reference node is solved for its axial forces, their geometric stiffness assembled and
-/// projected.
+/// Geometric stiffness of modes under the reference loads (reduce, eqs. 19–22). For each load the frame held
+/// at its reference node is solved for its axial forces; their geometric stiffness is assembled and projected
+/// on the modes.
 ///
 /// @param reference_node  0-based; the body frame's origin
 /// @param held_stiffness  K without the reference node's freedoms

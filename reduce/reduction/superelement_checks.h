@@ -7,10 +7,10 @@
 
 namespace sprung::reduce {
 
-/// Name of the check of which the tolerance of others depends; recorded when the file is made.
+/// Name of a check recorded when the file is made. The tolerance of another check depends on its value.
 inline constexpr const char* kRoundingCheck = "rounding error of the lowest ω²";
 
-/// Verifies everything that a superelement by itself allows (reduce, "Checks"): orthogonality of
+/// Makes every check for which a superelement alone is enough (reduce, "Checks"): orthogonality of
 /// the modes, stiffness and damping against the frequencies, the inertia integrals against their components,
 /// definiteness of the mass matrix of frame and modes together, the held node, and the resultants against the
 /// stiffness and in equilibrium.

@@ -6,13 +6,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sprung::reduce {
 
-/// The moments of a body and its mode shapes over its mass, r = (x, y) and φ in the body frame. Everything
-/// that a planar floating frame needs, and what other programs' formats are made of (reduce, eqs. 10–17).
-/// Rotary inertia of sections and point masses is contained: the integrals are those of the consistent mass.
+/// Integrals of positions r = (x, y) and mode shapes φ over the mass of a body, in the body frame (reduce,
+/// eqs. 10–17). They are all that a planar floating frame needs. They are those of the consistent mass, with
+/// the rotary inertia of sections and point masses.
 struct InertiaInvariants {
   double mass = 0.0;                                       ///< m = ∫dm [kg]
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
@@ -23,22 +24,21 @@ struct InertiaInvariants {
   Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm, n×n, symmetric (identity for mass-normalised modes)
   Eigen::MatrixXd B;           ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
 
-  // The same integrals by component; what is above follows from them and from the rotary inertia.
+  // The same integrals by component, without rotary inertia. Files of other programs can be made from them.
   Eigen::RowVectorXd x_phi_x, x_phi_y, y_phi_x, y_phi_y;  ///< 1×n each, ∫x φ_x dm …
   Eigen::MatrixXd phi_x_phi_x, phi_x_phi_y, phi_y_phi_y;  ///< n×n each, ∫φ_xᵀφ_x dm …
 };
 
-/// Geometric stiffness of the lowest m modes under reference loads: that of the axial forces which the body,
-/// held at its reference node, has under each (reduce, eqs. 19, 20). Each m×m, symmetric. Times
-/// minus one half it is, in the load's direction, the displacement of second order in the modal coordinates
-/// that beams which bend without stretching make (reduce, eq. 22).
+/// Geometric stiffness of the lowest m modes under reference loads. Each load causes axial forces in the body
+/// held at its reference node, and these stiffen or soften bending (reduce, eqs. 19, 20). Each matrix is m×m
+/// and symmetric. It also gives the displacement of second order (reduce, eq. 22).
 struct GeometricStiffness {
   Eigen::MatrixXd centrifugal;           ///< K_ω, of turning at 1 rad/s about the body frame's origin [1]
   Eigen::MatrixXd angular_acceleration;  ///< K_α, of the inertia at 1 rad/s² [1]
   /// K_x, K_y, of the inertia at an acceleration of the frame of 1 m/s² along its axes [1/m]
   std::array<Eigen::MatrixXd, 2> acceleration;
-  /// Of each of the superelement's points: K of a force of 1 N along x, along y [1/(kg·m)], of a moment of
-  /// 1 N·m [1/(kg·m²)] on its node
+  /// For each of the superelement's points: K of a force of 1 N on its node along x, along y [1/(kg·m)], and
+  /// of a moment of 1 N·m [1/(kg·m²)]
   std::vector<std::array<Eigen::MatrixXd, 3>> point_loads;
 
   int num_modes() const { return static_cast<int>(centrifugal.rows()); }
@@ -50,7 +50,7 @@ struct NamedPoint {
   int node = 0;  ///< 0-based
 };
 
-/// A check made when the file was written: passed when value ≤ tolerance.
+/// A check made when the file was written.
 struct CheckResult {
   std::string name;
   double value = 0.0;
@@ -65,12 +65,12 @@ struct Provenance {
   std::vector<std::string> input_names;  ///< mesh files read, as the design names them
   std::vector<std::string> input_hashes;
   std::string program_version;
-  std::int64_t algorithm_revision = 0;  ///< raised whenever the same design gives other numbers
+  std::int64_t algorithm_revision = 0;  ///< increased whenever the same design gives other numbers
 };
 
-/// A flexible body reduced to its modes: what stage one writes and stage two loads. SI units, body frame with
-/// its origin at the reference node. n modes, N nodes, E elements. Modes are held at the reference node,
-/// mass-normalised, in ascending frequency, in the canonical basis (reduce, "One basis").
+/// A flexible body reduced to its modes: what stage one writes and stage two loads. SI units; the origin of
+/// the body frame is the reference node. n modes, N nodes, E elements. The modes do not move the reference
+/// node; they are mass-normalised, in ascending frequency, in the canonical basis (reduce, "One basis").
 struct Superelement {
   std::string name;
 
@@ -101,10 +101,13 @@ struct Superelement {
   int num_nodes() const { return static_cast<int>(node_ids.size()); }
 };
 
-/// Newest version of the file format; every earlier one can be read (reduce/superelement/superelement.md).
-inline constexpr std::int64_t kSuperelementVersion = 2;
+/// The file format (reduce/superelement/superelement.md): its name, and its versions, all of which are read.
+inline constexpr std::string_view kSuperelementFormat = "sprung-superelement";
+inline constexpr std::int64_t kFirstVersion = 1;
+inline constexpr std::int64_t kStiffeningVersion = 2;                     ///< brought the geometric stiffness
+inline constexpr std::int64_t kSuperelementVersion = kStiffeningVersion;  ///< the newest
 
-/// Writes the file whole or not at all; equal superelements give equal bytes. Without geometric stiffness it
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without geometric stiffness it
 /// is a file of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
@@ -115,7 +118,7 @@ std::string write_superelement(const Superelement& superelement, const std::file
 /// @throws support::InputError naming file and dataset
 Superelement read_superelement(const std::filesystem::path& path);
 
-/// Points of a superelement are found by name. @return 0-based node, or -1
+/// The node of the point with this name. @return 0-based node, or -1
 int find_point(const Superelement& superelement, const std::string& name);
 
 }  // namespace sprung::reduce

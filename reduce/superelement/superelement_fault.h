@@ -13,9 +13,9 @@ struct SuperelementFault {
   std::string message;
 };
 
-/// The first part that does not fit the others or cannot be: sizes, ranges of indices, finite values, signs,
-/// symmetry, ascending frequencies, positive definite matrices. What the writer refuses to write and the
-/// reader to return.
+/// The first thing found wrong: the fields' shapes and rules (superelement_fields.h), then the rules between
+/// them: indices in range, distinct names, ascending frequencies, a possible second moment. The writer does
+/// not write a superelement with a fault, and the reader does not return one.
 std::optional<SuperelementFault> find_fault(const Superelement& superelement);
 
 }  // namespace sprung::reduce

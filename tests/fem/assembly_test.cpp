@@ -6,6 +6,7 @@
 
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
+#include "tests/fem/rigid_motions.h"
 
 namespace sprung::fem {
 
@@ -16,7 +17,7 @@ constexpr double kRounding = 1e-13;  // relative, of sums over a few elements
 TEST_CASE("A general frame's rigid motions store no energy") {
   const BeamModel model = test::make_general_frame();
   const Eigen::MatrixXd K = assemble(model).stiffness;
-  const Eigen::MatrixXd force = K * calc_rigid_motions(model.mesh, {-0.7, 2.3});
+  const Eigen::MatrixXd force = K * test::calc_rigid_motions(model.mesh, {-0.7, 2.3});
   CHECK(force.lpNorm<Eigen::Infinity>() < kRounding * K.lpNorm<Eigen::Infinity>());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, Eigen::EigenvaluesOnly);
   CHECK(modes.eigenvalues()[3] > 1e-6 * modes.eigenvalues().maxCoeff());  // and only they
@@ -47,7 +48,7 @@ TEST_CASE("A general frame's rigid motions carry its exact mass, first moment an
   expected << mass, 0, -first_moment.y(),  //
       0, mass, first_moment.x(),           //
       -first_moment.y(), first_moment.x(), inertia;
-  const Eigen::MatrixXd R = calc_rigid_motions(model.mesh, origin);
+  const Eigen::MatrixXd R = test::calc_rigid_motions(model.mesh, origin);
   CHECK(test::calc_difference(R.transpose() * (assemble(model).mass * R), expected) < kRounding);
 }
 

@@ -7,6 +7,7 @@
 #include "fem/assembly.h"
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
+#include "tests/fem/rigid_motions.h"
 
 namespace sprung::fem {
 
@@ -30,7 +31,7 @@ TEST_CASE("The inertia load of a frame is minus its mass times the acceleration 
   const BeamModel model = test::make_general_frame();
   const Eigen::Vector2d origin(0.94, 1.37);
   const FrameAcceleration acceleration{.linear = {1.7, -2.3}, .angular = 0.9, .omega_squared = 3.1};
-  const Eigen::MatrixXd rigid = calc_rigid_motions(model.mesh, origin);
+  const Eigen::MatrixXd rigid = test::calc_rigid_motions(model.mesh, origin);
   Eigen::VectorXd nodes = rigid * Eigen::Vector3d(1.7, -2.3, 0.9);
   for (int node = 0; node < model.mesh.num_nodes(); ++node) {
     nodes.segment<2>(3 * node) -= 3.1 * (model.mesh.node_positions.col(node) - origin);

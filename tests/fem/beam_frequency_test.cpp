@@ -5,6 +5,7 @@
 #include "fem/assembly.h"
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
+#include "tests/fem/rigid_motions.h"
 
 namespace sprung::fem {
 
@@ -30,7 +31,7 @@ double calc_frequency(double beta_L_squared) {
 // others.
 Eigen::VectorXd calc_free_frequencies(const BeamModel& model) {
   const AssembledMatrices assembled = assemble(model);
-  const Eigen::MatrixXd MR = assembled.mass * calc_rigid_motions(model.mesh, {1.0, 0.5});
+  const Eigen::MatrixXd MR = assembled.mass * test::calc_rigid_motions(model.mesh, {1.0, 0.5});
   const Eigen::MatrixXd K = Eigen::MatrixXd(assembled.stiffness) + 1e9 * MR * MR.transpose();
   return test::calc_frequencies(K, assembled.mass);
 }

@@ -7,6 +7,7 @@
 #include "fem/assembly.h"
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
+#include "tests/fem/rigid_motions.h"
 
 namespace sprung::fem {
 
@@ -154,7 +155,7 @@ TEST_CASE("Of rigid motions, the moments with shape functions are the moments wi
   const BeamModel model = test::make_general_frame();
   const Eigen::Vector2d origin(0.3, -1.1);
   const MassMoments moments = calc_mass_moments(model, origin);
-  const Eigen::MatrixXd R = calc_rigid_motions(model.mesh, origin);  // rotation: (−y, x)
+  const Eigen::MatrixXd R = test::calc_rigid_motions(model.mesh, origin);  // rotation: (−y, x)
   const double mass = moments.mass, Sx = moments.first_moment.x(), Sy = moments.first_moment.y();
   Eigen::MatrixXd found(7, 3), expected(7, 3);
   found << moments.N_x.transpose() * R, moments.N_y.transpose() * R, moments.x_N_x.transpose() * R,

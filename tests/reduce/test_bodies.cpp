@@ -124,7 +124,7 @@ fem::BeamModel renumber(const fem::BeamModel& model, std::uint64_t seed) {
   return result;
 }
 
-Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference, const ModeRequest& modes) {
+Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference, const WantedModes& modes) {
   return {.name = "body",
           .model = model,
           .reference_node = find_node_at(model, reference),

@@ -34,7 +34,7 @@ fem::BeamModel make_spoked_square(double angle, int num_elements = 3);
 fem::BeamModel renumber(const fem::BeamModel& model, std::uint64_t seed);
 
 /// A design that holds a model at a place. Damping 2 %.
-Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference, const ModeRequest& modes);
+Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference, const WantedModes& modes);
 
 /// Two unlike arms with shear and rotary inertia, seven modes, two named points, a mesh file in its
 /// provenance.

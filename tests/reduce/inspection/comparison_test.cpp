@@ -12,9 +12,9 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-const ModeRequest kSix{.wanted = ModeCount{6}};
+const WantedModes kSix{.wanted = ModeCount{6}};
 
-Superelement reduce_star(int num_elements, double angle = 0.3, const ModeRequest& request = kSix) {
+Superelement reduce_star(int num_elements, double angle = 0.3, const WantedModes& request = kSix) {
   return make_superelement(
       testing::make_design(testing::make_star(2, angle, num_elements), {0.0, 0.0}, request));
 }

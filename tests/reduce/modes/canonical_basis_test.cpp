@@ -99,7 +99,7 @@ TEST_CASE("the lowest modes of a body have one basis for every start vector and 
     const ModalProblem problem =
         make_modal_problem(body.model, testing::find_node_at(body.model, body.reference));
     const ClampedModes lowest = calc_clamped_modes(problem, 12, {.method = EigenMethod::kDense});
-    const ModeRequest request{.wanted = ModeCount{static_cast<int>(lowest.cluster.size())}};
+    const WantedModes request{.wanted = ModeCount{static_cast<int>(lowest.cluster.size())}};
     const Superelement dense =
         make_superelement(make_design(body.model, body.reference, request), {.method = EigenMethod::kDense});
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

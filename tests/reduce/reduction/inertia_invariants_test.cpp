@@ -7,6 +7,7 @@
 #include "fem/assembly.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
+#include "tests/fem/rigid_motions.h"
 #include "tests/reduce/test_bodies.h"
 
 namespace sprung::reduce {
@@ -33,7 +34,7 @@ struct Case {
 TEST_CASE("the invariants are the projections of the consistent mass") {
   const Case c;
   const Eigen::SparseMatrix<double> M = fem::assemble(c.model).mass;
-  const Eigen::MatrixXd R = fem::calc_rigid_motions(c.model.mesh, c.origin);
+  const Eigen::MatrixXd R = fem::test::calc_rigid_motions(c.model.mesh, c.origin);
   const InertiaInvariants& inertia = c.s.inertia;
   Eigen::MatrixXd all(R.rows(), 3 + c.s.num_modes());
   all << R, c.s.shapes;
@@ -48,7 +49,7 @@ TEST_CASE("a modal displacement that equals a rigid turn has the invariants of t
   // a finite turn the positions are linear in the "amplitudes" below, so that the moments of the moved body
   // follow exactly.
   const Case c;
-  Eigen::MatrixXd shapes = fem::calc_rigid_motions(c.model.mesh, c.origin);
+  Eigen::MatrixXd shapes = fem::test::calc_rigid_motions(c.model.mesh, c.origin);
   const InertiaInvariants inertia = calc_inertia_invariants(c.moments, shapes);
   CHECK(inertia.P(0, 0) == Approx(inertia.mass));
   CHECK(inertia.P(1, 1) == Approx(inertia.mass));
@@ -130,7 +131,7 @@ TEST_CASE("the mass matrix of frame and all modes is positive definite and keeps
   CHECK(mass == mass.transpose());
   // With every freedom present the determinant is that of the free frame's mass in the same coordinates.
   Eigen::MatrixXd basis(3 * c.model.mesh.num_nodes(), 3 + all.num_modes());
-  basis << fem::calc_rigid_motions(c.model.mesh, c.origin), all.shapes;
+  basis << fem::test::calc_rigid_motions(c.model.mesh, c.origin), all.shapes;
   const Eigen::MatrixXd inverse = basis.inverse();
   const Eigen::MatrixXd full = inverse.transpose() * mass * inverse;
   CHECK((full - Eigen::MatrixXd(fem::assemble(c.model).mass)).cwiseAbs().maxCoeff() <

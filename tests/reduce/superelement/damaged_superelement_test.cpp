@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include "reduce/superelement/superelement.h"
+#include "reduce/superelement/superelement_fields.h"
 #include "tests/catch.h"
 #include "tests/reduce/superelement/hdf5_tampering.h"
 #include "tests/reduce/test_bodies.h"
@@ -31,46 +31,8 @@ std::string read_tampered(const std::function<void(testing::Hdf5Tampering&)>& ch
 
 TEST_CASE("a dataset that is missing, of another shape or type is named") {
   const std::string prefix = "tampered.h5: error: dataset '";
-  for (const char* name : {"/nodes/id",
-                           "/nodes/position",
-                           "/points/name",
-                           "/points/node",
-                           "/elements/node",
-                           "/elements/section",
-                           "/modes/frequency",
-                           "/modes/damping_ratio",
-                           "/modes/cluster",
-                           "/modes/shape",
-                           "/matrices/stiffness",
-                           "/matrices/mass",
-                           "/matrices/damping",
-                           "/inertia/mass",
-                           "/inertia/first_moment",
-                           "/inertia/second_moment",
-                           "/inertia/P",
-                           "/inertia/c",
-                           "/inertia/d",
-                           "/inertia/M_ff",
-                           "/inertia/B",
-                           "/inertia/x_phi_x",
-                           "/inertia/x_phi_y",
-                           "/inertia/y_phi_x",
-                           "/inertia/y_phi_y",
-                           "/inertia/phi_x_phi_x",
-                           "/inertia/phi_x_phi_y",
-                           "/inertia/phi_y_phi_y",
-                           "/resultants",
-                           "/stiffening/centrifugal",
-                           "/stiffening/angular_acceleration",
-                           "/stiffening/acceleration",
-                           "/stiffening/point_load",
-                           "/checks/name",
-                           "/checks/value",
-                           "/checks/tolerance",
-                           "/provenance/design_text",
-                           "/provenance/design_hash",
-                           "/provenance/input_name",
-                           "/provenance/input_hash"}) {
+  for (const SuperelementField& field : superelement_fields()) {
+    const std::string name(field.path);
     CAPTURE(name);
     CHECK_THAT(read_tampered([&](auto& file) { file.remove(name); }), Contains(prefix + name + "'"));
     // Five by one reals fit nowhere, whatever the type and shape that belong here.
@@ -83,6 +45,33 @@ TEST_CASE("a dataset that is missing, of another shape or type is named") {
                file.replace("/matrices/mass", {7, 6}, std::vector<double>(42, 1.0));
              }),
              Contains(prefix + "/matrices/mass'"));
+}
+
+TEST_CASE("a dataset whose unit is not that of the specification is named with both units") {
+  for (const SuperelementField& field : superelement_fields()) {
+    const std::string name(field.path);
+    CAPTURE(name);
+    CHECK_THAT(read_tampered([&](auto& file) { file.set_unit(name, "mm"); }),
+               Contains("tampered.h5: error: dataset '" + name + "' has the unit 'mm', expected '" +
+                        std::string(field.unit) + "'"));
+  }
+}
+
+TEST_CASE("a dataset of a version after that of the file is named with both versions") {
+  const std::string old = testing::source_path("tests/reduce/data/version_1.h5");
+  std::filesystem::copy_file(old, "stiffened.h5", std::filesystem::copy_options::overwrite_existing);
+  testing::Hdf5Tampering("stiffened.h5").add("/stiffening/acceleration", {1}, {0.0});
+  CHECK(
+      message_of<InputError>([] { read_superelement("stiffened.h5"); }) ==
+      "stiffened.h5: error: dataset '/stiffening/acceleration' belongs to version 2 of the format, the file "
+      "is of version 1");
+}
+
+TEST_CASE("a file with more in it than the specification has is read as without") {
+  const std::string hash = write_superelement(make_two_armed_body(), "more.h5");
+  testing::Hdf5Tampering("more.h5").add("/modes/phase", {2}, {0.0, 1.0});
+  testing::Hdf5Tampering("more.h5").set_unit("/modes/phase", "rad");
+  CHECK(read_superelement("more.h5").content_hash == hash);
 }
 
 TEST_CASE("values that cannot be are named with their dataset") {

@@ -15,8 +15,12 @@ class Hdf5Tampering {
   ~Hdf5Tampering();
 
   void remove(const std::string& dataset);
+  /// Adds a dataset of real numbers, and the groups on its path.
+  void add(const std::string& dataset, const std::vector<std::uint64_t>& shape,
+           const std::vector<double>& values);
   void replace(const std::string& dataset, const std::vector<std::uint64_t>& shape,
                const std::vector<double>& values);
+  void set_unit(const std::string& dataset, const std::string& unit);
   void set(const std::string& dataset, std::size_t index, double value);  ///< one number, row-major index
   void set_attribute(const std::string& name, std::int64_t value);        ///< of the file
   void remove_attribute(const std::string& name);

@@ -23,8 +23,7 @@ std::string make_file(const TemporaryFolder& folder) {
   writer.write("modes/shape", std::vector{1.0, kMarker, 3.0}, "m");
   writer.write("ids", std::vector<std::int64_t>{7, 8, 9});
   writer.write("names", std::vector<std::string>{"first", "second"});
-  writer.make_growing("time", 2, "s");
-  writer.append("time", std::array{0.1, 0.2});
+  writer.append(writer.make_growing("time", 2, "s"), std::array{0.1, 0.2});
   writer.commit();
   return read_bytes(folder / "a.h5");
 }
@@ -32,18 +31,17 @@ std::string make_file(const TemporaryFolder& folder) {
 struct Content {
   std::vector<double> shape, time;
   std::vector<std::int64_t> ids;
-  std::vector<std::string> names, members;
+  std::vector<std::string> names;
   std::string format, unit;
   bool operator==(const Content&) const = default;
 };
 
 Content read_all(const std::filesystem::path& path) {
   const Hdf5Reader reader(path);
-  return {.shape = reader.array("modes/shape", std::array<std::size_t, 1>{3}),
-          .time = reader.array("time", std::array<std::size_t, 2>{1, 2}),
-          .ids = reader.integers("ids", 3),
-          .names = reader.strings("names"),
-          .members = reader.members("/"),
+  return {.shape = reader.reals("modes/shape", {3}),
+          .time = reader.reals("time", {1, 2}),
+          .ids = reader.integers("ids", {3}),
+          .names = reader.strings("names", {-1}),
           .format = reader.string_attribute("/", "format"),
           .unit = reader.string_attribute("modes/shape", "unit")};
 }

@@ -56,9 +56,10 @@ std::ptrdiff_t num_descriptors() {
 
 void write_growing(Hdf5Writer& writer) {
   const std::vector<double> rows(3 * 512, 1.25);
-  for (int i = 0; i < 20; ++i) writer.make_growing(fmt::format("bodies/b{}", i), 3, "m");
+  std::vector<Hdf5GrowingDataset*> bodies;
+  for (int i = 0; i < 20; ++i) bodies.push_back(&writer.make_growing(fmt::format("bodies/b{}", i), 3, "m"));
   for (int step = 0; step < 20; ++step) {
-    for (int i = 0; i < 20; ++i) writer.append(fmt::format("bodies/b{}", i), rows);
+    for (Hdf5GrowingDataset* body : bodies) writer.append(*body, rows);
   }
   writer.commit();
 }
@@ -70,9 +71,9 @@ void write_at_once(Hdf5Writer& writer) {
 }
 
 void write_flushing(Hdf5Writer& writer) {
-  writer.make_growing("t", 0, "s");
+  Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
   for (int i = 0; i < 1000; ++i) {
-    writer.append("t", std::vector<double>(1000, 0.25));
+    writer.append(t, std::vector<double>(1000, 0.25));
     writer.flush();
   }
   writer.commit();
@@ -106,7 +107,7 @@ int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf
   lift_limit();
   Hdf5Writer writer(target);
   write_at_once(writer);
-  return Hdf5Reader(target).vector("x49", 1000)[999] == 0.25 ? kAsExpected : kUnusable;
+  return Hdf5Reader(target).reals("x49", {1000})[999] == 0.25 ? kAsExpected : kUnusable;
 }
 
 }  // namespace
@@ -150,8 +151,8 @@ TEST_CASE("a writer given up before it has written its data leaves nothing, thou
     limit_file_size(5000);
     try {
       Hdf5Writer writer(folder / "a.h5");
-      writer.make_growing("t", 0, "s");
-      writer.append("t", std::vector<double>(1000, 0.5));  // no whole chunk: not in the file yet
+      Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+      writer.append(t, std::vector<double>(1000, 0.5));  // no whole chunk: not in the file yet
       throw std::runtime_error("another matter");
     } catch (const InputError&) {
       return kWrongMessage;

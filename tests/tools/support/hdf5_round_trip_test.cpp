@@ -1,3 +1,5 @@
+#include <hdf5.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -20,6 +22,22 @@ std::vector<double> make_values(std::size_t count) {
   return values;
 }
 
+// By the library: no file that this project reads has an attribute that is a real number.
+double read_number_attribute(const std::filesystem::path& path, const char* object, const char* name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
+  H5Aclose(attribute);
+  H5Fclose(file);
+  return value;
+}
+
+// The rows of a matrix one after the other.
+std::vector<double> row_major(const RowMatrix& matrix) {
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
 }  // namespace
 
 TEST_CASE("arrays of doubles come back bit by bit, in shape and order") {
@@ -39,16 +57,16 @@ TEST_CASE("arrays of doubles come back bit by bit, in shape and order") {
     writer.commit();
   }
   const Hdf5Reader reader(folder / "a.h5");
-  CHECK(reader.matrix("/matrix", 2, 3) == matrix);
-  CHECK(reader.matrix("matrix", -1, -1) == matrix);
-  CHECK(reader.vector("/deep/er/vector", 3) == vector);
-  CHECK(reader.vector("span", 6)[1] == 4.4);  // columns first, as Eigen keeps them
-  CHECK(reader.matrix("expression", 3, 2) == 2.0 * matrix.transpose());
-  CHECK(reader.vector("column", 2) == matrix.col(2));
-  CHECK(reader.vector("row", 3) == matrix.row(0).transpose());
-  CHECK(reader.array("cube", std::array<std::size_t, 3>{2, 3, 4}) == make_values(24));
-  CHECK(reader.shape("cube") == std::vector<std::size_t>{2, 3, 4});
-  CHECK(reader.array("matrix", std::array<std::size_t, 2>{2, 3})[1] == -2.2);
+  CHECK(reader.reals("/matrix", {2, 3}) == row_major(matrix));
+  CHECK(reader.reals("matrix", {-1, -1}) == row_major(matrix));
+  CHECK(reader.reals("/deep/er/vector", {3}) == row_major(vector));
+  CHECK(reader.reals("span", {6})[1] == 4.4);  // columns first, as Eigen keeps them
+  CHECK(reader.reals("expression", {3, 2}) == row_major(2.0 * matrix.transpose()));
+  CHECK(reader.reals("column", {2}) == row_major(matrix.col(2)));
+  CHECK(reader.reals("row", {3}) == row_major(matrix.row(0)));
+  CHECK(reader.reals("cube", {2, 3, 4}) == make_values(24));
+  CHECK(reader.shape("cube") == std::vector<std::int64_t>{2, 3, 4});
+  CHECK(reader.reals("matrix", {2, 3})[1] == -2.2);
 }
 
 TEST_CASE("integers and strings come back") {
@@ -65,10 +83,10 @@ TEST_CASE("integers and strings come back") {
     writer.commit();
   }
   const Hdf5Reader reader(folder / "a.h5");
-  CHECK(reader.integers("line", 6) == integers);
-  CHECK(reader.integers("table", 3, 2) == integers);
-  CHECK(reader.strings("names") == strings);
-  CHECK(reader.strings("blank") == std::vector<std::string>{""});
+  CHECK(reader.integers("line", {6}) == integers);
+  CHECK(reader.integers("table", {3, 2}) == integers);
+  CHECK(reader.strings("names", {-1}) == strings);
+  CHECK(reader.strings("blank", {-1}) == std::vector<std::string>{""});
 }
 
 TEST_CASE("attributes come back, the last value of each") {
@@ -89,7 +107,7 @@ TEST_CASE("attributes come back, the last value of each") {
   CHECK(reader.string_attribute("/", "format") == "sprung results");
   CHECK(reader.string_attribute("/", "text") == std::string(100000, 't'));
   CHECK(reader.integer_attribute("/", "complete") == 1);
-  CHECK(reader.number_attribute("/bodies/chassis", "mass") == 11950.5);
+  CHECK(read_number_attribute(folder / "a.h5", "/bodies/chassis", "mass") == 11950.5);
   CHECK(reader.string_attribute("x", "note").empty());
   CHECK(reader.string_attribute("x", "unit") == "m/s²");
   CHECK(reader.has_attribute("x", "unit"));
@@ -108,9 +126,7 @@ TEST_CASE("a file tells what is in it") {
     writer.commit();
   }
   const Hdf5Reader reader(folder / "a.h5");
-  CHECK(reader.members("/") == std::vector<std::string>{"empty", "points"});
-  CHECK(reader.members("points") == std::vector<std::string>{"arm", "seat"});
-  CHECK(reader.members("empty").empty());
+  CHECK(reader.has("empty"));
   CHECK(reader.has("/"));
   CHECK(reader.has("points"));
   CHECK(reader.has("/points/seat/position"));
@@ -131,13 +147,11 @@ TEST_CASE("empty arrays come back empty") {
     writer.commit();
   }
   const Hdf5Reader reader(folder / "a.h5");
-  const Eigen::MatrixXd matrix = reader.matrix("matrix", 3, 0);
-  CHECK(matrix.rows() == 3);
-  CHECK(matrix.cols() == 0);
-  CHECK(reader.vector("vector", 0).size() == 0);
-  CHECK(reader.integers("integers", 0).empty());
-  CHECK(reader.strings("strings").empty());
-  CHECK(reader.matrix("growing", 0, 2).rows() == 0);
+  CHECK(reader.reals("matrix", {3, 0}).empty());
+  CHECK(reader.reals("vector", {0}).empty());
+  CHECK(reader.integers("integers", {0}).empty());
+  CHECK(reader.strings("strings", {-1}).empty());
+  CHECK(reader.reals("growing", {0, 2}).empty());
 }
 
 TEST_CASE("a dataset of several chunks comes back whole") {
@@ -151,7 +165,7 @@ TEST_CASE("a dataset of several chunks comes back whole") {
     writer.write("matrix", matrix, "m");
     writer.commit();
   }
-  CHECK(Hdf5Reader(folder / "a.h5").matrix("matrix", 300, 1000) == matrix);
+  CHECK(Hdf5Reader(folder / "a.h5").reals("matrix", {300, 1000}) == row_major(matrix));
 }
 
 TEST_CASE("a growing dataset holds all rows in the order of their coming") {
@@ -161,20 +175,20 @@ TEST_CASE("a growing dataset holds all rows in the order of their coming") {
   const std::vector<double> values = make_values(3 * num_rows);
   {
     Hdf5Writer writer(folder / "a.h5");
-    writer.make_growing("time", 0, "s");
-    writer.make_growing("bodies/chassis/position", 3, "m");
+    Hdf5GrowingDataset& time = writer.make_growing("time", 0, "s");
+    Hdf5GrowingDataset& position = writer.make_growing("bodies/chassis/position", 3, "m");
     const std::span<const double> all(values);
     for (std::size_t row = 0; row < num_rows; row += rows_at_once) {
       const std::size_t count = std::min(rows_at_once, num_rows - row);
-      writer.append("time", all.subspan(row, count));
-      writer.append("bodies/chassis/position", all.subspan(3 * row, 3 * count));
+      writer.append(time, all.subspan(row, count));
+      writer.append(position, all.subspan(3 * row, 3 * count));
       if (row % 700 == 0) writer.flush();
     }
     writer.commit();
   }
   const Hdf5Reader reader(folder / "a.h5");
-  CHECK(reader.array("bodies/chassis/position", std::array{num_rows, std::size_t{3}}) == values);
-  CHECK(reader.array("time", std::array{num_rows}) ==
+  CHECK(reader.reals("bodies/chassis/position", {static_cast<std::int64_t>(num_rows), 3}) == values);
+  CHECK(reader.reals("time", {static_cast<std::int64_t>(num_rows)}) ==
         std::vector<double>(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(num_rows)));
   CHECK(reader.string_attribute("time", "unit") == "s");
 }

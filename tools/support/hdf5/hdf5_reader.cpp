@@ -1,11 +1,8 @@
 #include "tools/support/hdf5/hdf5_reader.h"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <type_traits>
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/hdf5/hdf5_library.h"
@@ -14,20 +11,6 @@
 namespace sprung::support {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// Called by C: nothing may be thrown through it.
-herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) noexcept {
-  try {
-    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-    return 0;
-  } catch (...) {
-    return -1;
-  }
-}
-
-}  // namespace
 
 template <typename Function>
 auto Hdf5Reader::attempt(Function&& function) const {
@@ -66,68 +49,36 @@ bool Hdf5Reader::has(const std::string& object) const {
   return attempt([&] { return hdf5::exists(file_.get(), object); });
 }
 
-std::vector<std::string> Hdf5Reader::members(const std::string& group) const {
+std::vector<std::int64_t> Hdf5Reader::shape(const std::string& dataset) const {
   return attempt([&] {
-    const Hdf5Handle handle = hdf5::open_object(file_.get(), group, "group");
-    std::vector<std::string> names;
-    hdf5::check(H5Literate(handle.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names),
-                fmt::format("group '{}' cannot be read", group));
-    std::sort(names.begin(), names.end());
-    return names;
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    return std::vector<std::int64_t>(stored.shape().begin(), stored.shape().end());
   });
 }
 
-std::vector<std::size_t> Hdf5Reader::shape(const std::string& dataset) const {
-  return attempt([&] { return hdf5::StoredDataset(file_.get(), dataset, file_size_).shape(); });
-}
-
-template <typename Scalar>
-std::vector<Scalar> Hdf5Reader::read(const std::string& dataset, std::span<const std::int64_t> shape) const {
+std::vector<double> Hdf5Reader::reals(const std::string& dataset,
+                                      const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
     const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
     stored.expect_shape(shape);
-    if constexpr (std::is_same_v<Scalar, double>) {
-      return stored.read_doubles();
-    } else {
-      return stored.read_integers();
-    }
+    return stored.read_doubles();
   });
 }
 
-Eigen::MatrixXd Hdf5Reader::matrix(const std::string& dataset, std::int64_t rows,
-                                   std::int64_t columns) const {
-  return attempt([&]() -> Eigen::MatrixXd {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
-    stored.expect_shape(std::array{rows, columns});
-    const std::vector<double> values = stored.read_doubles();
-    return Eigen::Map<const RowMatrix>(values.data(), static_cast<Eigen::Index>(stored.shape()[0]),
-                                       static_cast<Eigen::Index>(stored.shape()[1]));
-  });
-}
-
-Eigen::VectorXd Hdf5Reader::vector(const std::string& dataset, std::int64_t size) const {
-  const std::vector<double> values = read<double>(dataset, std::array{size});
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-std::vector<double> Hdf5Reader::array(const std::string& dataset, std::span<const std::size_t> shape) const {
-  const std::vector<std::int64_t> expected(shape.begin(), shape.end());
-  return read<double>(dataset, expected);
-}
-
-std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset, std::int64_t size) const {
-  return read<std::int64_t>(dataset, std::array{size});
-}
-
-std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset, std::int64_t rows,
-                                               std::int64_t columns) const {
-  return read<std::int64_t>(dataset, std::array{rows, columns});
-}
-
-std::vector<std::string> Hdf5Reader::strings(const std::string& dataset) const {
+std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
+                                               const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
     const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
-    stored.expect_shape(std::array{std::int64_t{-1}});
+    stored.expect_shape(shape);
+    return stored.read_integers();
+  });
+}
+
+std::vector<std::string> Hdf5Reader::strings(const std::string& dataset,
+                                             const std::vector<std::int64_t>& shape) const {
+  return attempt([&] {
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    stored.expect_shape(shape);
     return stored.read_strings();
   });
 }
@@ -142,10 +93,6 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
 
 std::string Hdf5Reader::string_attribute(const std::string& object, const std::string& name) const {
   return attempt([&] { return hdf5::StoredAttribute(file_.get(), object, name, file_size_).read_string(); });
-}
-
-double Hdf5Reader::number_attribute(const std::string& object, const std::string& name) const {
-  return attempt([&] { return hdf5::StoredAttribute(file_.get(), object, name, file_size_).read_double(); });
 }
 
 std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std::string& name) const {

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/support/hdf5/hdf5_handle.h"
-#include "tools/support/hdf5/row_matrix.h"
 
 namespace sprung::support {
 
@@ -23,25 +20,17 @@ class Hdf5Reader {
   explicit Hdf5Reader(std::filesystem::path path);
 
   bool has(const std::string& object) const;
-  /// Names of the members of a group, sorted.
-  std::vector<std::string> members(const std::string& group) const;
-  std::vector<std::size_t> shape(const std::string& dataset) const;
+  std::vector<std::int64_t> shape(const std::string& dataset) const;
 
-  /// @param rows, columns  expected shape; -1 accepts any
-  Eigen::MatrixXd matrix(const std::string& dataset, std::int64_t rows, std::int64_t columns) const;
-  Eigen::VectorXd vector(const std::string& dataset, std::int64_t size) const;
-  /// Values of an array of any rank, row-major.
-  std::vector<double> array(const std::string& dataset, std::span<const std::size_t> shape) const;
-  std::vector<std::int64_t> integers(const std::string& dataset, std::int64_t size) const;
-  /// Row-major.
-  std::vector<std::int64_t> integers(const std::string& dataset, std::int64_t rows,
-                                     std::int64_t columns) const;
-  std::vector<std::string> strings(const std::string& dataset) const;  ///< rank 1, any length
+  // Values in row-major order. `shape` is the expected one; -1 accepts any number.
+  std::vector<double> reals(const std::string& dataset, const std::vector<std::int64_t>& shape) const;
+  std::vector<std::int64_t> integers(const std::string& dataset,
+                                     const std::vector<std::int64_t>& shape) const;
+  std::vector<std::string> strings(const std::string& dataset, const std::vector<std::int64_t>& shape) const;
 
   /// Attributes of a group or dataset; "/" for the file itself.
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string string_attribute(const std::string& object, const std::string& name) const;
-  double number_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
   const std::filesystem::path& path() const { return path_; }
@@ -50,8 +39,6 @@ class Hdf5Reader {
   [[noreturn]] void fail(std::string_view message) const;
   template <typename Function>
   auto attempt(Function&& function) const;  // HDF5's failures as InputError of this file
-  template <typename Scalar>
-  std::vector<Scalar> read(const std::string& dataset, std::span<const std::int64_t> shape) const;
 
   std::filesystem::path path_;
   std::uint64_t file_size_ = 0;

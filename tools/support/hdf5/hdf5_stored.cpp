@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tools/support/hdf5/hdf5_library.h"
 
@@ -77,19 +76,29 @@ std::string unpadded(std::string_view text) {
   return std::string(text.substr(0, text.find('\0')));
 }
 
-}  // namespace
+// Name of the file that an object is in. A link may lead to another one.
+std::string file_name(hid_t object) {
+  const std::string_view what = "the file's name cannot be read";
+  std::string name(static_cast<std::size_t>(check(H5Fget_name(object, nullptr, 0), what)) + 1, '\0');
+  check(H5Fget_name(object, name.data(), name.size()), what);
+  return name;
+}
 
-Hdf5Handle open_object(std::int64_t file, const std::string& path, std::string_view kind) {
-  if (!exists(file, path)) throw Failure(fmt::format("{} '{}' is missing", kind, path));
+Hdf5Handle open_dataset(std::int64_t file, const std::string& path) {
+  if (!exists(file, path)) throw Failure(fmt::format("dataset '{}' is missing", path));
   Hdf5Handle object = own(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose,
-                          fmt::format("{} '{}' cannot be read", kind, path));
-  const H5I_type_t expected = kind == "group" ? H5I_GROUP : H5I_DATASET;
-  if (H5Iget_type(object.get()) != expected) throw Failure(fmt::format("'{}' is not a {}", path, kind));
+                          fmt::format("dataset '{}' cannot be read", path));
+  if (H5Iget_type(object.get()) != H5I_DATASET) throw Failure(fmt::format("'{}' is not a dataset", path));
+  if (file_name(object.get()) != file_name(file)) {
+    throw Failure(fmt::format("dataset '{}' is in another file, which is not read", path));
+  }
   return object;
 }
 
+}  // namespace
+
 StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size)
-    : label_(fmt::format("dataset '{}'", path)), dataset_(open_object(file, path, "dataset")) {
+    : label_(fmt::format("dataset '{}'", path)), dataset_(open_dataset(file, path)) {
   const std::string what = label_ + " cannot be read";
   type_ = own(H5Dget_type(dataset_.get()), H5Tclose, what);
   const Hdf5Handle space = own(H5Dget_space(dataset_.get()), H5Sclose, what);
@@ -182,14 +191,6 @@ StoredAttribute::StoredAttribute(std::int64_t file, const std::string& object, c
   const Hdf5Handle space = own(H5Aget_space(attribute_.get()), H5Sclose, what);
   if (H5Sget_simple_extent_npoints(space.get()) != 1) throw Failure(label_ + " must be a single value");
   if (H5Tget_size(type_.get()) > file_size) throw Failure(label_ + " declares more bytes than the file has");
-}
-
-double StoredAttribute::read_double() const {
-  expect_real(type_.get(), label_);
-  double value = std::numeric_limits<double>::quiet_NaN();
-  check(H5Aread(attribute_.get(), H5T_NATIVE_DOUBLE, &value), label_ + " cannot be read");
-  if (!std::isfinite(value)) throw Failure(fmt::format("{} is {}", label_, value));
-  return value;
 }
 
 std::int64_t StoredAttribute::read_integer() const {

@@ -5,16 +5,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tools/support/hdf5/hdf5_handle.h"
 
 namespace sprung::support::hdf5 {
-
-/// @param kind  "group" or "dataset", which the object must be
-/// @throws Failure if it is missing or something else
-Hdf5Handle open_object(std::int64_t file, const std::string& path, std::string_view kind);
 
 /// A dataset of plain storage: chunked or contiguous, not compressed, not elsewhere.
 class StoredDataset {
@@ -49,8 +44,7 @@ class StoredAttribute {
   StoredAttribute(std::int64_t file, const std::string& object, const std::string& name,
                   std::uint64_t file_size);
 
-  // @throws Failure on another type, NaN or infinity
-  double read_double() const;
+  // @throws Failure on another type
   std::int64_t read_integer() const;
   std::string read_string() const;
 

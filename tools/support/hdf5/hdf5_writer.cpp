@@ -162,7 +162,7 @@ void Hdf5Writer::write(const std::string& dataset, std::span<const double> value
 }
 
 void Hdf5Writer::write(const std::string& dataset, std::span<const double> values,
-                       std::array<std::size_t, 3> shape, std::string_view unit) {
+                       const std::vector<std::size_t>& shape, std::string_view unit) {
   write_array(dataset, Array::of(values, {shape.begin(), shape.end()}, unit));
 }
 
@@ -171,7 +171,7 @@ void Hdf5Writer::write(const std::string& dataset, std::span<const std::int64_t>
 }
 
 void Hdf5Writer::write(const std::string& dataset, std::span<const std::int64_t> values,
-                       std::array<std::size_t, 2> shape) {
+                       const std::vector<std::size_t>& shape) {
   write_array(dataset, Array::of(values, {shape.begin(), shape.end()}));
 }
 
@@ -250,14 +250,6 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
     growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
   });
   return growing_.at(dataset);
-}
-
-void Hdf5Writer::append(const std::string& dataset, std::span<const double> values) {
-  const auto found = growing_.find(dataset);
-  if (found == growing_.end()) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer::append: there is no growing dataset '{}'", dataset));
-  }
-  append(found->second, values);
 }
 
 void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> values) {

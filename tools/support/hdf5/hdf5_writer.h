@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -9,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/support/hdf5/hdf5_growing_dataset.h"
 #include "tools/support/hdf5/hdf5_handle.h"
@@ -47,12 +47,12 @@ class Hdf5Writer {
       write(dataset, Eigen::MatrixXd(values), unit);
     }
   }
-  /// Rank-3 array, values in row-major order.
-  void write(const std::string& dataset, std::span<const double> values, std::array<std::size_t, 3> shape,
-             std::string_view unit);
+  /// An array of any rank, values in row-major order.
+  void write(const std::string& dataset, std::span<const double> values,
+             const std::vector<std::size_t>& shape, std::string_view unit);
   void write(const std::string& dataset, std::span<const std::int64_t> values);
   void write(const std::string& dataset, std::span<const std::int64_t> values,
-             std::array<std::size_t, 2> shape);
+             const std::vector<std::size_t>& shape);
   void write(const std::string& dataset, std::span<const std::string> values);  ///< UTF-8 without NUL, rank 1
 
   void make_group(const std::string& group);
@@ -62,10 +62,9 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
-  /// @return for the faster `append`, up to `commit` or `keep_temporary`
+  /// @return for `append`, up to `commit` or `keep_temporary`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
   /// Appends whole rows, row-major. Rows are gathered to chunks, so that an error may show later.
-  void append(const std::string& dataset, std::span<const double> values);
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
   void flush();  ///< all that was appended goes to the file
 

@@ -1,4 +1,4 @@
-#include "reduce/modes/mode_request.h"
+#include "reduce/modes/wanted_modes.h"
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ using testing::message_of;
 
 constexpr auto kWhere = [] { return support::SourceLocation{.path = "frame.toml", .line = 7, .column = 3}; };
 
-Superelement reduce_star(const ModeRequest& request) {
+Superelement reduce_star(const WantedModes& request) {
   return make_superelement(testing::make_design(testing::make_star(2, 0.3, 5), {0.0, 0.0}, request));
 }
 
@@ -59,8 +59,8 @@ TEST_CASE("mode numbers take part of a cluster if told to, in the cluster's cano
 }
 
 TEST_CASE("more modes than freedoms are refused with both numbers") {
-  const ModeRequest count{.wanted = ModeCount{31}, .where = kWhere()};
-  const ModeRequest numbers{.wanted = ModeNumbers{{1, 40}}, .where = kWhere()};
+  const WantedModes count{.wanted = ModeCount{31}, .where = kWhere()};
+  const WantedModes numbers{.wanted = ModeNumbers{{1, 40}}, .where = kWhere()};
   CHECK_THAT(message_of<InputError>([&] { reduce_star(count); }),
              Contains("frame.toml:7:3: error: mode 31 was asked for, but the frame has 30 elastic freedoms"));
   CHECK_THAT(message_of<InputError>([&] { reduce_star(numbers); }), Contains("mode 40 was asked for"));

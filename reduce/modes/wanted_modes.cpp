@@ -1,4 +1,4 @@
-#include "reduce/modes/mode_request.h"
+#include "reduce/modes/wanted_modes.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ double as_hz(double omega_squared) {
   return std::sqrt(omega_squared) / kTwoPi;
 }
 
-int count_modes_up_to(const ModesUpTo& wanted, const ModeRequest& request, const ModalProblem& problem,
+int count_modes_up_to(const ModesUpTo& wanted, const WantedModes& request, const ModalProblem& problem,
                       const ClampedModeOptions& options) {
   // A frequency that is the mode's own, as printed or copied, is meant to take it.
   const double omega = kTwoPi * wanted.frequency_hz * (1.0 + kClusterGap);
@@ -35,7 +35,7 @@ int count_modes_up_to(const ModesUpTo& wanted, const ModeRequest& request, const
 
 }  // namespace
 
-int calc_num_modes_needed(const ModeRequest& request, const ModalProblem& problem,
+int calc_num_modes_needed(const WantedModes& request, const ModalProblem& problem,
                           const ClampedModeOptions& options) {
   const int n = static_cast<int>(problem.size());
   if (const auto* up_to = std::get_if<ModesUpTo>(&request.wanted)) {
@@ -57,7 +57,7 @@ int calc_num_modes_needed(const ModeRequest& request, const ModalProblem& proble
                   n, n));
 }
 
-std::vector<int> select_modes(const ModeRequest& request, const ClampedModes& modes, int num_needed) {
+std::vector<int> select_modes(const WantedModes& request, const ClampedModes& modes, int num_needed) {
   if (const auto* chosen = std::get_if<ModeNumbers>(&request.wanted)) {
     std::vector<int> columns;
     for (const int number : chosen->numbers) columns.push_back(number - 1);

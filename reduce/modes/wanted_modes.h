@@ -20,7 +20,7 @@ struct ModeNumbers {
 };
 
 /// Which modes of a body a design wants.
-struct ModeRequest {
+struct WantedModes {
   std::variant<ModeCount, ModesUpTo, AllModes, ModeNumbers> wanted = AllModes{};
   support::SourceLocation where = {};  ///< for messages
 };
@@ -29,14 +29,14 @@ struct ModeRequest {
 /// @return 1 … n
 /// @throws support::InputError at request.where: more modes than the frame has, no mode up to the frequency
 ///         (with the lowest one), all modes of a frame too large for that
-int calc_num_modes_needed(const ModeRequest& request, const ModalProblem& problem,
+int calc_num_modes_needed(const WantedModes& request, const ModalProblem& problem,
                           const ClampedModeOptions& options);
 
 /// Picks the modes of a request from the lowest ones.
 /// @return 0-based columns of `modes`, ascending
 /// @throws support::InputError at request.where if a count or frequency would take part of a cluster, which
 ///         the message names
-/// Checked by tests/reduce/modes/mode_request_test.cpp
-std::vector<int> select_modes(const ModeRequest& request, const ClampedModes& modes, int num_needed);
+/// Checked by tests/reduce/modes/wanted_modes_test.cpp
+std::vector<int> select_modes(const WantedModes& request, const ClampedModes& modes, int num_needed);
 
 }  // namespace sprung::reduce

@@ -1,0 +1,259 @@
+#include "reduce/superelement/superelement_fields.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::RowMatrix;
+using I = InertiaInvariants;
+using G = GeometricStiffness;
+using S = Superelement;
+
+// Each type of member as a value of the file, and back.
+
+template <typename Value>
+FieldValue pack(const std::vector<Value>& values) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    return {.texts = values};
+  } else if constexpr (std::is_integral_v<Value>) {
+    return {.integers = {values.begin(), values.end()}};
+  } else {
+    return {
+        .reals = {Eigen::Map<const RowMatrix>(values.data(), static_cast<Eigen::Index>(values.size()), 1)}};
+  }
+}
+
+FieldValue pack(double number) {
+  return pack(std::vector{number});
+}
+
+FieldValue pack(const std::string& text) {
+  return pack(std::vector{text});
+}
+
+template <typename Derived>
+FieldValue pack(const Eigen::MatrixBase<Derived>& matrix) {
+  return {.reals = {RowMatrix(matrix)}};
+}
+
+template <int Rows, int Columns>
+FieldValue pack(const Eigen::Matrix<int, Rows, Columns>& matrix) {  // a column is a row of the file
+  return {.integers = {matrix.data(), matrix.data() + matrix.size()}};
+}
+
+FieldValue pack(const std::array<Eigen::MatrixXd, 2>& matrices) {
+  return {.reals = {matrices.begin(), matrices.end()}};
+}
+
+FieldValue pack(const std::vector<std::array<Eigen::MatrixXd, 3>>& matrices) {
+  FieldValue value;
+  for (const auto& three : matrices) value.reals.insert(value.reals.end(), three.begin(), three.end());
+  return value;
+}
+
+template <typename Value>
+void unpack(const FieldValue& value, std::vector<Value>& values) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    values = value.texts;
+  } else if constexpr (std::is_integral_v<Value>) {
+    values.assign(value.integers.begin(), value.integers.end());
+  } else {
+    values.assign(value.reals.front().data(), value.reals.front().data() + value.reals.front().size());
+  }
+}
+
+void unpack(const FieldValue& value, double& number) {
+  number = value.reals.front()(0, 0);
+}
+
+void unpack(const FieldValue& value, std::string& text) {
+  text = value.texts.front();
+}
+
+template <typename Derived>
+void unpack(const FieldValue& value, Eigen::PlainObjectBase<Derived>& matrix) {
+  if constexpr (Derived::RowsAtCompileTime == 1) {
+    const RowMatrix& values = value.reals.front();  // a column in the file
+    matrix = Eigen::Map<const Derived>(values.data(), 1, values.size());
+  } else {
+    matrix = value.reals.front();
+  }
+}
+
+template <int Rows, int Columns>
+void unpack(const FieldValue& value, Eigen::Matrix<int, Rows, Columns>& matrix) {
+  const auto size = static_cast<Eigen::Index>(value.integers.size());
+  matrix.resize(Rows == 2 ? 2 : size, Rows == 2 ? size / 2 : 1);
+  std::copy(value.integers.begin(), value.integers.end(), matrix.data());
+}
+
+void unpack(const FieldValue& value, std::array<Eigen::MatrixXd, 2>& matrices) {
+  std::copy(value.reals.begin(), value.reals.end(), matrices.begin());
+}
+
+void unpack(const FieldValue& value, std::vector<std::array<Eigen::MatrixXd, 3>>& matrices) {
+  matrices.resize(value.reals.size() / 3);
+  for (std::size_t i = 0; i < value.reals.size(); ++i) matrices[i / 3][i % 3] = value.reals[i];
+}
+
+// A member of the struct, of a part of it, of a part that may be missing, and of each record of a list.
+
+template <auto Member>
+constexpr FieldMember member = {[](const S& s) { return pack(s.*Member); },
+                                [](S& s, const FieldValue& value) { unpack(value, s.*Member); }};
+
+template <auto Part, auto Member>
+constexpr FieldMember member_of = {[](const S& s) { return pack((s.*Part).*Member); },
+                                   [](S& s, const FieldValue& value) { unpack(value, (s.*Part).*Member); }};
+
+template <auto Part, auto Member>
+constexpr FieldMember member_of_optional = {[](const S& s) { return pack((*(s.*Part)).*Member); },
+                                            [](S& s, const FieldValue& value) {
+                                              if (!(s.*Part)) (s.*Part).emplace();
+                                              unpack(value, (*(s.*Part)).*Member);
+                                            }};
+
+template <auto List, auto Member>
+constexpr FieldMember column = {
+    [](const S& s) {
+      std::vector<std::remove_cvref_t<decltype((s.*List).front().*Member)>> values;
+      for (const auto& record : s.*List) values.push_back(record.*Member);
+      return pack(values);
+    },
+    [](S& s, const FieldValue& value) {
+      std::vector<std::remove_cvref_t<decltype((s.*List).front().*Member)>> values;
+      unpack(value, values);
+      (s.*List).resize(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) (s.*List)[i].*Member = values[i];
+    }};
+
+template <auto Member>
+constexpr FieldMember inertia = member_of<&S::inertia, Member>;
+template <auto Member>
+constexpr FieldMember stiffening = member_of_optional<&S::geometric_stiffness, Member>;
+
+constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a row of the file
+    [](const S& s) { return pack(s.node_positions.transpose()); },
+    [](S& s, const FieldValue& value) { s.node_positions = value.reals.front().transpose(); }};
+
+constexpr std::string_view kShapeUnit = "m, m, rad per unit modal coordinate (m·√kg)";
+constexpr std::string_view kResultantUnit = "N, N, N·m per unit modal coordinate (m·√kg)";
+constexpr std::string_view kLoadUnit = "1/(kg·m), 1/(kg·m), 1/(kg·m^2)";
+
+using enum FieldType;
+using enum FieldRule;
+using enum FieldHash;
+
+// clang-format off
+constexpr SuperelementField kFields[] = {
+    {"/nodes/id", kIntegers, "N", "", member<&S::node_ids>},
+    {"/nodes/position", kReals, "N×2", "m", kNodePositions},
+    {"/points/name", kTexts, "p", "", column<&S::points, &NamedPoint::name>, kAny, kPoints},
+    {"/points/node", kIntegers, "p", "", column<&S::points, &NamedPoint::node>, kIndex, kWithPrevious},
+    {"/elements/node", kIntegers, "E×2", "", member<&S::elements>, kIndex, kRows},
+    {"/elements/section", kTexts, "E", "", member<&S::element_sections>},
+    {"/modes/frequency", kReals, "n", "Hz", member<&S::frequency_hz>, kPositive},
+    {"/modes/damping_ratio", kReals, "n", "1", member<&S::damping_ratio>, kNotNegative},
+    {"/modes/cluster", kIntegers, "n", "", member<&S::cluster>, kIndex, kRows},
+    {"/modes/shape", kReals, "N×3×n", kShapeUnit, member<&S::shapes>},
+    {"/matrices/stiffness", kReals, "n×n", "1/s^2", member<&S::stiffness>, kPositiveDefinite},
+    {"/matrices/mass", kReals, "n×n", "1", member<&S::mass>, kPositiveDefinite},
+    {"/matrices/damping", kReals, "n×n", "1/s", member<&S::damping>, kSymmetric},
+    {"/resultants", kReals, "E×6×n", kResultantUnit, member<&S::resultants>},
+    {"/inertia/mass", kReals, "1", "kg", inertia<&I::mass>, kPositive, kRigidInertia},
+    {"/inertia/first_moment", kReals, "2", "kg·m", inertia<&I::first_moment>, kAny, kWithPrevious},
+    {"/inertia/second_moment", kReals, "1", "kg·m^2", inertia<&I::second_moment>, kAny, kWithPrevious},
+    {"/inertia/P", kReals, "2×n", "√kg", inertia<&I::P>},
+    {"/inertia/c", kReals, "n", "m·√kg", inertia<&I::c>},
+    {"/inertia/d", kReals, "n", "m·√kg", inertia<&I::d>},
+    {"/inertia/M_ff", kReals, "n×n", "1", inertia<&I::M_ff>, kPositiveDefinite},
+    {"/inertia/B", kReals, "n×n", "1", inertia<&I::B>, kSkew},
+    {"/inertia/x_phi_x", kReals, "n", "m·√kg", inertia<&I::x_phi_x>},
+    {"/inertia/x_phi_y", kReals, "n", "m·√kg", inertia<&I::x_phi_y>},
+    {"/inertia/y_phi_x", kReals, "n", "m·√kg", inertia<&I::y_phi_x>},
+    {"/inertia/y_phi_y", kReals, "n", "m·√kg", inertia<&I::y_phi_y>},
+    {"/inertia/phi_x_phi_x", kReals, "n×n", "1", inertia<&I::phi_x_phi_x>, kSymmetric},
+    {"/inertia/phi_x_phi_y", kReals, "n×n", "1", inertia<&I::phi_x_phi_y>},
+    {"/inertia/phi_y_phi_y", kReals, "n×n", "1", inertia<&I::phi_y_phi_y>, kSymmetric},
+    {"/stiffening/centrifugal", kReals, "m×m", "1", stiffening<&G::centrifugal>, kSymmetric, kWhole, kStiffeningVersion},
+    {"/stiffening/angular_acceleration", kReals, "m×m", "1", stiffening<&G::angular_acceleration>, kSymmetric, kWhole, kStiffeningVersion},
+    {"/stiffening/acceleration", kMatrices, "2×m×m", "1/m", stiffening<&G::acceleration>, kSymmetric, kWhole, kStiffeningVersion},
+    {"/stiffening/point_load", kMatrices, "3p×m×m", kLoadUnit, stiffening<&G::point_loads>, kSymmetric, kWhole, kStiffeningVersion},
+    {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
+    {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
+    {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
+    // Texts are datasets, not attributes: an attribute ends at 64 KiB and carries no checksum.
+    {"/provenance/design_text", kTexts, "1", "", member_of<&S::provenance, &Provenance::design_text>, kAny, kRows},
+    {"/provenance/design_hash", kTexts, "1", "", member_of<&S::provenance, &Provenance::design_hash>, kAny, kRows},
+    {"/provenance/input_name", kTexts, "f", "", member_of<&S::provenance, &Provenance::input_names>},
+    {"/provenance/input_hash", kTexts, "f", "", member_of<&S::provenance, &Provenance::input_hashes>},
+};
+// clang-format on
+
+// A factor of a shape: a digit, a letter, or a digit times a letter.
+struct Factor {
+  std::int64_t number = 1;
+  char letter = '1';
+};
+
+std::vector<Factor> parse_shape(std::string_view shape) {
+  std::vector<Factor> factors(1);
+  for (const char c : shape) {
+    if (c == "×"[0]) factors.emplace_back();
+    if (c >= '0' && c <= '9') factors.back().number = c - '0';
+    if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) factors.back().letter = c;
+  }
+  return factors;
+}
+
+}  // namespace
+
+std::vector<SuperelementField> superelement_fields(std::int64_t version) {
+  std::vector<SuperelementField> fields;
+  std::copy_if(std::begin(kFields), std::end(kFields), std::back_inserter(fields),
+               [&](const SuperelementField& field) { return field.since <= version; });
+  return fields;
+}
+
+std::int64_t find_version(const Superelement& superelement) {
+  return superelement.geometric_stiffness ? kStiffeningVersion : kFirstVersion;
+}
+
+FieldCounts count_parts(const Superelement& s) {
+  return {{'1', 1},
+          {'N', s.num_nodes()},
+          {'E', s.elements.cols()},
+          {'p', static_cast<std::int64_t>(s.points.size())},
+          {'n', s.num_modes()},
+          {'m', s.geometric_stiffness ? s.geometric_stiffness->num_modes() : 0},
+          {'c', static_cast<std::int64_t>(s.checks.size())},
+          {'f', static_cast<std::int64_t>(s.provenance.input_names.size())}};
+}
+
+std::vector<std::int64_t> calc_extents(const SuperelementField& field, const FieldCounts& counts) {
+  std::vector<std::int64_t> extents;
+  for (const Factor& factor : parse_shape(field.shape)) {
+    const auto count = counts.find(factor.letter);
+    extents.push_back(count == counts.end() ? -1 : factor.number * count->second);
+  }
+  return extents;
+}
+
+void add_counts(const SuperelementField& field, const std::vector<std::int64_t>& extents,
+                FieldCounts& counts) {
+  const std::vector<Factor> factors = parse_shape(field.shape);
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    counts.try_emplace(factors[i].letter, extents[i] / factors[i].number);
+}
+
+FieldMatrices calc_matrices(const SuperelementField& field, std::vector<std::int64_t> extents) {
+  if (extents.size() == 1) extents.push_back(1);
+  if (extents.size() == 2) extents.insert(extents.begin(), 1);
+  if (field.type == FieldType::kMatrices) return {extents[0], extents[1], extents[2]};
+  return {field.type == FieldType::kReals ? 1 : 0, extents[0] * extents[1], extents[2]};
+}
+
+}  // namespace sprung::reduce

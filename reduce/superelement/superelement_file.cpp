@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "reduce/superelement/superelement.h"
+#include "reduce/superelement/superelement_fault.h"
+#include "reduce/superelement/superelement_fields.h"
+#include "reduce/superelement/superelement_hash.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::Hdf5Reader;
+using support::InputError;
+
+void write_field(support::Hdf5Writer& file, const SuperelementField& field, const FieldValue& value,
+                 const std::vector<std::size_t>& shape) {
+  const std::string path(field.path);
+  if (field.type == FieldType::kTexts) {
+    file.write(path, std::span<const std::string>(value.texts));
+  } else if (field.type == FieldType::kIntegers) {
+    file.write(path, std::span<const std::int64_t>(value.integers), shape);
+  } else {
+    std::vector<double> numbers;
+    for (const support::RowMatrix& matrix : value.reals)
+      numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
+    file.write(path, std::span<const double>(numbers), shape, field.unit);
+  }
+}
+
+InputError dataset_error(const Hdf5Reader& file, std::string_view dataset, const std::string& message) {
+  return InputError({.path = file.path().string()}, fmt::format("dataset '{}' {}", dataset, message));
+}
+
+// The version of the format.
+std::int64_t read_version(const Hdf5Reader& file) {
+  const support::SourceLocation where{.path = file.path().string()};
+  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kSuperelementFormat) {
+    throw InputError(where,
+                     fmt::format("not a superelement: attribute 'format' is not '{}'", kSuperelementFormat));
+  }
+  const std::int64_t version = file.integer_attribute("/", "version");
+  if (version > kSuperelementVersion) {
+    throw InputError(
+        where, fmt::format("superelement format version {}, this program reads up to version {}: use a "
+                           "newer sprung, or make the file again from its design with sprung-reduce build",
+                           version, kSuperelementVersion));
+  }
+  if (version < kFirstVersion) {
+    throw InputError(where,
+                     fmt::format("superelement format version {}, expected ≥ {}", version, kFirstVersion));
+  }
+  return version;
+}
+
+void check_unit(const Hdf5Reader& file, const SuperelementField& field) {
+  const std::string path(field.path);
+  if (!file.has_attribute(path, "unit")) return;
+  const std::string unit = file.string_attribute(path, "unit");
+  if (unit == field.unit) return;
+  throw dataset_error(file, path, fmt::format("has the unit '{}', expected '{}'", unit, field.unit));
+}
+
+FieldValue read_field(const Hdf5Reader& file, const SuperelementField& field, FieldCounts& counts) {
+  const std::string path(field.path);
+  const std::vector<std::int64_t> expected = calc_extents(field, counts);
+  FieldValue value;
+  std::vector<double> numbers;
+  if (field.type == FieldType::kTexts) {
+    value.texts = file.strings(path, expected);
+  } else if (field.type == FieldType::kIntegers) {
+    value.integers = file.integers(path, expected);
+  } else {
+    numbers = file.reals(path, expected);
+  }
+  check_unit(file, field);
+  const std::vector<std::int64_t> found = file.shape(path);
+  add_counts(field, found, counts);
+  if (field.rule == FieldRule::kIndex) {
+    const auto bad = std::find_if(value.integers.begin(), value.integers.end(), [](std::int64_t index) {
+      return index < 0 || index > std::numeric_limits<int>::max();
+    });
+    if (bad != value.integers.end()) {
+      throw dataset_error(file, path,
+                          fmt::format("has the value {}, expected a number ≥ 0 that fits 31 bits", *bad));
+    }
+  }
+  const auto [num_matrices, rows, columns] = calc_matrices(field, found);
+  for (std::int64_t i = 0; i < num_matrices; ++i) {
+    value.reals.push_back(
+        Eigen::Map<const support::RowMatrix>(numbers.data() + i * rows * columns, rows, columns));
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string write_superelement(const Superelement& superelement, const std::filesystem::path& path) {
+  if (const std::optional<SuperelementFault> fault = find_fault(superelement)) {
+    throw std::invalid_argument(fmt::format("write_superelement: '{}' {}", fault->dataset, fault->message));
+  }
+  const std::string hash = calc_content_hash(superelement);
+  const std::int64_t version = find_version(superelement);
+  support::Hdf5Writer file(path);
+  file.attribute("/", "format", kSuperelementFormat);
+  file.attribute("/", "version", version);
+  file.attribute("/", "units", std::string_view("SI: kg, m, s, N, rad; frequencies in Hz"));
+  file.attribute("/", "name", std::string_view(superelement.name));
+  file.attribute("/", "num_elastic_dofs", superelement.num_elastic_dofs);
+  file.attribute("/", "content_hash", std::string_view(hash));
+  const FieldCounts counts = count_parts(superelement);
+  for (const SuperelementField& field : superelement_fields(version)) {
+    const std::vector<std::int64_t> extents = calc_extents(field, counts);
+    write_field(file, field, field.member.get(superelement), {extents.begin(), extents.end()});
+  }
+  file.attribute("/provenance", "program_version", superelement.provenance.program_version);
+  file.attribute("/provenance", "algorithm_revision", superelement.provenance.algorithm_revision);
+  file.commit();
+  return hash;
+}
+
+Superelement read_superelement(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  const std::int64_t version = read_version(file);
+  Superelement s;
+  s.name = file.string_attribute("/", "name");
+  s.num_elastic_dofs = file.integer_attribute("/", "num_elastic_dofs");
+  FieldCounts counts = {{'1', 1}};
+  for (const SuperelementField& field : superelement_fields()) {
+    if (field.since <= version) {
+      field.member.set(s, read_field(file, field, counts));
+    } else if (file.has(std::string(field.path))) {
+      throw dataset_error(file, field.path,
+                          fmt::format("belongs to version {} of the format, the file is of version {}",
+                                      field.since, version));
+    }
+  }
+  s.provenance.program_version = file.string_attribute("/provenance", "program_version");
+  s.provenance.algorithm_revision = file.integer_attribute("/provenance", "algorithm_revision");
+  if (const std::optional<SuperelementFault> fault = find_fault(s)) {
+    throw dataset_error(file, fault->dataset, fault->message);
+  }
+  s.content_hash = file.string_attribute("/", "content_hash");
+  if (const std::string hash = calc_content_hash(s); hash != s.content_hash) {
+    throw InputError(
+        {.path = path.string()},
+        fmt::format("attribute 'content_hash' is {}, but the contents have the hash {}: the file was "
+                    "changed after it was written",
+                    s.content_hash, hash));
+  }
+  return s;
+}
+
+}  // namespace sprung::reduce
