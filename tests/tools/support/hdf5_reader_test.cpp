@@ -43,7 +43,7 @@ class SmallFile {
     const Hdf5Reader reader(path_);
     const std::string message = error_message<InputError>([&] { call(reader); });
     const std::string start = path_ + ": error: ";
-    REQUIRE_THAT(message, Catch::StartsWith(start));
+    REQUIRE_THAT(message, Catch::Matchers::StartsWith(start));
     return message.substr(start.size());
   }
 
@@ -162,7 +162,7 @@ TEST_CASE("sizes whose product overflows are refused") {
     H5Pclose(properties);
   };
   CHECK_THAT(foreign_error(fill, [](const Hdf5Reader& r) { r.matrix("x", -1, -1); }),
-             Catch::Contains("declares 2147483648×2147483648 values, but holds only 0 bytes"));
+             Contains("declares 2147483648×2147483648 values, but holds only 0 bytes"));
 }
 
 TEST_CASE("what this project's files never have is refused") {
