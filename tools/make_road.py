@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Starts the command of sprung_tools/cli/make_road.py."""
 
-from sprung_tools.cli import make_road
-from sprung_tools.terminal.program import run_tool
+from sprung_tools.terminal.command import run_command
 
-run_tool(make_road.main)
+run_command("make_road")

@@ -240,6 +240,7 @@ ColumnPivots choose_from(What left, const Eigen::SparseMatrix<double>& matrix) {
 }  // namespace
 
 ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
+  if (matrix.rows() == 0) return {};  // a vehicle without joints
   if (matrix.rows() <= kFewRows) return choose_from(Remainder(matrix), matrix);
   return choose_from(Elimination(matrix), matrix);
 }

@@ -136,7 +136,9 @@ class BashTools(Examples):
                     calls = log.read_text(encoding="utf-8").splitlines()
                     self.assertEqual([call.split()[0] for call in calls], CALLED[tool])
                     if tool != "setup":
-                        self.assertTrue(calls[-1].endswith(" ".join(words[1:])), calls[-1])
+                        given = [word for word in words[1:] if word != "--sanitize"]
+                        self.assertTrue(calls[-1].endswith(" ".join(given)), calls[-1])
+                        self.assertEqual("--preset asan" in calls[-1], "--sanitize" in words, calls[-1])
 
 
 class Completeness(ToolTestCase):

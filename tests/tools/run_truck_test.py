@@ -38,6 +38,7 @@ class RunTruck(ToolTestCase):
         ):
             (self.root / name).touch()
         self.calls = self.folder / "calls"
+        self.program("tools/setup", "pass")
         self.program("tools/build", "pass")
         self.program("build/release/reduce/sprung-reduce", REDUCE)
         self.program("build/release/dynamics/sprung-dynamics", DYNAMICS)
@@ -70,6 +71,7 @@ class RunTruck(ToolTestCase):
         self.assertEqual(
             self.calls.read_text(encoding="utf-8").splitlines(),
             [
+                "setup",
                 "build sprung-reduce sprung-dynamics",
                 f"sprung-reduce build meshes/truck/chassis.toml meshes/truck/long_arm.toml --output-dir {out}",
                 *(

@@ -42,6 +42,32 @@ class Scripts(ToolTestCase):
                 self.assertIn("error: ", process.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_a_module_that_is_missing_is_named_with_its_package(self):
+        # Python takes a module of this folder before the system's; that of matplotlib needs another one, as modules do.
+        (self.folder / "frame.vtk").touch()
+        for module, needed, tool, arguments in (
+            ("h5py", "h5py", "report_peaks", ("--help",)),
+            ("matplotlib", "matplotlib.pyplot", "plot_results", ("--help",)),
+            ("meshio", "meshio", "convert_mesh", ("frame.vtk", "frame.msh")),
+            ("numpy", "numpy", "make_road.py", ("--help",)),
+        ):
+            with self.subTest(module):
+                blocked = self.folder / module
+                blocked.mkdir()
+                text = f"raise ModuleNotFoundError('not here', name={needed!r})\n"
+                (blocked / f"{module}.py").write_text(text, encoding="utf-8")
+                process = self.run_tool(tool, *arguments, PYTHONPATH=str(blocked))
+                self.assert_refuses(process, f"tools/{tool}: error: Python's module {module} is not", f"python3-{module}")
+
+    def test_another_python_earlier_in_the_path_is_not_taken(self):
+        other = self.folder / "python3"
+        other.write_text("#!/bin/sh\nexit 99\n", encoding="utf-8")
+        other.chmod(0o755)
+        for name in PYTHON:
+            with self.subTest(name):
+                process = self.run_tool(name, "--help", PATH=f"{self.folder}:{os.environ['PATH']}")
+                self.assertEqual((process.returncode, process.stderr), (0, ""))
+
     def test_a_folder_that_cannot_be_made_is_named(self):
         (self.folder / "programs").mkdir()
         for program in ("reduce/sprung-reduce", "dynamics/sprung-dynamics"):

@@ -7,7 +7,18 @@ import unittest
 from tool_test_case import ToolTestCase
 
 # What the script itself needs of the system; PATH holds nothing else, so that no real apt-get can be reached.
-NEEDED = ("bash", "cat", "dirname", "env", "mktemp", "readlink", "rm")
+NEEDED = ("bash", "cat", "dirname", "env", "mktemp", "paste", "readlink", "rm", "sed")
+
+# What apt-get prints when it is asked and told not to go on.
+ANSWER = """Reading package lists...
+The following NEW packages will be installed:
+  catch2 libgmsh-dev
+1 upgraded, 9 newly installed, 0 to remove and 126 not upgraded.
+Need to get 59.5 MB/60.2 MB of archives.
+After this operation, 277 MB of additional disk space will be used.
+Do you want to continue? [Y/n] N
+Abort."""
+ASKED = f"case \"$*\" in *--assume-no*) echo '{ANSWER}'; exit 1;; esac"
 
 
 class Setup(ToolTestCase):
@@ -32,7 +43,7 @@ class Setup(ToolTestCase):
         """A system with dpkg on which these packages are missing, for a user of this number."""
         absent = "|".join(missing) or "none-at-all"
         self.stand_in("dpkg-query", f'case "${{@: -1}}" in {absent}) exit 1;; *) echo -n installed;; esac')
-        self.stand_in("apt-get", f'echo "${{DEBIAN_FRONTEND-}} apt-get $*" >>"{self.log}"')
+        self.stand_in("apt-get", f'echo "${{DEBIAN_FRONTEND-}} apt-get $*" >>"{self.log}"; {ASKED}')
         self.stand_in("id", f"echo {user}")
 
     def setup_tool(self, *arguments):
@@ -52,11 +63,43 @@ class Setup(ToolTestCase):
         self.make_debian(missing=("catch2", "libgmsh-dev"))
         process = self.setup_tool()
         self.assertEqual(process.returncode, 0, process.stderr)
-        update, install = self.calls()
+        update, question, install = self.calls()
         self.assertRegex(update, r"^noninteractive apt-get .*\bupdate$")
+        self.assertRegex(question, r"\binstall --assume-no --no-install-recommends libgmsh-dev catch2$")
         self.assertRegex(
             install, r"^noninteractive apt-get .*\binstall -y --no-install-recommends libgmsh-dev catch2$"
         )
+
+    def test_what_will_be_installed_is_told_before_in_packages_and_bytes(self):
+        self.make_debian(missing=("catch2", "libgmsh-dev"))
+        # The installation prints a line of its own, which must come after.
+        self.stand_in("apt-get", f"{ASKED}; echo doing $*")
+        lines = self.setup_tool().stdout.splitlines()
+        told = (
+            "tools/setup: 9 packages, with those that they need. 60.2 MB to download. "
+            "After this operation, 277 MB of additional disk space will be used."
+        )
+        self.assertIn(told, lines)
+        installation = next(line for line in lines if line.startswith("doing") and "install -y" in line)
+        self.assertLess(lines.index(told), lines.index(installation))
+
+    def test_nothing_that_draws_is_installed_where_that_is_wished(self):
+        drawing = ("python3-matplotlib", "python3-meshio", "libjs-dygraphs")
+        self.make_debian(missing=drawing)
+        self.assertIn("all packages are installed", self.setup_tool("--minimal").stdout)
+        self.assertEqual(self.calls(), [])
+        self.assertEqual(self.setup_tool().returncode, 0)
+        self.assertTrue(self.calls()[-1].endswith(" ".join(drawing)), self.calls())
+        self.make_debian(missing=("libgmsh-dev",))
+        self.assertEqual(self.setup_tool("--minimal").returncode, 0)
+        self.assertTrue(self.calls()[-1].endswith(" libgmsh-dev"), self.calls())
+
+    def test_the_programs_that_check_the_sources_are_for_the_tests(self):
+        checkers = ("flake8", "mypy", "shellcheck", "clang-format")
+        self.make_debian(missing=checkers)
+        self.assertIn("all packages are installed", self.setup_tool().stdout)
+        self.assertEqual(self.setup_tool("--for-tests").returncode, 0)
+        self.assertTrue(self.calls()[-1].endswith(" ".join(checkers)), self.calls())
 
     def test_a_browser_is_installed_for_the_tests_alone_and_only_where_there_is_none(self):
         self.make_debian(missing=("chromium",))
@@ -69,7 +112,7 @@ class Setup(ToolTestCase):
         self.assertIn("all packages are installed", self.setup_tool("--for-tests").stdout)
 
     def test_other_arguments_are_refused(self):
-        for arguments in (("--tests",), ("--for-tests", "twice")):
+        for arguments in (("--tests",), ("--for-tests", "twice"), ("--minimal", "--for-tests")):
             process = self.setup_tool(*arguments)
             self.assertEqual(process.returncode, 2)
             self.assertIn(f"unknown argument '{arguments[-1]}'", process.stderr)
@@ -82,7 +125,7 @@ class Setup(ToolTestCase):
 
     def test_an_update_that_fails_does_not_stop_the_installation_but_a_failing_installation_does(self):
         self.make_debian(missing=("catch2",))
-        self.stand_in("apt-get", f'echo "$*" >>"{self.log}"; [[ "$*" != *update ]]')
+        self.stand_in("apt-get", f'echo "$*" >>"{self.log}"; {ASKED}; [[ "$*" != *update ]]')
         self.assertEqual(self.setup_tool().returncode, 0)
         self.stand_in("apt-get", "exit 100")
         process = self.setup_tool()

@@ -5,7 +5,8 @@ option(SPRUNG_PRECOMPILED_HEADERS "Read Eigen, fmt and the standard library once
 
 function(sprung_target name)
   _sprung_compile_options(${name})
-  target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_include_directories(${name} PUBLIC
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sprung>")
   if(SPRUNG_PRECOMPILED_HEADERS)
     target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt)
     target_precompile_headers(${name} REUSE_FROM sprung_precompiled)

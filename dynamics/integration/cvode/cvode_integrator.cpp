@@ -3,6 +3,7 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
@@ -10,7 +11,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "dynamics/integration/throw_stopped.h"
 #include "dynamics/integration/touch_search.h"
@@ -32,15 +36,14 @@ std::span<double> values(N_Vector vector) {
 struct Callback {
   OdeSystem* system;
   double relative_tolerance;
-  std::string message;  // what CVODE said last
 };
 
-int evaluate_derivative(realtype time, N_Vector y, N_Vector y_dot, void* data) {
+int evaluate_derivative(sunrealtype time, N_Vector y, N_Vector y_dot, void* data) {
   const auto* callback = static_cast<Callback*>(data);
   return callback->system->calc_derivative(time, values(y), values(y_dot)) ? 0 : 1;
 }
 
-int evaluate_switches(realtype time, N_Vector y, realtype* switches, void* data) {
+int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void* data) {
   const auto* callback = static_cast<Callback*>(data);
   const std::span<double> result(switches, static_cast<std::size_t>(callback->system->num_switches()));
   return callback->system->calc_switches(time, values(y), result) ? 0 : -1;
@@ -56,11 +59,30 @@ int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
   return 0;
 }
 
-void keep_message(int /*code*/, const char* /*module*/, const char* function, char* message, void* data) {
-  static_cast<Callback*>(data)->message = fmt::format("{}: {}", function, message);
+// A context without MPI, and CVODE kept from printing errors that are thrown: the two calls that differ
+// between the versions of SUNDIALS.
+#if SUNDIALS_VERSION_MAJOR >= 7
+int create_context(SUNContext* context) {
+  return SUNContext_Create(SUN_COMM_NULL, context);
+}
+int stop_printing(SUNContext context, void* /*cvode*/) {
+  return SUNContext_ClearErrHandlers(context);
+}
+#else
+int create_context(SUNContext* context) {
+  return SUNContext_Create(nullptr, context);
+}
+int stop_printing(SUNContext /*context*/, void* cvode) {
+  return CVodeSetErrFile(cvode, nullptr);
+}
+#endif
+
+std::string name_of(int code) {
+  const std::unique_ptr<char, decltype(&std::free)> name(CVodeGetReturnFlagName(code), &std::free);
+  return fmt::format("code {}, {}", code, name ? name.get() : "unknown");
 }
 
-std::string explain_stop(int code, const std::string& message) {
+std::string explain_stop(int code) {
   switch (code) {
     case CV_TOO_MUCH_ACC:
       return "the relative tolerance is finer than rounding allows this method; try a larger one, or method "
@@ -80,7 +102,7 @@ std::string explain_stop(int code, const std::string& message) {
     case CV_RTFUNC_FAIL:
       return "no accelerations can be found there; look at forces and positions just before that time";
     default:
-      return fmt::format("code {}: {}", code, message);
+      return name_of(code);
   }
 }
 
@@ -101,13 +123,11 @@ struct CvodeIntegrator::Memory {
 
   void check(int code, const char* what) const {
     if (code >= 0) return;
-    throw support::NumericalError(
-        fmt::format("integrator: {} failed (code {}): {}", what, code, callback.message));
+    throw support::NumericalError(fmt::format("integrator: {} failed ({})", what, name_of(code)));
   }
   template <class Pointer>
   Pointer require(Pointer pointer, const char* what) const {
-    if (!pointer)
-      throw support::NumericalError(fmt::format("integrator: {} failed: {}", what, callback.message));
+    if (!pointer) throw support::NumericalError(fmt::format("integrator: {} failed", what));
     return pointer;
   }
   ~Memory() {
@@ -123,13 +143,13 @@ struct CvodeIntegrator::Memory {
 CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options)
     : memory_(std::make_unique<Memory>()) {
   Memory& memory = *memory_;
-  memory.callback = {&system, options.relative_tolerance, {}};
-  memory.check(SUNContext_Create(nullptr, &memory.context), "SUNContext_Create");
+  memory.callback = {&system, options.relative_tolerance};
+  memory.check(create_context(&memory.context), "SUNContext_Create");
   const bool adams = options.method == Method::kAdams;
   memory.y = memory.require(N_VNew_Serial(system.size(), memory.context), "N_VNew_Serial");
   N_VConst(0.0, memory.y);
   memory.cvode = memory.require(CVodeCreate(adams ? CV_ADAMS : CV_BDF, memory.context), "CVodeCreate");
-  memory.check(CVodeSetErrHandlerFn(memory.cvode, keep_message, &memory.callback), "CVodeSetErrHandlerFn");
+  memory.check(stop_printing(memory.context, memory.cvode), "turning off messages");
   memory.check(CVodeInit(memory.cvode, evaluate_derivative, 0.0, memory.y), "CVodeInit");
   memory.check(CVodeSetUserData(memory.cvode, &memory.callback), "CVodeSetUserData");
   memory.check(CVodeSetMinStep(memory.cvode, kShortestStep), "CVodeSetMinStep");
@@ -217,7 +237,7 @@ Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   const double from = time_;
   const int code = CVode(memory.cvode, end_time_, memory.y, &time_, CV_ONE_STEP);
   if (code < 0) {
-    throw_stopped(time_, explain_stop(code, memory.callback.message));
+    throw_stopped(time_, explain_stop(code));
   }
   if (code == CV_ROOT_RETURN || locate_touch(from)) return StepResult::kSwitched;
   return code == CV_TSTOP_RETURN || time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
@@ -239,9 +259,11 @@ void CvodeIntegrator::interpolate(double time, std::span<double> y) const {
 Integrator::Statistics CvodeIntegrator::statistics() const {
   Statistics total = memory_->before;
   long steps = 0, error_failures = 0, iteration_failures = 0;
-  CVodeGetNumSteps(memory_->cvode, &steps);
-  CVodeGetNumErrTestFails(memory_->cvode, &error_failures);
-  CVodeGetNumNonlinSolvConvFails(memory_->cvode, &iteration_failures);
+  const Memory& memory = *memory_;
+  memory.check(CVodeGetNumSteps(memory.cvode, &steps), "CVodeGetNumSteps");
+  memory.check(CVodeGetNumErrTestFails(memory.cvode, &error_failures), "CVodeGetNumErrTestFails");
+  memory.check(CVodeGetNumNonlinSolvConvFails(memory.cvode, &iteration_failures),
+               "CVodeGetNumNonlinSolvConvFails");
   total.steps += steps;
   total.error_test_failures += error_failures;
   total.iteration_failures += iteration_failures;

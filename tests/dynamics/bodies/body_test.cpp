@@ -8,7 +8,6 @@
 #include "tests/dynamics/beam_superelement.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::Body;
 
 TEST_CASE("A rigid body has mass and inertia and no modes", "[bodies]") {

@@ -11,7 +11,6 @@
 #include "tests/dynamics/random_numbers.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::PiecewisePolynomial;
 
 namespace {

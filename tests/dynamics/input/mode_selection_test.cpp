@@ -118,5 +118,5 @@ TEST_CASE("The tolerance of the choice has a range") {
   CHECK(read("tolerance = 0.0") == 0.0);
   CHECK(input_error_of([&] { read("tolerance = 0.6"); }) ==
         "run.toml:2:13: error: 'mode_choice.tolerance' must be ≥ 0 and ≤ 0.5, got 0.6");
-  CHECK_THAT(input_error_of([&] { read("tolerence = 0.1"); }), Catch::Matchers::Contains("tolerence"));
+  CHECK_THAT(input_error_of([&] { read("tolerence = 0.1"); }), Contains("tolerence"));
 }

@@ -6,7 +6,6 @@
 #include "tests/dynamics/input/input_cases.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::ResponseRequest;
 
 namespace {

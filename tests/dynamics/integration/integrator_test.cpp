@@ -14,7 +14,6 @@
 #include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::Integrator;
 using Method = Integrator::Method;
 

@@ -5,7 +5,6 @@
 #include "tests/catch.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using Eigen::VectorXd;
 
 namespace {

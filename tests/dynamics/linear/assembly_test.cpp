@@ -14,7 +14,6 @@
 #include "tools/support/errors/input_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::Model;
 using Eigen::VectorXd;
 

@@ -17,7 +17,6 @@
 #include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::Model;
 using Eigen::VectorXd;
 using std::numbers::pi;

@@ -9,7 +9,6 @@
 #include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::FrequencySolver;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;

@@ -17,7 +17,6 @@
 #include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::LinearOutputs;
 using dynamics::LinearVehicle;
 using dynamics::Model;

@@ -13,7 +13,6 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::Model;
 using dynamics::VehicleMode;
 using Eigen::VectorXd;

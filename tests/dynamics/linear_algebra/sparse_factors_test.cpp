@@ -139,6 +139,12 @@ TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
   }
 }
 
+TEST_CASE("Of a matrix without rows no columns are taken", "[system]") {
+  const dynamics::ColumnPivots found = dynamics::choose_columns(Eigen::SparseMatrix<double>(0, 4));
+  CHECK(found.columns.empty());
+  CHECK(found.sizes.empty());
+}
+
 TEST_CASE("Of many rows regular columns are taken that make the others by factors that are not large",
           "[system]") {
   // Rows of four entries at random; sizes from 0.1 to 1, so that none is much less than its row's largest.

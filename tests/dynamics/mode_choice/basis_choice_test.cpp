@@ -18,7 +18,6 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::BasisChoice;
 using dynamics::CandidateMode;
 using dynamics::LinearVehicle;

@@ -6,7 +6,6 @@
 #include "tests/catch.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::RoadSpectrum;
 
 TEST_CASE("ISO 8608 classes are four times rougher each", "[road]") {

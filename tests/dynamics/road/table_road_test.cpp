@@ -9,7 +9,6 @@
 #include "tests/catch.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::TableRoad;
 
 namespace {

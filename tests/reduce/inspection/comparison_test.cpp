@@ -10,8 +10,6 @@
 namespace sprung::reduce {
 namespace {
 
-using Catch::Matchers::Contains;
-
 const WantedModes kSix{.wanted = ModeCount{6}};
 
 Superelement reduce_star(int num_elements, double angle = 0.3, const WantedModes& request = kSix) {

@@ -19,7 +19,6 @@
 namespace sprung::reduce {
 namespace {
 
-using Catch::Matchers::Contains;
 using support::NumericalError;
 using testing::message_of;
 

@@ -9,7 +9,6 @@
 namespace sprung::reduce {
 namespace {
 
-using Catch::Matchers::Contains;
 using support::InputError;
 using testing::message_of;
 

@@ -13,8 +13,6 @@
 namespace sprung::reduce {
 namespace {
 
-using Catch::Matchers::Contains;
-
 // An L with shear, rotary inertia and point masses, no coordinate zero, held inside.
 fem::BeamModel make_frame() {
   fem::BeamModel model = testing::make_model({testing::make_section(true)});

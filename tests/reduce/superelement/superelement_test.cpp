@@ -17,7 +17,6 @@
 namespace sprung::reduce {
 namespace {
 
-using Catch::Matchers::Contains;
 using support::InputError;
 using testing::make_two_armed_body;
 using testing::message_of;

@@ -42,7 +42,7 @@ class SmallFile {
     const Hdf5Reader reader(path_);
     const std::string message = error_message<InputError>([&] { call(reader); });
     const std::string start = path_ + ": error: ";
-    REQUIRE_THAT(message, Catch::StartsWith(start));
+    REQUIRE_THAT(message, Catch::Matchers::StartsWith(start));
     return message.substr(start.size());
   }
 
@@ -167,7 +167,7 @@ TEST_CASE("sizes whose product overflows are refused") {
                            [](const Hdf5Reader& r) {
                              r.reals("x", {-1, -1});
                            }),
-             Catch::Contains("declares 2147483648×2147483648 values, but holds only 0 bytes"));
+             Contains("declares 2147483648×2147483648 values, but holds only 0 bytes"));
 }
 
 TEST_CASE("what this project's files never have is refused") {

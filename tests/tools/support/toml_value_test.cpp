@@ -17,7 +17,7 @@ std::string conversion_error(const std::string& text, Conversion&& conversion) {
   const TomlValue value = document.root().at("b").table().at("x");
   const std::string message = error_message<InputError>([&] { conversion(value); });
   const std::string expected_start = "v.toml:2:5: error: 'b.x' ";
-  REQUIRE_THAT(message, Catch::StartsWith(expected_start));
+  REQUIRE_THAT(message, Catch::Matchers::StartsWith(expected_start));
   return message.substr(expected_start.size());
 }
 

@@ -22,7 +22,6 @@
 #include "tools/support/errors/numerical_error.h"
 
 using namespace sprung;
-using Catch::Matchers::Contains;
 using dynamics::GeneralizedAlpha;
 using dynamics::GeneralizedAlphaStepper;
 using dynamics::Model;

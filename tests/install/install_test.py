@@ -1,0 +1,93 @@
+"""What `cmake --install` puts into an empty folder is enough to reduce the truck's bodies, to drive it over the bump, to
+draw that, and to build a program that reads superelements. Needs the folder of the build (SPRUNG_BUILD), cmake
+(SPRUNG_CMAKE) and the compiler flags of the build (SPRUNG_CXX_FLAGS)."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+
+
+def run(*command, **options):
+    return subprocess.run(
+        [str(word) for word in command],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+        **options,
+    )
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        cls.installed = cls.folder / "a prefix"  # a blank, as in many a home folder
+        cls.share = cls.installed / "share/sprung"
+        cls.must_run(os.environ["SPRUNG_CMAKE"], "--install", os.environ["SPRUNG_BUILD"], "--prefix", cls.installed)
+        designs = sorted((cls.share / "meshes/truck").glob("*.toml"))
+        cls.reduced = cls.must_run(
+            cls.installed / "bin/sprung-reduce", "build", *designs, "--output-dir", cls.folder / "bodies"
+        )
+
+    @classmethod
+    def must_run(cls, *command):
+        process = run(*command, cwd=cls.folder)
+        if process.returncode != 0:
+            raise AssertionError(f"{command} ended with exit code {process.returncode}:\n{process.stdout}")
+        return process.stdout
+
+    def test_the_truck_drives_over_the_bump_and_is_drawn(self):
+        run_file, results = self.share / "dynamics/models/truck/bump.toml", self.folder / "bump.h5"
+        self.must_run(
+            self.installed / "bin/sprung-dynamics", "run", run_file, "--superelements", self.folder / "bodies",
+            "-o", results, "--set", "duration=1", "--set", "statistics.to=1",
+        )  # fmt: skip
+        picture, page = self.folder / "bump.png", self.folder / "bump.html"
+        self.must_run(
+            self.share / "tools/plot_results", results, "-o", picture, "--show", "bodies/chassis/acceleration.y"
+        )
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.must_run(self.share / "tools/report", results, "-o", page, "--superelements", self.folder / "bodies")
+        self.assertIn("dygraphs", page.read_text(encoding="utf-8"))
+
+    def test_every_tool_explains_itself(self):
+        tools = sorted(path for path in (self.share / "tools").iterdir() if path.is_file())
+        self.assertGreater(len(tools), 5)
+        for tool in tools:
+            with self.subTest(tool.name):
+                self.assertIn("usage: ", self.must_run(tool, "--help"))
+
+    def test_a_program_reads_a_superelement_by_find_package(self):
+        # The sources are out of reach: only what is installed can be found.
+        source, build = self.folder / "consumer", self.folder / "consumer_build"
+        shutil.copytree(HERE / "consumer", source)
+        flags = os.environ["SPRUNG_CXX_FLAGS"]
+        self.must_run(
+            os.environ["SPRUNG_CMAKE"], "-S", source, "-B", build, "-G", "Ninja",
+            f"-DCMAKE_PREFIX_PATH={self.installed}", f"-DCMAKE_CXX_FLAGS={flags}",
+        )  # fmt: skip
+        self.must_run(os.environ["SPRUNG_CMAKE"], "--build", build)
+        printed = self.must_run(build / "consumer", self.folder / "bodies/chassis.h5")
+        # The first clamped frequency of the truck's chassis: 6.11 Hz by [Kim, Shabana & Haug 1983], section 4, twice.
+        name, first, second, *_ = printed.split()
+        self.assertEqual(name, "chassis")
+        self.assertAlmostEqual(float(first), 6.11, delta=0.01)
+        self.assertAlmostEqual(float(second), 6.11, delta=0.01)
+
+    def test_nothing_installed_names_the_folders_of_the_build(self):
+        for path in (self.installed / "lib").rglob("*.cmake"):
+            self.assertNotIn(str(ROOT), path.read_text(encoding="utf-8"), path)
+
+
+if __name__ == "__main__":
+    unittest.main()
