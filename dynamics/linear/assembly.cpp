@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "dynamics/system/constrained_equations.h"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-12;       // of the length scale
-constexpr double kLoaded = 1e-6;           // of the largest load: less is rounding
+constexpr double kLoaded = 1e-6;           // of forces whose sizes are about 1: less is rounding
 constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
@@ -68,36 +68,36 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
                   name_constraints(model, open)));
 }
 
-// Flexible bodies that dependent constraints load in themselves: wrenches that balance each other at several
-// of their points, and that the modes do not feel. More modes would, and make the constraints independent.
+// Flexible bodies that dependent constraints load in themselves: forces that balance each other at several of
+// their points, and that the modes do not feel. More modes would, and make the constraints independent.
 // @param terms  after update_jacobian   @param dependent  what find_dependent_constraints found
 std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
                                                     const std::vector<int>& dependent) {
   const Model& model = terms.model();
-  const Eigen::MatrixXd rows = Eigen::MatrixXd(terms.jacobian().sparse())(dependent, Eigen::all);
+  const BlockJacobian& jacobian = terms.jacobian();
+  const Eigen::MatrixXd rows = Eigen::MatrixXd(jacobian.sparse())(dependent, Eigen::all);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.num_constraints);
   lambda(dependent) = svd.matrixU().rightCols<1>();  // forces of the joints that move nothing
-  std::vector<Wrench> loads(model.markers.size());
-  terms.calc_loads(lambda, loads);
+  // Of each body the forces and the torque about its frame's origin that it is loaded by, place by place.
+  std::map<std::tuple<int, double, double>, Eigen::Vector3d> loads;
+  for (const BlockJacobian::Block& block : jacobian.blocks()) {
+    const Joint& joint = *model.joints[joint_of_constraint(model, block.row)];
+    const Marker& a = model.markers[static_cast<std::size_t>(joint.marker_a)];
+    const Marker& marker = a.body == block.body ? a : model.markers[static_cast<std::size_t>(joint.marker_b)];
+    const auto key = std::make_tuple(static_cast<int>(block.body), marker.p_BP.x(), marker.p_BP.y());
+    Eigen::Vector3d& load = loads.try_emplace(key, Eigen::Vector3d::Zero()).first->second;
+    for (int i = 0; i < block.num_rows; ++i) {
+      const double* row = jacobian.data() + block.offset + i * block.num_columns;
+      load += lambda[block.row + i] * Eigen::Map<const Eigen::Vector3d>(row);
+    }
+  }
   std::vector<std::string> found;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].num_modes() == 0) continue;
-    std::map<std::pair<double, double>, Eigen::Vector3d> places;  // what each place of the body is loaded by
-    double largest = 0.0;
-    for (std::size_t m = 0; m < model.markers.size(); ++m) {
-      const Marker& marker = model.markers[m];
-      if (marker.body != static_cast<int>(b)) continue;
-      const Eigen::Vector3d load(loads[m].force.x(), loads[m].force.y(), loads[m].torque);
-      const auto place =
-          places.try_emplace({marker.p_BP.x(), marker.p_BP.y()}, Eigen::Vector3d::Zero()).first;
-      place->second += load;
-      largest = std::max(largest, load.cwiseAbs().maxCoeff());
-    }
-    const auto is_loaded = [&](const auto& place) {
-      return place.second.cwiseAbs().maxCoeff() > kLoaded * largest;
+    const auto is_loaded = [&](const auto& entry) {
+      return std::get<0>(entry.first) == static_cast<int>(b) && entry.second.norm() > kLoaded;
     };
-    if (std::count_if(places.begin(), places.end(), is_loaded) > 1) {
+    if (model.bodies[b].num_modes() > 0 && std::count_if(loads.begin(), loads.end(), is_loaded) > 1) {
       found.push_back(fmt::format("'{}'", model.bodies[b].name));
     }
   }
