@@ -8,6 +8,8 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <vector>
 
 #include "dynamics/system/constrained_equations.h"
@@ -20,6 +22,7 @@ namespace {
 
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-12;       // of the length scale
+constexpr double kLoaded = 1e-6;           // of forces whose sizes are about 1: less is rounding
 constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
@@ -65,6 +68,65 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
                   name_constraints(model, open)));
 }
 
+// Flexible bodies that dependent constraints load in themselves: forces that balance each other at several of
+// their points, and that the modes do not feel. More modes would, and make the constraints independent.
+// @param terms  after update_jacobian   @param dependent  what find_dependent_constraints found
+std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
+                                                    const std::vector<int>& dependent) {
+  const Model& model = terms.model();
+  const BlockJacobian& jacobian = terms.jacobian();
+  const Eigen::MatrixXd rows = Eigen::MatrixXd(jacobian.sparse())(dependent, Eigen::all);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.num_constraints);
+  lambda(dependent) = svd.matrixU().rightCols<1>();  // forces of the joints that move nothing
+  // Of each body the forces and the torque about its frame's origin that it is loaded by, place by place.
+  std::map<std::tuple<int, double, double>, Eigen::Vector3d> loads;
+  for (const BlockJacobian::Block& block : jacobian.blocks()) {
+    const Joint& joint = *model.joints[joint_of_constraint(model, block.row)];
+    const Marker& a = model.markers[static_cast<std::size_t>(joint.marker_a)];
+    const Marker& marker = a.body == block.body ? a : model.markers[static_cast<std::size_t>(joint.marker_b)];
+    const auto key = std::make_tuple(static_cast<int>(block.body), marker.p_BP.x(), marker.p_BP.y());
+    Eigen::Vector3d& load = loads.try_emplace(key, Eigen::Vector3d::Zero()).first->second;
+    for (int i = 0; i < block.num_rows; ++i) {
+      const double* row = jacobian.data() + block.offset + i * block.num_columns;
+      load += lambda[block.row + i] * Eigen::Map<const Eigen::Vector3d>(row);
+    }
+  }
+  std::vector<std::string> found;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const auto is_loaded = [&](const auto& entry) {
+      return std::get<0>(entry.first) == static_cast<int>(b) && entry.second.norm() > kLoaded;
+    };
+    if (model.bodies[b].num_modes() > 0 && std::count_if(loads.begin(), loads.end(), is_loaded) > 1) {
+      found.push_back(fmt::format("'{}'", model.bodies[b].name));
+    }
+  }
+  return found;
+}
+
+[[noreturn]] void throw_redundant(const SystemTerms& terms, const std::vector<int>& dependent) {
+  const Model& model = terms.model();
+  const support::SourceLocation& location =
+      model.joints[joint_of_constraint(model, dependent.back())]->location;
+  const std::string names = name_constraints(model, dependent);
+  const std::vector<std::string> bodies = find_bodies_short_of_modes(terms, dependent);
+  if (!bodies.empty()) {
+    throw support::InputError(
+        location,
+        fmt::format("too few modes: with those that {} has, it cannot give way to what {} hold, so that "
+                    "their reactions have no unique value; take more modes of it",
+                    fmt::join(bodies, " or "), names));
+  }
+  throw support::InputError(
+      location,
+      fmt::format(
+          "redundant joints: {} hold the same motion more than once, so that their reactions have no "
+          "unique value; leave one of them out or free a direction, or, if they do so in this position "
+          "alone, "
+          "a change point of the mechanism, draw it a little beside it",
+          names));
+}
+
 }  // namespace
 
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
@@ -104,17 +166,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   terms.update_jacobian();
   terms.update_mass();
   const std::vector<int> dependent = find_dependent_constraints(terms);
-  if (!dependent.empty()) {
-    const std::size_t last = joint_of_constraint(model, dependent.back());
-    throw support::InputError(
-        model.joints[last]->location,
-        fmt::format(
-            "redundant joints: {} hold the same motion more than once, so that their reactions have no "
-            "unique value; leave one of them out or free a direction, or, if they do so in this position "
-            "alone, "
-            "a change point of the mechanism, draw it a little beside it",
-            name_constraints(model, dependent)));
-  }
+  if (!dependent.empty()) throw_redundant(terms, dependent);
 
   AssemblyReport report;
   report.residual = size;

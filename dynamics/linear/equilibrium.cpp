@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dynamics/linear/frequency_solver.h"
-#include "tools/support/dense/eigenproblems.h"
+#include "dynamics/linear/undamped_modes.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -16,13 +17,14 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr int kMaxIterations = 200;
-constexpr double kTolerance = 1e-12;        // last step, natural sizes
-constexpr double kRounding = 1e-10;         // steps below that no longer fall are made by rounding
-constexpr double kNeutralStiffness = 1e-9;  // of the largest stiffness-to-mass ratio
-constexpr double kNeutralForce = 1e-7;      // acceleration along a neutral direction, natural sizes/s²
-constexpr double kGrowth = 1e-7;            // real part of an eigenvalue that is rounding, of the largest
-constexpr double kLargestStep = 0.05;       // natural sizes per iteration
-constexpr double kFastFall = 0.3;           // of the step before, with the stiffness of the step before
+constexpr double kTolerance = Equilibrium::kTolerance;
+constexpr double kRounding = 1e-10;        // steps below that no longer fall are made by rounding
+constexpr double kWorstRounding = 1e-5;    // of steps: more would be no balance
+constexpr double kPushedStiffness = 1e-9;  // of what is pushed and not held, of the largest one
+constexpr double kNeutralForce = 1e-7;     // acceleration along a neutral direction, natural sizes/s²
+constexpr double kLargestStep = 0.05;      // natural sizes per iteration, at first
+constexpr double kForetold = 0.1;          // what forces may differ by from what the stiffness foretold
+constexpr double kFastFall = 0.3;          // of the step before, with the stiffness of the step before
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates,
                        const Eigen::VectorXd& values) {
@@ -36,46 +38,50 @@ double largest_natural(const Model& model, const std::vector<int>& coordinates,
 
 // The linearised system in its own modes: mass-normalised shapes V, stiffness-to-mass ratios ω², forces r.
 struct ModalForce {
-  Eigen::MatrixXd V;
-  Eigen::VectorXd omega_squared, force;
+  UndampedModes modes;
+  Eigen::VectorXd force;
   double stiffest = 0.0;         // largest |ω²|; where nothing is stiff, what bounds a step by force alone
+  double rounding_step = 0.0;    // what rounding of the forces makes of a step [natural sizes]
   std::vector<bool> is_neutral;  // neither held nor pushed: left where it is
   bool is_falling = false;       // pushed, but not held
 
-  ModalForce(const Model& model, const LinearisedSystem& system) {
-    const auto undamped = support::solve_undamped(system.stiffness, system.mass);
-    if (!undamped) throw support::NumericalError("equilibrium: the mass matrix is not positive definite");
-    V = undamped->vectors;
-    omega_squared = undamped->values;
+  ModalForce(const Model& model, const LinearisedSystem& system)
+      : modes(calc_undamped_modes(system.stiffness, system.mass, system.stiffness_rounding)) {
+    const Eigen::MatrixXd& V = modes.vectors;
+    const std::vector<int>& independent = system.partition.independent;
     force = V.transpose() * system.force;
-    const double largest_acceleration = largest_natural(model, system.partition.independent, V * force);
-    stiffest = std::max(omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);
-    const double loose = kNeutralStiffness * omega_squared.cwiseAbs().maxCoeff();
+    const Eigen::VectorXd rounding = V.cwiseAbs().transpose() * system.force_rounding;
+    const double largest_acceleration = largest_natural(model, independent, V * force);
+    stiffest = std::max(modes.omega_squared.cwiseAbs().maxCoeff(), largest_acceleration / kLargestStep);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(force.size());
     for (Eigen::Index k = 0; k < force.size(); ++k) {
-      const bool is_loose = std::abs(omega_squared[k]) <= loose;
-      const bool is_pushed =
-          largest_natural(model, system.partition.independent, V.col(k) * force[k]) > kNeutralForce;
-      is_neutral.push_back(is_loose && !is_pushed);
-      is_falling |= is_loose && is_pushed;
+      const double push = std::max(std::abs(force[k]) - rounding[k], 0.0);
+      const bool is_pushed = largest_natural(model, independent, V.col(k) * push) > kNeutralForce;
+      is_neutral.push_back(modes.is_free(k) && !is_pushed);
+      is_falling |= modes.is_free(k) && is_pushed;
+      if (!is_neutral.back()) moved += V.col(k).cwiseAbs() * (rounding[k] / calc_stiffness(k));
     }
+    rounding_step = largest_natural(model, independent, moved);
+  }
+
+  double calc_stiffness(Eigen::Index k) const {
+    return modes.is_free(k) ? kPushedStiffness * stiffest : std::abs(modes.omega_squared[k]);
   }
 
   /// Downhill step under forces r, each direction's stiffness raised by `damping`; neutral directions stay.
   Eigen::VectorXd calc_step(const Eigen::VectorXd& r, double damping) const {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(r.size());
-    const double least = kNeutralStiffness * stiffest;
     for (Eigen::Index k = 0; k < force.size(); ++k) {
       if (is_neutral[static_cast<std::size_t>(k)]) continue;
-      step += V.col(k) * (r[k] / (std::max(std::abs(omega_squared[k]), least) + damping));
+      step += modes.vectors.col(k) * (r[k] / (calc_stiffness(k) + damping));
     }
     return step;
   }
 };
 
 bool is_stable(const LinearisedSystem& system) {
-  const FrequencySolver solver(system.mass, system.damping, system.stiffness);
-  const Eigen::VectorXcd eigenvalues = solver.eigenvalues();
-  return eigenvalues.real().maxCoeff() <= kGrowth * eigenvalues.cwiseAbs().maxCoeff();
+  const FrequencySolver solver(system.mass, system.damping, system.stiffness, system.stiffness_rounding);
+  return !has_growth(solver.eigenvalues());
 }
 
 NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
@@ -113,37 +119,56 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
 
 [[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
                                        const ModalForce& modal, double last_step) {
+  const double least = std::max(modal.rounding_step, kTolerance);
+  if (!modal.is_falling && modal.rounding_step > kWorstRounding) {
+    throw support::NumericalError(fmt::format(
+        "no static equilibrium: rounding beside the largest stiffness, of {:.3g} Hz, leaves steps "
+        "of up to {:.1e} of the natural size; take fewer of the highest modes",
+        std::sqrt(modal.stiffest) / (2.0 * std::numbers::pi), modal.rounding_step));
+  }
   Eigen::Index worst = 0;
   modal.force.cwiseAbs().maxCoeff(&worst);
-  const NeutralDirection direction = describe(model, system.directions * modal.V.col(worst));
+  const NeutralDirection direction = describe(model, system.directions * modal.modes.vectors.col(worst));
   throw support::NumericalError(
       fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
                   "(tolerance {:.0e}); what "
                   "keeps moving: {}; check that something holds it against gravity, and the start position",
-                  kMaxIterations, last_step, kTolerance, direction.description));
+                  kMaxIterations, last_step, least, direction.description));
 }
 
+// How far a step may reach: longer each time that the forces change as the stiffness foretold.
+struct TrustRegion {
+  double damping = 0.0;  // added to the stiffness of each direction
+  double reach = kLargestStep;
+};
+
 // One accepted step downhill from q_i: the potential energy falls, or the forces do.
-// @param[in,out] damping  kept from step to step
 Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations,
                               const LinearisedSystem& system, const ModalForce& modal,
-                              const Eigen::VectorXd& q_i, const SteadyMotion& motion, double& damping) {
+                              const Eigen::VectorXd& q_i, const SteadyMotion& motion, TrustRegion& trust) {
   double potential = 0.0;
   calc_static_force(equations, 0.0, q_i, &potential, motion);
+  const Eigen::MatrixXd& V = modal.modes.vectors;
   for (int attempt = 0; attempt < 40; ++attempt) {
-    Eigen::VectorXd step = modal.calc_step(modal.force, damping);
+    Eigen::VectorXd step = modal.calc_step(modal.force, trust.damping);
     const double size = largest_natural(model, system.partition.independent, step);
-    if (size > kLargestStep) step *= kLargestStep / size;
+    const bool is_cut = size > trust.reach;
+    if (is_cut) step *= trust.reach / size;
     double trial_potential = 0.0;
     const Eigen::VectorXd trial_force =
         calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
     const bool assembled = trial_force.size() == q_i.size();
     if (assembled &&
-        (trial_potential < potential || (modal.V.transpose() * trial_force).norm() < modal.force.norm())) {
-      damping *= 0.1;
+        (trial_potential < potential || (V.transpose() * trial_force).norm() < modal.force.norm())) {
+      const Eigen::VectorXd change = V.transpose() * (system.stiffness * step),
+                            surprise = V.transpose() * (trial_force - system.force) + change;
+      const bool is_foretold = !modal.is_falling && surprise.norm() < kForetold * change.norm();
+      trust.reach = is_cut && is_foretold ? 2.0 * trust.reach : kLargestStep;
+      trust.damping *= 0.1;
       break;
     }
-    damping = std::max(10.0 * damping, 1e-6 * modal.stiffest);
+    trust.damping = std::max(10.0 * trust.damping, 1e-6 * modal.stiffest);
+    trust.reach = kLargestStep;
   }
   return equations.q();
 }
@@ -164,7 +189,7 @@ Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations
     Eigen::VectorXd q_i = select_independent(system, equations.q());
     const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
     if (force.size() == 0) break;
-    const Eigen::VectorXd step = modal.calc_step(modal.V.transpose() * force, 0.0);
+    const Eigen::VectorXd step = modal.calc_step(modal.modes.vectors.transpose() * force, 0.0);
     const double size = largest_natural(model, system.partition.independent, step);
     if (!(size < kFastFall * last_size)) break;
     q_i += step;
@@ -189,7 +214,8 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     equilibrium.linearised.partition = equations.partition();
     return equilibrium;
   }
-  double damping = 0.0, last_step = std::numeric_limits<double>::infinity();
+  TrustRegion trust;
+  double last_step = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
     equilibrium.q = equations.q();
@@ -197,14 +223,16 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     const double newton_step =
         largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
-    const bool is_rounding = newton_step <= kRounding && newton_step > 0.5 * last_step;
+    const double rounding = std::clamp(modal.rounding_step, kRounding, kWorstRounding);
+    const bool is_rounding = newton_step <= rounding && newton_step > 0.5 * last_step;
     last_step = newton_step;
     if (!modal.is_falling && (newton_step <= kTolerance || is_rounding)) {
       equilibrium.last_step = newton_step;
+      equilibrium.rounding_step = modal.rounding_step;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
         if (modal.is_neutral[static_cast<std::size_t>(k)]) {
-          equilibrium.neutral.push_back(describe(model, system.directions * modal.V.col(k)));
-        } else if (modal.omega_squared[k] < 0.0) {
+          equilibrium.neutral.push_back(describe(model, system.directions * modal.modes.vectors.col(k)));
+        } else if (modal.modes.omega_squared[k] < 0.0) {
           equilibrium.stable = false;
         }
       }
@@ -215,9 +243,9 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     }
     if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
     equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q),
-                                  motion, damping);
+                                  motion, trust);
     ++equilibrium.iterations;
-    if (damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
+    if (trust.damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
       equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step,
                                               equilibrium.iterations);
     }

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dynamics/linear/undamped_modes.h"
 #include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
-#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
@@ -18,7 +18,6 @@ namespace {
 
 using RealRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kFree = 1e-6;          // frequency that is none, of the highest
 constexpr double kWorstVectors = 1e-9;  // reciprocal condition of eigenvectors that are still good to 1e-6
 constexpr Eigen::Index kAtOnce = 256;   // frequencies
 
@@ -101,6 +100,7 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
   held.mass = free.transpose() * full.mass * free;
   held.damping = free.transpose() * full.damping * free;
   held.stiffness = free.transpose() * full.stiffness * free;
+  held.stiffness_rounding = free.cwiseAbs().transpose() * full.stiffness_rounding * free.cwiseAbs();
   held.input = free.transpose();
   held.by_position *= free;
   held.by_velocity *= free;
@@ -117,6 +117,9 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
 }
 
 HarmonicSweep::HarmonicSweep(DrivenSystem system) : system_(std::move(system)) {
+  if (system_.stiffness_rounding.size() == 0) {
+    system_.stiffness_rounding = calc_matrix_rounding(system_.stiffness);
+  }
   uncouple();
 }
 
@@ -125,33 +128,16 @@ void HarmonicSweep::uncouple() {
   input_.resize(0, system_.input.cols());
   state_outputs_.resize(p, 0);
   if (g == 0) return;
-  // Undamped modes, those without stiffness first; states √|k| y of the others, then ẏ of all.
-  const auto undamped = support::solve_undamped(system_.stiffness, system_.mass);
-  if (!undamped) {
-    throw support::NumericalError("frequency response: the mass matrix is not positive definite");
-  }
-  Eigen::MatrixXd V = undamped->vectors;
-  Eigen::MatrixXd K = V.transpose() * system_.stiffness * V;
-  const double stiffest = K.diagonal().cwiseAbs().maxCoeff();
-  std::vector<Eigen::Index> order, bound;
-  for (Eigen::Index k = 0; k < g; ++k) {
-    (std::abs(K(k, k)) <= kFree * kFree * stiffest ? order : bound).push_back(k);
-  }
-  const auto num_free = static_cast<Eigen::Index>(order.size()), num_bound = g - num_free;
-  order.insert(order.end(), bound.begin(), bound.end());
-  V = V(Eigen::all, order).eval();
-  K = K(order, order).eval();
-  const Eigen::VectorXd scale = K.diagonal().tail(num_bound).cwiseAbs().cwiseSqrt();
-
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(num_bound + g, num_bound + g);
-  A.block(0, num_bound + num_free, num_bound, num_bound) = scale.asDiagonal();
-  A.bottomLeftCorner(g, num_bound) = -K.rightCols(num_bound) * scale.cwiseInverse().asDiagonal();
-  A.bottomRightCorner(g, g) = -V.transpose() * system_.damping * V;
-  const auto eigen = support::solve_general(A);
+  const FirstOrderForm form =
+      make_first_order_form(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding);
+  const Eigen::MatrixXd& V = form.V;
+  const Eigen::Index num_free = form.num_free, num_bound = form.num_bound();
+  const auto eigen = support::solve_general(form.A);
   const Eigen::MatrixXd T = eigen ? normalise(*eigen) : Eigen::MatrixXd();
   const support::LuFactors inverse = eigen ? support::factorise_lu(T) : support::LuFactors();
   if (!(inverse.reciprocal_condition > kWorstVectors)) {
-    solver_ = std::make_unique<FrequencySolver>(system_.mass, system_.damping, system_.stiffness);
+    solver_ = std::make_unique<FrequencySolver>(system_.mass, system_.damping, system_.stiffness,
+                                                system_.stiffness_rounding);
     input_ = system_.input;
     state_outputs_.resize(p, 2 * g);
     state_outputs_ << system_.by_position, system_.by_velocity;
@@ -163,9 +149,9 @@ void HarmonicSweep::uncouple() {
   force.bottomRows(g) = V.transpose() * system_.input;
   input_ = inverse.solve(force);
   state_outputs_.resize(p, num_bound + g + num_free);
-  state_outputs_.leftCols(num_bound + g) =
-      system_.by_velocity * V * T.bottomRows(g) +
-      system_.by_position * V.rightCols(num_bound) * scale.cwiseInverse().asDiagonal() * T.topRows(num_bound);
+  state_outputs_.leftCols(num_bound + g) = system_.by_velocity * V * T.bottomRows(g) +
+                                           system_.by_position * V.rightCols(num_bound) *
+                                               form.scale.cwiseInverse().asDiagonal() * T.topRows(num_bound);
   state_outputs_.rightCols(num_free) = system_.by_position * V.leftCols(num_free);
   free_rates_ = T.middleRows(num_bound, num_free);
 }

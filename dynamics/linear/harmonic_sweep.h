@@ -17,6 +17,7 @@ using RowsXcd = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynam
 /// M ẍ + C ẋ + K x = B F and y = P x + V ẋ + D F: g freedoms, f forces, p outputs.
 struct DrivenSystem {
   Eigen::MatrixXd mass, damping, stiffness;  ///< g×g
+  Eigen::MatrixXd stiffness_rounding;        ///< g×g; empty: as of a matrix known to all its digits
   Eigen::MatrixXd input;                     ///< B, g×f
   Eigen::MatrixXd by_position, by_velocity;  ///< p×g
   Eigen::MatrixXd by_force;                  ///< p×f, or empty for none

@@ -11,7 +11,7 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     : q_(q),
       equations_(model),
       system_(linearise(equations_, 0.0, q)),
-      solver_(system_.mass, system_.damping, system_.stiffness),
+      solver_(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding),
       branches_(static_cast<std::size_t>(model.num_branches)) {
   const Eigen::VectorXd q_i = independent_positions();
   kinks_ = find_kinks(equations_, 0.0, q_i);

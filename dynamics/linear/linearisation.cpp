@@ -1,6 +1,9 @@
 #include "dynamics/linear/linearisation.h"
 
+#include <algorithm>
+
 #include "dynamics/linear/state_derivatives.h"
+#include "dynamics/linear/undamped_modes.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -11,6 +14,29 @@ std::vector<int> branches_at(const PartitionedEquations& equations) {
   std::vector<int> branches(static_cast<std::size_t>(equations.terms().model().num_branches));
   equations.terms().choose_branches(branches);
   return branches;
+}
+
+// K x of the bodies' modes, or |K| x. @param x  nq×k   @return nq×k
+Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes = false) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (const Body& body : model.bodies) {
+    const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
+    if (n == 0) continue;
+    const Eigen::MatrixXd K = of_sizes ? Eigen::MatrixXd(body.stiffness.cwiseAbs()) : body.stiffness;
+    product.middleRows(first, n) = K * x.middleRows(first, n);
+  }
+  return product;
+}
+
+// Size of the rounding of dependent modal coordinates, which is that of the joints they close, nq.
+Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& partition,
+                                         const Eigen::VectorXd& q) {
+  Eigen::VectorXd rounding = Eigen::VectorXd::Zero(model.num_coordinates);
+  const double closed = std::max(kRoundingUnit * model.length_scale, model.calc_rounding(q));
+  for (const int i : partition.dependent) {
+    rounding[i] = closed / model.length_scale * model.coordinate_scale(i);
+  }
+  return rounding;
 }
 
 // DᵀM D ρ̈_i at the state evaluated last.
@@ -50,6 +76,43 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
   return calc_relative_force(equations, equations.calc_directions(), motion);
 }
 
+namespace {
+
+// Stiffness and the rounding of stiffness and force, of a system that has all else. Equations at rest at q_i.
+void add_stiffness(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_i,
+                   const SteadyMotion& motion, LinearisedSystem& system) {
+  const Model& model = equations.terms().model();
+  const Eigen::VectorXd q = equations.q(), forces = equations.terms().forces();
+  const Eigen::Index f = q_i.size(), n = model.num_coordinates;
+  // Below the reduced force the forces themselves: their sizes are those of its rounding.
+  const Eigen::MatrixXd derivative = differentiate_by_position(
+      equations, time, q_i,
+      [&](const PartitionedEquations& at, auto) {
+        const Eigen::MatrixXd D = at.calc_directions();
+        const Eigen::VectorXd modal = apply_modal_stiffness(model, at.q() - q);
+        Eigen::VectorXd values(f + n);
+        values << calc_relative_force(at, D, motion) + D.transpose() * modal, at.terms().forces() + modal;
+        return values;
+      },
+      motion);
+  const Eigen::MatrixXd& D = system.directions;
+  system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
+
+  const Eigen::MatrixXd sizes = D.cwiseAbs();
+  Eigen::MatrixXd differences = derivative.bottomRows(n).cwiseAbs();
+  for (Eigen::Index k = 0; k < f; ++k) {
+    const int i = system.partition.independent[static_cast<std::size_t>(k)];
+    differences.col(k) += forces.cwiseAbs() / model.coordinate_scale(i);
+  }
+  system.stiffness_rounding = kRoundingUnit * sizes.transpose() *
+                              (apply_modal_stiffness(model, sizes, true) + differences / kPositionStep);
+  const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
+  system.force_rounding =
+      sizes.transpose() * (kRoundingUnit * forces.cwiseAbs() + apply_modal_stiffness(model, moved, true));
+}
+
+}  // namespace
+
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion) {
   equations.choose_partition_at(time, q);
@@ -73,12 +136,8 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
         return calc_relative_force(at, system.directions, motion);
       },
       motion);
-  system.stiffness = -differentiate_by_position(
-      equations, time, q_i,
-      [&](const PartitionedEquations& at, auto) {
-        return calc_relative_force(at, at.calc_directions(), motion);
-      },
-      motion);
+  calc_static_force(equations, time, q_i, nullptr, motion);
+  add_stiffness(equations, time, q_i, motion, system);
   calc_static_force(equations, time, q_i, nullptr, motion);
   return system;
 }

@@ -14,12 +14,15 @@ namespace sprung::dynamics {
 struct LinearisedSystem {
   Partition partition;
   Eigen::MatrixXd mass, damping, stiffness;  ///< f×f
+  Eigen::MatrixXd stiffness_rounding;        ///< f×f, ≥ 0: R (linear, eq. 14)
   Eigen::MatrixXd directions;                ///< nq×f, ∂q/∂q_i
   Eigen::VectorXd force;                     ///< f, what is left of the forces: 0 at an equilibrium
+  Eigen::VectorXd force_rounding;            ///< f, ≥ 0: r (linear, eq. 16)
 };
 
 /// Stiffness from differences of the reduced force, central and extrapolated to fourth order, so that a kink
-/// counts with the mean of its two slopes; damping likewise about rest. About steady motion, that of the
+/// counts with the mean of its two slopes; that of the bodies' modes is added as it is, so that stiff modes
+/// leave no rounding of differences. Damping likewise about rest. About steady motion, that of the
 /// coordinates which are carried along (linear, eqs. 4, 5).
 /// @param q  assembled positions; the branches are chosen at each of the points compared
 /// @throws support::NumericalError if the constraints cannot be satisfied around q

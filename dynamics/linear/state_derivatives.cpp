@@ -11,10 +11,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Steps of the differences, of each coordinate's natural size. The error of the extrapolated difference is of
-// the order of step⁴, its rounding of 1e-16/step.
-constexpr double kPositionStep = 1e-4;
-constexpr double kVelocityStep = 1e-3;  // natural sizes per second
+constexpr double kVelocityStep = 1e-3;  // of the differences by velocity, natural sizes per second
 
 const Model& model_of(const PartitionedEquations& equations) {
   return equations.terms().model();

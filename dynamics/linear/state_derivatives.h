@@ -11,6 +11,10 @@
 
 namespace sprung::dynamics {
 
+/// Step of the differences by position, of each coordinate's natural size. The error of the extrapolated
+/// difference is of the order of step⁴, its rounding of 1e-16/step.
+inline constexpr double kPositionStep = 1e-4;
+
 /// p values made of the state that the equations were evaluated at, positions to accelerations.
 using StateFunction =
     std::function<Eigen::VectorXd(const PartitionedEquations& equations, std::span<const int> branches)>;

@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "tools/support/dense/dense_solvers.h"
+#include "dynamics/linear/first_order_form.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -17,83 +17,71 @@ namespace {
 
 using std::numbers::pi;
 
-// Eigenvalues with Im ≥ 0 of the damped system and the position parts of their vectors.
+// Eigenvalues with Im ≥ 0 of the damped system and the position parts of their vectors, in the undamped
+// modes.
 struct DampedModes {
   std::vector<std::complex<double>> eigenvalues;
-  std::vector<Eigen::VectorXcd> shapes;
+  std::vector<Eigen::VectorXcd> shapes;  // of length 1
+
+  // The eigenvalue whose shape is most like u by the modal assurance criterion; it is left out from now on.
+  std::complex<double> take_most_alike(const Eigen::VectorXcd& u) {
+    if (shapes.empty()) throw support::NumericalError("modes: fewer damped modes than undamped ones");
+    const auto best = std::max_element(shapes.begin(), shapes.end(), [&](const auto& a, const auto& b) {
+      return std::norm(a.dot(u)) < std::norm(b.dot(u));
+    });
+    const auto i = best - shapes.begin();
+    const std::complex<double> s = eigenvalues[static_cast<std::size_t>(i)];
+    eigenvalues.erase(eigenvalues.begin() + i);
+    shapes.erase(best);
+    return s;
+  }
 };
 
-DampedModes calc_damped_modes(const LinearisedSystem& system, const Eigen::MatrixXd& damping) {
-  const Eigen::Index f = system.mass.rows();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * f, 2 * f);
-  A.topRightCorner(f, f).setIdentity();
-  A.bottomLeftCorner(f, f) = -support::solve_positive_definite(system.mass, system.stiffness);
-  A.bottomRightCorner(f, f) = -support::solve_positive_definite(system.mass, damping);
-  const auto pairs = support::solve_general(A);
+DampedModes calc_damped_modes(const FirstOrderForm& form) {
+  const auto pairs = support::solve_general(form.A);
   if (!pairs) throw support::NumericalError("modes: no eigenvalues were found for the damped system");
+  const double rounding = calc_eigenvalue_rounding(pairs->values);
   DampedModes modes;
-  for (Eigen::Index k = 0; k < 2 * f; ++k) {
-    if (pairs->values[k].imag() < 0.0) continue;  // the conjugate of another
-    modes.eigenvalues.push_back(pairs->values[k]);
-    modes.shapes.emplace_back(pairs->vector(k).head(f));
+  for (Eigen::Index k = 0; k < pairs->values.size(); ++k) {
+    const std::complex<double> s = pairs->values[k];
+    if (s.imag() < 0.0) continue;  // the conjugate of another
+    const bool is_at_rest = std::abs(s) <= rounding;
+    modes.eigenvalues.push_back(is_at_rest ? 0.0 : s);
+    modes.shapes.emplace_back(
+        form.calc_amplitudes(pairs->vector(k), is_at_rest ? 1.0 : s).col(0).normalized());
   }
   return modes;
 }
 
-// M b.
-Eigen::VectorXcd weigh(const Eigen::MatrixXd& mass, const Eigen::VectorXcd& b) {
-  Eigen::VectorXcd weighed(b.size());
-  weighed.real() = mass * b.real();
-  weighed.imag() = mass * b.imag();
-  return weighed;
-}
-
-// Shapes with what the modal assurance criterion in the mass metric takes of them.
-struct WeighedShapes {
-  WeighedShapes(const Eigen::MatrixXd& mass, const std::vector<Eigen::VectorXcd>& shapes) {
-    for (const Eigen::VectorXcd& shape : shapes) {
-      weighed.push_back(weigh(mass, shape));
-      sizes.push_back(shape.dot(weighed.back()).real());
-    }
-  }
-  // Modal assurance criterion, times the size of a.
-  double likeness(const Eigen::VectorXcd& a, std::size_t i) const {
-    return std::norm(a.dot(weighed[i])) / sizes[i];
-  }
-
-  std::vector<Eigen::VectorXcd> weighed;  // M b
-  std::vector<double> sizes;              // bᴴ M b
-};
-
-// A mode of the system without damping, its shape in the independent coordinates.
+// A mode of the system without damping.
 struct UndampedMode {
-  double omega = 0.0;  // [rad/s]
-  Eigen::VectorXcd shape;
+  double omega = 0.0;      // [rad/s]; 0 of one that nothing holds
+  Eigen::VectorXcd shape;  // in the undamped modes of stiffness and mass alone
 };
 
-// By growing frequency; those that nothing holds have the smallest |ω²|.
-std::vector<UndampedMode> calc_undamped_modes(const LinearisedSystem& system) {
-  const auto pairs = support::solve_undamped(system.stiffness, system.mass);
-  if (!pairs) throw support::NumericalError("modes: the mass matrix is not positive definite");
+// By growing frequency, those that nothing holds first.
+std::vector<UndampedMode> list_undamped_modes(const FirstOrderForm& form) {
+  const Eigen::Index f = form.V.rows();
   std::vector<UndampedMode> modes;
-  for (Eigen::Index k = 0; k < system.mass.rows(); ++k) {
-    modes.push_back(
-        {std::sqrt(std::abs(pairs->values[k])), pairs->vectors.col(k).cast<std::complex<double>>()});
+  for (Eigen::Index k = 0; k < f; ++k) {
+    modes.push_back({k < form.num_free ? 0.0 : form.scale[k - form.num_free], Eigen::VectorXcd::Unit(f, k)});
   }
   return modes;
 }
 
 // With Coriolis forces, the skew part of Ĉ, shapes are complex: of each the phase with the most kinetic
 // energy.
-std::vector<UndampedMode> calc_gyroscopic_modes(const LinearisedSystem& system) {
-  const DampedModes complex_modes =
-      calc_damped_modes(system, 0.5 * (system.damping - system.damping.transpose()));
+std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
+  const DampedModes complex_modes = calc_damped_modes(form);
   std::vector<UndampedMode> modes;
   for (std::size_t i = 0; i < complex_modes.shapes.size(); ++i) {
     const Eigen::VectorXcd& u = complex_modes.shapes[i];
-    const Eigen::VectorXcd mass_u = system.mass.cast<std::complex<double>>() * u;
-    const std::complex<double> square = u.cwiseProduct(mass_u).sum();
+    const std::complex<double> square = u.cwiseProduct(u).sum();
     modes.push_back({std::abs(complex_modes.eigenvalues[i]), u * std::polar(1.0, -0.5 * std::arg(square))});
+  }
+  // What nothing holds takes two states, and has one here.
+  while (static_cast<Eigen::Index>(modes.size()) < form.V.rows()) {
+    modes.push_back({0.0, Eigen::VectorXcd::Unit(form.V.rows(), 0)});
   }
   return modes;
 }
@@ -138,51 +126,37 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   }
   if (model.num_freedoms() == 0) return {};
   const LinearisedSystem& system = equilibrium.linearised;
+  const auto make_form = [&](const Eigen::MatrixXd& damping) {
+    return make_first_order_form(system.mass, damping, system.stiffness, system.stiffness_rounding);
+  };
+  const FirstOrderForm form = make_form(system.damping);
+  const bool turns = equilibrium.motion.omega != 0.0;
   std::vector<UndampedMode> undamped =
-      equilibrium.motion.omega != 0.0 ? calc_gyroscopic_modes(system) : calc_undamped_modes(system);
+      turns ? list_gyroscopic_modes(make_form(0.5 * (system.damping - system.damping.transpose())))
+            : list_undamped_modes(form);
   std::stable_sort(undamped.begin(), undamped.end(),
                    [](const UndampedMode& a, const UndampedMode& b) { return a.omega < b.omega; });
-  DampedModes damped = calc_damped_modes(system, system.damping);
-  const std::size_t f = static_cast<std::size_t>(system.mass.rows()), num_rigid = equilibrium.neutral.size();
-  // Of a neutral direction s = 0 comes twice, as a pair or as two real values.
-  if (undamped.size() > f) {
-    undamped.erase(undamped.begin(), undamped.begin() + static_cast<std::ptrdiff_t>(undamped.size() - f));
-  }
+  // A motion that decays without damping has two real values.
+  const auto f = static_cast<std::size_t>(form.V.rows());
+  if (undamped.size() > f) undamped.erase(undamped.begin(), undamped.end() - static_cast<std::ptrdiff_t>(f));
+  DampedModes damped = calc_damped_modes(form);
 
   SystemTerms terms(model);
   terms.update_positions(0.0, equilibrium.q);
   terms.update_mass();
 
-  WeighedShapes of_damped(system.mass, damped.shapes);
   std::vector<VehicleMode> modes;
-  for (std::size_t k = 0; k < undamped.size(); ++k) {
+  for (const UndampedMode& one : undamped) {
     VehicleMode mode;
-    const Eigen::VectorXd reduced_shape = undamped[k].shape.real();
-    mode.shape =
-        system.directions * reduced_shape / std::sqrt(reduced_shape.dot(system.mass * reduced_shape));
+    mode.shape = system.directions * (form.V * one.shape.real().normalized());
     mode.participants = describe_participants(model, terms, mode.shape);
-    mode.is_rigid_body = k < num_rigid;
-    if (mode.is_rigid_body) {
-      modes.push_back(std::move(mode));
-      continue;
+    mode.is_rigid_body = one.omega == 0.0;
+    if (!mode.is_rigid_body) {
+      mode.undamped_frequency_hz = one.omega / (2.0 * pi);
+      const std::complex<double> s = damped.take_most_alike(one.shape);
+      mode.damped_frequency_hz = s.imag() / (2.0 * pi);
+      mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / one.omega;
     }
-    mode.undamped_frequency_hz = undamped[k].omega / (2.0 * pi);
-    std::size_t best = 0;
-    double best_likeness = -1.0;
-    for (std::size_t i = 0; i < damped.eigenvalues.size(); ++i) {
-      const double value = of_damped.likeness(undamped[k].shape, i);
-      if (value > best_likeness) {
-        best_likeness = value;
-        best = i;
-      }
-    }
-    const std::complex<double> s = damped.eigenvalues[best];
-    mode.damped_frequency_hz = s.imag() / (2.0 * pi);
-    mode.damping_ratio =
-        s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / (2.0 * pi * mode.undamped_frequency_hz);
-    damped.eigenvalues.erase(damped.eigenvalues.begin() + static_cast<std::ptrdiff_t>(best));
-    of_damped.weighed.erase(of_damped.weighed.begin() + static_cast<std::ptrdiff_t>(best));
-    of_damped.sizes.erase(of_damped.sizes.begin() + static_cast<std::ptrdiff_t>(best));
     modes.push_back(std::move(mode));
   }
   return modes;

@@ -19,7 +19,6 @@ using std::numbers::pi;
 constexpr double kMostSamples = 1 << 22;
 constexpr double kShortest = 1e-3;  // forcing, of the run: where there is none
 constexpr double kRest = 0.01;      // of the motion, when it counts as settled
-constexpr double kNoDecay = 1e-7;   // real part of an eigenvalue that is rounding, of the largest
 
 // Forcing during the run; behind it, its last value fading away over the first half of the settling.
 std::vector<double> sample(const std::function<double(double)>& value, double duration, double period,
@@ -143,10 +142,10 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
 
 double calc_settling_time(const LinearVehicle& vehicle, double longest) {
   const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
-  const double largest = eigenvalues.cwiseAbs().maxCoeff();
-  double slowest = largest;
+  const double rounding = calc_eigenvalue_rounding(eigenvalues);
+  double slowest = eigenvalues.cwiseAbs().maxCoeff();
   for (const std::complex<double>& s : eigenvalues) {
-    if (std::abs(s) <= kNoDecay * largest) continue;  // a direction that nothing holds
+    if (std::abs(s) <= rounding) continue;  // a direction that nothing holds
     slowest = std::min(slowest, std::max(-s.real(), 0.0));
   }
   return slowest > 0.0 ? std::min(-std::log(kRest) / slowest, longest) : longest;

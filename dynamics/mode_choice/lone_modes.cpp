@@ -13,7 +13,6 @@ namespace {
 constexpr double kMostDamping = 0.02;  // spacing of lines at most, of frequency
 constexpr double kLeastDamping = 0.005;
 constexpr double kOscillates = 0.5;  // damping ratio up to which a motion has a resonance worth resolving
-constexpr double kNoDecay = 1e-7;    // real part of an eigenvalue that is rounding, of the largest
 constexpr std::size_t kMostValues = 1 << 23;  // complex numbers held at once
 
 // The watched outputs and, below them, the modal coordinates.
@@ -31,11 +30,11 @@ DrivenSystem add_amplitudes(const LinearVehicle& vehicle, const LinearOutputs& o
 // Half the width of the narrowest resonance, of its frequency.
 double find_spacing(const LinearVehicle& vehicle) {
   const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
-  const double largest = eigenvalues.cwiseAbs().maxCoeff();
+  const double rounding = calc_eigenvalue_rounding(eigenvalues);
   double least = kMostDamping;
   for (const std::complex<double>& s : eigenvalues) {
     const double ratio = -s.real() / std::abs(s);
-    if (std::abs(s) > kNoDecay * largest && ratio < kOscillates) least = std::min(least, ratio);
+    if (std::abs(s) > rounding && ratio < kOscillates) least = std::min(least, ratio);
   }
   return std::max(least, kLeastDamping);
 }

@@ -42,9 +42,13 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
   std::string text = fmt::format(
-      "{}: {} after {} iterations, last step {:.1e} of the natural size{}\n", report.vehicle.name,
+      "{}: {} after {} iterations, last step {:.1e} of the natural size{}{}\n", report.vehicle.name,
       report.is_steady ? "steady motion" : "static equilibrium", equilibrium.iterations,
-      equilibrium.last_step, equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
+      equilibrium.last_step,
+      equilibrium.is_usual()
+          ? ""
+          : fmt::format(", as small as rounding allows (usually {:.0e})", Equilibrium::kTolerance),
+      equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
   if (report.assembly.largest_movement > 1e-9) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
                         report.assembly.largest_movement);
@@ -98,7 +102,8 @@ std::string format_equilibrium_json(const BalanceReport& report) {
                                {"forces", forces},
                                {"neutral", neutral_descriptions(report.equilibrium)},
                                {"stable", report.equilibrium.stable},
-                               {"iterations", report.equilibrium.iterations}});
+                               {"iterations", report.equilibrium.iterations},
+                               {"last_step", report.equilibrium.last_step}});
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace sprung::dynamics {
 
@@ -17,6 +18,31 @@ SampleStatistics RunStatistics::Accumulator::result(long count) const {
   if (count == 0) return {};
   return {minimum, maximum, std::sqrt(sum_of_squares / static_cast<double>(count))};
 }
+
+namespace {
+
+// A motion that a usual tolerance does not resolve [natural sizes].
+constexpr double kUnresolved = 1e-7;
+
+// Work of weights, strains and force elements, each by itself, over the natural sizes [J].
+double calc_work_of_loads(const SystemTerms& terms) {
+  const Model& model = terms.model();
+  double work = 0.0;
+  for (const Body& body : model.bodies) {
+    work += body.mass * model.gravity.norm() * model.length_scale;
+    const Eigen::VectorXd strains =
+        body.stiffness * terms.q().segment(body.first_coordinate + 3, body.num_modes());
+    for (int k = 0; k < body.num_modes(); ++k) {
+      work += std::abs(strains[k]) * model.coordinate_scale(body.first_coordinate + 3 + k);
+    }
+  }
+  std::vector<Wrench> loads(model.markers.size());
+  terms.calc_loads(Eigen::VectorXd::Zero(model.num_constraints), loads);
+  for (const Wrench& load : loads) work += load.force.norm() * model.length_scale + std::abs(load.torque);
+  return work;
+}
+
+}  // namespace
 
 RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>& points,
                              const Eigen::VectorXd& reference_q, double from, double to)
@@ -45,7 +71,8 @@ void RunStatistics::add(const Snapshot& snapshot) {
   // turns steadily they are errors of its integration.
   const double size =
       std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
-  largest_change_ = std::max({largest_change_, change, 1e-9 * size, 0.01 * now.kinetic});
+  largest_change_ = std::max(
+      {largest_change_, change, 1e-9 * size, 0.01 * now.kinetic, kUnresolved * calc_work_of_loads(terms)});
   // Term by term, so that a large potential far from the origin does not swallow the digits.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
                            (now.gravity - first_.gravity) + (now.spring - first_.spring) +

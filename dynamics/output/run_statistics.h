@@ -38,8 +38,8 @@ class RunStatistics {
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
   /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the
-  /// stored terms (but at least a hundredth of the kinetic energy, for what turns steadily, and a billionth
-  /// of the terms).
+  /// stored terms (but at least a hundredth of the kinetic energy, for what turns steadily, a billionth of
+  /// the terms, and the work of the loads over 1e-7 of the natural sizes).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 

@@ -12,8 +12,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kGrowth = 1e-7;  // real part of an eigenvalue that is no rounding, of the largest
-
 bool is_driven(const Model& moving) {
   return std::any_of(moving.joints.begin(), moving.joints.end(), [](const auto& joint) {
     const std::vector<const TimeFunction*> functions = joint->time_functions();
@@ -67,8 +65,7 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   assemble_positions(model, q);
   const Equilibrium equilibrium = find_equilibrium(model, q);
   const LinearVehicle linear(model, equilibrium.q);
-  const Eigen::VectorXcd eigenvalues = linear.solver().eigenvalues();
-  if (!equilibrium.stable || eigenvalues.real().maxCoeff() > kGrowth * eigenvalues.cwiseAbs().maxCoeff()) {
+  if (!equilibrium.stable || has_growth(linear.solver().eigenvalues())) {
     return keep_all(candidates, tolerance, "the static balance is unstable");
   }
   std::vector<int> points;

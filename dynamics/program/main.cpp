@@ -39,7 +39,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Example: sprung-dynamics run dynamics/models/truck/bump.toml --superelements build/truck -o bump.h5 "
       "--set modes.chassis=4\n"
-      "Exit codes: 0 good, 2 bad input, 3 numerics, 130 interrupted");
+      "Exit codes: 0 good, 1 a check failed (results are written, but not to be trusted), 2 bad input, 3 "
+      "numerics, 130 interrupted");
   app.require_subcommand(1);
   app.set_version_flag("--version", SPRUNG_VERSION);
 

@@ -16,7 +16,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kGrowth = 1e-7;  // real part of an eigenvalue that is no rounding, of the largest
 constexpr double kSameSpeed = 1e-6;
 
 void check_request(const Run& run) {
@@ -34,7 +33,7 @@ void check_request(const Run& run) {
 void check_stability(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
   const double growth = eigenvalues.real().maxCoeff();
-  if (!prepared.equilibrium->stable || growth > kGrowth * eigenvalues.cwiseAbs().maxCoeff()) {
+  if (!prepared.equilibrium->stable || has_growth(eigenvalues)) {
     throw support::NumericalError(fmt::format(
         "response: the equilibrium is unstable (growth {:.3g} 1/s): a linear response means nothing there",
         growth));

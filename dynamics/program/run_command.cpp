@@ -118,7 +118,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
 
   const RunSummary summary{statistics, transient, run.duration, elapsed,
                            options.adaptivity ? &*options.adaptivity : nullptr};
-  if (statistics.energy_closure() > kAlarmingClosure) {
+  const bool is_trusted = statistics.energy_closure() <= kAlarmingClosure;
+  if (!is_trusted) {
     fmt::print(
         stderr,
         "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
@@ -128,7 +129,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   fmt::print("{}", output.json ? format_summary_json(prepared.model, summary)
                                : format_summary(prepared.model, summary));
   if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
-  return support::kGood;
+  return is_trusted ? support::kGood : support::kCheckFailed;
 }
 
 }  // namespace sprung::dynamics

@@ -77,7 +77,7 @@ bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
     terms_.calc_residual(residual_);
     terms_.update_jacobian();
     const double size = residual_.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) return false;
+    if (!residual_.allFinite()) return false;  // the largest one may pass over what is no number
     if (size <= kClosed * model_->length_scale) return true;
     if (iteration >= kClosingsToRounding && size <= model_->calc_rounding(moved_)) return true;
     terms_.update_mass();

@@ -81,7 +81,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     if (num_constraints_ == 0) return true;
     terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) return false;
+    if (!residual_.allFinite()) return false;  // the largest one may pass over what is no number
     if (size <= tolerance) return true;
     if (iteration >= kIterationsToRounding && size <= model_->calc_rounding(q_)) return true;
     const bool is_slow = iteration == 0 ? size > kLargeFirst * model_->length_scale

@@ -13,7 +13,7 @@ import unittest
 
 import numpy as np
 
-from verification_case import MODELS, SUPERELEMENTS, VerificationCase
+from verification_case import EXAMPLES, MODELS, SUPERELEMENTS, VerificationCase
 
 UNIT = 5.0  # rad/s
 LENGTH, BENDING_RIGIDITY = 2.0, 4000.0  # of these designs [m, N·m²]
@@ -332,6 +332,49 @@ class SpinUp(VerificationCase):
             'vehicle = "vehicle.toml"\n' + SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"), encoding="utf-8")
         results = self.run_to_results(self.folder / "run.toml")
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)
+
+
+class LoadedBeam(VerificationCase):
+    """A cantilever with a load at its tip, all its modes in."""
+
+    VEHICLE = """
+name = "loaded"
+[bodies.beam]
+superelement = "beam_at_end"
+position = [0.0, 0.0]
+points = { root = { node = "left" }, tip = { node = "right" } }
+[[joints]]
+name = "clamp"
+type = "fixed"
+a = "ground.origin"
+b = "beam.root"
+[[forces]]
+name = "load"
+type = "applied"
+point = "beam.tip"
+force = [0.0, -50.0]
+"""
+
+    def test_it_rests_and_its_energies_close(self):
+        # Nothing moves: what is left of the energies is rounding, and no reason not to trust the run.
+        for method in ("exponential", "adams", "generalized-alpha"):
+            run = f'duration = 0.05\n[modes]\nbeam = 8\n[integrator]\nmethod = "{method}"\n'
+            results = self.run_text(self.VEHICLE, run)
+            self.assertLess(results.summary["energy_closure"], 1e-3, method)
+
+
+class UntrustedRun(VerificationCase):
+    def test_a_run_whose_energies_do_not_close_ends_with_exit_code_1_and_its_results(self):
+        # The pendulum with twenty times too long a step.
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], "run", str(EXAMPLES / "pendulum_run.toml"), "--quiet", "-o", "results.h5",
+             "--set", 'integrator.method="generalized-alpha"', "--set", "integrator.fixed_step=0.05"],
+            cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+        )
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("do not trust this run", process.stderr)
+        self.assertIn("energy balance", process.stdout)
+        self.assertTrue((self.folder / "results.h5").is_file())
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 
 #include "dynamics/system/system_terms.h"
 #include "tests/catch.h"
+#include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/small_models.h"
 #include "tests/tools/support/error_message.h"
@@ -123,6 +124,33 @@ TEST_CASE("Redundant joints are an input error that names them", "[analysis]") {
   CHECK_THAT(message,
              Contains("redundant joints: 'upper' (x), 'lower' (x) hold the same motion more than once"));
   CHECK_THAT(message, !Contains("'only'"));
+}
+
+TEST_CASE("A flexible body with too few modes for its pins is told to take more of them", "[analysis]") {
+  // A beam pinned in three places: two of its three ways to follow need it to bend and to stretch.
+  const test::BeamSuperelement beam = test::make_beam_superelement(
+      test::make_straight_beam("beam", {0.0, 0.5, 1.0, 1.5, 2.0}, 1e7, 2e3, 6.0), 12);
+  const auto assemble = [&](const std::vector<int>& modes, const std::vector<int>& nodes) {
+    Model model;
+    const int body = test::add_body(model, dynamics::make_flexible_body("beam", beam.superelement, modes));
+    for (const int node : nodes) {
+      const Eigen::Vector2d at = beam.superelement.node_positions.col(node);
+      test::add_pin(model, "pin", test::add_node_marker(model, body, beam.superelement, node),
+                    test::add_marker(model, dynamics::kGround, at));
+    }
+    dynamics::number_model(model);
+    VectorXd q = VectorXd::Zero(model.num_coordinates);
+    dynamics::assemble_positions(model, q);
+  };
+  const std::vector<int> all{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::string message = error_message<support::InputError>([&] { assemble({1, 2, 3}, {1, 2, 4}); });
+  CHECK_THAT(message, Contains("too few modes") && Contains("'beam'") && Contains("take more modes of it"));
+  CHECK_NOTHROW(assemble(all, {1, 2, 4}));
+  // Two pins on one node stay redundant, whatever its modes.
+  CHECK_THAT(error_message<support::InputError>([&] {
+               assemble(all, {1, 4, 4});
+             }),
+             Contains("redundant joints"));
 }
 
 TEST_CASE("Velocities are made to fit the joints with the least change in the mass metric", "[analysis]") {

@@ -216,3 +216,57 @@ TEST_CASE("The frequencies of the vehicle do not depend on where its body is hel
     for (std::size_t k = 0; k < 8; ++k) CHECK(frequencies[k] == Approx(lowest[k]).epsilon(1e-7));
   }
 }
+
+TEST_CASE("Bounce and pitch on soft springs are no rigid-body modes beside the fast ones of a stiff beam",
+          "[analysis]") {
+  // A stiff beam with all its modes, held by soft springs along and across it at both quarters: it moves as
+  // if rigid. ω² = 2k/m along and across, 2k a²/J about its middle, a the springs' distance from it; its
+  // first bending is 150 times faster, so that it gives way by less than 1e-4.
+  std::vector<double> x;
+  for (int i = 0; i <= 20; ++i) x.push_back(0.05 * kLength * i);
+  const test::BeamSuperelement beam =
+      test::make_beam_superelement(test::make_straight_beam("beam", x, kEA, kEI, kMassPerLength), 60);
+  Model model;
+  const int body =
+      test::add_body(model, dynamics::make_flexible_body("beam", beam.superelement, first_modes(60)));
+  const double k = 12.0;  // N/m
+  for (const int node : {5, 15}) {
+    const Eigen::Vector2d at = beam.superelement.node_positions.col(node);
+    for (const Eigen::Vector2d& away : {Eigen::Vector2d(0.0, -0.5), Eigen::Vector2d(-0.5, 0.0)}) {
+      test::add_spring(model, "spring", test::add_node_marker(model, body, beam.superelement, node),
+                       test::add_marker(model, dynamics::kGround, at + away), 0.5, k, 0.0);
+    }
+  }
+  dynamics::number_model(model);
+  const std::vector<VehicleMode> modes = modes_of(model, VectorXd::Zero(model.num_coordinates));
+  const double mass = kMassPerLength * kLength, inertia = mass * kLength * kLength / 12.0, a = 0.25 * kLength;
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(modes[static_cast<std::size_t>(i)].is_rigid_body);
+  CHECK(modes.back().undamped_frequency_hz > 1e5 * modes[0].undamped_frequency_hz);
+  const double plain = std::sqrt(2.0 * k / mass) / (2.0 * pi),
+               pitch = std::sqrt(2.0 * k * a * a / inertia) / (2.0 * pi);
+  CHECK(modes[0].undamped_frequency_hz == Approx(pitch).epsilon(1e-4));
+  CHECK(modes[1].undamped_frequency_hz == Approx(plain).epsilon(1e-4));
+  CHECK(modes[2].undamped_frequency_hz == Approx(plain).epsilon(1e-4));
+}
+
+TEST_CASE("Without damping the damped frequencies are the undamped ones", "[analysis]") {
+  std::vector<double> x;
+  for (int i = 0; i <= 20; ++i) x.push_back(0.05 * kLength * i);
+  const test::BeamSuperelement beam =
+      test::make_beam_superelement(test::make_straight_beam("beam", x, kEA, kEI, kMassPerLength), 60);
+  Model model;
+  test::add_body(model, dynamics::make_flexible_body("beam", beam.superelement, first_modes(60)));
+  model.bodies[0].damping.setZero();
+  for (const int node : {0, 20}) {  // pinned at both ends: two modes follow from the others
+    const Eigen::Vector2d at = beam.superelement.node_positions.col(node);
+    test::add_pin(model, "pin", test::add_node_marker(model, 0, beam.superelement, node),
+                  test::add_marker(model, dynamics::kGround, at));
+  }
+  dynamics::number_model(model);
+  for (const VehicleMode& mode : modes_of(model, VectorXd::Zero(model.num_coordinates))) {
+    INFO(mode.undamped_frequency_hz);
+    CHECK_FALSE(mode.is_rigid_body);
+    CHECK(mode.damped_frequency_hz == Approx(mode.undamped_frequency_hz).epsilon(1e-8));
+    CHECK(std::abs(mode.damping_ratio) < 1e-8);
+  }
+}

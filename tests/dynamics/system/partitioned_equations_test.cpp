@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dynamics/linear/assembly.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/random_numbers.h"
@@ -173,6 +174,27 @@ TEST_CASE("Positions that cannot be reached are reported, and the next evaluatio
   CHECK(equations.update_positions(0.0, nan) == PartitionedEquations::Outcome::kNotFinite);
   REQUIRE(equations.update_positions(0.0, value) == PartitionedEquations::Outcome::kGood);
   CHECK((equations.q() - start).norm() < 1e-12);
+}
+
+TEST_CASE("A search for positions that ends in what is no number leaves no trace", "[system]") {
+  const Chain chain;
+  PartitionedEquations equations(chain.model);
+  VectorXd q = VectorXd::Zero(chain.model.num_coordinates);
+  dynamics::assemble_positions(chain.model, q);
+  equations.choose_partition_at(0.0, q);
+  const std::vector<int>& independent = equations.partition().independent;
+  std::vector<double> start, far;
+  for (const int i : independent) start.push_back(q[i]);
+  far.assign(start.size(), 1e308);
+  equations.mark(0.0, q, VectorXd::Zero(q.size()));
+  CHECK(equations.update_positions(0.0, far) == PartitionedEquations::Outcome::kNotAssembled);
+  equations.return_to_mark();
+  REQUIRE(equations.update_positions(0.0, start) == PartitionedEquations::Outcome::kGood);
+  CHECK(equations.q().allFinite());
+  equations.update_velocities(std::vector<double>(start.size(), 0.0));
+  std::vector<int> branches(static_cast<std::size_t>(chain.model.num_branches));
+  equations.terms().choose_branches(branches);
+  CHECK(equations.update_accelerations(branches) == PartitionedEquations::Outcome::kGood);
 }
 
 TEST_CASE("A partition decays towards the position where it fails", "[system]") {

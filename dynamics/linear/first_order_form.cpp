@@ -1,0 +1,61 @@
+#include "dynamics/linear/first_order_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "dynamics/linear/undamped_modes.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Of the largest |s|. The eigenvalues of A are good to about 1e-14 of it, and the differences that stiffness
+// and damping are made of leave 1e-11 of each; a double eigenvalue would be good to the root of that, but the
+// one at zero, of what nothing holds, is not among the states.
+constexpr double kEigenvalueRounding = 1e-9;
+
+}  // namespace
+
+FirstOrderForm make_first_order_form(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,
+                                     const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& rounding) {
+  const UndampedModes modes = calc_undamped_modes(stiffness, mass, rounding);
+  const Eigen::Index f = mass.rows();
+  std::vector<Eigen::Index> order, bound;
+  for (Eigen::Index k = 0; k < f; ++k) (modes.is_free(k) ? order : bound).push_back(k);
+  FirstOrderForm form;
+  form.num_free = static_cast<Eigen::Index>(order.size());
+  order.insert(order.end(), bound.begin(), bound.end());
+  form.V = modes.vectors(Eigen::all, order);
+  form.scale = modes.omega_squared(bound).cwiseAbs().cwiseSqrt();
+  // What is not symmetric, of forces without a potential, is no part of the modes.
+  Eigen::MatrixXd K = form.V.transpose() * (0.5 * (stiffness - stiffness.transpose())) * form.V;
+  K.diagonal() = modes.omega_squared(order);
+
+  const Eigen::Index n = form.num_bound();
+  form.A = Eigen::MatrixXd::Zero(n + f, n + f);
+  form.A.block(0, n + form.num_free, n, n) = form.scale.asDiagonal();
+  form.A.bottomLeftCorner(f, n) = -K.rightCols(n) * form.scale.cwiseInverse().asDiagonal();
+  form.A.bottomRightCorner(f, f) = -form.V.transpose() * damping * form.V;
+  return form;
+}
+
+// Each y from that of its two states which is the larger: above a mode's own frequency y = ẏ/s.
+Eigen::MatrixXcd FirstOrderForm::calc_amplitudes(const Eigen::MatrixXcd& states,
+                                                 std::complex<double> s) const {
+  Eigen::MatrixXcd y = states.bottomRows(V.rows()) / s;
+  for (Eigen::Index k = 0; k < num_bound(); ++k) {
+    if (scale[k] > std::abs(s)) y.row(num_free + k) = states.row(k) / scale[k];
+  }
+  return y;
+}
+
+double calc_eigenvalue_rounding(const Eigen::VectorXcd& eigenvalues) {
+  return eigenvalues.size() == 0 ? 0.0 : kEigenvalueRounding * eigenvalues.cwiseAbs().maxCoeff();
+}
+
+bool has_growth(const Eigen::VectorXcd& eigenvalues) {
+  return eigenvalues.size() > 0 && eigenvalues.real().maxCoeff() > calc_eigenvalue_rounding(eigenvalues);
+}
+
+}  // namespace sprung::dynamics
