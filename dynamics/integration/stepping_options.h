@@ -31,8 +31,8 @@ struct SteppingOptions {
   GeneralizedAlphaOptions generalized_alpha = {};
 };
 
-/// The method where none is asked for: exponential, or Adams for more freedoms than make its full matrices, 2f×2f,
-/// dearer than the equations, and for none.
+/// The method where none is asked for: exponential, or Adams for more freedoms than make its full matrices,
+/// 2f×2f, dearer than the equations, and for none.
 SteppingMethod default_method(int num_freedoms);
 
 /// @throws std::invalid_argument for generalized-α, which is no integrator of ordinary differential equations

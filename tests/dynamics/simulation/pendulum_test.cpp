@@ -11,8 +11,8 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using dynamics::SteppingMethod;
 using dynamics::Model;
+using dynamics::SteppingMethod;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using std::numbers::pi;

@@ -16,9 +16,9 @@
 #include "tests/dynamics/small_models.h"
 
 using namespace sprung;
-using dynamics::SteppingMethod;
 using dynamics::Model;
 using dynamics::PiecewisePolynomial;
+using dynamics::SteppingMethod;
 using Eigen::VectorXd;
 
 namespace {

@@ -236,7 +236,8 @@ TEST_CASE("Positions, velocities and multipliers converge with order 2", "[analy
                                   {.method = SteppingMethod::kAdams, .relative_tolerance = 1e-12});
     Eigen::Array4d last = Eigen::Array4d::Zero();
     for (int halving = 0; halving < 3; ++halving) {
-      GeneralizedAlphaStepper stepper = make_stepper(model, fixed_steps(test_case.longest / std::pow(2.0, halving)));
+      GeneralizedAlphaStepper stepper =
+          make_stepper(model, fixed_steps(test_case.longest / std::pow(2.0, halving)));
       begin(stepper, test_case.start, test_case.end);
       finish(stepper);
       const dynamics::ConstrainedMotion& end = stepper.motion();
