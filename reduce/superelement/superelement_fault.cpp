@@ -88,8 +88,9 @@ Fault check_field(const SuperelementField& field, const FieldValue& value,
   for (const RowMatrix& matrix : value.reals) {
     if (Fault fault = check_matrix(field, matrix, rows, columns)) return fault;
   }
+  const bool is_list = field.type == FieldType::kIntegers || field.type == FieldType::kTexts;
   const std::size_t size = value.reals.size() + value.integers.size() + value.texts.size();
-  const auto expected = static_cast<std::size_t>(num_matrices > 0 ? num_matrices : rows * columns);
+  const auto expected = static_cast<std::size_t>(is_list ? rows * columns : num_matrices);
   if (size == expected) return {};
   return make_fault(field.path, "has {} values, expected {}", size, expected);
 }
