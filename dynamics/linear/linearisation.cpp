@@ -16,6 +16,8 @@ std::vector<int> branches_at(const PartitionedEquations& equations) {
   return branches;
 }
 
+constexpr double kClosed = 1e-12;  // of the length scale: joints are closed to that (PartitionedEquations)
+
 // K x of the bodies' modes, or |K| x. @param x  nq×k   @return nq×k
 Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes = false) {
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
@@ -32,7 +34,7 @@ Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd&
 Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& partition,
                                          const Eigen::VectorXd& q) {
   Eigen::VectorXd rounding = Eigen::VectorXd::Zero(model.num_coordinates);
-  const double closed = std::max(kRoundingUnit * model.length_scale, model.calc_rounding(q));
+  const double closed = std::max(kClosed * model.length_scale, model.calc_rounding(q));
   for (const int i : partition.dependent) {
     rounding[i] = closed / model.length_scale * model.coordinate_scale(i);
   }

@@ -17,6 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double kSameShape = 1e-9;  // difference of modal assurance criteria that is none
+
 // Eigenvalues with Im ≥ 0 of the damped system and the position parts of their vectors, in the undamped
 // modes.
 struct DampedModes {
@@ -24,15 +26,21 @@ struct DampedModes {
   std::vector<Eigen::VectorXcd> shapes;  // of length 1
 
   // The eigenvalue whose shape is most like u by the modal assurance criterion; it is left out from now on.
+  // Of equally good ones, the two of a motion that does not oscillate, the faster one.
   std::complex<double> take_most_alike(const Eigen::VectorXcd& u) {
     if (shapes.empty()) throw support::NumericalError("modes: fewer damped modes than undamped ones");
-    const auto best = std::max_element(shapes.begin(), shapes.end(), [&](const auto& a, const auto& b) {
-      return std::norm(a.dot(u)) < std::norm(b.dot(u));
-    });
-    const auto i = best - shapes.begin();
-    const std::complex<double> s = eigenvalues[static_cast<std::size_t>(i)];
-    eigenvalues.erase(eigenvalues.begin() + i);
-    shapes.erase(best);
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const double likeness = std::norm(shapes[i].dot(u));
+      const bool is_faster = std::abs(eigenvalues[i]) > std::abs(eigenvalues[best]);
+      if (likeness <= most + (is_faster ? -kSameShape : kSameShape)) continue;
+      best = i;
+      most = likeness;
+    }
+    const std::complex<double> s = eigenvalues[best];
+    eigenvalues.erase(eigenvalues.begin() + static_cast<std::ptrdiff_t>(best));
+    shapes.erase(shapes.begin() + static_cast<std::ptrdiff_t>(best));
     return s;
   }
 };

@@ -54,9 +54,12 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
     std::vector<std::string> neutral;
     for (const NeutralDirection& direction : equilibrium->neutral) neutral.push_back(direction.description);
     text += fmt::format(
-        "{}{} after {} iterations{}\n",
+        "{}{} after {} iterations{}{}\n",
         run.start == Run::Start::kSteady ? "Steady motion" : "Static equilibrium",
         equilibrium->stable ? "" : " (unstable)", equilibrium->iterations,
+        equilibrium->is_usual()
+            ? ""
+            : fmt::format(", to {:.1e} of the natural size, as rounding allows", equilibrium->last_step),
         neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
   } else {
     text += "Start: positions as given\n";

@@ -103,10 +103,12 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   const double since = time - terms().time();
   const double bend = has_accelerations_ ? 0.5 * since * since : 0.0;
   has_accelerations_ = false;
+  // Accelerations that do not count may be no numbers.
+  const auto drift = [&](int i) { return bend > 0.0 ? bend * v_dot()[i] : 0.0; };
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     const int i = partition_.independent[k];
     if (!std::isfinite(q_independent[k])) return Outcome::kNotFinite;
-    step_[k] = q_independent[k] - q_[i] - bend * v_dot()[i];
+    step_[k] = q_independent[k] - q_[i] - drift(i);
     q_[i] = q_independent[k];
   }
   if (num_constraints_ > 0) {
@@ -115,7 +117,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       const int i = partition_.dependent[k];
-      q_[i] += bend * v_dot()[i] - correction_[static_cast<Eigen::Index>(k)];
+      q_[i] += drift(i) - correction_[static_cast<Eigen::Index>(k)];
     }
   }
   bool assembled = solve_dependents(time);
