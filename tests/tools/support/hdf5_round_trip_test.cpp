@@ -104,7 +104,6 @@ TEST_CASE("attributes come back, the last value of each") {
     writer.commit();
   }
   CHECK(read_number_attribute(folder / "a.h5", "/bodies/chassis", "mass") == 11950.5);
-  CHECK(read_number_attribute(folder / "a.h5", "/bodies/chassis", "mass") == 11950.5);
   const Hdf5Reader reader(folder / "a.h5");
   CHECK(reader.string_attribute("/", "format") == "sprung results");
   CHECK(reader.string_attribute("/", "text") == std::string(100000, 't'));
