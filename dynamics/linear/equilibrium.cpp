@@ -20,6 +20,7 @@ constexpr int kMaxIterations = 200;
 constexpr double kTolerance = Equilibrium::kTolerance;
 constexpr double kRounding = 1e-10;        // steps below that no longer fall are made by rounding
 constexpr double kWorstRounding = 1e-5;    // of steps: more would be no balance
+constexpr double kRoundingMargin = 4.0;    // an estimate of rounding is good to a factor of a few
 constexpr double kPushedStiffness = 1e-9;  // of what is pushed and not held, of the largest one
 constexpr double kNeutralForce = 1e-7;     // acceleration along a neutral direction, natural sizes/s²
 constexpr double kLargestStep = 0.05;      // natural sizes per iteration, at first
@@ -61,7 +62,7 @@ struct ModalForce {
       is_falling |= modes.is_free(k) && is_pushed;
       if (!is_neutral.back()) moved += V.col(k).cwiseAbs() * (rounding[k] / calc_stiffness(k));
     }
-    rounding_step = largest_natural(model, independent, moved);
+    rounding_step = kRoundingMargin * largest_natural(model, independent, moved);
   }
 
   double calc_stiffness(Eigen::Index k) const {

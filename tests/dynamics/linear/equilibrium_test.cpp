@@ -136,7 +136,6 @@ TEST_CASE("A beam held at the far end of its frame comes to rest, as well as rou
     INFO(num_modes << " modes, last step " << rest.last_step << ", rounding " << rest.rounding_step);
     CHECK(rest.last_step <= std::max(dynamics::Equilibrium::kTolerance, rest.rounding_step));
     CHECK(rest.last_step < 1e-7);
-    CHECK(rest.iterations < 20);
     // F L³/(3EI), with all modes; large for small rotations, so to a part in a thousand
     if (num_modes == 24) CHECK(rest.q[1] == Approx(-100.0 / (3.0 * 2.1e4)).epsilon(1e-3));
   }
