@@ -6,6 +6,7 @@
 #include <clocale>
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,8 +61,12 @@ template <class Calls>
 void run_gmsh(const support::SourceLocation& where, Calls&& calls) {
   try {
     calls();
-  } catch (const std::string& message) {
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::string& message) {  // of gmsh 4.8
     throw InputError(where, "gmsh: " + message);
+  } catch (const std::runtime_error& error) {  // of gmsh 4.13
+    throw InputError(where, fmt::format("gmsh: {}", error.what()));
   }
   if (const std::string message = find_logged("Error"); !message.empty()) {
     throw InputError(where, "gmsh: " + message);
