@@ -101,16 +101,18 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
-  Eigen::MatrixXd differences = derivative.bottomRows(n).cwiseAbs();
-  for (Eigen::Index k = 0; k < f; ++k) {
-    const int i = system.partition.independent[static_cast<std::size_t>(k)];
-    differences.col(k) += forces.cwiseAbs() / model.coordinate_scale(i);
-  }
-  system.stiffness_rounding = kRoundingUnit * sizes.transpose() *
-                              (apply_modal_stiffness(model, sizes, true) + differences / kPositionStep);
+  // D is good to rounding in natural sizes, also where it is zero: so is what each force does along it.
+  Eigen::VectorXd scales(n);
+  for (int i = 0; i < model.num_coordinates; ++i) scales[i] = model.coordinate_scale(i);
+  const double work = scales.dot(forces.cwiseAbs());
+  const Eigen::VectorXd by_scale = scales(system.partition.independent).cwiseInverse();
+  system.stiffness_rounding =
+      kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, sizes, true) +
+                                            derivative.bottomRows(n).cwiseAbs() / kPositionStep) +
+                       work / kPositionStep * by_scale * by_scale.transpose());
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);
   system.force_rounding =
-      sizes.transpose() * (kRoundingUnit * forces.cwiseAbs() + apply_modal_stiffness(model, moved, true));
+      kRoundingUnit * work * by_scale + sizes.transpose() * apply_modal_stiffness(model, moved, true);
 }
 
 }  // namespace

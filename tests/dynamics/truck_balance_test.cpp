@@ -65,6 +65,11 @@ TEST_CASE("Nothing holds the truck along x, and its freedoms are 5, 7 and 9", "[
     CHECK(truck.model.num_freedoms() == 5 + num_modes);
     REQUIRE(truck.equilibrium.neutral.size() == 1);
     CHECK(truck.equilibrium.neutral[0].description == "all bodies along x");
+    // There it stays, whatever the forces on the way to the balance.
+    const Eigen::VectorXd start = test::assemble_truck(truck.model, truck.vehicle);
+    const int chassis =
+        truck.model.bodies[static_cast<std::size_t>(truck.model.find_body("chassis"))].first_coordinate;
+    CHECK(truck.chassis()[0] == Approx(start[chassis]).margin(1e-9));
     const std::vector<dynamics::VehicleMode> modes =
         dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
     REQUIRE(modes.size() == static_cast<std::size_t>(5 + num_modes));

@@ -195,6 +195,11 @@ TEST_CASE("A search for positions that ends in what is no number leaves no trace
   std::vector<int> branches(static_cast<std::size_t>(chain.model.num_branches));
   equations.terms().choose_branches(branches);
   CHECK(equations.update_accelerations(branches) == PartitionedEquations::Outcome::kGood);
+  // Nor do accelerations that are no numbers.
+  equations.update_velocities(std::vector<double>(start.size(), 1e200));
+  CHECK(equations.update_accelerations(branches) == PartitionedEquations::Outcome::kNotFinite);
+  REQUIRE(equations.update_positions(1e-3, start) == PartitionedEquations::Outcome::kGood);
+  CHECK(equations.q().allFinite());
 }
 
 TEST_CASE("A partition decays towards the position where it fails", "[system]") {
