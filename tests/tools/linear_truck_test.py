@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from tool_test_case import ROOT  # noqa: F401  puts tools/ on the path
 
-from sprung_tools.paper_report.paper_runs import PaperRun, Programs, TRUCK, build_superelements, run_all
+from sprung_tools.paper_report.paper_runs import PaperRun, TRUCK
+from sprung_tools.paper_report.programs import Programs, build_superelements, run_all
 from sprung_tools.paper_report.run_numbers import RunNumbers
 from sprung_tools.signals.road_profile import read_profile
 from sprung_tools.signals.spectra import calc_rms

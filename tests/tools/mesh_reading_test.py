@@ -8,7 +8,7 @@ from small_decks import ABAQUS, NASTRAN
 from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
-from sprung_tools.mesh_import.line_mesh import make_plane_frame, rename_for_gmsh
+from sprung_tools.mesh_import.plane_frame import make_plane_frame, rename_for_gmsh
 from sprung_tools.mesh_import.meshio_reader import read_with_meshio
 from sprung_tools.mesh_import.nastran_deck import read_nastran
 

@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from markdown_tables import NUMBER, cells_agree, find_differences, parse_markdown, read_part
 from report_differences import (
     RELATIVE,
     RELATIVE_EVALUATIONS,
@@ -18,39 +19,13 @@ from report_differences import (
 )
 from tool_test_case import ROOT
 
-from sprung_tools.paper_report.claims import list_claims
-from sprung_tools.paper_report.markdown import (
-    NUMBER,
-    cells_agree,
-    find_differences,
-    format_markdown,
-    format_words,
-    parse_markdown,
-    read_part,
-)
+from sprung_tools.paper_report.paper_claims import list_claims
+from sprung_tools.paper_report.markdown import format_markdown, format_words
 from sprung_tools.paper_report.mode_claims import list_mode_claims
 from sprung_tools.paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
 from sprung_tools.paper_report.mode_tables import list_mode_tables, make_mode_cost_table
-from sprung_tools.paper_report.paper_runs import (
-    MODE_COUNTS,
-    SPEEDS,
-    TRUCK,
-    PaperRun,
-    Programs,
-    build_superelements,
-    call,
-    list_convergence_runs,
-    list_adams_runs,
-    list_finer_runs,
-    list_main_runs,
-    list_sensitivity_runs,
-    list_speed_runs,
-    list_tyre_runs,
-    make_command,
-    name_start,
-    run_all,
-    write_roads,
-)
+from sprung_tools.paper_report.paper_runs import MODE_COUNTS, SPEEDS, TRUCK, PaperRun, list_convergence_runs, list_adams_runs, list_finer_runs, list_main_runs, list_sensitivity_runs, list_speed_runs, list_tyre_runs, name_start, write_roads
+from sprung_tools.paper_report.programs import Programs, build_superelements, call, make_command, run_all
 from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
 from sprung_tools.paper_report.tables import list_tables, list_texts
 from sprung_tools.files.errors import InputError

@@ -2,9 +2,7 @@
 
 import re
 
-import tool_test_case  # noqa: F401 (puts tools/ on the path)
-
-from sprung_tools.paper_report.markdown import find_differences
+from markdown_tables import find_differences
 
 # The report states these.
 RELATIVE = 0.01

@@ -15,8 +15,6 @@ from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.report.packing import find_kept
 from sprung_tools.report.page import make_small_page
-from sprung_tools.report.scene import find_spans
-from sprung_tools.report.summary import shorten_numbers
 from sprung_tools.runs.labelled_runs import open_runs
 
 
@@ -143,11 +141,6 @@ class Report(ToolTestCase):
             self.assertTrue({0, 12345, 60000} <= set(kept.tolist()))
             self.assertTrue(np.all(np.diff(kept) > 0))
 
-    def test_spans_end_with_the_sample_after(self):
-        time = np.arange(6.0)
-        np.testing.assert_array_equal(find_spans(np.array([1, 0, 0, 1, 1, 0], bool), time), [0, 1, 3, 5])
-        np.testing.assert_array_equal(find_spans(np.array([0, 0, 0, 0, 0, 1], bool), time), [5, 5])
-        self.assertEqual(shorten_numbers(np.array([1, 2, 3, 7, 9, 10])), "1–3, 7, 9–10")
 
 
 class Refusing(ToolTestCase):

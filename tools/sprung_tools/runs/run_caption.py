@@ -1,24 +1,27 @@
-"""The small print under a picture: what its runs have in common, so that the picture can be judged alone."""
+"""The caption under a picture: what its runs have in common, so that the picture can be judged alone."""
 
 import textwrap
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.model_texts import read_run_file
 
-LINE_LENGTH = 118  # letters that fit under a picture
+LINE_LENGTH = 118  # characters that fit under a picture
 
 
-def make_caption(results, remarks=()):
-    """Speed, road, integrator and sampling of several open results files: those parts that all of them share.
+def make_caption(results: Sequence[ResultsFile], remarks: Sequence[str] = ()) -> str:
+    """Makes the caption of several runs: speed, road, integrator and sampling, as far as all of them share it.
 
-    results: list of ResultsFile; remarks: further parts. Returns lines of text; what a file does not tell is left out.
+    remarks: further parts. Returns lines of text; what a file does not hold is left out.
     """
-    lists = [calc_parts(one) for one in results]
+    lists = [list_parts(one) for one in results]
     shared = [part for part in lists[0] if all(part in other for other in lists[1:])]
     unbroken = [part.replace(" ", "\N{NO-BREAK SPACE}") for part in (*shared, *remarks)]
     return textwrap.fill("; ".join(unbroken), LINE_LENGTH).replace("\N{NO-BREAK SPACE}", " ")
 
 
-def calc_parts(results):
+def list_parts(results: ResultsFile) -> list[str]:
     """The caption's parts of one run, in order."""
     run = read_run_file(results)
     parts = []
@@ -34,8 +37,9 @@ def calc_parts(results):
     return parts
 
 
-def describe_road(road):
-    """`road: half-sine, length 0.4 m, height 0.2 m` from a run file's table; its numbers are lengths in metres."""
+def describe_road(road: Mapping[str, Any]) -> str:
+    """Describes a run file's table [road]: `road: half-sine, length 0.4 m, height 0.2 m`. Its numbers are lengths in
+    metres."""
     parts = [f"road: {road.get('shape', 'flat')}"]
     for key, value in road.items():
         if isinstance(value, (int, float)) and key != "start":
