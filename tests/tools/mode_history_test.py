@@ -1,4 +1,5 @@
-"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known answers."""
+"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known
+answers."""
 
 import unittest
 

@@ -5,13 +5,12 @@ import base64
 import json
 import os
 import re
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
 from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement, write_texts
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, run_program
 
 from sprung_tools.report.packing import find_kept
 from sprung_tools.report.page import make_small_page
@@ -41,7 +40,7 @@ class Report(ToolTestCase):
 
     def report(self, *arguments):
         process = self.run_tool("report", *arguments, "-o", "page.html")
-        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assert_succeeds(process)
         self.assertIn(f"Open it in a browser: {(self.folder / 'page.html').resolve().as_uri()}", process.stdout)
         return read_page(self.folder / "page.html")
 
@@ -121,7 +120,7 @@ class Report(ToolTestCase):
     def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
         command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/quarter_car_run.toml"]
         settings = ("--set", "duration=8", "-o", "car.h5", "--quiet")
-        subprocess.run([*map(str, command), *settings], cwd=self.folder, check=True, stdout=subprocess.PIPE)
+        run_program([*command, *settings], cwd=self.folder, check=True)
         runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples
         self.addCleanup(runs[0].results.file.close)
         pages = [make_small_page("", runs, [], [], largest) for largest in (15e6, 700e3, 1.0)]
@@ -140,7 +139,6 @@ class Report(ToolTestCase):
             self.assertLessEqual(kept.size, most + 2)
             self.assertTrue({0, 12345, 60000} <= set(kept.tolist()))
             self.assertTrue(np.all(np.diff(kept) > 0))
-
 
 
 class Refusing(ToolTestCase):
@@ -166,8 +164,10 @@ class Refusing(ToolTestCase):
         self.refuse("run.h5", "-o", "a.html", fragment="did not finish (complete = 0)")
 
     def test_what_a_file_lacks_is_named(self):
-        for lacking in ("bodies/chassis/position", "model/bodies", "model/bodies/chassis/point_positions", "forces/front_tyre/force",
-                        "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
+        for lacking in (
+            "bodies/chassis/position", "model/bodies", "model/bodies/chassis/point_positions",
+            "forces/front_tyre/force", "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements",
+        ):  # fmt: skip
             with self.subTest(lacking):
                 write_results(self.folder / "run.h5")
                 with h5py.File(self.folder / "run.h5", "a") as file:

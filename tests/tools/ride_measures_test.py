@@ -16,7 +16,14 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel, find_forces, read_window
+from sprung_tools.runs.ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_forces,
+    read_window,
+)
 from sprung_tools.model.model_texts import read_vehicle_file
 from sprung_tools.signals.ride_weighting import calc_wk
 

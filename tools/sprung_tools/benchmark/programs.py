@@ -16,7 +16,7 @@ Times = dict[tuple[str, int], float]  # kind ("fast" or "dense"), modes → s
 def run_program(command: Sequence[str | Path | float]) -> str:
     """Runs a program. Returns its output. InputError, with the program's message, if it fails."""
     try:
-        process = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+        process = subprocess.run(list(map(str, command)), capture_output=True, encoding="utf-8", errors="replace")
     except OSError as error:
         raise InputError(f"{command[0]}: error: {error.strerror}; build it: tools/build") from error
     if process.returncode != 0:

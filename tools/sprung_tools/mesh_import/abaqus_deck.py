@@ -197,8 +197,8 @@ class Deck:
         return members
 
     def make_mesh(self) -> LineMesh:
-        ids = np.array(sorted(self.nodes), dtype=int)
-        number = {node: place for place, node in enumerate(ids.tolist())}
+        ids = sorted(self.nodes)
+        number = {node: place for place, node in enumerate(ids)}
         lines = np.zeros((len(self.elements), 2), dtype=int)
         for place, (element, (line, ends, block)) in enumerate(self.elements.items()):
             for end in (0, 1):
@@ -215,8 +215,8 @@ class Deck:
         return LineMesh(
             path=self.path,
             format="Abaqus deck",
-            node_ids=ids,
-            positions=np.array([self.nodes[node] for node in ids.tolist()], dtype=float).reshape(-1, 3),
+            node_ids=np.array(ids, dtype=int),
+            positions=np.array([self.nodes[node] for node in ids], dtype=float).reshape(-1, 3),
             line_ids=np.array(list(self.elements), dtype=int),
             lines=lines,
             element_sets=pick_members(self.element_sets, element_number),

@@ -56,7 +56,7 @@ def format_nodes(frame: PlaneFrame, places: Sequence[str], ends: Sequence[int]) 
     blocks = [(0, tag, [node]) for tag, node in enumerate(ends, start=1)]
     seen = set(ends)
     for tag, members in enumerate(frame.curves.values(), start=1):
-        nodes = [node for node in np.unique(frame.lines[members]).tolist() if node not in seen]
+        nodes = [node for node in map(int, np.unique(frame.lines[members])) if node not in seen]
         seen.update(nodes)
         if nodes:
             blocks.append((1, tag, nodes))

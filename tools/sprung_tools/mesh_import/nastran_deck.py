@@ -183,8 +183,8 @@ class Deck:
                     self.not_kept[what].append(element)
 
     def make_mesh(self) -> LineMesh:
-        ids = np.array(sorted(self.nodes), dtype=int)
-        number = {node: place for place, node in enumerate(ids.tolist())}
+        ids = sorted(self.nodes)
+        number = {node: place for place, node in enumerate(ids)}
         for element, (card, ends) in self.elements.items():
             for node in ends:
                 if node not in number:
@@ -200,8 +200,8 @@ class Deck:
         return LineMesh(
             path=self.path,
             format="Nastran deck",
-            node_ids=ids,
-            positions=np.array([self.nodes[node] for node in ids.tolist()], dtype=float).reshape(-1, 3),
+            node_ids=np.array(ids, dtype=int),
+            positions=np.array([self.nodes[node] for node in ids], dtype=float).reshape(-1, 3),
             line_ids=np.array(list(self.elements), dtype=int),
             lines=lines.reshape(-1, 2),
             element_sets=pick_members(self.properties, element_number),

@@ -75,7 +75,7 @@ def read_body(results: ResultsFile, name: str, vehicle: dict[str, Any]) -> Drawn
     """Reads one body. vehicle: as read_vehicle_file() gives it."""
     positions, _ = read_numbers(results.file, f"model/bodies/{name}/point_positions")
     names = [one.partition(".")[2] or one for one in read_texts(results.file, f"model/bodies/{name}/point_names")]
-    points = {point: place for point, place in zip(names, positions) if point not in UNDRAWN}
+    points = {point: positions[row] for row, point in enumerate(names) if point not in UNDRAWN}
     superelement = results.superelement(name)
     if not superelement:
         return join_to_origin(name, points)
@@ -138,7 +138,8 @@ def calc_motion(results: ResultsFile, body: DrawnBody, samples: Samples, magnifi
     state = {}
     for what in ("position", "velocity", "acceleration"):
         state[what] = read_numbers(results.file, f"bodies/{body.name}/{what}")[0][samples]
-    eta = {what: np.zeros((len(state["position"]), 0)) for what in ("amplitude", "rate", "acceleration")}
+    rigid = np.zeros((len(state["position"]), 0))
+    eta: dict[str, Floats] = {what: rigid for what in ("amplitude", "rate", "acceleration")}
     if body.shapes.shape[2] > 0:
         for what in eta:
             eta[what] = read_numbers(results.file, f"bodies/{body.name}/modal/{what}")[0][samples]

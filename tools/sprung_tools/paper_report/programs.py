@@ -45,7 +45,9 @@ def find_programs(folder: Path) -> Programs:
 def call(command: Sequence[str | Path]) -> str:
     """Runs a program in the project's folder. Returns its standard output. InputError, with its message, if it
     fails."""
-    done = subprocess.run(command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        command, cwd=ROOT, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace"
+    )
     if done.returncode != 0:
         raise InputError(f"{' '.join(map(str, command))}: error: exit code {done.returncode}: {done.stderr.strip()}")
     return done.stdout

@@ -32,7 +32,7 @@ def read_resultants(results: ResultsFile, bodies: Sequence[DrawnBody], samples: 
     """Reads the resultants at the first and second end of every line: name → [k×L×2]. Lines of rigid bodies and offsets
     have NaN."""
     total = sum(len(body.lines) for body in bodies)
-    found = {name: np.full((len(samples), total, 2), np.nan) for name in RESULTANTS.values()}
+    found: dict[str, Floats] = {name: np.full((len(samples), total, 2), np.nan) for name in RESULTANTS.values()}
     first = 0
     for body in bodies:
         for what, name in RESULTANTS.items():

@@ -44,8 +44,9 @@ def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
 def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
     """Draws a bar for each mode while it takes part; its clamped frequency is at the right."""
     rows = np.arange(1, history.number.size + 1)
-    for row, is_active in zip(rows, history.is_active.T):
-        bars = [(start, end - start) for start, end in find_spans(is_active, results.time)]
+    for row in rows:
+        spans = find_spans(history.is_active[:, row - 1], results.time)
+        bars = [(start, end - start) for start, end in spans]
         axes.broken_barh(bars, (row - 0.36, 0.72), color=COLOURS[1], linewidth=0.0)
     axes.set_ylim(0.3, rows[-1] + 0.7)
     step = max(1, -(-rows.size // LABELLED_FREQUENCIES))

@@ -48,8 +48,8 @@ def pack_vehicle(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequ
     # The view follows a vehicle; of a mechanism without wheels it shows the whole motion.
     samples = [0] if wheels else np.unique(np.linspace(0, results.time.size - 1, MOST_SEEN).astype(int))
     boxes = [calc_motion(results, body, samples).position for body in bodies]
-    corners = [place for box in boxes for place in box.reshape(-1, 2)]
-    corners += [end[1] for link in links for end in link.ends if end[0] is None]
+    on_ground = [end[1] for link in links for end in link.ends if end[0] is None]
+    corners = np.concatenate([*(box.reshape(-1, 2) for box in boxes), np.reshape(on_ground, (-1, 2))])
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     for wheel in wheels:
         centre = boxes[[body.name for body in bodies].index(wheel.body)][0, wheel.node]

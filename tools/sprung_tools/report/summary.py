@@ -186,8 +186,8 @@ def read_checks_of(folder: str | None, name: str, content_hash: str) -> Packed:
         frequencies, _ = read_numbers(file, "modes/frequency")
         names = read_texts(file, "checks/name")
     checks = [
-        {"name": check, "value": value, "tolerance": tolerance}
-        for check, value, tolerance in zip(names, values.tolist(), tolerances.tolist())
+        {"name": check, "value": float(value), "tolerance": float(tolerance)}
+        for check, value, tolerance in zip(names, values, tolerances)
     ]
     return {"checks": checks, "frequencies": frequencies[:MOST_FREQUENCIES].tolist(),
             "more": frequencies.size > MOST_FREQUENCIES}  # fmt: skip

@@ -13,16 +13,15 @@ towards half the sampling frequency.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sprung_tools.files.array_types import Floats
+from sprung_tools.files.array_types import ComplexNumbers, Floats
 
 SETTLING = 20.0  # s of rest appended to a signal, so that the end of its response does not reach its start again
 HIGHEST = 80.0  # Hz, where the standard's table ends
 SAMPLES_PER_PERIOD = 4.0  # needed in a period of the highest frequency
 
 
-def calc_wk(frequency: Floats) -> NDArray[np.complex128]:
+def calc_wk(frequency: Floats) -> ComplexNumbers:
     """The complex response H of (1) at frequencies f ≥ 0 [Hz]."""
     s = 2j * np.pi * np.asarray(frequency, dtype=float)
     w1, w2, w3, w4, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, 12.5, 12.5, 2.37, 3.35])

@@ -1,6 +1,7 @@
 """What all commands share: the form of their help, and how they end."""
 
 import argparse
+import io
 import os
 import sys
 from collections.abc import Callable
@@ -25,6 +26,10 @@ def run_tool(main: Callable[[], int]) -> NoReturn:
     An InputError, or a file or folder that the system refuses, becomes a line on stderr and code 2; an interruption
     becomes code 130.
     """
+    for stream in (sys.stdout, sys.stderr):
+        # Where the terminal's character set lacks a letter, a question mark stands for it.
+        if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() not in ("utf-8", "utf8"):
+            stream.reconfigure(errors="replace")
     try:
         code = main()
         sys.stdout.flush()
