@@ -7,9 +7,19 @@ import unittest
 import numpy as np
 from tool_test_case import ToolTestCase
 
-from sprung_tools.benchmark import tables as benchmark_report
-from sprung_tools.benchmark import measurements as benchmark_runs
-from sprung_tools.benchmark.measurements import Case, Errors, Rung, Series
+from sprung_tools.benchmark.tables import format_runs
+from sprung_tools.benchmark.targets import check_targets
+from sprung_tools.benchmark.whole_runs import (
+    BASELINE,
+    METHODS,
+    Case,
+    Errors,
+    Rung,
+    Series,
+    calc_errors,
+    rms_above,
+    time_in_rounds,
+)
 
 
 def series_of(acceleration, height=0.0, deflection=0.0):
@@ -21,19 +31,19 @@ class Judging(unittest.TestCase):
     def test_rms_above_counts_what_lies_above_alone(self):
         time = np.arange(2000) * 1e-3  # 2 s: whole periods of both
         values = 3.0 * np.sin(2 * np.pi * 4.0 * time) + 0.5 * np.sin(2 * np.pi * 40.0 * time)
-        self.assertAlmostEqual(benchmark_runs.rms_above(values, 1e-3, 16.0), 0.5 / np.sqrt(2.0), places=12)
+        self.assertAlmostEqual(rms_above(values, 1e-3, 16.0), 0.5 / np.sqrt(2.0), places=12)
 
     def test_each_error_is_told_from_the_converged_run(self):
         time = np.arange(1000) * 1e-3
         true = series_of(np.sin(2 * np.pi * 20.0 * time), height=1.0, deflection=0.02)
         off = series_of(1.005 * np.sin(2 * np.pi * 20.0 * time), height=1.0 - 3e-5, deflection=0.0201)
-        errors = benchmark_runs.calc_errors(off, true)
+        errors = calc_errors(off, true)
         np.testing.assert_allclose(errors, (3e-5, 0.005, 0.005, 0.005), rtol=1e-9)
         self.assertTrue(errors.allowed())
 
     def test_a_rigid_chassis_has_no_error_of_its_deflection(self):
         flat = series_of(np.sin(np.arange(1000.0)))
-        self.assertEqual(benchmark_runs.calc_errors(flat, flat), (0.0, 0.0, 0.0, 0.0))
+        self.assertEqual(calc_errors(flat, flat), (0.0, 0.0, 0.0, 0.0))
 
     def test_one_condition_missed_is_enough(self):
         good = Errors(1e-4, 0.01, 0.01, 0.01)
@@ -42,7 +52,8 @@ class Judging(unittest.TestCase):
             self.assertFalse(good._replace(**{name: value}).allowed())
 
     def climb(self, errors, seconds=1.0, **options):
-        """Tolerances of the rungs, of the good one and of the first that is good by itself. errors: of the height in units of what is allowed, by rung."""
+        """Tolerances of the rungs, of the good one and of the first that is good by itself. errors: of the height in
+        units of what is allowed, by rung."""
         case = Case.__new__(Case)  # without programs
         heights = {10.0**-i: 1e-4 * error for i, error in enumerate(errors)}
         case.measure = lambda method, tolerance, repetitions: Rung(
@@ -78,9 +89,12 @@ class Judging(unittest.TestCase):
             ("bump", 2, "bdf"): None,
             ("bump", 2, "baseline"): Rung(1e-4, 90, 9, 3.0, errors),  # long
         }
-        firsts = {("bump", 0, "adams"): Rung(1e-3, 10, 5, 0.1, errors), ("bump", 2, "adams"): Rung(1e-2, 12, 6, 0.1, errors)}
+        firsts = {
+            ("bump", 0, "adams"): Rung(1e-3, 10, 5, 0.1, errors),
+            ("bump", 2, "adams"): Rung(1e-2, 12, 6, 0.1, errors),
+        }
         cases = {("bump", modes): Clock(modes) for modes in (0, 2)}
-        results, firsts = benchmark_runs.time_in_rounds(cases, (results, firsts), 3)
+        results, firsts = time_in_rounds(cases, (results, firsts), 3)
         self.assertEqual(calls, [(0, "adams", 1e-3), (2, "adams", 1e-4), (2, "adams", 1e-2)] * 3)
         seconds = [rung and rung.seconds for rung in (*results.values(), *firsts.values())]
         self.assertEqual(seconds, [4.0, 5.0, None, 3.0, 4.0, 6.0])  # medians: of 1, 4, 7 and so on
@@ -99,25 +113,25 @@ class Judging(unittest.TestCase):
         firsts = {**results, ("bump", 0, "baseline"): rung(0.03)}
         targets = {
             what: (value, met)
-            for what, _, value, met in benchmark_report.check_targets({}, results, firsts, {"bump": 5.0}, [])
+            for what, _, value, met in check_targets({}, results, firsts, {"bump": 5.0}, [])
         }
         self.assertEqual(targets["bump, 2 modes to fastest rigid"], (1.5, True))
         self.assertEqual(targets["bump, 0 modes: baseline/fastest"], (25.0, True))
         self.assertEqual(targets["bump, 0 modes: baseline/fastest, first good tolerances"], (15.0, True))
-        table = benchmark_report.format_runs(results, firsts, {"bump": 5.0})
+        table = format_runs(results, firsts, {"bump": 5.0})
         self.assertIn("–", table.splitlines()[-1])
 
 
 class Tool(ToolTestCase):
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
-        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assert_succeeds(process)
         for heading in ("One evaluation", "Whole runs", "Growth", "Targets"):
             self.assertRegex(process.stdout, rf"(?m)^{heading}")
         self.assertEqual((self.folder / "out/benchmark.txt").read_text(encoding="utf-8"), process.stdout)
         with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual({row["method"] for row in rows}, {*benchmark_runs.METHODS, benchmark_runs.BASELINE})
+        self.assertEqual({row["method"] for row in rows}, {*METHODS, BASELINE})
         for row in rows:
             # The converged run is by one method alone: that the others come to it says that all four agree.
             if float(row["tolerance"]) <= 1e-6:

@@ -113,7 +113,8 @@ class Browser:
         return RuntimeError(f"{find_browser()} has ended (exit code {code}):\n{said}")
 
     def open(self, path, width=1280, height=900, dark=False, touch=False):
-        """Opens a file of this computer with no network, in a window of this size. Returns the Page when it is loaded."""
+        """Opens a file of this computer with no network, in a window of this size. Returns the Page when it is
+        loaded."""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         page = Page(self, self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"])
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -176,7 +177,8 @@ class Page:
             box = (0, 0, size["width"], size["height"])
         else:
             self.evaluate(
-                f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})"
+                f"document.querySelector({json.dumps(selector)})"
+                ".scrollIntoView({block: 'center', behavior: 'instant'})"
             )
             self.settle()
             box = self.box(selector)

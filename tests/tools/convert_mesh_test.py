@@ -3,14 +3,13 @@ silence, and that what cannot be used is refused. Needs sprung-reduce, which SPR
 
 import os
 import shutil
-import subprocess
 import unittest
 
 import h5py
 import meshio
 import numpy as np
 from small_decks import ABAQUS, NASTRAN
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, run_program
 
 DATA = ROOT / "tests/tools/data"
 FEM_DATA = ROOT / "tests/fem/data"
@@ -72,14 +71,14 @@ class ConvertCase(ToolTestCase):
     def convert(self, source, *arguments):
         """Runs the tool, which must succeed in silence on stderr. Returns what it printed."""
         process = self.run_tool("convert_mesh", source, "mesh.msh", *arguments)
-        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assert_succeeds(process)
         return process.stdout
 
     def reduce(self, text, name):
         """Builds the design `text` in self.folder. Returns the open superelement file."""
         (self.folder / f"{name}.toml").write_text(f'name = "{name}"\n{text}', encoding="utf-8")
         command = [os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", ".", "--quiet"]
-        process = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
+        process = run_program(command, cwd=self.folder)
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
         file = h5py.File(self.folder / f"{name}.h5")
         self.addCleanup(file.close)
@@ -229,7 +228,9 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.bdf", NASTRAN.replace("ENDDATA\n", ""), "no ENDDATA: the file is truncated")
         self.assert_refused("a.bdf", NASTRAN.replace("GRID,2,,1.,0.,0.\n", ""), "names node 2, which is not there")
         msh = (FEM_DATA / "portal_41.msh").read_bytes()
-        self.assert_refused("a.msh", msh[: msh.index(b"$EndElements")], "last section has no end: the file is truncated")
+        self.assert_refused(
+            "a.msh", msh[: msh.index(b"$EndElements")], "last section has no end: the file is truncated"
+        )
         self.assert_refused("a.msh", msh[: msh.index(b"$Elements")], "meshio", "cannot read it")
         vtk = (DATA / "gmsh_portal.vtk").read_bytes()
         self.assert_refused("a.vtk", vtk[: vtk.index(b"CELL_TYPES") - 20], "meshio", "cannot read it")
@@ -256,10 +257,14 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.msh", "", "the file is empty")
         self.assert_refused("a.inp", "*INCLUDE, INPUT=a.inp\n", "a.inp:1: ", "'a.inp' includes itself")
         self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, INPUT=b.txt\n", "a.inp:8: ", "in another file (INPUT=…)")
-        self.assert_refused("a.inp", ABAQUS + "*NSET, NSET=B, ELSET=C\n", "a.inp:8: ", "the set 'C', which is not there")
+        self.assert_refused(
+            "a.inp", ABAQUS + "*NSET, NSET=B, ELSET=C\n", "a.inp:8: ", "the set 'C', which is not there"
+        )
         twice = NASTRAN.replace("ENDDATA", "SET1,4,1\nSET1,4,2\nENDDATA")
         self.assert_refused("a.bdf", twice, "a.bdf:6: ", "set 4 is defined twice")
-        self.assert_refused("a.inp", ABAQUS, "no element set 'B' of lines; the file has A", arguments=("--sections", "B"))
+        self.assert_refused(
+            "a.inp", ABAQUS, "no element set 'B' of lines; the file has A", arguments=("--sections", "B")
+        )
         missing = self.run_tool("convert_mesh", "none.inp", "out.msh")
         self.assert_refuses(missing, "none.inp: error: no such file")
         (self.folder / "a.inp").write_text(ABAQUS, encoding="utf-8")

@@ -2,9 +2,9 @@
 
 A README numbers its equations 1, 2, 3 … in reading order: a line of an indented block that ends with `  (N)`. Comments,
 docstrings and other READMEs cite an equation as `(ROOM, eq. 3)` or `(ROOM, eqs. 3–5, 7; OTHER, eq. 1)` and a section as
-`(ROOM, "Section")`, ROOM being the README's folder, counted from dynamics/ if it lies there: `system`, `fem`. A key such as
-[Shabana 2013] stands in the list of references of the README itself or, for a source file, of the nearest folder above that
-has a README; for a test, of any README."""
+`(ROOM, "Section")`, ROOM being the README's folder, counted from dynamics/ if it lies there: `system`, `fem`. A key
+such as [Shabana 2013] stands in the list of references of the README itself or, for a source file, of the nearest
+folder above that has a README; for a test, of any README."""
 
 import re
 from pathlib import Path

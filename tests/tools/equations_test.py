@@ -41,7 +41,9 @@ class TheCheck(ToolTestCase):
         super().setUp()
         self.write("dynamics/bodies/README.md", README)
         self.write("fem/README.md", "    K = …  (1)\n")
-        self.write("dynamics/bodies/body.h", "/// Position (bodies, eq. 1), velocity (bodies,\n/// eqs. 1, 2).\nint a[2];\n")
+        self.write(
+            "dynamics/bodies/body.h", "/// Position (bodies, eq. 1), velocity (bodies,\n/// eqs. 1, 2).\nint a[2];\n"
+        )
 
     def write(self, name, text):
         path = self.folder / name
@@ -55,7 +57,11 @@ class TheCheck(ToolTestCase):
 
     def test_each_wrong_citation_is_found_at_its_line(self):
         for name, text, expected in (
-            ("fem/a.h", "\n// (bodies, eq. 3)\n", "fem/a.h:2: error: dynamics/bodies/README.md has 2 equations, none of number 3"),
+            (
+                "fem/a.h",
+                "\n// (bodies, eq. 3)\n",
+                "fem/a.h:2: error: dynamics/bodies/README.md has 2 equations, none of number 3",
+            ),
             ("fem/a.h", "// (bodies, eqs. 1–3)\n", "none of number 3"),
             ("fem/a.h", "// (wheels, eq. 1)\n", "no room 'wheels' has a README"),
             ("fem/a.h", "// (bodies, eqs. 1)\n", "eq. is for one, eqs. for several"),
@@ -65,9 +71,21 @@ class TheCheck(ToolTestCase):
             ("fem/a.h", "int x;  // equation (1)\n", "not of the form (ROOM, eq. N)"),
             ("tests/a.py", "# x\n# (bodies, eq. 56a)\n", "tests/a.py:2: error: not of the form"),
             ("fem/a.h", '// (bodies, "Rest")\n', "room 'bodies' has no section 'Rest'"),
-            ("dynamics/bodies/a.h", "// [Jones 2001]\n", "[Jones 2001] is not among the references of dynamics/bodies/README.md"),
-            ("tests/a.h", "// [Jones 2001], [Miller & Smith 1999]\n", "[Jones 2001] is not among the references of any README"),
-            ("dynamics/bodies/a.h", "// [Miller & Smith 1999; Jones 2001, §2]\n", "[Jones 2001] is not among the references of dynamics/bodies/README.md"),
+            (
+                "dynamics/bodies/a.h",
+                "// [Jones 2001]\n",
+                "[Jones 2001] is not among the references of dynamics/bodies/README.md",
+            ),
+            (
+                "tests/a.h",
+                "// [Jones 2001], [Miller & Smith 1999]\n",
+                "[Jones 2001] is not among the references of any README",
+            ),
+            (
+                "dynamics/bodies/a.h",
+                "// [Miller & Smith 1999; Jones 2001, §2]\n",
+                "[Jones 2001] is not among the references of dynamics/bodies/README.md",
+            ),
         ):
             with self.subTest(text):
                 self.write(name, text)

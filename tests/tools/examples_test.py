@@ -4,12 +4,9 @@ Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); run-truck's example is in 
 import os
 import shlex
 import shutil
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-from tool_test_case import ROOT, TOOLS, ToolTestCase
+from tool_test_case import ROOT, TOOLS, ToolTestCase, make_class_folder, run_program
 
 TRUCK = ROOT / "dynamics/models/truck"
 # What the examples read, and what each leaves behind.
@@ -22,9 +19,10 @@ RUNS = {
 ADAPTIVE = "bump_adaptive"  # from 2 modes over the bump
 RESPONSES = {"rigid": 0, "modes": 4}
 WRITTEN = {
-    "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (), "convert_mesh": ("chassis.msh", "frame.msh"),
-    "make_road.py": ("terrain.txt", "class_c.txt"), "export_csv": ("bump.csv",), "report": ("report.html",),
-    "export_paraview": ("modes.pvd", "bump.pvd"), "plot_response": ("response.png",),
+    "plot_results": ("bump.png",), "report_peaks": (), "compare_frequencies": (), "ride": (),
+    "convert_mesh": ("chassis.msh", "frame.msh"), "make_road.py": ("terrain.txt", "class_c.txt"),
+    "export_csv": ("bump.csv",), "report": ("report.html",), "export_paraview": ("modes.pvd", "bump.pvd"),
+    "plot_response": ("response.png",),
     "plot_modes": ("choice.png", "bump_modes.png"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
@@ -49,33 +47,26 @@ class Examples(ToolTestCase):
 class PythonTools(Examples):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.made = Path(temporary.name)
+        cls.made = make_class_folder(cls)
         superelements = cls.made / "build/truck"
-        reduce = [
-            os.environ["SPRUNG_REDUCE"],
-            "build",
-            *sorted((ROOT / "meshes/truck").glob("*.toml")),
-            "--output-dir",
-            superelements,
-        ]
-        subprocess.run([*map(str, reduce)], check=True, stdout=subprocess.PIPE)
+        designs = sorted((ROOT / "meshes/truck").glob("*.toml"))
+        run_program([os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", superelements], check=True)
         for name, (run, modes) in {**RUNS, ADAPTIVE: ("bump", 2)}.items():
-            command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / f"{run}.toml", "--superelements", superelements, "--quiet",
-                       "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}",
-                       "--set", f"adaptivity.enabled={str(name == ADAPTIVE).lower()}"]  # fmt: skip
-            subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
+            settings = (f"modes.chassis={modes}", f"adaptivity.enabled={str(name == ADAPTIVE).lower()}")
+            cls.drive("run", run, name, *settings)
         for name, modes in RESPONSES.items():
-            command = [os.environ["SPRUNG_DYNAMICS"], "response", TRUCK / "terrain.toml", "--superelements", superelements,
-                       "--quiet", "-o", cls.made / f"{name}.h5", "--set", f"modes.chassis={modes}"]  # fmt: skip
-            subprocess.run([*map(str, command)], check=True, stdout=subprocess.PIPE)
-        choice = [os.environ["SPRUNG_DYNAMICS"], "select-modes", TRUCK / "terrain.toml", "--superelements", superelements,
-                  "-o", cls.made / "choice.h5", "--set", 'modes.chassis="auto"']  # fmt: skip
-        subprocess.run([*map(str, choice)], check=True, stdout=subprocess.PIPE)
+            cls.drive("response", "terrain", name, f"modes.chassis={modes}")
+        cls.drive("select-modes", "terrain", "choice", 'modes.chassis="auto"')
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
         shutil.copy(ROOT / "tests/tools/data/portal.bdf", cls.made / "frame.bdf")
+
+    @classmethod
+    def drive(cls, verb, run, name, *settings):
+        """Has sprung-dynamics do something with a run file; what it writes is NAME.h5."""
+        command = [os.environ["SPRUNG_DYNAMICS"], verb, TRUCK / f"{run}.toml", "-o", cls.made / f"{name}.h5", "--quiet"]
+        command += ["--superelements", cls.made / "build/truck"]
+        run_program(command + [word for one in settings for word in ("--set", one)], check=True)
 
     def test_each_runs_and_leaves_its_files(self):
         for tool, files in WRITTEN.items():
@@ -85,10 +76,8 @@ class PythonTools(Examples):
                 for path in self.made.iterdir():
                     (folder / path.name).symlink_to(path)
                 for words in self.examples_of(tool):
-                    process = subprocess.run(
-                        [TOOLS / tool, *words[1:]], cwd=folder, capture_output=True, text=True, check=False
-                    )
-                    self.assertEqual((process.returncode, process.stderr), (0, ""), words)
+                    process = run_program([TOOLS / tool, *words[1:]], cwd=folder)
+                    self.assert_succeeds(process)
                 for name in files:
                     self.assertGreater((folder / name).stat().st_size, 100)
 
@@ -129,9 +118,7 @@ class BashTools(Examples):
             for words in self.examples_of(tool):
                 with self.subTest(" ".join(words)):
                     log.write_text("", encoding="utf-8")
-                    process = subprocess.run(
-                        words, cwd=self.folder, env=environment, capture_output=True, text=True, check=False
-                    )
+                    process = run_program(words, cwd=self.folder, env=environment)
                     self.assertEqual((process.returncode, process.stderr), (0, ""))
                     calls = log.read_text(encoding="utf-8").splitlines()
                     self.assertEqual([call.split()[0] for call in calls], CALLED[tool])

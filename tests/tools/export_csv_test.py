@@ -1,14 +1,13 @@
-"""tools/export_csv: columns, units and values against the results file, and what is refused. One case is of a whole run,
-which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
+"""tools/export_csv: columns, units and values against the results file, and what is refused. One case is of a whole
+run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
 
 import csv
 import os
-import subprocess
 import unittest
 
 import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, run_program
 
 from sprung_tools.files.results_file import open_results
 
@@ -27,12 +26,14 @@ class ExportCsv(ToolTestCase):
 
     def export(self, *arguments):
         process = self.run_tool("export_csv", *arguments)
-        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assert_succeeds(process)
         return process.stdout
 
     def test_each_column_has_its_name_and_its_own_unit(self):
-        quantities = ("bodies/chassis/displacement.y", "bodies/chassis/position.angle", "bodies/chassis/acceleration.angle",
-                      "forces/front_tyre/force", "forces/front_tyre/contact", "bodies/chassis/modal/amplitude.2")  # fmt: skip
+        quantities = (
+            "bodies/chassis/displacement.y", "bodies/chassis/position.angle", "bodies/chassis/acceleration.angle",
+            "forces/front_tyre/force", "forces/front_tyre/contact", "bodies/chassis/modal/amplitude.2",
+        )  # fmt: skip
         self.export("run.h5", "-o", "a.csv", *(part for one in quantities for part in ("--show", one)))
         headings, values = read_table(self.folder / "a.csv")
         units = ("m", "rad", "rad/s^2", "N", "1", "m√kg")
@@ -95,12 +96,7 @@ class ExportCsv(ToolTestCase):
 
     def test_a_whole_run_falls_under_gravity(self):
         command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/pendulum_run.toml"]
-        subprocess.run(
-            [*command, "-o", "p.h5", "--set", "duration=1", "--quiet"],
-            cwd=self.folder,
-            check=True,
-            stdout=subprocess.PIPE,
-        )
+        run_program([*command, "-o", "p.h5", "--set", "duration=1", "--quiet"], cwd=self.folder, check=True)
         self.export("p.h5", "-o", "a.csv", *(part for one in "xy" for part in ("--show", f"bodies/bob/position.{one}")))
         headings, values = read_table(self.folder / "a.csv")
         self.assertEqual(headings[1:], ["bodies/bob/position.x [m]", "bodies/bob/position.y [m]"])

@@ -2,10 +2,7 @@
 sprung-dynamics wrote for named points. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
 import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
@@ -13,7 +10,7 @@ import h5py
 import meshio
 import numpy as np
 from synthetic_results import write_results
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
 from sprung_tools.files.results_file import open_results
 
@@ -33,16 +30,14 @@ class OfTheTruck(ToolTestCase):
 
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.made = Path(temporary.name)
+        cls.made = make_class_folder(cls)
         designs = sorted((ROOT / "meshes/truck").glob("*.toml"))
         settings = ("--set", "modes.chassis=2", "--set", "duration=0.5")
         for command in (
             (os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", "."),
             (os.environ["SPRUNG_DYNAMICS"], "run", RUN, "--superelements", ".", "-o", "run.h5", "--quiet", *settings),
         ):
-            subprocess.run([*map(str, command)], cwd=cls.made, check=True, stdout=subprocess.PIPE)
+            run_program(command, cwd=cls.made, check=True)
 
     def setUp(self):
         super().setUp()
@@ -51,7 +46,7 @@ class OfTheTruck(ToolTestCase):
 
     def export(self, *arguments):
         process = self.run_tool("export_paraview", *arguments)
-        self.assertEqual((process.returncode, process.stderr), (0, ""), process.stdout)
+        self.assert_succeeds(process)
         return process.stdout
 
     def test_each_mode_is_a_file_with_its_shape_scaled_to_a_tenth_of_the_frame(self):

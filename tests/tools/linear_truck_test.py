@@ -1,18 +1,18 @@
-"""The rigid truck over a low terrain with equal damping both ways, against a linear model of five freedoms made here from
-the vehicle's numbers alone: its frequencies, and its accelerations by frequency response.
+"""The rigid truck over a low terrain with equal damping both ways, against a linear model of five freedoms made here
+from the vehicle's numbers alone: its frequencies, and its accelerations by frequency response.
 
 Needs the built programs: SPRUNG_REDUCE and SPRUNG_DYNAMICS.
 """
 
 import os
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
-from tool_test_case import ROOT  # noqa: F401  puts tools/ on the path
+from tool_test_case import make_class_folder
 
-from sprung_tools.paper_report.paper_runs import PaperRun, Programs, TRUCK, build_superelements, run_all
+from sprung_tools.paper_report.paper_runs import PaperRun, TRUCK
+from sprung_tools.paper_report.programs import Programs, build_superelements, run_all
 from sprung_tools.paper_report.run_numbers import RunNumbers
 from sprung_tools.signals.road_profile import read_profile
 from sprung_tools.signals.spectra import calc_rms
@@ -115,9 +115,7 @@ def calc_tangents():
 class LinearTruck(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        folder = Path(temporary.name)
+        folder = make_class_folder(cls)
         programs = Programs(Path(os.environ["SPRUNG_REDUCE"]), Path(os.environ["SPRUNG_DYNAMICS"]))
         build_superelements(programs, folder)
         distance, height = read_profile(TRUCK / "terrain_road.txt")

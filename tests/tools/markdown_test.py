@@ -2,18 +2,10 @@
 
 import unittest
 
-import tool_test_case  # noqa: F401  puts tools/ on the path
+from markdown_tables import cells_agree, find_differences, parse_markdown, read_part
 
-from sprung_tools.paper_report.markdown import (
-    cells_agree,
-    find_differences,
-    format_markdown,
-    format_words,
-    parse_markdown,
-    read_part,
-    replace_part,
-)
 from sprung_tools.files.errors import InputError
+from sprung_tools.paper_report.markdown import format_markdown, format_words, replace_part
 
 TEXT = "before\n<!-- begin one -->\nold\n<!-- end one -->\nbetween\n<!-- begin two -->\n\n<!-- end two -->\nafter\n"
 TABLE = (("", "mm", "holds?"), [("a", "12.3, -4.0", "yes"), ("b", "1.5", "no")])

@@ -8,7 +8,7 @@ from small_decks import ABAQUS, NASTRAN
 from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
-from sprung_tools.mesh_import.line_mesh import make_plane_frame, rename_for_gmsh
+from sprung_tools.mesh_import.plane_frame import make_plane_frame, rename_for_gmsh
 from sprung_tools.mesh_import.meshio_reader import read_with_meshio
 from sprung_tools.mesh_import.nastran_deck import read_nastran
 
@@ -42,9 +42,10 @@ class Reading(ToolTestCase):
         self.assertEqual(list(make_plane_frame(mesh).curves), ["A", "lines"])
 
     def test_an_assembly_s_sets_are_its_own_and_name_nodes_by_the_instance(self):
-        path = self.write("a.inp", "*PART, NAME=P\n" + ABAQUS + "*NSET, NSET=Tip\n1\n*NSET, NSET=Ends, ELSET=a\n*END PART\n"
-                          "*ASSEMBLY, NAME=Q\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n*NSET, NSET=tip, INSTANCE=P-1\n3\n"
-                          "*NSET, NSET=middle\nP-1.2\n*NSET, NSET=same\nTIP\n*NSET, NSET=part\np-1.tip\n*END ASSEMBLY\n")  # fmt: skip
+        part = "*PART, NAME=P\n" + ABAQUS + "*NSET, NSET=Tip\n1\n*NSET, NSET=Ends, ELSET=a\n*END PART\n"
+        instance = "*ASSEMBLY, NAME=Q\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n*NSET, NSET=tip, INSTANCE=P-1\n3\n"
+        sets = "*NSET, NSET=middle\nP-1.2\n*NSET, NSET=same\nTIP\n*NSET, NSET=part\np-1.tip\n*END ASSEMBLY\n"
+        path = self.write("a.inp", part + instance + sets)
         mesh = read_abaqus(path)
         found = {name: mesh.node_ids[nodes].tolist() for name, nodes in mesh.node_sets.items()}
         expected = {"Tip": [1], "Ends": [1, 2, 3], "Assembly.tip": [3], "middle": [2], "same": [3], "part": [1]}

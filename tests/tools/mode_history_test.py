@@ -1,4 +1,5 @@
-"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known answers."""
+"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known
+answers."""
 
 import unittest
 
@@ -15,7 +16,6 @@ from sprung_tools.runs.mode_history import (
     read_mode_histories,
     read_neglected,
 )
-from sprung_tools.plots.mode_history_picture import find_spans
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 
@@ -56,18 +56,6 @@ class ModeHistories(ToolTestCase):
         with open_results(write_results(self.folder / "rigid.h5", num_modes=0)) as results:
             with self.assertRaisesRegex(InputError, "rigid.h5: error: no body of this run has modes"):
                 count_active(results)
-
-
-class Spans(unittest.TestCase):
-    time = np.array([0.0, 1.0, 2.0, 3.0])
-
-    def test_a_sample_stands_for_the_time_up_to_the_next(self):
-        self.assertEqual(find_spans(np.array([True, False, True, True]), self.time), [(0.0, 1.0), (2.0, 1.0)])
-        self.assertEqual(find_spans(np.array([False, True, False, False]), self.time), [(1.0, 1.0)])
-
-    def test_always_and_never(self):
-        self.assertEqual(find_spans(np.full(4, True), self.time), [(0.0, 3.0)])
-        self.assertEqual(find_spans(np.full(4, False), self.time), [])
 
 
 if __name__ == "__main__":

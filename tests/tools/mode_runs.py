@@ -8,10 +8,11 @@ FREQUENCIES = (6.11, 6.11, 38.3, 107.4)  # Hz, of the superelement; the run has 
 
 
 def write_adaptive_run(path, *, numbers=(1, 3, 4), is_adaptive=True):
-    """Three modes over 1 s: the first active throughout, the second from 0.25 s on but for 0.5 to 0.75 s, the third never.
+    """Three modes over 1 s: the first active throughout, the second from 0.25 s on but for 0.5 to 0.75 s, the third
+    never.
 
-    numbers: of the modes in the superelement. Left out: superelement mode 3 misses 3 % of the deflection at 0.5 s, mode 2
-    0.8 % of the acceleration at 0.2 s. is_adaptive: else a fixed set without an indicator. Returns the path.
+    numbers: of the modes in the superelement. Left out: superelement mode 3 misses 3 % of the deflection at 0.5 s, mode
+    2 0.8 % of the acceleration at 0.2 s. is_adaptive: else a fixed set without an indicator. Returns the path.
     """
     adaptivity = {"enabled": 1, "recall": 0.01} if is_adaptive else {}
     write_results(path, num_modes=len(numbers), adaptivity=adaptivity)

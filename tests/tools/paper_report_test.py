@@ -4,11 +4,11 @@ Needs the built programs: SPRUNG_REDUCE and SPRUNG_DYNAMICS.
 """
 
 import os
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from markdown_tables import NUMBER, cells_agree, find_differences, parse_markdown, read_part
 from report_differences import (
     RELATIVE,
     RELATIVE_EVALUATIONS,
@@ -16,18 +16,10 @@ from report_differences import (
     keep_columns,
     rows_of_evaluations,
 )
-from tool_test_case import ROOT
+from tool_test_case import ROOT, make_class_folder
 
-from sprung_tools.paper_report.claims import list_claims
-from sprung_tools.paper_report.markdown import (
-    NUMBER,
-    cells_agree,
-    find_differences,
-    format_markdown,
-    format_words,
-    parse_markdown,
-    read_part,
-)
+from sprung_tools.paper_report.paper_claims import list_claims
+from sprung_tools.paper_report.markdown import format_markdown, format_words
 from sprung_tools.paper_report.mode_claims import list_mode_claims
 from sprung_tools.paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
 from sprung_tools.paper_report.mode_tables import list_mode_tables, make_mode_cost_table
@@ -36,9 +28,6 @@ from sprung_tools.paper_report.paper_runs import (
     SPEEDS,
     TRUCK,
     PaperRun,
-    Programs,
-    build_superelements,
-    call,
     list_convergence_runs,
     list_adams_runs,
     list_finer_runs,
@@ -46,11 +35,10 @@ from sprung_tools.paper_report.paper_runs import (
     list_sensitivity_runs,
     list_speed_runs,
     list_tyre_runs,
-    make_command,
     name_start,
-    run_all,
     write_roads,
 )
+from sprung_tools.paper_report.programs import Programs, build_superelements, call, make_command, run_all
 from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
 from sprung_tools.paper_report.tables import list_tables, list_texts
 from sprung_tools.files.errors import InputError
@@ -69,9 +57,7 @@ class Report(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = Path(temporary.name)
+        cls.folder = make_class_folder(cls)
         cls.programs = Programs(Path(os.environ["SPRUNG_REDUCE"]), Path(os.environ["SPRUNG_DYNAMICS"]))
         build_superelements(cls.programs, cls.folder)
         write_roads(cls.folder)
@@ -125,8 +111,8 @@ class Report(unittest.TestCase):
             ]
             kept = parse_markdown(format_markdown(headings, rows))
             with self.subTest(name):
-                self.assertEqual(len({text.split("'")[1] for text in find_differences(kept, (headings, changed), RELATIVE)}),
-                                 len(rows))  # fmt: skip
+                differences = find_differences(kept, (headings, changed), RELATIVE)
+                self.assertEqual(len({text.split("'")[1] for text in differences}), len(rows))
 
     def test_a_number_that_is_twice_another_is_noticed_in_every_column_on_modes(self):
         for name in ("mode claims", *list_mode_tables()):
@@ -173,7 +159,8 @@ class Report(unittest.TestCase):
     def test_the_section_on_modes_has_every_row(self):
         shown = parse_markdown(read_part(self.text, "mode claims"))[1]
         self.assertEqual(
-            [row[:4] for row in shown], [[one.number, one.source, one.says, one.criterion] for one in list_mode_claims()]
+            [row[:4] for row in shown],
+            [[one.number, one.source, one.says, one.criterion] for one in list_mode_claims()],
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "recall"))[1]), len(RECALLS))
         self.assertEqual(len(parse_markdown(read_part(self.text, "adaptive bump"))[1]), 12)
@@ -183,12 +170,16 @@ class Report(unittest.TestCase):
         same = [one for one in RECALLS if self.numbers.run(name_recall(one)).evaluations == own.evaluations]
         self.assertEqual(len(same), 1)
         for point in (MIDDLE, SEAT):
-            np.testing.assert_array_equal(self.numbers.run(name_recall(same[0])).acceleration(point), own.acceleration(point))
+            np.testing.assert_array_equal(
+                self.numbers.run(name_recall(same[0])).acceleration(point), own.acceleration(point)
+            )
 
     def test_times_stand_beside_those_of_all_modes_by_the_same_method(self):
         times = {run.name: 1.0 + place for place, run in enumerate(list_timed_mode_runs())}
         headings, rows = make_mode_cost_table(Numbers(self.folder, times))
-        self.assertEqual(headings, ("", "exponential s", "exponential over all modes", "Adams s", "Adams over all modes"))
+        self.assertEqual(
+            headings, ("", "exponential s", "exponential over all modes", "Adams s", "Adams over all modes")
+        )
         cells = {row[0]: row[1:] for row in rows}
         adaptive, full = (times[f"bump_{name}_adams"] for name in ("adaptive", "36modes"))
         self.assertEqual(cells["bump: from 2, 36 available"][2:], (f"{adaptive:.2f}", f"{adaptive / full:.2f}"))

@@ -64,7 +64,10 @@ class PlotResponse(ToolTestCase):
 
     def test_what_is_not_there_is_refused(self):
         for arguments, fragment in (
-            (("a.h5", "--show", "points/nobody/velocity.y"), f"no output 'points/nobody/velocity.y'; there are: {SEAT}"),
+            (
+                ("a.h5", "--show", "points/nobody/velocity.y"),
+                f"no output 'points/nobody/velocity.y'; there are: {SEAT}",
+            ),
             (("b.h5", "--show", SEAT, "--spectrum"), "has no spectra"),
             (("c.h5", "--show", SEAT), "c.h5: error: no such file"),
         ):

@@ -1,5 +1,5 @@
-"""terminal/progress_bar.py: a bar with the time left on a terminal, a line now and then elsewhere, silence for short work. The
-clock is a stand-in."""
+"""terminal/progress_bar.py: a bar with the time left on a terminal, a line now and then elsewhere, silence for short
+work. The clock is a stand-in."""
 
 import io
 import unittest

@@ -1,18 +1,18 @@
-"""By how much the tables of the truck's report may differ where another compiler, processor or library made the runs."""
+"""By how much the tables of the truck's report may differ where another compiler, processor or library made the
+runs."""
 
 import re
 
-import tool_test_case  # noqa: F401 (puts tools/ on the path)
-
-from sprung_tools.paper_report.markdown import find_differences
+from markdown_tables import find_differences
 
 # The report states these.
 RELATIVE = 0.01
 RELATIVE_EVALUATIONS = 0.10
-# Of how often modes joined and left, how many took part, and how often a run with such modes was evaluated: share, or units.
+# Of how often modes joined and left, how many took part, and how often a run with such modes was evaluated: share, or
+# units.
 RELATIVE_CHANGES, CHANGES = 0.25, 3.0
-# By how many per cent of the full run's value the differences from it may move where modes come and go; horizontal peaks are
-# single samples of what rings at hundreds of Hz.
+# By how many per cent of the full run's value the differences from it may move where modes come and go; horizontal
+# peaks are single samples of what rings at hundreds of Hz.
 POINTS, POINTS_HORIZONTAL = 3.0, 10.0
 EVALUATIONS = ("evaluations", "effort", "effort of Adams")
 COUNTS = ("modes active", "instants of change")  # how columns of the tables on modes begin
@@ -31,9 +31,10 @@ def is_adaptive(name, row):
 def find_mode_differences(name, kept, made):
     """Differences of a table on modes.
 
-    Where modes come and go it hangs on rounding errors whether one joins a moment earlier, so counts and what is off may differ
-    more; which of two modes misses most may, too. A verdict there follows from a number beside it that may be as near to its
-    limit; and how well the energy book closes is rounding errors alone: run_all() refuses runs in which it does not.
+    Where modes come and go it hangs on rounding errors whether one joins a moment earlier, so counts and what is off
+    may differ more; which of two modes misses most may, too. A verdict there follows from a number beside it that may
+    be as near to its limit; and how well the energy book closes is rounding errors alone: run_all() refuses runs in
+    which it does not.
     """
     headings, rows = made
     every = [one for one in headings[1:] if one != "energy closure"]

@@ -5,7 +5,6 @@ SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 import itertools
 import os
 import shutil
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,7 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from browser import Browser
-from tool_test_case import ROOT, TOOLS
+from tool_test_case import ROOT, TOOLS, make_class_folder, run_program
 
 from sprung_tools.files.results_file import open_results
 
@@ -33,9 +32,7 @@ def is_colour(picture, colour, tolerance=0.02):
 class ReportPage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = Path(temporary.name)
+        cls.folder = make_class_folder(cls)
         PICTURES.mkdir(parents=True, exist_ok=True)
         cls.call(
             os.environ["SPRUNG_REDUCE"], "build", *sorted((ROOT / "meshes/truck").glob("*.toml")), "--output-dir", "."
@@ -47,7 +44,7 @@ class ReportPage(unittest.TestCase):
 
     @classmethod
     def call(cls, *command):
-        subprocess.run([*map(str, command)], cwd=cls.folder, check=True, stdout=subprocess.PIPE)
+        run_program(command, cwd=cls.folder, check=True)
 
     @classmethod
     def drive(cls, run, name, *arguments):
@@ -88,7 +85,10 @@ class ReportPage(unittest.TestCase):
                 picture = page.picture(PICTURES / f"truck_{size}_{'dark' if dark else 'light'}.png")
                 self.assertEqual(picture.shape[1], SIZES[size][0])  # nothing to scroll sideways
                 self.assertEqual(np.mean(picture) < 0.5, dark)
-                hidden = "[...document.querySelectorAll('[hidden]')].filter((one) => one.getBoundingClientRect().height > 0).length"
+                hidden = (
+                    "[...document.querySelectorAll('[hidden]')]"
+                    ".filter((one) => one.getBoundingClientRect().height > 0).length"
+                )
                 self.assertEqual(page.evaluate(hidden), 0)
 
     def test_the_time_axes_are_marked_and_both_runs_are_in_the_summary_on_the_smallest_telephone(self):
@@ -209,7 +209,8 @@ class ReportPage(unittest.TestCase):
         self.assertAlmostEqual(page.evaluate("sprungReport.clock.time"), 1e-3)
         page.press(" ", "Space")
         page.evaluate(
-            "new Promise((done) => { const look = () => (clock.time > 0.01 ? done() : requestAnimationFrame(look)); look(); })"
+            "new Promise((done) => {"
+            "const look = () => (clock.time > 0.001 ? done() : requestAnimationFrame(look)); look(); })"
         )
         self.assertEqual(page.evaluate("document.getElementById('play').textContent"), "Pause")
         page.press(" ", "Space")
@@ -220,9 +221,9 @@ class ReportPage(unittest.TestCase):
     def test_a_screen_reader_finds_a_name_for_everything(self):
         page = self.open()
         nameless = page.evaluate(
-            "[...document.querySelectorAll('select, input, button, canvas, [role=img], [role=region], section')].filter((one) =>"
-            "!(one.parentElement.closest('.plot') || one.ariaLabel || one.labels?.length || one.getAttribute('aria-labelledby') ||"
-            "one.textContent.trim()))"
+            "[...document.querySelectorAll('select, input, button, canvas, [role=img], [role=region], section')]"
+            ".filter((one) => !(one.parentElement.closest('.plot') || one.ariaLabel || one.labels?.length ||"
+            "one.getAttribute('aria-labelledby') || one.textContent.trim()))"
             ".map((one) => one.outerHTML.slice(0, 80))"
         )
         self.assertEqual(nameless, [])

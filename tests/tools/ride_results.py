@@ -1,4 +1,5 @@
-"""A results file of a vehicle with a suspension, a tyre and a flexible body, whose values are known formulas of time."""
+"""A results file of a vehicle with a suspension, a tyre and a flexible body, whose values are known formulas of
+time."""
 
 import h5py
 import numpy as np

@@ -2,11 +2,10 @@
 
 import os
 import shutil
-import subprocess
 import sys
 import unittest
 
-from tool_test_case import ROOT, TOOLS, ToolTestCase
+from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
 REDUCE = """
 import pathlib, sys
@@ -52,20 +51,13 @@ class RunTruck(ToolTestCase):
         path.chmod(0o755)
 
     def run_truck(self, *arguments):
-        environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": str(ROOT / "tests/tools")}
-        return subprocess.run(
-            [self.root / "tools/run-truck", *arguments],
-            cwd=self.root / "elsewhere",
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "tests/tools")}
+        command = [self.root / "tools/run-truck", *arguments]
+        return run_program(command, cwd=self.root / "elsewhere", env=environment)
 
     def test_it_reduces_runs_the_bump_three_times_and_leaves_tables_pictures_and_a_page(self):
         process = self.run_truck("--output-dir", "my results")
-        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assert_succeeds(process)
         out = self.root / "elsewhere/my results"
         truck = "dynamics/models/truck/bump.toml"
         self.assertEqual(
@@ -99,7 +91,7 @@ class RunTruck(ToolTestCase):
         words = self.run_truck("--help").stdout.splitlines()[-1].split()
         self.assertEqual(words[:2], ["tools/run-truck", "--output-dir"])
         process = self.run_truck(words[1], str(self.folder / "given"))
-        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assert_succeeds(process)
         self.assertTrue((self.folder / "given/report.html").exists())
 
     def test_it_can_be_run_again_and_writes_into_the_build_folder_unless_told_otherwise(self):

@@ -1,16 +1,16 @@
 """Every tool: bash can read it, --help explains it with an example, arguments it does not know are refused."""
 
 import os
-import subprocess
 import sys
 import unittest
 
-from tool_test_case import ROOT, TOOLS, ToolTestCase
+from synthetic_results import write_superelement
+from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
 BASH = ("setup", "build", "test", "run-truck")
 PYTHON = (
-    "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride", "paper_figures",
-    "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
+    "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride",
+    "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
 )  # fmt: skip
 
 
@@ -22,17 +22,30 @@ class Scripts(ToolTestCase):
     def test_bash_can_read_the_scripts(self):
         for path in (*(TOOLS / name for name in BASH), ROOT / ".ci/run"):
             with self.subTest(path.name):
-                process = subprocess.run(["bash", "-n", path], capture_output=True, text=True, check=False)
-                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                self.assert_succeeds(run_program(["bash", "-n", path]))
                 self.assertTrue(os.access(path, os.X_OK))
 
     def test_help_shows_the_usage_and_an_example_that_calls_the_tool(self):
         for name in (*BASH, *PYTHON):
             with self.subTest(name):
                 process = self.run_tool(name, "--help")
-                self.assertEqual((process.returncode, process.stderr), (0, ""))
+                self.assert_succeeds(process)
                 self.assertRegex(process.stdout, r"(?i)\Ausage: ")
                 self.assertRegex(process.stdout, rf"(?s)Examples?:\n.*  tools/{name}\b")
+
+    def test_another_python_in_the_path_does_not_matter(self):
+        stand_in = self.folder / "python3"
+        stand_in.write_text("#!/bin/sh\necho 'No module named h5py' >&2\nexit 1\n", encoding="utf-8")
+        stand_in.chmod(0o755)
+        for name in PYTHON:
+            with self.subTest(name):
+                self.assert_succeeds(self.run_tool(name, "--help", PATH=f"{self.folder}:{os.environ['PATH']}"))
+
+    def test_a_character_set_without_the_lines_of_a_table_gives_question_marks(self):
+        write_superelement(self.folder / "a.h5", "arm", [6.112])
+        process = self.run_tool("compare_frequencies", "a.h5", "--printed", "6.11", PYTHONIOENCODING="latin-1:strict")
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        self.assertRegex(process.stdout, r"(?m)^\?{4}  \?{4}  .*\narm +1 +6\.11200 +6\.11 ")
 
     def test_unknown_arguments_are_refused_with_exit_code_2(self):
         for name in ("setup", "run-truck", *PYTHON):
@@ -80,10 +93,12 @@ class Scripts(ToolTestCase):
         self.assert_refuses(process, "taken: error: File exists")
 
     def test_an_interrupted_tool_says_so_in_a_line(self):
-        code = "from sprung_tools.terminal.program import run_tool\ndef main():\n    raise KeyboardInterrupt\nrun_tool(main)"
-        process = subprocess.run(
-            [sys.executable, "-c", code], cwd=TOOLS, capture_output=True, text=True, check=False
+        code = (
+            "from sprung_tools.terminal.program import run_tool\n"
+            "def main():\n    raise KeyboardInterrupt\n"
+            "run_tool(main)"
         )
+        process = run_program([sys.executable, "-c", code], cwd=TOOLS)
         self.assertEqual((process.returncode, process.stdout, process.stderr), (130, "", "interrupted\n"))
 
 

@@ -1,10 +1,9 @@
 """tools/setup, with stand-ins for dpkg-query, apt-get, id and sudo that write down how they were called."""
 
 import re
-import subprocess
 import unittest
 
-from tool_test_case import ToolTestCase
+from tool_test_case import ToolTestCase, run_program
 
 # What the script itself needs of the system; PATH holds nothing else, so that no real apt-get can be reached.
 NEEDED = ("bash", "cat", "dirname", "env", "mktemp", "paste", "readlink", "rm", "sed")
@@ -29,9 +28,7 @@ class Setup(ToolTestCase):
         self.log = self.folder / "log"
         self.log.touch()
         for name in NEEDED:
-            found = subprocess.run(
-                ["/bin/sh", "-c", f"command -v {name}"], capture_output=True, text=True, check=True
-            )
+            found = run_program(["/bin/sh", "-c", f"command -v {name}"], check=True)
             (self.programs / name).symlink_to(found.stdout.strip())
 
     def stand_in(self, name, body):

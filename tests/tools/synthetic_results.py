@@ -170,8 +170,8 @@ def write_superelement_part(file, num_modes):
 
 
 def write_superelement(path, name, frequencies):
-    """As much of a superelement file (reduce/superelement/superelement.md) as the tools read: its name, hash, frequencies [Hz] and
-    one check."""
+    """As much of a superelement file (reduce/superelement/superelement.md) as the tools read: its name, hash,
+    frequencies [Hz] and one check."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": np.bytes_("sprung-superelement"), "version": 1, "name": np.bytes_(name)})
         file.attrs["content_hash"] = np.bytes_("0123")

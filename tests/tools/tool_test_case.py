@@ -1,42 +1,28 @@
-"""What the tests of the tools share: a folder of their own, and running a tool as a user does."""
+"""What the tests of the tools share: the package on the path, and running a tool as a user does."""
 
 import os
-import subprocess
 import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
-sys.path.insert(0, str(TOOLS))
+sys.path[:0] = [str(TOOLS), str(ROOT / "tests")]
+
+# After the path is set; the tests take them from here.
+from programs import ProgramTestCase, find_complaints, make_class_folder, run_program  # noqa: E402, F401
 
 
-class ToolTestCase(unittest.TestCase):
-    """A test with an empty folder `self.folder` that is removed afterwards."""
+class ToolTestCase(ProgramTestCase):
+    """A test with an empty folder `self.folder`."""
 
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
-    def run_tool(self, tool, *arguments, **options):
+    def run_tool(self, tool, *arguments, **environment):
         """Runs tools/TOOL in self.folder. Returns the finished process with its output as text."""
-        command = [str(TOOLS / tool), *map(str, arguments)]
-        environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **options}
-        return subprocess.run(
-            command,
-            cwd=self.folder,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        return run_program([TOOLS / tool, *arguments], cwd=self.folder, env={**os.environ, **environment})
 
     def assert_refuses(self, process, *fragments):
         """Exit code 2, one line on stderr with all fragments, no Python traceback."""
         self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertEqual(len(process.stderr.strip().splitlines()), 1, process.stderr)
+        complaints = find_complaints(process.stderr)
+        self.assertEqual(len(complaints), 1, process.stderr)
         for fragment in fragments:
-            self.assertIn(fragment, process.stderr)
+            self.assertIn(fragment, complaints[0])

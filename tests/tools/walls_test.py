@@ -1,10 +1,9 @@
 """No include crosses a wall between the rooms, and sprung-dynamics is free of gmsh."""
 
 import os
-import subprocess
 import unittest
 
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, run_program
 from walls import find_crossings, read_includes, read_rooms
 
 
@@ -20,9 +19,7 @@ class TheProject(unittest.TestCase):
             self.assertTrue(read_includes(ROOT, name), name)
 
     def test_sprung_dynamics_is_not_linked_with_gmsh(self):
-        libraries = subprocess.run(
-            ["ldd", os.environ["SPRUNG_DYNAMICS"]], capture_output=True, text=True, check=True
-        ).stdout
+        libraries = run_program(["ldd", os.environ["SPRUNG_DYNAMICS"]], check=True).stdout
         self.assertIn("libhdf5", libraries)  # that the list is one
         self.assertNotIn("gmsh", libraries)
 

@@ -8,7 +8,6 @@ tan βL = tanh βL; the designs' √(EI/μL⁴) is 5 rad/s.
 import json
 import math
 import os
-import subprocess
 import unittest
 
 import numpy as np
@@ -25,7 +24,7 @@ GUIDED_FREE = [5.59332, 30.22585, 74.63888]  # tan βL + tanh βL = 0
 
 def reduce_frequencies(path):
     """Frequencies [Hz] in a superelement."""
-    process = subprocess.run([os.environ["SPRUNG_REDUCE"], "info", "--json", str(path)], capture_output=True, check=True)
+    process = run_program([os.environ["SPRUNG_REDUCE"], "info", "--json", path], check=True)
     return [mode["frequency_hz"] for mode in json.loads(process.stdout)["modes"]]
 
 
@@ -42,8 +41,7 @@ class Bodies(VerificationCase):
             design = design.replace("elements = 32", f"elements = {elements}").replace("count = 20", "count = 3")
             path = self.folder / "beam.toml"
             path.write_text(design, encoding="utf-8")
-            subprocess.run([os.environ["SPRUNG_REDUCE"], "build", str(path), "--output-dir", str(self.folder)],
-                           capture_output=True, check=True)
+            run_program([os.environ["SPRUNG_REDUCE"], "build", path, "--output-dir", self.folder], check=True)
             omega = 2.0 * math.pi * reduce_frequencies(self.folder / "beam.h5")[2] / UNIT
             errors.append(omega / CLAMPED_FREE[2] - 1.0)
         for coarse, fine in zip(errors, errors[1:]):
@@ -56,7 +54,8 @@ class Bodies(VerificationCase):
 
 
 class AssembledBeams(VerificationCase):
-    """A floating frame gives the frequencies of the beam as it is held in the assembled system, not those of its modes."""
+    """A floating frame gives the frequencies of the beam as it is held in the assembled system, not those of its
+    modes."""
 
     def test_unattached_wherever_clamped(self):
         for superelement in ("beam_at_end", "beam_inside"):
@@ -81,7 +80,8 @@ class AssembledBeams(VerificationCase):
     def test_converges_from_above_as_modes_are_added(self):
         for case, expected in (("unattached", FREE_FREE), ("pinned", PINNED_FREE)):
             errors = [
-                self.modes(MODELS / f"{case}_beam_run.toml", "--set", f"modes.beam={n}")[0][1] / UNIT / expected[1] - 1.0
+                self.modes(MODELS / f"{case}_beam_run.toml", "--set", f"modes.beam={n}")[0][1] / UNIT / expected[1]
+                - 1.0
                 for n in (4, 8, 16, 32)
             ]
             for few, more in zip(errors, errors[1:]):
@@ -90,8 +90,9 @@ class AssembledBeams(VerificationCase):
             self.assertLess(errors[-1], errors[0] / 30.0)
 
     def test_all_modes_wherever_clamped_are_one_beam(self):
-        # With all modes of its mesh the body is the mesh, whatever its modes are of: welded at its end it is a cantilever,
-        # on a slide across its axis guided–free. Eight elements: (βL/8)⁴/720 off the theory, 2e-3 for the second mode.
+        # With all modes of its mesh the body is the mesh, whatever its modes are of: welded at its end it is a
+        # cantilever, on a slide across its axis guided–free. Eight elements: (βL/8)⁴/720 off the theory, 2e-3 for the
+        # second mode.
         joint = '[[joints]]\nname = "end"\ntype = "{}"\na = "ground.end"\nb = "beam.left"\n'
         cases = {
             "fixed": (joint.format("fixed"), CLAMPED_FREE, 0),
@@ -123,8 +124,8 @@ class AssembledBeams(VerificationCase):
                              ("area = 0.5", "area = 0.005")):
                 design = design.replace(old, new)
             (self.folder / f"{name}.toml").write_text(design, encoding="utf-8")
-            subprocess.run([os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", "."],
-                           cwd=self.folder, capture_output=True, check=True)
+            build = [os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", "."]
+            run_program(build, cwd=self.folder, check=True)
 
 
 class RotatingBeam(VerificationCase):
@@ -139,14 +140,11 @@ class RotatingBeam(VerificationCase):
             self.assert_close((omega[0] / UNIT) ** 2, CLAMPED_FREE[0] ** 2 - gamma**2, relative=1e-4)
 
     def test_unstable_beyond_its_first_frequency(self):
-        process = subprocess.run(
-            [os.environ["SPRUNG_DYNAMICS"], "modes", str(MODELS / "rotating_beam_run.toml"), "--superelements",
-             SUPERELEMENTS, "--set", "vehicle.motions.speed.function.polynomial=[0.3, 18.0]"],
-            capture_output=True, text=True, check=False,
-        )
+        command = [os.environ["SPRUNG_DYNAMICS"], "modes", MODELS / "rotating_beam_run.toml"]
+        speed = "vehicle.motions.speed.function.polynomial=[0.3, 18.0]"
+        process = run_program([*command, "--superelements", SUPERELEMENTS, "--set", speed])
         self.assertEqual(process.returncode, 3)
         self.assertIn("unstable", process.stderr)
-
 
     def test_stress_stiffening_outweighs_it(self):
         # First frequency in the plane of rotation, γ = 4 and 10, from the theory of the rotating beam; with 6 modes.
@@ -257,9 +255,11 @@ class SoftPendulum(VerificationCase):
         start = ["--set", "stiffening.beam=false", "--set", "duration=0.2", "--set", "output_step=1e-3",
                  "--set", "initial.beam.modal_rate=[0.0, 0.4, 0.0, 0.0, 0.0, 0.0]"]  # fmt: skip
         runs = {}
-        for name, modes in (("full", ["6"]), ("adaptive", ["1", "--set", "adaptivity.enabled=true",
-                                            "--set", "adaptivity.available.beam=6"])):  # fmt: skip
-            results = self.run_to_results(MODELS / "soft_pendulum_run.toml", *start, "--set", f"modes.beam={modes[0]}", *modes[1:])
+        adaptive = ["1", "--set", "adaptivity.enabled=true", "--set", "adaptivity.available.beam=6"]
+        for name, modes in (("full", ["6"]), ("adaptive", adaptive)):
+            results = self.run_to_results(
+                MODELS / "soft_pendulum_run.toml", *start, "--set", f"modes.beam={modes[0]}", *modes[1:]
+            )
             runs[name] = (results["energy/kinetic"][0], results["points/beam.tip/position"])
         self.assertGreater(runs["full"][0], 0.07)
         self.assert_close(runs["adaptive"][0], runs["full"][0], relative=1e-9)
@@ -298,7 +298,8 @@ relative_tolerance = 1e-7
 
 
 class SpinUp(VerificationCase):
-    """The manoeuvre of Kane, Ryan & Banerjee (1987): a beam is brought from rest to 6 rad/s, twice its own frequency."""
+    """The manoeuvre of Kane, Ryan & Banerjee (1987): a beam is brought from rest to 6 rad/s, twice its own
+    frequency."""
 
     def angle(self, time):
         ramp = 0.4 * (time**2 / 2.0 + (7.5 / math.pi) ** 2 * (np.cos(2.0 * math.pi * time / 15.0) - 1.0))
@@ -329,7 +330,9 @@ class SpinUp(VerificationCase):
     def test_flies_apart_without_stiffening(self):
         (self.folder / "vehicle.toml").write_text(self.vehicle(), encoding="utf-8")
         (self.folder / "run.toml").write_text(
-            'vehicle = "vehicle.toml"\n' + SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"), encoding="utf-8")
+            'vehicle = "vehicle.toml"\n' + SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"),
+            encoding="utf-8",
+        )
         results = self.run_to_results(self.folder / "run.toml")
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)
 

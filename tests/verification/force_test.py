@@ -63,7 +63,9 @@ force = [10.0, 0.0]
     def test_gravity_in_any_direction(self):
         results = self.run_text(DISC.format("[3.0, -4.0]"), 'start = "as-given"\nduration = 1.0\n')
         t = results.time
-        self.assert_close(results["bodies/disc/position"][:, :2], np.column_stack([1.5 * t**2, -2.0 * t**2]), absolute=1e-8)
+        self.assert_close(
+            results["bodies/disc/position"][:, :2], np.column_stack([1.5 * t**2, -2.0 * t**2]), absolute=1e-8
+        )
         self.assertLess(results.summary["energy_closure"], 1e-8)
 
 
@@ -184,7 +186,9 @@ class BendingForces(VerificationCase):
         table = ", ".join(f"[{x}, {y}]" for x, y in zip(rates, forces))
         for tolerance in (1e-2, 1e-3, 1e-4, 1e-6):
             with self.subTest(tolerance=tolerance):
-                results = self.run_text(DRIVEN.format(damper=f"{{ table = [{table}] }}"), RUN.format(tolerance=tolerance))
+                results = self.run_text(
+                    DRIVEN.format(damper=f"{{ table = [{table}] }}"), RUN.format(tolerance=tolerance)
+                )
                 self.assertGreaterEqual(results.summary["switches"], 40)
                 length = results["bodies/mass/position"][:, 1] - results["bodies/base/position"][:, 1]
                 rate = results["bodies/base/velocity"][:, 1] - results["bodies/mass/velocity"][:, 1]
@@ -196,7 +200,9 @@ class BendingForces(VerificationCase):
     def test_a_damper_stiff_on_one_side_does_not_bind_the_steps(self):
         # Soft at first, on the way down; then rebound at 1e6 N·s/m holds the mass for seconds.
         results = self.run_text(
-            DRIVEN.format(damper="{ compression = 300.0, rebound = 1.0e6 }").replace("amplitude = 0.05", "amplitude = 0.0"),
+            DRIVEN.format(damper="{ compression = 300.0, rebound = 1.0e6 }").replace(
+                "amplitude = 0.05", "amplitude = 0.0"
+            ),
             RUN.format(tolerance=1e-6) + "[initial.mass]\nvelocity = [0.0, -0.5]\n",
         )
         self.assertLess(results.summary["evaluations"], 2000)

@@ -40,8 +40,8 @@ axis = [0.8775825618903728, 0.479425538604203]
         normal = np.array([-math.sin(0.5), math.cos(0.5)])
         self.assert_close(force @ normal, -2.0 * 9.81 * math.cos(0.5), relative=1e-9)
         self.assert_close(force @ [math.cos(0.5), math.sin(0.5)], 0.0, absolute=1e-9)
-        # About the ground's point: force at the foot, whose way along the rail is its lever, and the torque on the block
-        # about its foot, which balances the rail's normal force at the centre of mass.
+        # About the ground's point: force at the foot, whose way along the rail is its lever, and the torque on the
+        # block about its foot, which balances the rail's normal force at the centre of mass.
         torque = results["joints/rail/reaction"][:, 2]
         lever = -0.1  # of the centre of mass along the rail, from the foot
         self.assert_close(torque, -2.0 * 9.81 * math.cos(0.5) * (along + lever), absolute=1e-7)
@@ -148,7 +148,8 @@ function = { polynomial = [0.0, 6.0] }
         self.assert_close(results["joints/slot/coordinate"], np.hypot(x, y), absolute=1e-9)
         # The lever's balance about its pivot, J = 0.2 + 2 · 0.4²: the slot's force stands across it at the pin.
         torque = (0.2 + 2.0 * 0.4**2) * results["bodies/lever/acceleration"][:, 2]
-        # The pivot's reaction passes through the pivot; the slot's, on the lever at its point a there, brings its torque.
+        # The pivot's reaction passes through the pivot; the slot's, on the lever at its point a there, brings its
+        # torque.
         self.assert_close(results["joints/slot/reaction"][:, 2], torque, absolute=1e-6 * np.max(np.abs(torque)))
 
 

@@ -2,12 +2,11 @@
 """Prescribed motion: that it is followed, what it takes, and its place in the energy book."""
 
 import os
-import subprocess
 import unittest
 
 import numpy as np
 
-from verification_case import VerificationCase
+from verification_case import VerificationCase, run_program
 
 SLED = """
 name = "sled"
@@ -37,13 +36,21 @@ name = "drive"
 {0}
 """
 FUNCTIONS = {
-    "polynomial": ("{ polynomial = [0.0, 0.3, -0.2, 0.1] }", lambda t: 0.3 * t - 0.2 * t**2 + 0.1 * t**3,
-                   lambda t: -0.4 + 0.6 * t),
-    "harmonic": ("{ harmonic = { amplitude = 0.4, frequency = 1.2 } }",
-                 lambda t: 0.4 * np.sin(2.4 * np.pi * t), lambda t: -0.4 * (2.4 * np.pi) ** 2 * np.sin(2.4 * np.pi * t)),
-    "step": ("{ step = { before = 0.0, after = 0.5, start = 0.3, end = 0.9 } }",
-             lambda t: 0.5 * smooth(np.clip((t - 0.3) / 0.6, 0.0, 1.0)),
-             lambda t: 0.5 / 0.36 * smooth_second(np.clip((t - 0.3) / 0.6, 0.0, 1.0))),
+    "polynomial": (
+        "{ polynomial = [0.0, 0.3, -0.2, 0.1] }",
+        lambda t: 0.3 * t - 0.2 * t**2 + 0.1 * t**3,
+        lambda t: -0.4 + 0.6 * t,
+    ),
+    "harmonic": (
+        "{ harmonic = { amplitude = 0.4, frequency = 1.2 } }",
+        lambda t: 0.4 * np.sin(2.4 * np.pi * t),
+        lambda t: -0.4 * (2.4 * np.pi) ** 2 * np.sin(2.4 * np.pi * t),
+    ),
+    "step": (
+        "{ step = { before = 0.0, after = 0.5, start = 0.3, end = 0.9 } }",
+        lambda t: 0.5 * smooth(np.clip((t - 0.3) / 0.6, 0.0, 1.0)),
+        lambda t: 0.5 / 0.36 * smooth_second(np.clip((t - 0.3) / 0.6, 0.0, 1.0)),
+    ),
 }
 
 
@@ -99,7 +106,9 @@ class Sled(VerificationCase):
 
     def test_balance_before_the_start_holds_still(self):
         # At t = 0 the rail moves at 0.3 m/s; the balance is that of rest, and the run begins with the motion.
-        results = self.run_text(SLED.format(f'joint = "rail"\nfunction = {FUNCTIONS["polynomial"][0]}'), "duration = 0.1\n")
+        results = self.run_text(
+            SLED.format(f'joint = "rail"\nfunction = {FUNCTIONS["polynomial"][0]}'), "duration = 0.1\n"
+        )
         self.assert_close(results["bodies/load/position"][0], [0.0, -0.6, 0.0], absolute=1e-9)
         self.assert_close(results["bodies/sled/velocity"][0], [0.3, 0.0, 0.0], absolute=1e-12)
 
@@ -112,8 +121,7 @@ class Shaft(VerificationCase):
             encoding="utf-8")
         (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\nduration = 1.0\nstart = "steady"\n',
                                               encoding="utf-8")
-        process = subprocess.run([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder,
-                                 capture_output=True, text=True, check=False)
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder)
         self.assertEqual(process.returncode, 2)
         self.assertIn("run.toml:3:9: error: 'start' can be \"steady\" only where", process.stderr)
 

@@ -1,11 +1,11 @@
 """What the tests of `sprung-dynamics response` share."""
 
 import os
-import subprocess
+import sys
 
 import numpy as np
 
-from verification_case import ROOT, VerificationCase
+from verification_case import ROOT, VerificationCase, run_program
 
 
 def overrides(**keys):
@@ -28,14 +28,12 @@ class ResponseCase(VerificationCase):
 
     def attempt(self, run_file, *arguments):
         """The finished process of a command that may fail."""
-        return subprocess.run([os.environ["SPRUNG_DYNAMICS"], "response", str(run_file), *arguments],
-                              cwd=self.folder, capture_output=True, text=True, check=False)
+        return run_program([os.environ["SPRUNG_DYNAMICS"], "response", run_file, *arguments], cwd=self.folder)
 
     def make_road(self, *arguments):
         """A road file made by the tool; returns its path."""
         path = self.folder / "road.txt"
-        subprocess.run(["/usr/bin/python3", str(ROOT / "tools/make_road.py"), "-o", str(path), *arguments],
-                       check=True, capture_output=True)
+        run_program([sys.executable, ROOT / "tools/make_road.py", "-o", path, *arguments], check=True)
         return path
 
 

@@ -195,7 +195,9 @@ class ResponseFile(ResponseCase):
                 group = file[f"outputs/{name}"]
                 self.assert_close(group["response"][:] @ [1.0, 1j], response[name])
                 by_wheel = group["transfer"][:] @ [1.0, 1j]
-                self.assert_close(np.sum(by_wheel * delays, axis=1), response[name], absolute=1e-9 * np.max(np.abs(by_wheel)))
+                self.assert_close(
+                    np.sum(by_wheel * delays, axis=1), response[name], absolute=1e-9 * np.max(np.abs(by_wheel))
+                )
                 self.assert_close(group["spectrum"][:], response.spectrum(name))
                 self.assertEqual(group.attrs["rms"], response.rms(name))
                 for dataset in group.values():

@@ -93,12 +93,25 @@ class Truck(ResponseCase):
         np.savetxt(road, np.column_stack([s, height / 50.0]), fmt="%.12g")
         setting = [*self.EQUAL_DAMPING, *overrides(modes__chassis=2)]
         results = self.run_to_results(
-            TRUCK, *setting, *overrides(duration=60.0, output_step=4e-3, statistics="{ from = 0.0, to = 60.0 }",
-                                        integrator__relative_tolerance=1e-8,
-                                        road="{ shape = 'table', start = 1.0, file = '" + str(road) + "' }"),
-            superelements=TRUCK_SUPERELEMENTS)
-        response = self.truck(*setting, *overrides(
-            response__road=f"{{ density = {16e-6 / 2500.0}, band = [0.055, 3.3] }}", response__from=0.1, response__to=40))
+            TRUCK,
+            *setting,
+            *overrides(
+                duration=60.0,
+                output_step=4e-3,
+                statistics="{ from = 0.0, to = 60.0 }",
+                integrator__relative_tolerance=1e-8,
+                road="{ shape = 'table', start = 1.0, file = '" + str(road) + "' }",
+            ),
+            superelements=TRUCK_SUPERELEMENTS,
+        )
+        response = self.truck(
+            *setting,
+            *overrides(
+                response__road=f"{{ density = {16e-6 / 2500.0}, band = [0.055, 3.3] }}",
+                response__from=0.1,
+                response__to=40,
+            ),
+        )
         for name, series in {
             "points/chassis.seat/acceleration.y": results["points/chassis.seat/acceleration"][:, 1],
             "points/chassis.origin/acceleration.y": results["bodies/chassis/acceleration"][:, 1],

@@ -4,14 +4,13 @@
 import json
 import os
 import re
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
 from response_case import overrides
-from verification_case import ROOT, VerificationCase
+from verification_case import ROOT, VerificationCase, run_program
 
 TRUCK = ROOT / "dynamics/models/truck"
 TRUCK_SUPERELEMENTS = os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]
@@ -43,17 +42,22 @@ class Truck(VerificationCase):
         self.assertEqual(results.file["bodies/chassis/modal/amplitude"].shape[1], chosen)
         self.assertLess(chosen, 18)
         two = self.run_truck("terrain", "--set", "modes.chassis=2").summary
-        rms = two["points"]["chassis.origin"]["acceleration"]["rms"] / full["points"]["chassis.origin"]["acceleration"]["rms"]
+        rms = (
+            two["points"]["chassis.origin"]["acceleration"]["rms"]
+            / full["points"]["chassis.origin"]["acceleration"]["rms"]
+        )
         self.assertGreater(abs(rms - 1.0), 0.05)
         self.assertLess(auto["evaluations"], 0.8 * full["evaluations"])
 
     def test_what_is_predicted_is_what_a_run_neglects(self):
-        # A terrain of a twentieth of its height, where the truck is nearly linear but for the damper, made equal both ways.
+        # A terrain of a twentieth of its height, where the truck is nearly linear but for the damper, made equal both
+        # ways.
         s, height = np.loadtxt(TRUCK / "terrain_road.txt", unpack=True)
         road = self.folder / "low.txt"
         np.savetxt(road, np.column_stack([s, height / 20.0]), fmt="%.12g")
+        damper = "{ coefficient = 11527.5 }"
         setting = [
-            *overrides(**{f"vehicle__forces__{end}_suspension__damper": "{ coefficient = 11527.5 }" for end in ("front", "rear")}),
+            *overrides(**{f"vehicle__forces__{end}_suspension__damper": damper for end in ("front", "rear")}),
             *overrides(road=f"{{ shape = 'table', start = 1.0, file = '{road}' }}", integrator__relative_tolerance=1e-9,
                        mode_choice__tolerance=0.05),
         ]  # fmt: skip
@@ -61,7 +65,9 @@ class Truck(VerificationCase):
         self.assertEqual(report["neglected_of"], "peak acceleration of chassis.seat")
         runs = {}
         for modes in ('"all"', '"auto"'):
-            runs[modes] = self.run_truck("terrain", *setting, "--set", f"modes.chassis={modes}")["points/chassis.seat/acceleration"]
+            runs[modes] = self.run_truck("terrain", *setting, "--set", f"modes.chassis={modes}")[
+                "points/chassis.seat/acceleration"
+            ]
         difference = np.hypot(*(runs['"auto"'] - runs['"all"']).T)
         neglected = difference.max() / np.hypot(*runs['"all"'].T).max()
         self.assert_close(neglected, report["neglected"], relative=0.15)
@@ -84,7 +90,9 @@ class Truck(VerificationCase):
                         self.assertEqual((body, number) in kept, (body, other) in kept)
 
     def test_tolerance_zero_keeps_all(self):
-        report = self.select("terrain", *overrides(mode_choice__tolerance=0, duration=2.0, statistics="{ from = 0, to = 2 }"))
+        report = self.select(
+            "terrain", *overrides(mode_choice__tolerance=0, duration=2.0, statistics="{ from = 0, to = 2 }")
+        )
         self.assertEqual(len(self.kept(report)), 36)
 
     def test_bump_run_has_the_peaks_of_the_full_basis(self):
@@ -126,8 +134,8 @@ class Truck(VerificationCase):
 
     def test_without_motion_the_weight_alone_decides(self):
         report = self.select("terrain", *overrides(speed=0))
-        self.assertEqual(report["remarks"], ["neither road nor forces in time move the vehicle: modes are judged by what "
-                                             "they do under the weight alone"])  # fmt: skip
+        remark = "neither road nor forces in time move the vehicle: modes are judged by what they do under"
+        self.assertEqual(report["remarks"], [f"{remark} the weight alone"])
         self.assertGreater(len(self.kept(report)), 1)
         for mode in report["modes"]:
             self.assertLessEqual(mode["share"]["static"], 1.0)
@@ -142,10 +150,16 @@ class Truck(VerificationCase):
             design.replace(lines, "\n".join(reversed(lines.split("\n")))), encoding="utf-8"
         )
         other = self.folder / "other"
-        subprocess.run([os.environ["SPRUNG_REDUCE"], "build", "chassis.toml", str(ROOT / "meshes/truck/long_arm.toml"),
-                        "--output-dir", str(other)], cwd=self.folder, capture_output=True, check=True)  # fmt: skip
-        with h5py.File(other / "chassis.h5", "r") as turned, h5py.File(f"{TRUCK_SUPERELEMENTS}/chassis.h5", "r") as straight:
-            numbers = [dict(zip(map(tuple, file["nodes/position"][:]), file["nodes/id"][:], strict=True)) for file in (straight, turned)]
+        designs = ("chassis.toml", ROOT / "meshes/truck/long_arm.toml")
+        build = [os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", other]
+        run_program(build, cwd=self.folder, check=True)
+        with h5py.File(other / "chassis.h5", "r") as turned, h5py.File(
+            f"{TRUCK_SUPERELEMENTS}/chassis.h5", "r"
+        ) as straight:
+            numbers = [
+                dict(zip(map(tuple, file["nodes/position"][:]), file["nodes/id"][:], strict=True))
+                for file in (straight, turned)
+            ]
             self.assertEqual(numbers[0].keys(), numbers[1].keys())
             self.assertNotEqual(*numbers)
         reports, runs = [], []
@@ -154,7 +168,8 @@ class Truck(VerificationCase):
             results = self.run_to_results(
                 TRUCK / "bump.toml",
                 # Into the bump at once: while all stands still modes are judged by rounding against rounding.
-                *overrides(adaptivity="{ enabled = true }", duration=0.8, statistics="{ from = 0, to = 0.8 }", road__start=0.01),
+                *overrides(adaptivity="{ enabled = true }", duration=0.8, road__start=0.01),
+                *overrides(statistics="{ from = 0, to = 0.8 }"),
                 superelements=superelements)  # fmt: skip
             runs.append((results["bodies/chassis/modal/active"], results["points/chassis.seat/acceleration"]))
             results.file.close()
@@ -182,10 +197,10 @@ class Truck(VerificationCase):
     def test_a_run_stores_what_select_modes_and_the_dry_run_show(self):
         short = overrides(duration=0.05, mode_choice__tolerance=0.2)
         report = self.select("bump", *short)
-        command = [os.environ["SPRUNG_DYNAMICS"], "run", str(TRUCK / "bump.toml"), "--superelements", TRUCK_SUPERELEMENTS,
-                   *AUTO, *short, "--dry-run"]  # fmt: skip
-        dry = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=True).stdout
-        shown = subprocess.run([*command, "--json"], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK / "bump.toml", "--superelements", TRUCK_SUPERELEMENTS]
+        command += [*AUTO, *short, "--dry-run"]
+        dry = run_program(command, cwd=self.folder, check=True).stdout
+        shown = run_program([*command, "--json"], cwd=self.folder, check=True).stdout
         self.assertEqual(json.loads(shown)["mode_choice"], report)
         results = self.run_truck("bump", *AUTO, *short)
         path = self.folder / "choice.h5"
@@ -194,7 +209,9 @@ class Truck(VerificationCase):
             self.assertEqual(choice.attrs["format"].decode(), "sprung-mode-choice")
             for file in (choice, results.file):
                 group = file["model/mode_choice"]
-                self.assertEqual([text.decode() for text in group["reason"]], [mode["reason"] for mode in report["modes"]])
+                self.assertEqual(
+                    [text.decode() for text in group["reason"]], [mode["reason"] for mode in report["modes"]]
+                )
                 self.assertEqual(list(group["kept"]), [mode["kept"] for mode in report["modes"]])
                 self.assertEqual(group["transfer/chassis.seat"].shape, group["frequency"].shape)
                 # A long wave lifts the seat by its height: acceleration ω².
@@ -209,11 +226,10 @@ class Truck(VerificationCase):
             ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: is in the way and is left alone"),
         ):
             (self.folder / "foreign.h5").write_text("mine", encoding="utf-8")
-            process = subprocess.run(
-                [os.environ["SPRUNG_DYNAMICS"], "select-modes", str(TRUCK / "bump.toml"), "--superelements",
-                 TRUCK_SUPERELEMENTS, *arguments],
-                cwd=self.folder, capture_output=True, text=True, check=False,
-            )  # fmt: skip
+            command = [os.environ["SPRUNG_DYNAMICS"], "select-modes", TRUCK / "bump.toml"]
+            process = run_program(
+                [*command, "--superelements", TRUCK_SUPERELEMENTS, *arguments], cwd=self.folder
+            )
             self.assertEqual(process.returncode, 2)
             self.assertIn(fragment, process.stderr)
 

@@ -3,11 +3,10 @@
 
 import math
 import os
-import subprocess
 import unittest
 
 
-from verification_case import VerificationCase
+from verification_case import VerificationCase, run_program
 
 HUB = """
 name = "turning"
@@ -104,16 +103,18 @@ class Steady(VerificationCase):
     def test_reports_say_steady_and_a_stretched_bar_is_not_all_deflection(self):
         # Two bending modes, which a turning bar leaves straight; its stretch, of 0.1 µm, is in modes left out.
         (self.folder / "vehicle.toml").write_text(
-            'name = "turning arm"\ngravity = [0.0, 0.0]\n[bodies.arm]\nsuperelement = "long_arm"\nposition = [0.0, 0.0]\n'
+            'name = "turning arm"\ngravity = [0.0, 0.0]\n'
+            '[bodies.arm]\nsuperelement = "long_arm"\nposition = [0.0, 0.0]\n'
             '[[joints]]\nname = "shaft"\ntype = "revolute"\na = "ground.origin"\nb = "arm.chassis_end"\n'
-            '[[motions]]\nname = "speed"\njoint = "shaft"\nfunction = { polynomial = [0.3, 5.0] }\n', encoding="utf-8")  # fmt: skip
+            '[[motions]]\nname = "speed"\njoint = "shaft"\nfunction = { polynomial = [0.3, 5.0] }\n',
+            encoding="utf-8")  # fmt: skip
         (self.folder / "run.toml").write_text(
             'vehicle = "vehicle.toml"\nduration = 0.2\nstart = "steady"\n[modes]\narm = 2\n', encoding="utf-8")
         texts = {}
         for verb in ("run", "equilibrium", "modes"):
-            texts[verb] = subprocess.run(
-                [os.environ["SPRUNG_DYNAMICS"], verb, "run.toml", "--superelements", os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]],
-                cwd=self.folder, capture_output=True, text=True, check=True).stdout  # fmt: skip
+            command = [os.environ["SPRUNG_DYNAMICS"], verb, "run.toml", "--superelements"]
+            superelements = os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]
+            texts[verb] = run_program([*command, superelements], cwd=self.folder, check=True).stdout
             self.assertNotIn("tatic equilibrium", texts[verb])
             self.assertRegex(texts[verb], "[Ss]teady motion")
         self.assertNotIn("modes are missing", texts["run"])
@@ -131,8 +132,7 @@ class Steady(VerificationCase):
             self.assert_fails(2, "run.toml:3:9: error: 'start' can be \"steady\" only where what is carried along")
 
     def assert_fails(self, code, words):
-        process = subprocess.run([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder,
-                                 capture_output=True, text=True, check=False)
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder)
         self.assertEqual(process.returncode, code, process.stdout + process.stderr)
         self.assertIn(words, process.stderr)
 

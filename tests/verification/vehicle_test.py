@@ -3,12 +3,11 @@
 
 import math
 import os
-import subprocess
 import unittest
 
 import numpy as np
 
-from verification_case import EXAMPLES, ROOT, VerificationCase
+from verification_case import EXAMPLES, ROOT, VerificationCase, run_program
 
 TRUCK = ROOT / "dynamics/models/truck/bump.toml"
 DISTRIBUTED = ("--set", "vehicle.forces.front_tyre.contact=distributed", "--set",
@@ -96,9 +95,8 @@ class Truck(VerificationCase):
         self.assertEqual(report["joints"]["front_long_axle"], {"type": "revolute", "holds": ["x", "y"]})
         self.assert_close(report["equilibrium"]["chassis"]["y"], 0.975, absolute=1e-3)
         self.assertFalse((self.folder / "none.h5").exists())
-        text = subprocess.run(
-            [os.environ["SPRUNG_DYNAMICS"], "run", str(TRUCK), "--dry-run", "--superelements",
-             os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]], capture_output=True, text=True, check=True).stdout
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", TRUCK, "--dry-run", "--superelements"]
+        text = run_program([*command, os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]], check=True).stdout
         for words in ("7 freedoms", "1 (6.11 Hz), 2 (6.11 Hz)", "front_suspension", "static equilibrium after"):
             self.assertIn(words, text)
 

@@ -3,33 +3,30 @@
 import json
 import math
 import os
-import subprocess
-import tempfile
-import unittest
+import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from programs import ProgramTestCase, run_program  # noqa: E402, F401  after the path
+
 EXAMPLES = ROOT / "dynamics/models/examples"
 MODELS = Path(__file__).resolve().parent / "models"
 SUPERELEMENTS = os.environ["SPRUNG_SUPERELEMENTS"]
 
 
-class VerificationCase(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-
+class VerificationCase(ProgramTestCase):
     def program(self, verb, run_file, *arguments, superelements=SUPERELEMENTS):
         """What the program prints with --json."""
-        process = subprocess.run(
+        process = run_program(
             [os.environ["SPRUNG_DYNAMICS"], verb, str(run_file), "--superelements", str(superelements), "--json",
              "--quiet", *arguments],
-            cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
-        )
+            cwd=self.folder,
+        )  # fmt: skip
         self.assertEqual(process.returncode, 0, process.stderr)
         return json.loads(process.stdout)
 

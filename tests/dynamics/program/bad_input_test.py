@@ -10,7 +10,13 @@ from dynamics_test_case import DynamicsTestCase
 
 # What is done to a file, and what the message has to say: where, what was found, what was expected.
 SPOILT_TEXT = [
-    ("unknown key", "bump.toml", "duration = 5.0", "duration = 5.0\nspede = 3.0", ("bump.toml:7:1", "'spede'", "speed")),
+    (
+        "unknown key",
+        "bump.toml",
+        "duration = 5.0",
+        "duration = 5.0\nspede = 3.0",
+        ("bump.toml:7:1", "'spede'", "speed"),
+    ),
     ("missing key", "bump.toml", "length = 0.4", "", ("bump.toml:12:1", "missing key 'length'")),
     ("wrong type", "bump.toml", "speed = 3.0", 'speed = "fast"', ("bump.toml:5:9", "m/s", '"fast"')),
     ("negative length", "bump.toml", "length = 0.4", "length = -0.4", ("bump.toml:15:10", "> 0 m", "-0.4")),

@@ -2,12 +2,14 @@
 
 import os
 import shutil
-import subprocess
-import tempfile
-import unittest
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from programs import ProgramTestCase, run_program  # noqa: E402  after the path
+
 TRUCK = ROOT / "dynamics/models/truck"
 PROGRAM = os.environ["SPRUNG_DYNAMICS"]
 SUPERELEMENTS = Path(os.environ["SPRUNG_SUPERELEMENTS"])
@@ -15,13 +17,11 @@ SUPERELEMENTS = Path(os.environ["SPRUNG_SUPERELEMENTS"])
 SHORT = ("--set", "duration=0.05", "--quiet")  # long enough to have run
 
 
-class DynamicsTestCase(unittest.TestCase):
+class DynamicsTestCase(ProgramTestCase):
     """`self.folder` holds vehicle.toml, bump.toml and the superelements; results are asked for in results.h5."""
 
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         for path in (TRUCK / "vehicle.toml", TRUCK / "bump.toml", *SUPERELEMENTS.glob("*.h5")):
             shutil.copy(path, self.folder)
         self.results = self.folder / "results.h5"
@@ -43,15 +43,7 @@ class DynamicsTestCase(unittest.TestCase):
         return [PROGRAM, verb, "bump.toml", *arguments]
 
     def run_program(self, *arguments, verb="run", **options):
-        return subprocess.run(
-            self.command(*arguments, verb=verb),
-            cwd=self.folder,
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            check=False,
-            **options,
-        )
+        return run_program(self.command(*arguments, verb=verb), cwd=self.folder, **options)
 
     def run_to_results(self, *arguments, **options):
         return self.run_program(*SHORT, *arguments, "-o", "results.h5", **options)

@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 
-from dynamics_test_case import PROGRAM, SHORT, DynamicsTestCase
+from dynamics_test_case import PROGRAM, SHORT, DynamicsTestCase, run_program
 
 
 class Results(DynamicsTestCase):
@@ -28,7 +28,7 @@ class Results(DynamicsTestCase):
         with h5py.File(self.results, "r") as file:
             self.assertEqual(file.attrs["complete"], 1)
             self.assertEqual(file.attrs["format"], b"sprung-results")
-            version = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+            version = run_program([PROGRAM, "--version"], check=True).stdout.strip()
             self.assertEqual(file.attrs["program_version"].decode(), version)
             n = file["time"].shape[0]
             self.assertEqual(n, 51)  # 0 to 0.05 s, every millisecond
@@ -47,7 +47,11 @@ class Results(DynamicsTestCase):
         # forces add up to its weight, 11950 kg · 9.80665 m/s².
         self.assertEqual(self.run_to_results("--set", "speed=0").returncode, 0)
         with h5py.File(self.results, "r") as file:
-            lift = sum(file[f"joints/{end}_{arm}_chassis/reaction"][0, 1] for end in ("front", "rear") for arm in ("long", "short"))
+            lift = sum(
+                file[f"joints/{end}_{arm}_chassis/reaction"][0, 1]
+                for end in ("front", "rear")
+                for arm in ("long", "short")
+            )
             lift += sum(file[f"forces/{end}_suspension/force"][0] for end in ("front", "rear"))
         self.assertAlmostEqual(lift / (11950.0 * 9.80665), 1.0, places=6)
 
@@ -63,9 +67,7 @@ class Results(DynamicsTestCase):
                 f"[ground.points]\npin = [{length}, 0.0]\n",
                 encoding="utf-8",
             )
-            process = subprocess.run(
-                [PROGRAM, "run", "tiny.toml", "--quiet"], cwd=self.folder, capture_output=True, text=True, check=False
-            )
+            process = run_program([PROGRAM, "run", "tiny.toml", "--quiet"], cwd=self.folder)
             self.assertEqual(process.returncode, 0, process.stderr)
             self.assertEqual("larger unit" in process.stderr, is_warned, process.stderr)
 
@@ -110,8 +112,14 @@ class Interrupt(DynamicsTestCase):
         partial = self.folder / "results.partial.h5"
         # A run that would take minutes; it is interrupted once it has begun to write.
         process = subprocess.Popen(
-            self.command("--set", "duration=3600", "--set", "output_step=0.01", "--set", "modes.chassis=36", "-o", "results.h5"),
-            cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            self.command(
+                "--set", "duration=3600", "--set", "output_step=0.01", "--set", "modes.chassis=36", "-o", "results.h5"
+            ),
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
         )
         while not partial.exists() and process.poll() is None:
             time.sleep(0.01)

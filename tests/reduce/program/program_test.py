@@ -10,28 +10,29 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 import h5py
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from programs import ProgramTestCase, run_program  # noqa: E402  after the path
+
 PROGRAM = ""
 SOURCE = Path()
 
 
-class ProgramTest(unittest.TestCase):
+class ProgramTest(ProgramTestCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="sprung-reduce-"))
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         for name in ("chassis.toml", "long_arm.toml"):
             shutil.copy(SOURCE / "meshes/truck" / name, self.folder / name)
         for name in ("ladder_frame.toml", "ladder_frame.geo"):
             shutil.copy(SOURCE / "meshes/examples" / name, self.folder / name)
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
-                              timeout=120, check=False, **options)
+        return run_program([PROGRAM, *arguments], cwd=self.folder, **options)
 
     def build(self, *designs, code=0, **options):
         result = self.run_program("build", *designs, "--output-dir", "out", **options)
@@ -40,9 +41,9 @@ class ProgramTest(unittest.TestCase):
 
     def change(self, name, old, new):
         path = self.folder / name
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
         self.assertIn(old, text)
-        path.write_text(text.replace(old, new, 1))
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
 
     def files(self):
         return sorted(path.name for path in (self.folder / "out").iterdir())
@@ -151,10 +152,10 @@ class ProgramTest(unittest.TestCase):
         self.assertNotEqual(self.read("chassis.h5"), before)
 
     def test_a_folder_that_cannot_be_one_is_refused(self):
-        (self.folder / "out").write_text("in the way")
+        (self.folder / "out").write_text("in the way", encoding="utf-8")
         result = self.build("chassis.toml", code=2)
         self.assertIn("out: error: cannot be used as a folder", result.stderr)
-        self.assertEqual((self.folder / "out").read_text(), "in the way")
+        self.assertEqual((self.folder / "out").read_text(encoding="utf-8"), "in the way")
 
     def test_an_output_blocked_by_a_folder_is_refused(self):
         (self.folder / "out/chassis.h5").mkdir(parents=True)
@@ -188,21 +189,23 @@ class ProgramTest(unittest.TestCase):
         self.assertIn("none.toml: error: ", self.build("none.toml", code=2).stderr)
 
     def test_an_interrupt_leaves_whole_files(self):
-        designs = []
-        for number in range(40):
-            name = f"frame{number}.toml"
-            shutil.copy(self.folder / "chassis.toml", self.folder / name)
-            designs.append(name)
-        with subprocess.Popen([PROGRAM, "build", *designs, "-o", "out"], cwd=self.folder, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as process:
-            process.stdout.readline()  # the first one has begun
-            process.send_signal(signal.SIGINT)
-            _, errors = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 130)
-        self.assertIn("interrupted: before frame", errors)
-        made = self.files()
-        self.assertLess(len(made), 40)
-        self.assertEqual([name for name in made if not name.endswith(".h5")], [])
+        design = (self.folder / "chassis.toml").read_bytes()
+        names = [f"frame{number}.toml" for number in range(5)]
+        for name in names:
+            (self.folder / name).write_bytes(design)
+        # One design is a pipe: the program waits there until the test has sent the signal and written the design.
+        (self.folder / names[2]).unlink()
+        os.mkfifo(self.folder / names[2])
+        with subprocess.Popen([PROGRAM, "build", *names, "-o", "out"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8") as process:  # fmt: skip
+            with open(self.folder / names[2], "wb") as pipe:  # returns when the program has opened it
+                process.send_signal(signal.SIGINT)
+                pipe.write(design)
+            _, errors = process.communicate()
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("interrupted: before frame3.toml", errors)
+        made = ["frame0.h5", "frame1.h5", "frame2.h5"]
+        self.assertEqual(self.files(), made)
         self.assertEqual(self.run_program("check", *(self.folder / "out" / name for name in made)).returncode, 0)
 
     # What is printed
@@ -267,5 +270,4 @@ class ProgramTest(unittest.TestCase):
 if __name__ == "__main__":
     PROGRAM = str(Path(sys.argv[1]).resolve())
     SOURCE = Path(sys.argv[2]).resolve()
-    os.environ["LC_ALL"] = "C.UTF-8"
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,11 +1,11 @@
 """Arguments that several commands have."""
 
+import argparse
 
-def add_run_arguments(parser):
-    """The arguments that every tool on runs has: files, quantities, the span of time."""
-    parser.add_argument(
-        "runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the legend"
-    )
+
+def add_run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the arguments of a command on runs: files, quantities, the span of time."""
+    parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the legend")
     parser.add_argument(
         "--show", metavar="[LABEL=]QUANTITY", action="append", required=True,
         help="a quantity such as bodies/chassis/displacement.y, and its name; may be given several times",
@@ -13,11 +13,7 @@ def add_run_arguments(parser):
     add_span_arguments(parser)
 
 
-def add_span_arguments(parser):
-    """The span of time that is looked at."""
-    parser.add_argument(
-        "--from", dest="start", type=float, metavar="S", help="look at the run from this time, s"
-    )
-    parser.add_argument(
-        "--to", dest="end", type=float, metavar="S", help="look at the run up to this time, s"
-    )
+def add_span_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the arguments of a span of time."""
+    parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
+    parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")

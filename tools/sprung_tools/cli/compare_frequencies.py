@@ -8,13 +8,13 @@ from sprung_tools.terminal.text_table import format_table
 HEADINGS = ("body", "mode", "computed Hz", "printed Hz", "difference Hz", "difference %", "same digits")
 
 
-def num_decimals(text):
-    """Decimals a number was printed with: "6.11" → 2."""
+def num_decimals(text: str) -> int:
+    """The number of decimals in a text: "6.11" → 2."""
     return len(text.partition(".")[2])
 
 
-def parse_frequency(number, text):
-    """The number-th known frequency [Hz] of the command line. InputError if it is not positive."""
+def parse_frequency(number: int, text: str) -> float:
+    """Reads a known frequency [Hz]. number: its place on the command line, from 1. InputError if it is not positive."""
     try:
         value = float(text)
     except ValueError:
@@ -24,7 +24,7 @@ def parse_frequency(number, text):
     return value
 
 
-def main():
+def main() -> int:
     parser = make_parser(__doc__, "tools/compare_frequencies chassis.h5 --printed 6.11 6.11 38.31 38.31")
     parser.add_argument("file", metavar="SUPERELEMENT", help="superelement file of sprung-reduce")
     parser.add_argument(
@@ -37,9 +37,7 @@ def main():
         name = text_of(file.attrs.get("name", ""))
         frequencies, _ = read_numbers(file, "modes/frequency")
     if frequencies.size < len(printed):
-        raise InputError(
-            f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given"
-        )
+        raise InputError(f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given")
 
     rows = []
     for number, (computed, known, text) in enumerate(zip(frequencies, printed, arguments.printed), start=1):

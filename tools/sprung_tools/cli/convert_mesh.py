@@ -1,35 +1,22 @@
-"""Takes the frame from another program's mesh file (Abaqus, Nastran, MED, VTK, gmsh and what else meshio reads) and
+"""Reads the frame in another program's mesh file (Abaqus, Nastran, MED, VTK, gmsh and the other formats of meshio) and
 writes it as a gmsh 4.1 mesh: every line element, every set of elements as a physical curve, every set of nodes as
-physical points. Sections come from the design file, by the names of the curves."""
+physical points. The sections come from the design file, by the names of the curves."""
 
-import os
-
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output
-from sprung_tools.mesh_import.abaqus_deck import read_abaqus
 from sprung_tools.mesh_import.gmsh_writer import write_msh
-from sprung_tools.mesh_import.line_mesh import MeshError, make_plane_frame
-from sprung_tools.mesh_import.nastran_deck import is_nastran, read_nastran
+from sprung_tools.mesh_import.line_mesh import LineMesh
+from sprung_tools.mesh_import.mesh_file import read_mesh
+from sprung_tools.mesh_import.plane_frame import PlaneFrame, make_plane_frame
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
-DECKS = {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".fem": read_nastran}
-MOST_POINTS = 24  # told of by name
+MOST_POINTS = 24  # points that are listed by name
 PLANES = ("xy", "xz", "yz", "yx", "zx", "zy")
 
 
-def read_mesh(path):
-    """The lines of a mesh file, by the reader for its ending. MeshError if it cannot be used."""
-    if not os.path.isfile(path):
-        raise MeshError(f"{path}: error: no such file")
-    ending = os.path.splitext(path)[1].lower()
-    reader = read_nastran if ending == ".dat" and is_nastran(path) else DECKS.get(ending)
-    if reader is None:
-        from sprung_tools.mesh_import.meshio_reader import read_with_meshio as reader  # takes half a second to load
-    return reader(path)
-
-
-def print_report(mesh, frame, plane, output):
-    """What was kept, what became of the rest, and what the source holds that a mesh does not carry."""
+def print_report(mesh: LineMesh, frame: PlaneFrame, plane: str, output: str) -> None:
+    """Prints what was kept, what became of the rest, and what the source holds that a mesh cannot hold."""
     width, height = frame.positions.max(axis=0) - frame.positions.min(axis=0)
     print(
         f"{mesh.path}: {mesh.format}, {len(frame.node_ids)} nodes and {len(frame.lines)} lines in the "
@@ -52,12 +39,12 @@ def print_report(mesh, frame, plane, output):
     print(f"\nMesh: {output}")
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/convert_mesh chassis.inp chassis.msh\n  tools/convert_mesh frame.bdf frame.msh --plane xz --scale 1e-3",
     )
-    parser.add_argument("input", metavar="IN", help="mesh file; its ending tells the format")
+    parser.add_argument("input", metavar="IN", help="mesh file; its ending says which format it has")
     parser.add_argument("output", metavar="OUT.msh", help="gmsh 4.1 file to write")
     parser.add_argument(
         "--plane", choices=PLANES, default="xy", help="the source's axes that become x and y (default: xy)"
@@ -71,9 +58,9 @@ def main():
     )
     arguments = parser.parse_args()
     if not arguments.output.endswith(".msh"):
-        raise MeshError(f"{arguments.output}: error: the output's name must end in .msh")
+        raise InputError(f"{arguments.output}: error: the output's name must end in .msh")
     if not 0.0 < arguments.scale < float("inf"):
-        raise MeshError(f"--scale: error: {arguments.scale:g}, expected a length > 0 m")
+        raise InputError(f"--scale: error: {arguments.scale:g}, expected a length > 0 m")
     mesh = read_mesh(arguments.input)
     check_output(arguments.output, [arguments.input])
     frame = make_plane_frame(mesh, arguments.plane, arguments.sections, arguments.scale)

@@ -1,18 +1,21 @@
-"""Writes quantities of a run over time as a CSV table: a column each, its name and unit in the first line."""
+"""Writes quantities of a run over time as a CSV table: a column for each, with its name and unit in the first line."""
 
 import csv
 import io
+from collections.abc import Sequence
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.files.results_file import open_results
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.runs.labelled_runs import samples_between, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
-def write_table(path, headings, columns):
-    """Writes columns [k] under their headings, whole or not at all, with the digits that give each number back."""
+def write_table(path: str, headings: Sequence[str], columns: Sequence[Floats]) -> None:
+    """Writes columns [k] under their headings, whole or not at all, with the digits that reproduce each number
+    exactly."""
     table = io.StringIO()
     writer = csv.writer(table, lineterminator="\n")
     writer.writerow(headings)
@@ -20,7 +23,7 @@ def write_table(path, headings, columns):
     write_whole(path, table.getvalue())
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/export_csv bump_2modes.h5 -o bump.csv --show 'heave=bodies/chassis/displacement.y' \\\n"

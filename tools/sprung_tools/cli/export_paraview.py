@@ -4,8 +4,10 @@ A superelement gives one file for each mode: the frame bent by it, with the vect
 gives one file for each instant: bodies as lines where they are, with `velocity`, `acceleration`, `deflection` at their
 nodes and the beam resultants at both ends of each element (first, second)."""
 
+import argparse
 import math
 import os
+from pathlib import Path
 
 from sprung_tools.files.errors import InputError, WrongFormatError
 from sprung_tools.files.hdf5_file import RESULTS, SUPERELEMENT, open_hdf5
@@ -15,8 +17,8 @@ from sprung_tools.paraview.run import export_run
 from sprung_tools.terminal.program import make_parser
 
 
-def find_format(path):
-    """Whether a file is a run (else a superelement). InputError if it is neither."""
+def find_format(path: str | Path) -> bool:
+    """Whether a file is a run; otherwise it is a superelement. InputError if it is neither."""
     try:
         open_hdf5(path, RESULTS).close()
     except WrongFormatError as error:
@@ -26,8 +28,8 @@ def find_format(path):
     return True
 
 
-def check_arguments(arguments):
-    """InputError for a value that makes no sense, or that the file's kind has no use for."""
+def check_arguments(arguments: argparse.Namespace) -> None:
+    """Throws InputError for a value that makes no sense, or that does not apply to the file's kind."""
     if not os.path.splitext(os.path.basename(arguments.output))[1] == ".pvd":
         raise InputError(f"{arguments.output}: error: the output's name must end in .pvd")
     if arguments.every is not None and not 0.0 < arguments.every < math.inf:
@@ -42,7 +44,7 @@ def check_arguments(arguments):
             raise InputError(f"{name}: error: {arguments.file} is a superelement, which has no time")
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/export_paraview chassis.h5 -o modes.pvd --modes 1 2 3\n"
@@ -50,16 +52,24 @@ def main():
     )
     parser.add_argument("file", metavar="FILE", help="superelement file or results file")
     parser.add_argument("-o", "--output", required=True, metavar="NAME.pvd", help="list to write; NAME holds the files")
-    parser.add_argument("--modes", metavar="NUMBER", type=int, nargs="+", help="of a superelement (all, if not given)")
-    parser.add_argument("--magnify", metavar="FACTOR", type=float, default=1.0, help="of the deflections of a run, or of the modes")
-    parser.add_argument("--every", metavar="S", type=float, help="time between instants of a run, s (all samples)")
+    parser.add_argument("--modes", metavar="NUMBER", type=int, nargs="+", help="modes of a superelement (default: all)")
+    parser.add_argument(
+        "--magnify",
+        metavar="FACTOR",
+        type=float,
+        default=1.0,
+        help="factor of the deflections of a run, or of the modes",
+    )
+    parser.add_argument(
+        "--every", metavar="S", type=float, help="time between the instants of a run, s (default: all samples)"
+    )
     parser.add_argument("--from", dest="start", type=float, metavar="S", help="begin at this time, s")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="end at this time, s")
     arguments = parser.parse_args()
     arguments.is_run = find_format(arguments.file)
     check_arguments(arguments)
 
-    def write_files(folder):
+    def write_files(folder: str) -> list[tuple[float, str]]:
         if arguments.is_run:
             span = (arguments.start, arguments.end)
             return export_run(arguments.file, folder, span, arguments.every, arguments.magnify)

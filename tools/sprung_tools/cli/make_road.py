@@ -1,8 +1,10 @@
-"""Makes a random road profile from a band of wavenumbers, an exponent and an r.m.s. or an ISO 8608 class, writes it as
-a road table, and prints the spectrum and the r.m.s. found in the file it wrote."""
+"""Makes a random road profile from a band of wavenumbers, an exponent, and an r.m.s. or an ISO 8608 class, writes it as
+a road table, and prints the spectrum and the r.m.s. of the file that it wrote."""
 
+import argparse
 import shlex
 import sys
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,12 +23,10 @@ from sprung_tools.signals.road_profile import (
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
-FINE = (
-    5.0  # points on the shortest wave, below which a spline through them misses its height by more than 3 %
-)
+FINE = 5.0  # points on the shortest wave; with fewer a spline through them misses its height by more than 3 %
 
 
-def parse_arguments():
+def parse_arguments() -> argparse.Namespace:
     parser = make_parser(
         __doc__,
         "tools/make_road.py -o terrain.txt --length 91.44 --spacing 0.0508 --band 0.0545 3.33 --rms 0.0264 \\\n"
@@ -34,20 +34,24 @@ def parse_arguments():
         "  tools/make_road.py -o class_c.txt --iso-class C --length 500 --spacing 0.05 --ease 5 --seed 7",
     )
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="road table to write")
-    parser.add_argument("--length", type=float, required=True, metavar="M", help="of the profile, m")
+    parser.add_argument("--length", type=float, required=True, metavar="M", help="length of the profile, m")
     parser.add_argument(
-        "--spacing", type=float, required=True, metavar="M", help="of its points, m; divides the length"
+        "--spacing",
+        type=float,
+        required=True,
+        metavar="M",
+        help="distance between its points, m; must divide the length",
     )
     parser.add_argument(
         "--band", type=float, nargs=2, metavar=("LOW", "HIGH"),
-        help=f"wavenumbers, 1/m; an ISO class has {ISO_BAND[0]:g} {ISO_BAND[1]:g} if none is given",
+        help=f"lowest and highest wavenumber, 1/m (default for an ISO class: {ISO_BAND[0]:g} {ISO_BAND[1]:g})",
     )  # fmt: skip
     parser.add_argument(
         "--exponent", type=float, default=2.0, metavar="W", help="spectral density falls as n^-W (default: 2)"
     )
     level = parser.add_mutually_exclusive_group(required=True)
     level.add_argument("--rms", type=float, default=0.0, metavar="M", help="r.m.s. height over all points, m")
-    level.add_argument("--iso-class", choices=ISO_CLASSES, help="ISO 8608 class, its geometric mean; n^-2")
+    level.add_argument("--iso-class", choices=ISO_CLASSES, help="ISO 8608 class: its geometric mean, exponent 2")
     parser.add_argument(
         "--ease",
         type=float,
@@ -55,7 +59,7 @@ def parse_arguments():
         metavar="M",
         help="raised-cosine easing at both ends, m (default: 0)",
     )
-    parser.add_argument("--seed", type=int, default=1, help="of the random phases (default: 1)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the random phases (default: 1)")
     arguments = parser.parse_args()
     if arguments.iso_class and arguments.exponent != 2.0:
         parser.error("an ISO 8608 class has the exponent 2")
@@ -64,11 +68,12 @@ def parse_arguments():
     return arguments
 
 
-def make_recipe(arguments):
+def make_recipe(arguments: argparse.Namespace) -> Recipe:
+    low, high = arguments.band or ISO_BAND
     return Recipe(
         length=arguments.length,
         spacing=arguments.spacing,
-        band=tuple(arguments.band or ISO_BAND),
+        band=(low, high),
         exponent=arguments.exponent,
         rms=arguments.rms,
         density=calc_iso_density(arguments.iso_class) if arguments.iso_class else 0.0,
@@ -77,8 +82,8 @@ def make_recipe(arguments):
     )
 
 
-def describe_command(arguments):
-    """The command line that makes the same file."""
+def describe_command(arguments: Sequence[str]) -> str:
+    """The command line that makes the same file, without the file's name."""
     words = ["tools/make_road.py"]
     skip = False
     for word in arguments:
@@ -91,8 +96,8 @@ def describe_command(arguments):
     return shlex.join(words)
 
 
-def format_report(path, recipe, density):
-    """What the file holds: r.m.s., steepest slope between points, the spectrum in octaves beside the wanted one."""
+def format_report(path: str, recipe: Recipe, density: float) -> str:
+    """What the file holds: r.m.s., steepest slope between points, the spectrum in octaves and the wanted one."""
     distance, height = read_profile(path)
     octaves = estimate_octaves(distance, height, recipe, density)
     rows = [
@@ -111,18 +116,14 @@ def format_report(path, recipe, density):
         format_table(("from 1/m", "to 1/m", "wanted m^3", "found m^3", "ratio"), rows),
     ]
     if len(octaves) > 1:
-        lines.append(
-            f"exponent wanted {recipe.exponent:g}, found {fit_exponent(octaves, recipe.exponent):.3f}"
-        )
+        lines.append(f"exponent wanted {recipe.exponent:g}, found {fit_exponent(octaves, recipe.exponent):.3f}")
     points = 1.0 / (octaves[-1].highest * recipe.spacing)
     if points < FINE:
-        lines.append(
-            f"note: only {points:.2f} points on the shortest wave; a smooth curve through them wants {FINE:g}"
-        )
+        lines.append(f"note: only {points:.2f} points on the shortest wave; a smooth curve through them needs {FINE:g}")
     return "\n".join(lines)
 
 
-def main():
+def main() -> int:
     arguments = parse_arguments()
     recipe = make_recipe(arguments)
     profile = make_profile(recipe)

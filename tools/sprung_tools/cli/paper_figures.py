@@ -1,23 +1,23 @@
-"""Compares the truck with the paper it comes from: builds the programs, makes all runs anew, and puts the tables and
-figures of the report into dynamics/models/truck/README.md and its folder figures/.
+"""Compares the truck with the paper from which it comes: builds the programs, makes all runs anew, and puts the tables
+and figures of the report into dynamics/models/truck/README.md and its folder figures/.
 
-Results files and the superelements go to --output-dir. Everything takes some minutes; --quick leaves out the runs with
-24 and 36 modes and prints the tables instead of writing them."""
+The results files and the superelements go to --output-dir. Everything takes some minutes; --quick leaves out the runs
+with 24 and 36 modes and prints the tables instead of writing them."""
 
+import argparse
 import subprocess
 from pathlib import Path
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.project import ROOT
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.paper_report.markdown import format_markdown, format_words, replace_part
 from sprung_tools.paper_report.mode_runs import list_mode_runs, list_timed_mode_runs
 from sprung_tools.paper_report.paper_runs import (
     EXPENSIVE_MODES,
-    ROOT,
     TRUCK,
-    build_superelements,
+    PaperRun,
     count_chassis_modes,
-    find_programs,
     list_adams_runs,
     list_convergence_runs,
     list_finer_runs,
@@ -26,21 +26,26 @@ from sprung_tools.paper_report.paper_runs import (
     list_speed_runs,
     list_timed_main_runs,
     list_tyre_runs,
-    measure_costs,
-    print_progress,
-    run_all,
     write_roads,
 )
 from sprung_tools.paper_report.pictures import draw_all, write_picture
+from sprung_tools.paper_report.programs import (
+    Programs,
+    build_superelements,
+    find_programs,
+    measure_costs,
+    print_progress,
+    run_all,
+)
 from sprung_tools.paper_report.run_numbers import Numbers
 from sprung_tools.paper_report.tables import list_tables, list_texts
 from sprung_tools.terminal.program import make_parser
-from sprung_tools.terminal.text_table import format_table
+from sprung_tools.terminal.text_table import Table, format_table
 
 REPORT = TRUCK / "README.md"
 
 
-def parse_arguments():
+def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/paper_figures --output-dir /tmp/paper --quick")
     parser.add_argument(
         "--output-dir", type=Path, default=ROOT / "build/truck/paper", metavar="FOLDER",
@@ -60,19 +65,21 @@ def parse_arguments():
     parser.add_argument(
         "--no-timing",
         action="store_true",
-        help="leave processor times out, which take some minutes and an idle machine",
+        help="leave out the processor times, which need some minutes and an idle machine",
     )
     return parser.parse_args()
 
 
-def make_programs(folder):
+def make_programs(folder: Path | None) -> Programs:
+    """Finds the programs in a folder; builds them if none is given."""
     if folder is None:
         subprocess.run([ROOT / "tools/build", "sprung-reduce", "sprung-dynamics"], check=True)
         folder = ROOT / "build/release"
     return find_programs(folder)
 
 
-def list_runs(quick, folder):
+def list_runs(quick: bool, folder: Path) -> list[PaperRun]:
+    """The runs to make. folder: that of the terrain profiles."""
     runs = [
         *list_main_runs(),
         *list_convergence_runs(),
@@ -86,8 +93,9 @@ def list_runs(quick, folder):
     return [run for run in runs if not quick or count_chassis_modes(run) < EXPENSIVE_MODES]
 
 
-def write_report(tables, texts):
-    """Puts tables and texts between their markers. InputError if a marker is missing; the report is then left alone."""
+def write_report(tables: dict[str, Table], texts: dict[str, str]) -> None:
+    """Puts tables and texts between their markers in the report. InputError, and an unchanged report, if a marker is
+    missing."""
     text = REPORT.read_text(encoding="utf-8")
     for name, content in texts.items():
         text = replace_part(text, name, format_words(content))
@@ -96,7 +104,7 @@ def write_report(tables, texts):
     write_whole(REPORT, text)
 
 
-def main():
+def main() -> int:
     arguments = parse_arguments()
     folder = arguments.output_dir.resolve()
     try:

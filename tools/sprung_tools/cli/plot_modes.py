@@ -1,8 +1,12 @@
-"""Draws how modes were chosen: the road's spectrum, what the vehicle makes of it, and the modes' frequencies, those kept
-marked; below, what each mode is worth.
+"""Draws how modes were chosen: the road's spectrum, the vehicle's transfer functions, the frequencies of the modes kept
+and left out, and below the share of each mode.
 
-With --over-time what the modes of a run did: which took part, what those left out would have done, and below what the run
-did, beside other runs if they are given."""
+With --over-time it draws the modes of a run over time: which took part, what those left out would have contributed, and
+below quantities of this run, and of other runs if they are given."""
+
+import argparse
+
+from matplotlib.figure import Figure
 
 from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
@@ -13,7 +17,7 @@ from sprung_tools.runs.mode_history import read_mode_histories
 from sprung_tools.terminal.program import make_parser
 
 
-def parse_arguments():
+def parse_arguments() -> argparse.Namespace:
     parser = make_parser(
         __doc__,
         "tools/plot_modes -o choice.png choice.h5\n"
@@ -21,18 +25,18 @@ def parse_arguments():
     )
     parser.add_argument(
         "files", metavar="[LABEL=]FILE", nargs="+",
-        help='file of select-modes, or results of a run with modes "auto"; with --over-time results of any run, and of others '
-        "to draw beside it",
+        help='file of select-modes, or results of a run with modes "auto"; with --over-time results of any run, and of '
+        "others to draw beside it",
     )  # fmt: skip
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
-    parser.add_argument("--over-time", action="store_true", help="what the modes did during the run")
+    parser.add_argument("--over-time", action="store_true", help="draw the modes of a run over time")
     parser.add_argument(
         "--show", metavar="[LABEL=]QUANTITY", action="append",
-        help="with --over-time: a quantity below, and its name; may be given several times; the first body's vertical "
-        "acceleration if not given",
+        help="with --over-time: a quantity to draw below, and its name; may be given several times (default: the first "
+        "body's vertical acceleration)",
     )  # fmt: skip
     add_span_arguments(parser)
-    parser.add_argument("--title", default="", help="heading; the vehicle's name if not given")
+    parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
     arguments = parser.parse_args()
     over_time_only = (arguments.show, arguments.start, arguments.end)
     if not arguments.over_time and (len(arguments.files) > 1 or any(one is not None for one in over_time_only)):
@@ -40,7 +44,8 @@ def parse_arguments():
     return arguments
 
 
-def draw_histories(arguments):
+def draw_histories(arguments: argparse.Namespace) -> Figure:
+    """Draws the picture of --over-time."""
     runs = open_runs(arguments.files)
     quantities = shown_quantities(arguments.show or [])
     if not quantities:
@@ -49,7 +54,7 @@ def draw_histories(arguments):
     return make_mode_history_figure(runs, quantities, (arguments.start, arguments.end), arguments.title)
 
 
-def main():
+def main() -> int:
     arguments = parse_arguments()
     if arguments.over_time:
         figure = draw_histories(arguments)

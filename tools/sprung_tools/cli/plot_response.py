@@ -7,7 +7,7 @@ from sprung_tools.runs.labelled_runs import shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/plot_response -o response.png rigid=rigid.h5 '4 modes=modes.h5' \\\n"
@@ -18,11 +18,9 @@ def main():
         "--show", metavar="[LABEL=]OUTPUT", action="append", required=True,
         help="an output such as points/chassis.seat/acceleration.y, and its name; may be given several times",
     )  # fmt: skip
-    parser.add_argument(
-        "-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)"
-    )
-    parser.add_argument("--title", default="", help="heading; the vehicle's name if not given")
-    parser.add_argument("--spectrum", action="store_true", help="spectral densities, with the r.m.s.")
+    parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
+    parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
+    parser.add_argument("--spectrum", action="store_true", help="draw spectral densities, with the r.m.s.")
     arguments = parser.parse_args()
 
     responses = open_responses(arguments.files)

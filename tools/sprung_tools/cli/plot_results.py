@@ -7,20 +7,16 @@ from sprung_tools.runs.labelled_runs import open_runs, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/plot_results -o bump.png rigid=bump_rigid.h5 '2 modes=bump_2modes.h5' \\\n"
         "    --show 'heave=bodies/chassis/displacement.y' --show points/chassis.seat/acceleration.y",
     )
     add_run_arguments(parser)
-    parser.add_argument(
-        "-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)"
-    )
-    parser.add_argument("--title", default="", help="heading; the run's title if not given")
-    parser.add_argument(
-        "--mark-road", action="store_true", help="shade the time in which a tyre is on an obstacle"
-    )
+    parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
+    parser.add_argument("--title", default="", help="heading (default: the run's title)")
+    parser.add_argument("--mark-road", action="store_true", help="shade the times in which a tyre is on an obstacle")
     arguments = parser.parse_args()
 
     runs = open_runs(arguments.runs)

@@ -1,4 +1,4 @@
-"""Writes one page on one or more runs that opens from disk in any browser, without a network: what was run, a table
+"""Writes one page on one or more runs, which opens from disk in any browser without a network: what was run, a table
 that compares the runs, histories, spectra, modal amplitudes, and the vehicle driving over its road."""
 
 import sys
@@ -11,20 +11,20 @@ from sprung_tools.runs.labelled_runs import open_runs, shown_quantities
 from sprung_tools.terminal.program import make_parser
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/report rigid=bump_rigid.h5 '2 modes=bump_2modes.h5' -o report.html --superelements build/truck",
     )
     parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name on the page")
     parser.add_argument("-o", "--output", required=True, metavar="PAGE", help="file to write (.html)")
-    parser.add_argument("--title", default="", help="heading; the vehicle's name if not given")
+    parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
     parser.add_argument(
-        "--superelements", metavar="FOLDER", help="where the superelement files are: shows their checks"
+        "--superelements", metavar="FOLDER", help="folder of the superelement files, to show their checks"
     )
     parser.add_argument(
         "--show", metavar="[LABEL=]QUANTITY", action="append", default=[],
-        help="a further quantity to offer, such as points/chassis.rear_end/displacement.y",
+        help="a further quantity to show, such as points/chassis.rear_end/displacement.y",
     )  # fmt: skip
     arguments = parser.parse_args()
 
@@ -33,7 +33,7 @@ def main():
     extra = shown_quantities(arguments.show)
     for shown in extra:
         if not any(run.results.has(shown.quantity) for run in runs):
-            runs[0].results.series(shown.quantity)  # raises, naming what there is
+            runs[0].results.series(shown.quantity)  # throws an InputError that names what the file holds
     title = arguments.title or runs[0].results.title
     checks = read_checks(arguments.superelements, runs)
     page = make_small_page(title, runs, extra, checks)

@@ -3,27 +3,27 @@
 import numpy as np
 
 from sprung_tools.cli.arguments import add_run_arguments
-from sprung_tools.runs.labelled_runs import open_runs, runs_with, samples_between, shown_quantities
+from sprung_tools.runs.labelled_runs import Run, Shown, open_runs, runs_with, samples_between, shown_quantities
+from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 HEADINGS = ("quantity", "run", "least", "at s", "greatest", "at s", "r.m.s.", "unit")
 
 
-def calc_row(run, shown, start, end):
-    """One line of the table: the statistics of a quantity [n] over the samples from start to end [s]."""
+def calc_row(run: Run, shown: Shown, start: float | None, end: float | None) -> tuple[str, ...]:
+    """A row of the table: the statistics of a quantity over the samples from start to end [s]."""
     inside = samples_between(run.results, start, end)
     time = run.results.time[inside]
     values, unit = run.results.series(shown.quantity)
     values = values[inside]
     least, greatest = int(np.argmin(values)), int(np.argmax(values))
-    rms = float(np.sqrt(np.mean(values**2)))
-    numbers = (values[least], time[least], values[greatest], time[greatest], rms)
+    numbers = (values[least], time[least], values[greatest], time[greatest], calc_rms(values))
     formats = ("{:.5g}", "{:.3f}", "{:.5g}", "{:.3f}", "{:.5g}")
     return (shown.label, run.label, *(form.format(number) for form, number in zip(formats, numbers)), unit)
 
 
-def main():
+def main() -> int:
     parser = make_parser(
         __doc__,
         "tools/report_peaks rigid=bump_rigid.h5 '2 modes=bump_2modes.h5' \\\n"

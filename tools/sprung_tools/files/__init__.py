@@ -1,1 +1,1 @@
-"""Files that the tools read and write: results and superelements in HDF5, whole files."""
+"""Files that the tools read and write: HDF5 files of the project's formats, and whole files of any kind."""

@@ -2,13 +2,18 @@
 
 
 class InputError(Exception):
-    """Bad input: a file that cannot be used, a quantity that it does not hold, or an argument out of range. The text is
-    `path: error: …` or `--option: error: …`."""
+    """Bad input: a file that cannot be used, a quantity that it does not hold, or an argument out of range.
+
+    The text is `path: error: …` or `--option: error: …`.
+    """
 
 
 class WrongFormatError(InputError):
-    """A readable HDF5 file of another format than the one wanted; found: its format, None if it names none."""
+    """A readable HDF5 file is of another format than the one wanted.
 
-    def __init__(self, text, found):
+    found: the format that the file names, None if it names none.
+    """
+
+    def __init__(self, text: str, found: str | None) -> None:
         super().__init__(text)
         self.found = found

@@ -1,13 +1,16 @@
 """Opening HDF5 files of the project's formats, and reading their datasets and attributes.
 
-Every fault of a file is a InputError whose text is `path: error: …`.
+Every fault of a file is an InputError whose text is `path: error: …`.
 """
 
 import os
+from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError, WrongFormatError
 
 RESULTS, SUPERELEMENT = "sprung-results", "sprung-superelement"
@@ -15,16 +18,19 @@ RESPONSE, MODE_CHOICE = "sprung-response", "sprung-mode-choice"
 NEWEST_VERSIONS = {RESULTS: 2, SUPERELEMENT: 2, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
 
 
-def text_of(value):
-    """An attribute or a dataset of one string as str; h5py gives bytes, padded bytes, str, alone or in an array."""
+def text_of(value: Any) -> str:
+    """Returns an attribute or a dataset of one string as str. h5py gives bytes, padded bytes or str, alone or in an
+    array."""
     if isinstance(value, (np.ndarray, np.generic)):
         value = value.item()
     return value.decode("utf-8").rstrip("\0") if isinstance(value, bytes) else str(value)
 
 
-def open_hdf5(path, wanted_format):
-    """Opens a file of one of the formats above. InputError if it is missing, empty, damaged or too new;
-    WrongFormatError if it is of another format."""
+def open_hdf5(path: str | Path, wanted_format: str) -> h5py.File:
+    """Opens a file of one of the formats above.
+
+    InputError if it is missing, empty, damaged or too new; WrongFormatError if it is of another format.
+    """
     if not os.path.exists(path):
         raise InputError(f"{path}: error: no such file")
     if os.path.isdir(path):
@@ -45,13 +51,11 @@ def open_hdf5(path, wanted_format):
         raise WrongFormatError(f"{path}: error: no attribute 'format', expected '{wanted_format}'", found)
     if found != wanted_format:
         raise WrongFormatError(f"{path}: error: format is '{found}', expected '{wanted_format}'", found)
-    raise InputError(
-        f"{path}: error: version {version} of {wanted_format}; this tool reads 1 to {newest_version}"
-    )
+    raise InputError(f"{path}: error: version {version} of {wanted_format}; this tool reads 1 to {newest_version}")
 
 
-def read_numbers(file, name):
-    """A dataset of numbers. Returns (float64 array, unit). InputError if missing, damaged or not finite."""
+def read_numbers(file: h5py.File, name: str) -> tuple[Floats, str]:
+    """Reads a dataset of numbers. Returns (values, unit). InputError if it is missing, damaged or not finite."""
     path = file.filename
     dataset = file.get(name)
     if not isinstance(dataset, h5py.Dataset):
@@ -67,8 +71,8 @@ def read_numbers(file, name):
     return values, text_of(dataset.attrs.get("unit", ""))
 
 
-def read_texts(file, name):
-    """A dataset of strings as a list of str. InputError if missing, damaged or no strings."""
+def read_texts(file: h5py.File, name: str) -> list[str]:
+    """Reads a dataset of strings. InputError if it is missing, damaged or does not hold strings."""
     dataset = file.get(name)
     if not isinstance(dataset, h5py.Dataset) or dataset.dtype.kind not in "SO":
         raise InputError(f"{file.filename}: error: no dataset '{name}' of strings")
@@ -78,8 +82,8 @@ def read_texts(file, name):
         raise InputError(f"{file.filename}: error: dataset '{name}' is damaged ({error})") from error
 
 
-def read_attribute(file, group, name):
-    """An attribute of a group. InputError if the group or the attribute is missing."""
+def read_attribute(file: h5py.File, group: str, name: str) -> Any:
+    """Reads an attribute of a group. InputError if the group or the attribute is missing."""
     if group not in file:
         raise InputError(f"{file.filename}: error: no group '{group}'")
     if name not in file[group].attrs:

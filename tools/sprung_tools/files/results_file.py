@@ -1,4 +1,4 @@
-"""Reading the project's HDF5 files in Python: what all tools share.
+"""Reading results files.
 
     with open_results("bump_2modes.h5") as results:
         time = results.time                                              # [n] s
@@ -9,15 +9,17 @@ A *quantity* is written as the file names it (dynamics/output/results.md), with 
 `bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
 value per sample have none. `displacement` is position less its value in static balance.
 
-Every fault of a file, or of a name asked for, is a InputError whose text is `path: error: …`.
+A fault of a file, or a name that it does not hold, is an InputError whose text is `path: error: …`.
 """
 
 import os
+from pathlib import Path
 from typing import NamedTuple
 
 import h5py
 import numpy as np
 
+from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, text_of
 
@@ -25,22 +27,22 @@ COMPONENTS = ("x", "y", "angle")
 
 
 class Quantity(NamedTuple):
-    """A quantity's name taken apart: dataset, component ("" if none), whether its static value is subtracted."""
+    """The parts of a quantity's name: dataset, component ("" if none), whether its static value is subtracted."""
 
     dataset: str
     component: str
     from_static: bool
 
 
-def parse_quantity(text):
-    """`bodies/chassis/displacement.y` → Quantity("bodies/chassis/position", "y", True)."""
+def parse_quantity(text: str) -> Quantity:
+    """Parses a quantity's name: `bodies/chassis/displacement.y` → Quantity("bodies/chassis/position", "y", True)."""
     folder, _, last = text.strip("/").rpartition("/")
     name, _, component = last.partition(".")
     from_static = name == "displacement"
     return Quantity(f"{folder}/{'position' if from_static else name}".strip("/"), component, from_static)
 
 
-def open_results(path):
+def open_results(path: str | Path) -> "ResultsFile":
     """Opens a results file. InputError if it cannot be used or its run did not finish."""
     file = open_hdf5(str(path), RESULTS)
     try:
@@ -53,50 +55,63 @@ def open_results(path):
 class ResultsFile:
     """A complete results file, open for reading; made by open_results()."""
 
-    def __init__(self, file):
+    def __init__(self, file: h5py.File) -> None:
         self.file = file
-        self.path = file.filename
+        self.path: str = file.filename
         if int(file.attrs.get("complete", 0)) != 1:
-            raise InputError(
-                f"{self.path}: error: the run that wrote this file did not finish (complete = 0)"
-            )
+            raise InputError(f"{self.path}: error: the run that wrote this file did not finish (complete = 0)")
         self.time, _ = read_numbers(file, "time")
         if self.time.ndim != 1 or self.time.size < 2 or np.any(np.diff(self.time) <= 0):
             raise InputError(f"{self.path}: error: dataset 'time' must be two or more increasing values")
 
-    def __enter__(self):
+    def __enter__(self) -> "ResultsFile":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.file.close()
 
     @property
-    def title(self):
+    def title(self) -> str:
         """The run's title; the file's name if it has none."""
         return text_of(self.file.attrs.get("title", "")) or os.path.basename(self.path)
 
     @property
-    def is_from_balance(self):
-        """Whether the run starts from static balance, from which displacements are counted."""
+    def is_from_balance(self) -> bool:
+        """Whether the run starts from static balance; displacements are counted from there."""
         equilibrium = self.file.get("model/equilibrium")
         return equilibrium is not None and int(equilibrium.attrs.get("is_static_equilibrium", 0)) == 1
 
-    def names(self, group):
-        """What a group holds, e.g. names("bodies"); empty if there is no such group."""
+    def names(self, group: str) -> list[str]:
+        """The names in a group, e.g. names("bodies"); empty if there is no such group."""
         found = self.file.get(group)
         return sorted(found) if isinstance(found, h5py.Group) else []
 
-    def has(self, quantity):
+    def has(self, quantity: str) -> bool:
         """Whether the file holds the dataset behind a quantity."""
         return isinstance(self.file.get(parse_quantity(quantity).dataset), h5py.Dataset)
 
-    def num_modes(self, body):
-        """Number of modes a body has in the run, 0 if it is rigid."""
+    def num_modes(self, body: str) -> int:
+        """The number of modes that a body has in the run, 0 if it is rigid."""
         dataset = self.file.get(f"bodies/{body}/modal/mode_number")
         return dataset.shape[0] if isinstance(dataset, h5py.Dataset) else 0
 
-    def series(self, quantity):
-        """A quantity's history. Returns (values [n], unit). InputError names what there is instead."""
+    def mode_numbers(self, body: str) -> Integers:
+        """The numbers in its superelement of the modes that a body has in the run; empty if it is rigid."""
+        if self.num_modes(body) == 0:
+            return np.zeros(0, dtype=int)
+        return read_numbers(self.file, f"bodies/{body}/modal/mode_number")[0].astype(int)
+
+    def superelement(self, body: str) -> str:
+        """The name of a body's superelement, empty if it has none."""
+        group = self.file.get(f"model/bodies/{body}")
+        return text_of(group.attrs.get("superelement", "")) if group is not None else ""
+
+    def force_kind(self, force: str) -> str:
+        """The kind of a force, `tyre` for example; empty if the file does not say."""
+        return text_of(self.file[f"forces/{force}"].attrs.get("kind", ""))
+
+    def series(self, quantity: str) -> tuple[Floats, str]:
+        """Reads a quantity's history. Returns (values [n], unit). InputError names what the file holds instead."""
         wanted = parse_quantity(quantity)
         if not self.has(quantity):
             raise self._no_such(quantity, wanted.dataset)
@@ -115,14 +130,14 @@ class ResultsFile:
         units = [part.strip() for part in unit.split(",")]  # "m, m, rad": one for each column
         return values, (units[column] if column < len(units) else unit)
 
-    def _no_such(self, quantity, dataset):
+    def _no_such(self, quantity: str, dataset: str) -> InputError:
         folder = dataset
         while folder and not isinstance(self.file.get(folder), h5py.Group):
             folder = folder.rpartition("/")[0]
         there = ", ".join(self.names(folder or "/")) or "nothing"
         return InputError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
 
-    def _column(self, values, wanted, quantity):
+    def _column(self, values: Floats, wanted: Quantity, quantity: str) -> int | None:
         component = wanted.component
         if values.ndim == 1 and component == "":
             return None
@@ -138,16 +153,13 @@ class ResultsFile:
         if values.ndim == 2 and component.isdecimal() and 1 <= int(component) <= columns:
             return int(component) - 1
         expected = "none" if values.ndim == 1 else ", ".join(known) or f"1 to {columns}"
-        raise InputError(
-            f"{self.path}: error: '{quantity}' has component '{component}', expected {expected}"
-        )
+        raise InputError(f"{self.path}: error: '{quantity}' has component '{component}', expected {expected}")
 
-    def _static_value(self, dataset, column):
+    def _static_value(self, dataset: str, column: int) -> float:
         if not self.is_from_balance:
-            raise InputError(
-                f"{self.path}: error: no displacement in '{dataset}': static balance was not sought"
-            )
-        # Bodies' frames and points, a centre of mass being a point: bodies/A/center_of_mass → points/A.center_of_mass.
+            raise InputError(f"{self.path}: error: no displacement in '{dataset}': static balance was not sought")
+        # The equilibrium holds bodies' frames and points, and a centre of mass as a point:
+        # bodies/A/center_of_mass → points/A.center_of_mass.
         group, name, *rest = dataset.split("/")[:-1]
         place = f"points/{name}.{rest[0]}" if group == "bodies" and rest else f"{group}/{name}"
-        return read_numbers(self.file, f"model/equilibrium/{place}")[0][column]
+        return float(read_numbers(self.file, f"model/equilibrium/{place}")[0][column])

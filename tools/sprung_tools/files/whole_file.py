@@ -1,12 +1,13 @@
-"""Writing a file whole or not at all: under another name beside its place, then renamed."""
+"""Writing a file whole or not at all: it is written under another name in the same folder, then renamed."""
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from sprung_tools.files.errors import InputError
 
 
-def write_whole(path, content):
+def write_whole(path: str | Path, content: str | bytes) -> None:
     """Writes text (as UTF-8) or bytes. An interrupted or failed write leaves an earlier file as it was.
 
     InputError if the file cannot be written.
@@ -26,7 +27,7 @@ def write_whole(path, content):
         raise InputError(f"{path}: error: cannot write the file ({error.strerror})") from error
 
 
-def check_output(path, inputs):
-    """InputError if the file to be written is one of those that are read."""
+def check_output(path: str | Path, inputs: Iterable[str | Path]) -> None:
+    """Throws InputError if the file to be written is one of those that are read."""
     if os.path.exists(path) and any(os.path.samefile(path, one) for one in inputs):
         raise InputError(f"{path}: error: is one of the input files, which the output would replace")

@@ -1,41 +1,42 @@
-"""Reading the frame in any of the formats that meshio reads, with its sets under the names they have there."""
+"""Reading the frame in any of the formats that meshio reads. The sets keep the names that they have in the file."""
 
 import contextlib
 import io
 import os
+from collections.abc import Iterable, Iterator, Mapping
 
 import meshio
 import numpy as np
 
-from sprung_tools.mesh_import.line_mesh import LineMesh, MeshError, shorten
+from sprung_tools.files.array_types import Integers
+from sprung_tools.files.errors import InputError
+from sprung_tools.mesh_import.line_mesh import LineMesh, shorten
 
-# Cell data that number the source's own entities or families, whose names are looked up elsewhere.
+# These cell data number the source's own entities or families; the names of these are read elsewhere.
 NOT_SETS = ("gmsh:geometrical", "cell_tags")
-NOT_TOLD = ("gmsh:geometrical", "gmsh:dim_tags", "cell_tags", "point_tags", "gmsh:physical")
+NOT_REPORTED = ("gmsh:geometrical", "gmsh:dim_tags", "cell_tags", "point_tags", "gmsh:physical")
 
 
-def read_with_meshio(path):
-    """The lines of a mesh file. MeshError if meshio cannot read it, or the file ends before its last section does."""
+def read_with_meshio(path: str) -> LineMesh:
+    """Reads the line elements of a mesh file. InputError if meshio cannot read it, or if the file is cut short."""
     mesh, format_name = call_meshio(path)
     positions = np.zeros((len(mesh.points), 3))
     positions[:, : np.shape(mesh.points)[1]] = mesh.points
     middle = [block for block in mesh.cells if block.type.startswith("line") and block.type != "line"]
     if middle:
         count = sum(len(block.data) for block in middle)
-        raise MeshError(
-            f"{path}: error: {count} lines with middle nodes ({middle[0].type}), expected two-node lines"
-        )
-    offset, starts, lines = 0, {}, []
+        raise InputError(f"{path}: error: {count} lines with middle nodes ({middle[0].type}), expected two-node lines")
+    offset, starts, blocks = 0, {}, []
     for place, block in enumerate(mesh.cells):
         if block.type == "line":
             starts[place] = offset
             offset += len(block.data)
-            lines.append(orient(mesh, place))
-    lines = np.concatenate(lines) if lines else np.zeros((0, 2), dtype=int)
+            blocks.append(orient(mesh, place))
+    lines = np.concatenate(blocks) if blocks else np.zeros((0, 2), dtype=int)
     if lines.size and not (0 <= lines.min() and lines.max() < len(positions)):
-        raise MeshError(f"{path}: error: a line names a node that is not there: the file is truncated")
+        raise InputError(f"{path}: error: a line names a node that is not there: the file is truncated")
     if not np.all(np.isfinite(positions)):
-        raise MeshError(f"{path}: error: coordinates are not finite")
+        raise InputError(f"{path}: error: coordinates are not finite")
     element_sets, node_sets = read_sets(mesh, starts)
     return LineMesh(
         path=path,
@@ -46,54 +47,60 @@ def read_with_meshio(path):
         lines=lines,
         element_sets=element_sets,
         node_sets=node_sets,
-        left_behind=tell_left(mesh, element_sets),
+        left_behind=list_left_behind(mesh, element_sets),
     )
 
 
-def orient(mesh, place):
-    """A block's lines [k×2]; where gmsh takes the curve in the opposite direction (group < 0), turned round."""
+def orient(mesh: meshio.Mesh, place: int) -> Integers:
+    """A block's lines [k×2]. Where gmsh takes the curve in the opposite direction (group < 0), their ends are
+    swapped."""
     lines = np.array(mesh.cells[place].data, dtype=int)
     if "gmsh:physical" in mesh.cell_data:
-        turned = np.asarray(mesh.cell_data["gmsh:physical"][place]) < 0
-        lines[turned] = lines[turned][:, ::-1]
+        reversed_ = np.asarray(mesh.cell_data["gmsh:physical"][place]) < 0
+        lines[reversed_] = lines[reversed_][:, ::-1]
     return lines
 
 
-def call_meshio(path):
-    """(mesh, name of the format). meshio prints its errors and leaves the program; here they are MeshErrors."""
+def call_meshio(path: str) -> tuple[meshio.Mesh, str]:
+    """Returns (mesh, name of the format). meshio prints its errors and ends the program; here they become
+    InputErrors."""
     if not os.path.isfile(path):
-        raise MeshError(f"{path}: error: no such file")
+        raise InputError(f"{path}: error: no such file")
+    file_format = "gmsh" if is_gmsh(path) else None
     said = io.StringIO()
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            mesh = meshio.read(path, file_format="gmsh" if is_gmsh(path) else None)
-    except MeshError:
-        raise
-    except (Exception, SystemExit) as error:  # whatever its many readers meet in a spoilt file
+            mesh = meshio.read(path, file_format=file_format)
+    except (Exception, SystemExit) as error:  # whatever its many readers raise for a damaged file
         text = " ".join(said.getvalue().split()) or str(error) or type(error).__name__
         text = text.split("] ")[-1] if isinstance(error, SystemExit) else f"{type(error).__name__}: {text}"
-        raise MeshError(f"{path}: error: meshio {meshio.__version__} cannot read it: {text}") from error
-    return mesh, "gmsh" if is_gmsh(path) else os.path.splitext(path)[1].lstrip(".").upper()
+        raise InputError(f"{path}: error: meshio {meshio.__version__} cannot read it: {text}") from error
+    return mesh, file_format or os.path.splitext(path)[1].lstrip(".").upper()
 
 
-def is_gmsh(path):
-    """Whether a file is a gmsh mesh. MeshError if it is empty, or a gmsh mesh cut short, of which meshio only warns."""
+def is_gmsh(path: str) -> bool:
+    """Whether a file is a gmsh mesh. InputError if it is empty, or a gmsh mesh cut short, for which meshio prints only
+    a warning."""
     with open(path, "rb") as file:
         content = file.read()
     if not content.strip():
-        raise MeshError(f"{path}: error: the file is empty")
+        raise InputError(f"{path}: error: the file is empty")
     if not content.startswith(b"$MeshFormat"):
         return False
     if not content.rstrip().rpartition(b"\n")[2].startswith(b"$End"):
-        raise MeshError(f"{path}: error: the last section has no end: the file is truncated")
+        raise InputError(f"{path}: error: the last section has no end: the file is truncated")
     return True
 
 
-def read_sets(mesh, starts):
-    """(element sets, node sets): name → numbers of lines, of nodes. starts: block → number of its first line."""
-    elements, nodes = {}, {}
+def read_sets(mesh: meshio.Mesh, starts: Mapping[int, int]) -> tuple[dict[str, Integers], dict[str, Integers]]:
+    """Returns (element sets, node sets): name → numbers of lines, name → numbers of nodes.
 
-    def add(sets, name, numbers):
+    starts: block → number of its first line.
+    """
+    elements: dict[str, Integers] = {}
+    nodes: dict[str, Integers] = {}
+
+    def add(sets: dict[str, Integers], name: str, numbers: Integers) -> None:
         numbers = np.asarray(numbers, dtype=int)
         if numbers.size:
             sets[name] = np.unique(np.concatenate([sets.get(name, np.zeros(0, dtype=int)), numbers]))
@@ -116,8 +123,9 @@ def read_sets(mesh, starts):
     return elements, nodes
 
 
-def find_block_sets(mesh, place, size):
-    """(name, members) of every set of a block's cells: named sets, MED's families, else whole numbers as cell data."""
+def find_block_sets(mesh: meshio.Mesh, place: int, size: int) -> Iterator[tuple[str, Integers]]:
+    """Yields (name, members) of every set of a block's cells: named sets, MED's families, else whole numbers as cell
+    data."""
     named = {name for name in mesh.cell_sets if name != "gmsh:bounding_entities"}
     for name in sorted(named):
         chosen = mesh.cell_sets[name][place]
@@ -130,17 +138,17 @@ def find_block_sets(mesh, place, size):
     for key, blocks in mesh.cell_data.items():
         values = np.asarray(blocks[place])
         values = values[:, 0] if values.shape == (size, 1) else values
-        # gmsh's groups are looked at even where it names sets: meshio leaves those out that turn a curve round.
+        # gmsh's groups are read even where it names sets: meshio leaves out the groups that reverse a curve.
         if (named or families) and key != "gmsh:physical":
             continue
         if key in NOT_SETS or values.shape != (size,) or values.dtype.kind not in "iu":
             continue
         for value in np.unique(values):
-            yield name_of(mesh, key, int(value), mesh.cells[place].dim), np.flatnonzero(values == value)
+            yield name_set(mesh, key, int(value), mesh.cells[place].dim), np.flatnonzero(values == value)
 
 
-def name_of(mesh, key, value, dimension):
-    """A gmsh group's own name, else DATA_VALUE."""
+def name_set(mesh: meshio.Mesh, key: str, value: int, dimension: int) -> str:
+    """The name of the cells whose data have a value: a gmsh group's own name, else DATA_VALUE."""
     if key == "gmsh:physical":
         for name, pair in mesh.field_data.items():
             if (int(pair[0]), int(pair[1])) == (abs(value), dimension):
@@ -149,23 +157,17 @@ def name_of(mesh, key, value, dimension):
     return f"{key.replace(':', '_')}_{value}"
 
 
-def tell_left(mesh, element_sets):
-    """What the mesh holds beside lines, points and sets."""
-    told, others = [], {}
+def list_left_behind(mesh: meshio.Mesh, element_sets: Iterable[str]) -> list[str]:
+    """What the mesh holds beside lines, points and sets, a text each."""
+    others: dict[str, int] = {}
     for block in mesh.cells:
         if block.type not in ("line", "vertex"):
             others[block.type] = others.get(block.type, 0) + len(block.data)
-    told += [f"{count} elements of type {kind}, no lines" for kind, count in others.items()]
-    used = [
-        key
-        for key in mesh.cell_data
-        if any(name.startswith(key.replace(":", "_") + "_") for name in element_sets)
-    ]
-    data = [key for key in mesh.cell_data if key not in (*NOT_TOLD, *used)]
-    told += [f"cell data {shorten(data)}"] if data else []
-    data = [key for key in mesh.point_data if key not in NOT_TOLD]
-    told += [f"point data {shorten(data)}"] if data else []
-    told.append(
-        "sections, materials and orientations, if it had any: meshio reads none of them from this format"
-    )
-    return told
+    texts = [f"{count} elements of type {kind}, which are not lines" for kind, count in others.items()]
+    used = [key for key in mesh.cell_data if any(name.startswith(key.replace(":", "_") + "_") for name in element_sets)]
+    data = [key for key in mesh.cell_data if key not in (*NOT_REPORTED, *used)]
+    texts += [f"cell data {shorten(data)}"] if data else []
+    data = [key for key in mesh.point_data if key not in NOT_REPORTED]
+    texts += [f"point data {shorten(data)}"] if data else []
+    texts.append("sections, materials and orientations, if it had any: meshio reads none of them from this format")
+    return texts

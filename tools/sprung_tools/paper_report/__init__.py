@@ -1,1 +1,1 @@
-"""The report dynamics/models/truck/README.md: its runs, claims, tables and figures; tools/paper_figures puts it together."""
+"""The report dynamics/models/truck/README.md: its runs, claims, tables and figures. tools/paper_figures makes it."""

@@ -1,80 +1,35 @@
-"""Tables in Markdown, and the parts of a README that a program writes: between `<!-- begin NAME -->` and `<!-- end NAME -->`."""
+"""Tables in Markdown, and the parts of a README that a program writes.
 
-import re
+A part stands between `<!-- begin NAME -->` and `<!-- end NAME -->`.
+"""
+
+from collections.abc import Sequence
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.terminal.text_table import Rows
 
-NUMBER = re.compile(r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
-
-def format_markdown(headings, rows):
-    """A table's text: a line for the headings, a rule, a line for each row; all cells are strings."""
+def format_markdown(headings: Sequence[str], rows: Rows) -> str:
+    """A table's text: a line for the headings, a rule, a line for each row."""
     lines = ["| " + " | ".join(headings) + " |", "|" + "---|" * len(headings)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def format_words(text):
-    """A text as a quotation: lines run on, words stand as they are."""
+def format_words(text: str) -> str:
+    """A text as a quotation."""
     return "\n".join(f"> {line}" for line in text.splitlines())
 
 
-def parse_markdown(text):
-    """Headings and rows of the first table in a text; ([], []) if there is none."""
-    lines = [line.strip() for line in text.splitlines() if line.strip().startswith("|")]
-    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    return (cells[0], cells[2:]) if len(cells) > 2 else ([], [])
-
-
-def find_part(text, name):
-    """Start and end of what stands between a name's markers. InputError if they are not there, once each."""
+def find_part(text: str, name: str) -> tuple[int, int]:
+    """Finds the part of a name. Returns where it begins and ends. InputError unless each of its markers is there
+    once."""
     begin, end = f"<!-- begin {name} -->\n", f"\n<!-- end {name} -->"
     if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
         raise InputError(f"error: no single part '{name}' between '{begin.strip()}' and '{end.strip()}'")
     return text.index(begin) + len(begin), text.index(end)
 
 
-def read_part(text, name):
-    """What stands between a name's markers."""
-    start, end = find_part(text, name)
-    return text[start:end]
-
-
-def replace_part(text, name, content):
-    """The text with what stands between a name's markers replaced."""
+def replace_part(text: str, name: str, content: str) -> str:
+    """Replaces the part of a name."""
     start, end = find_part(text, name)
     return text[:start] + content + text[end:]
-
-
-def find_differences(kept, made, relative, absolute_digits=1.5, points=0.0):
-    """Where a table as kept differs from one as made: a list of sentences, empty if they agree.
-
-    Rows of `made` are looked up in `kept` by their first cell. Words must be equal; numbers may differ by the share
-    `relative`, by `absolute_digits` units of the last digit shown, and those in % by `points` of a per cent.
-    """
-    headings, rows = kept
-    if list(headings) != list(made[0]):
-        return [f"headings {headings}, expected {list(made[0])}"]
-    found = {row[0]: row for row in rows}
-    complaints = []
-    for row in made[1]:
-        if row[0] not in found:
-            complaints.append(f"no row '{row[0]}'")
-            continue
-        for heading, old, new in zip(headings, found[row[0]], row):
-            if not cells_agree(old, new, relative, absolute_digits, points):
-                complaints.append(f"row '{row[0]}', column '{heading}': '{old}' is now '{new}'")
-    return complaints
-
-
-def cells_agree(old, new, relative, absolute_digits=1.5, points=0.0):
-    """Whether two cells have the same words, and numbers that agree as in find_differences()."""
-    if NUMBER.sub("#", old) != NUMBER.sub("#", new):
-        return False
-    for one, other in zip(NUMBER.finditer(old), NUMBER.findall(new)):
-        first, second = (float(text.replace("−", "-")) for text in (one[0], other))
-        digits = len(one[0].partition(".")[2].partition("e")[0])
-        unit = 10.0**-digits * (10.0 ** int(one[0].partition("e")[2]) if "e" in one[0] else 1.0)
-        share = points if old.startswith(" %", one.end()) else 0.0
-        if abs(first - second) > max(relative * abs(first), absolute_digits * unit, share):
-            return False
-    return True

@@ -1,8 +1,12 @@
-"""The report's tables on modes that are chosen from the forcing, and join and leave during the run. Like those of tables.py
-they leave out rows of runs that are not there."""
+"""The report's tables on modes that are chosen from the forcing, or join and leave during the run.
+
+Like those of tables.py they leave out the rows of runs that were not made.
+"""
+
+from collections.abc import Callable
 
 from sprung_tools.paper_report.claims import percent
-from sprung_tools.paper_report.mode_numbers import Choice, can_compare, compare, format_ranges
+from sprung_tools.paper_report.mode_numbers import Choice, Comparison, can_compare, compare
 from sprung_tools.paper_report.mode_runs import (
     ALL,
     DROP_OF_RECALL,
@@ -16,30 +20,32 @@ from sprung_tools.paper_report.mode_runs import (
     name_watched,
 )
 from sprung_tools.paper_report.paper_runs import ROADS, name_modes
-from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT
+from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
+from sprung_tools.terminal.number_ranges import format_ranges
+from sprung_tools.terminal.text_table import Table
 
 FROM_FEW = f"from 2, {ALL} available"
 ACTIVITY = ("modes active: mean, most", "instants of change", "evaluations", "evaluations over all modes")
 COST_HEADINGS = tuple(f"{method} {what}" for method in METHODS for what in ("s", "over all modes"))
 
 
-def name_set(count):
+def name_set(count: int) -> str:
     return f"all {count} modes" if count == ALL else f"{count} modes"
 
 
-def list_adaptive_cases(suffix=""):
-    """What adaptive runs over the bump stand beside: dict of row's name → run's name."""
+def list_adaptive_cases(suffix: str = "") -> dict[str, str]:
+    """The fixed sets and the adaptive runs over the bump: name of the row → name of the run."""
     fixed = {f"fixed, {name_set(n)}": f"bump_{name_modes(n)}{suffix}" for n in FIXED_COUNTS}
     adaptive = {FROM_FEW: f"bump_adaptive{suffix}", f"from 2, {FEW} available": f"bump_adaptive_of_{FEW}{suffix}"}
     return fixed | adaptive
 
 
-def format_histories(case, digits=0):
-    """By how much the acceleration of middle and seat differs at all times."""
+def format_histories(case: Comparison, digits: int = 0) -> str:
+    """The differences of the acceleration's histories, of middle and seat."""
     return ", ".join(f"{100.0 * share:.{digits}f} %" for share in case.histories())
 
 
-def format_activity(case):
+def format_activity(case: Comparison) -> tuple[str, ...]:
     """The cells under ACTIVITY."""
     return (
         f"{case.active.mean():.1f}, {case.active.max()}",
@@ -49,8 +55,8 @@ def format_activity(case):
     )
 
 
-def make_choice_table(numbers):
-    """Modes chosen beforehand: which, what was predicted to be missed, and what was."""
+def make_choice_table(numbers: Numbers) -> Table:
+    """Modes chosen before the run: which, the predicted error, and the error."""
     rows = []
     for road in reversed(ROADS):
         for tolerance in TOLERANCES:
@@ -66,7 +72,9 @@ def make_choice_table(numbers):
                 (
                     f"{road}, {100.0 * tolerance:g} %",
                     f"{len(choice.kept)}: {format_ranges(choice.kept)}",
-                    f"{100.0 * choice.neglected:.2f} % of the {choice.neglected_of}" if choice.neglected_of else "nothing",
+                    f"{100.0 * choice.neglected:.2f} % of the {choice.neglected_of}"
+                    if choice.neglected_of
+                    else "nothing",
                     *rms,
                     ", ".join(percent(case.peak(point)) for point in (MIDDLE, SEAT)),
                     format_histories(case),
@@ -76,15 +84,14 @@ def make_choice_table(numbers):
             )
     headings = (
         "road, tolerance", "modes kept", "left out, predicted", "r.m.s. middle m/s²: chosen, all, off by",
-        "r.m.s. seat m/s²: chosen, all, off by", "peak acceleration off by: middle, seat", "histories off by: middle, seat",
-        "evaluations",
-        "evaluations over all modes",
+        "r.m.s. seat m/s²: chosen, all, off by", "peak acceleration off by: middle, seat",
+        "histories off by: middle, seat", "evaluations", "evaluations over all modes",
     )  # fmt: skip
     return headings, rows
 
 
-def make_adaptive_table(numbers):
-    """Over the bump: adaptive runs beside fixed sets, by each method."""
+def make_adaptive_table(numbers: Numbers) -> Table:
+    """Over the bump: adaptive runs compared with fixed sets, by each method."""
     rows = []
     for method, (_, suffix) in METHODS.items():
         for model, name in list_adaptive_cases(suffix).items():
@@ -108,8 +115,8 @@ def make_adaptive_table(numbers):
     return headings, rows
 
 
-def make_recall_table(numbers):
-    """Over the bump: thresholds tightened."""
+def make_recall_table(numbers: Numbers) -> Table:
+    """Over the bump: adaptive runs with tighter and tighter thresholds."""
     rows = []
     for recall in RECALLS:
         name = name_recall(recall)
@@ -132,7 +139,7 @@ def make_recall_table(numbers):
     return headings, rows
 
 
-def make_terrain_table(numbers):
+def make_terrain_table(numbers: Numbers) -> Table:
     """Over terrain: fixed sets, modes chosen beforehand, modes that change."""
     models = {f"fixed, {name_set(n)}": f"terrain_{name_modes(n)}" for n in FIXED_COUNTS} | {
         "chosen beforehand": name_chosen("terrain", TOLERANCES[0]),
@@ -159,8 +166,8 @@ def make_terrain_table(numbers):
     return headings, rows
 
 
-def make_neglect_table(numbers):
-    """What fixed sets were told to have missed, beside what they missed."""
+def make_neglect_table(numbers: Numbers) -> Table:
+    """What the program reported that fixed sets miss, and what they missed."""
     rows = []
     for road in ROADS:
         for count in FIXED_COUNTS:
@@ -183,8 +190,8 @@ def make_neglect_table(numbers):
     return headings, rows
 
 
-def make_mode_cost_table(numbers):
-    """Measured processor times, and over those of all modes by the same method; no rows without measured ones."""
+def make_mode_cost_table(numbers: Numbers) -> Table:
+    """Processor times, also over those of all modes by the same method; no rows if nothing was timed."""
     if numbers.costs is None:
         return ("", *COST_HEADINGS), []
     rows = []
@@ -192,26 +199,30 @@ def make_mode_cost_table(numbers):
     cases[f"fixed, all {ALL} modes, with the indicator"] = name_watched(f"bump_{ALL}modes")
     cases["chosen beforehand"] = name_chosen("bump", TOLERANCES[0])
     for model, name in cases.items():
-        cells = []
+        cells: list[str] = []
         for _, suffix in METHODS.values():
             stem, watched, _ = name.partition("_watched")
-            time = numbers.costs.get(f"{stem}{suffix}{watched}")
-            full = numbers.costs[f"bump_{ALL}modes{suffix}"]
-            cells += [f"{time:.2f}", f"{time / full:.2f}"] if time is not None else ["–", "–"]
+            timed = f"{stem}{suffix}{watched}"
+            if not numbers.has_cost(timed):
+                cells += ["–", "–"]
+                continue
+            time, full = numbers.cost(timed), numbers.cost(f"bump_{ALL}modes{suffix}")
+            cells += [f"{time:.2f}", f"{time / full:.2f}"]
         rows.append((f"bump: {model}", *cells))
-    full = numbers.costs[f"terrain_{ALL}modes"]
+    full = numbers.cost(f"terrain_{ALL}modes")
     for model, name in {
         f"fixed, all {ALL} modes": f"terrain_{ALL}modes",
         f"fixed, all {ALL} modes, with the indicator": name_watched(f"terrain_{ALL}modes"),
         "chosen beforehand": name_chosen("terrain", TOLERANCES[0]),
         FROM_FEW: "terrain_adaptive",
     }.items():
-        rows.append((f"terrain: {model}", f"{numbers.costs[name]:.2f}", f"{numbers.costs[name] / full:.2f}", "–", "–"))
+        time = numbers.cost(name)
+        rows.append((f"terrain: {model}", f"{time:.2f}", f"{time / full:.2f}", "–", "–"))
     return ("", *COST_HEADINGS), rows
 
 
-def list_mode_tables():
-    """By the names of their markers: dict of name → function of Numbers."""
+def list_mode_tables() -> dict[str, Callable[[Numbers], Table]]:
+    """All tables of this section: name of the marker → function that makes the table."""
     return {
         "mode choice": make_choice_table,
         "adaptive bump": make_adaptive_table,

@@ -1,13 +1,17 @@
-"""The report's tables on how far its terrain results hang on what was chosen: the profile, and on the speed. Like those of
-tables.py they leave out rows of runs that are not there."""
+"""The report's tables on how its terrain results depend on the profile and on the speed.
+
+Like those of tables.py they leave out the rows of runs that were not made.
+"""
 
 from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.paper_report.paper_runs import BANDS, SEEDS, SPEEDS, TERRAIN, name_modes, name_road, name_speed
-from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, chassis_frequencies
+from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, Numbers, chassis_frequencies
 from sprung_tools.signals.spectra import calc_rms
+from sprung_tools.terminal.text_table import Table
 
 
-def make_sensitivity_table(numbers):
+def make_sensitivity_table(numbers: Numbers) -> Table:
     """Terrain results for each band and seed."""
     rows = []
     for band in BANDS:
@@ -31,13 +35,14 @@ def make_sensitivity_table(numbers):
             )
     headings = (
         "terrain", "displacement rigid mm", "middle rigid m/s²", "2 modes", "4 modes", "2, 4 modes over rigid",
-        "centre of mass rigid m/s²", "2 modes", "4 modes", "front end peak/static 2, 4 modes", "its frequency, 4 modes Hz",
+        "centre of mass rigid m/s²", "2 modes", "4 modes", "front end peak/static 2, 4 modes",
+        "its frequency, 4 modes Hz",
     )  # fmt: skip
     return headings, rows
 
 
-def make_speed_table(numbers):
-    """Terrain results at other speeds, beside the time between both axles in periods of the first bending."""
+def make_speed_table(numbers: Numbers) -> Table:
+    """Terrain results at several speeds, with the time between both axles in periods of the first bending."""
     rows = []
     for speed in SPEEDS:
         names = [f"terrain_{name_modes(count)}{name_speed(speed)}" for count in (0, 2, 4)]
@@ -63,9 +68,8 @@ def make_speed_table(numbers):
     return headings, rows
 
 
-def calc_wheelbase(results):
-    """From the front to the rear axle in static balance [m]."""
-    front, rear = (
-        read_numbers(results.file, f"model/equilibrium/bodies/{axle}_axle")[0] for axle in ("front", "rear")
-    )
-    return abs(rear[0] - front[0])
+def calc_wheelbase(results: ResultsFile) -> float:
+    """The distance from the front to the rear axle in static balance [m]."""
+    places = [f"model/equilibrium/bodies/{axle}_axle" for axle in ("front", "rear")]
+    front, rear = (read_numbers(results.file, place)[0] for place in places)
+    return float(abs(rear[0] - front[0]))

@@ -1,16 +1,22 @@
-"""The report's tables: each a function from Numbers to (headings, rows of strings). Rows of runs that are not there are
-left out, so that a test can make those that are cheap."""
+"""The report's tables: functions from Numbers to (headings, rows). Rows of runs that were not made are left out, so
+that a test can make the cheap runs alone."""
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
 
 import numpy as np
 
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
-from sprung_tools.paper_report.claims import format_holds, list_claims
+from sprung_tools.paper_report.claims import Claim, format_holds
 from sprung_tools.paper_report.mode_claims import list_mode_claims
 from sprung_tools.paper_report.mode_tables import list_mode_tables
+from sprung_tools.paper_report.paper_claims import list_claims
 from sprung_tools.paper_report.paper_runs import MODE_COUNTS, ROADS, name_modes
-from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, SEAT, chassis_frequencies
+from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, SEAT, Numbers, chassis_frequencies
 from sprung_tools.paper_report.sensitivity_tables import make_sensitivity_table, make_speed_table
 from sprung_tools.runs.ride_measures import (
+    Bending,
     calc_bending,
     calc_comfort,
     calc_contact,
@@ -19,27 +25,29 @@ from sprung_tools.runs.ride_measures import (
     read_window,
 )
 from sprung_tools.signals.spectra import calc_rms
+from sprung_tools.terminal.text_table import Rows, Table
 
 PLACES = {"middle": MIDDLE, "centre of mass": CENTRE, "seat": SEAT}
 MODELS = {0: "rigid", 2: "2 modes", 4: "4 modes", 36: "36 modes"}
 
 
-def has_modes(numbers, road, count):
+def has_modes(numbers: Numbers, road: str, count: int) -> bool:
+    """Whether the run over a road with a number of chassis modes was made."""
     return numbers.has(f"{road}_{name_modes(count)}")
 
 
-def make_claims_table(numbers):
-    """What the paper says, criterion, what we find, whether it holds."""
+def make_claims_table(numbers: Numbers) -> Table:
+    """The paper's claims, with criterion, finding and verdict."""
     return ("", "paper", "paper says", "criterion", "we find", "holds?"), list_judged(numbers, list_claims())
 
 
-def make_mode_claims_table(numbers):
-    """What is asked of modes that the program chooses, criterion, what we find, whether it holds."""
+def make_mode_claims_table(numbers: Numbers) -> Table:
+    """The claims about modes that the program chooses, with criterion, finding and verdict."""
     return ("", "run", "what", "criterion", "we find", "holds?"), list_judged(numbers, list_mode_claims())
 
 
-def list_judged(numbers, claims):
-    """A row for each claim whose runs are there."""
+def list_judged(numbers: Numbers, claims: Iterable[Claim]) -> Rows:
+    """A row for each claim whose runs were made."""
     rows = []
     for claim in claims:
         if not all(map(numbers.has, claim.needs)) or (claim.timed and numbers.costs is None):
@@ -50,8 +58,8 @@ def list_judged(numbers, claims):
     return rows
 
 
-def make_peaks_table(numbers):
-    """Over the bump: extremes of displacement and acceleration of three points."""
+def make_peaks_table(numbers: Numbers) -> Table:
+    """Over the bump: the extremes of displacement and acceleration of three points."""
     rows = []
     for count, model in MODELS.items():
         if not has_modes(numbers, "bump", count):
@@ -73,8 +81,8 @@ def make_peaks_table(numbers):
     return headings, sort_by_place(rows)
 
 
-def make_bands_table(numbers):
-    """Over terrain: r.m.s. acceleration by band of frequency."""
+def make_bands_table(numbers: Numbers) -> Table:
+    """Over terrain: the r.m.s. acceleration by band of frequency."""
     rows = []
     for count, model in MODELS.items():
         if not has_modes(numbers, "terrain", count):
@@ -88,18 +96,17 @@ def make_bands_table(numbers):
                     *(f"{value:.2f}" for value in (*bands, calc_rms(run.acceleration(point)))),
                 )
             )
-    return ("terrain, m/s²", "0 to 4 Hz", "4 to 8 Hz", "8 to 16 Hz", "above 16 Hz", "all"), sort_by_place(
-        rows
-    )
+    return ("terrain, m/s²", "0 to 4 Hz", "4 to 8 Hz", "8 to 16 Hz", "above 16 Hz", "all"), sort_by_place(rows)
 
 
-def sort_by_place(rows):
+def sort_by_place(rows: Rows) -> Rows:
+    """Sorts rows by the point at the begin of their first cell."""
     places = list(PLACES)
     return sorted(rows, key=lambda row: places.index(row[0].partition(",")[0]))
 
 
-def make_convergence_table(numbers):
-    """Against the number of chassis modes: frequencies, bump peaks, terrain accelerations, loads, evaluations."""
+def make_convergence_table(numbers: Numbers) -> Table:
+    """Against the number of chassis modes: frequencies, bump peaks, terrain accelerations, front end, moment."""
     rows = []
     for count in MODE_COUNTS:
         if not all(has_modes(numbers, road, count) for road in ROADS):
@@ -130,57 +137,55 @@ def make_convergence_table(numbers):
     return headings, rows
 
 
-def make_effort_table(numbers):
-    """Evaluations of the equations of motion by the integrator, of both runs, and over rigid."""
+EFFORT = ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid")
+
+
+def make_effort_table(numbers: Numbers) -> Table:
+    """The integrator's evaluations of the equations of motion in both runs, also over those of the rigid model."""
+    return EFFORT, list_efforts(numbers, MODE_COUNTS, "")
+
+
+def make_adams_table(numbers: Numbers) -> Table:
+    """The same by Adams' method."""
+    return EFFORT, list_efforts(numbers, (0, 2, 4), "_adams")
+
+
+def list_efforts(numbers: Numbers, counts: Iterable[int], suffix: str) -> Rows:
+    """The rows for some numbers of modes. suffix: of the runs' names."""
     rows = []
-    for count in MODE_COUNTS:
-        if not all(has_modes(numbers, road, count) for road in ROADS):
+    for count in counts:
+        names = [(f"{road}_{name_modes(count)}{suffix}", f"{road}_rigid{suffix}") for road in ROADS]
+        if not all(numbers.has(name) for name, _ in names):
             continue
         cells = []
-        for road in ROADS:
-            evaluations = numbers.modes(road, count).evaluations
-            cells += [f"{evaluations}", f"{evaluations / numbers.modes(road, 0).evaluations:.2f}"]
+        for name, rigid in names:
+            evaluations = numbers.run(name).evaluations
+            cells += [f"{evaluations}", f"{evaluations / numbers.run(rigid).evaluations:.2f}"]
         rows.append((str(count), *cells))
-    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
+    return rows
 
 
-def make_adams_table(numbers):
-    """The same by Adams' method."""
-    rows = []
-    for count in (0, 2, 4):
-        cells = []
-        for road in ROADS:
-            evaluations, rigid = (
-                numbers.run(f"{road}_{name_modes(n)}_adams").evaluations for n in (count, 0)
-            )
-            cells += [f"{evaluations}", f"{evaluations / rigid:.2f}"]
-        rows.append((str(count), *cells))
-    return ("modes", "bump: evaluations", "over rigid", "terrain: evaluations", "over rigid"), rows
-
-
-def make_cost_table(numbers):
-    """Measured processor times of the whole program, no results file; no rows without measured ones."""
+def make_cost_table(numbers: Numbers) -> Table:
+    """Processor times of the whole program without a results file; no rows if nothing was timed."""
     rows = []
     for road in ROADS if numbers.costs else ():
-        rigid = numbers.costs[f"{road}_rigid"]
+        rigid = numbers.cost(f"{road}_rigid")
         for count in (0, 2, 4):
-            time = numbers.costs[f"{road}_{name_modes(count)}"]
+            time = numbers.cost(f"{road}_{name_modes(count)}")
             rows.append((f"{road}, {MODELS[count]}", f"{time:.2f}", f"{time / rigid:.2f}"))
     return ("", "processor time s", "over rigid"), rows
 
 
-def make_ride_table(numbers):
-    """What the ride means, a row for each measure and a column for each model and road."""
+def make_ride_table(numbers: Numbers) -> Table:
+    """What the ride means: a row for each measure, a column for each model and road."""
     columns = [(road, count) for road in ROADS for count in MODELS if has_modes(numbers, road, count)]
-    cells = [
-        make_ride_column(numbers.modes(road, count).results, numbers.folder, count) for road, count in columns
-    ]
+    cells = [make_ride_column(numbers.modes(road, count).results, numbers.folder, count) for road, count in columns]
     rows = [(name, *(column[name] for column in cells)) for name in cells[0]]
     return ("", *(f"{road}, {MODELS[count]}" for road, count in columns)), rows
 
 
-def make_ride_column(results, superelements, count):
-    """One model's column of make_ride_table(): dict of measure → text."""
+def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> dict[str, str]:
+    """One model's column of make_ride_table(): measure → text."""
     window = read_window(results)
     column = {}
     for name, point in PLACES.items():
@@ -190,29 +195,27 @@ def make_ride_column(results, superelements, count):
         column[f"{name}: vibration dose value m/s^1.75"] = f"{comfort.dose:.1f}"
     for axle in ("front", "rear"):
         travel = calc_travel(results, f"{axle}_suspension", window)
-        column[
-            f"{axle} suspension: compression, rebound mm"
-        ] = f"{1e3 * travel.compression:.0f}, {1e3 * travel.rebound:.0f}"
+        extremes = f"{1e3 * travel.compression:.0f}, {1e3 * travel.rebound:.0f}"
+        column[f"{axle} suspension: compression, rebound mm"] = extremes
         column[f"{axle} bump stops: hits, time on them s"] = f"{travel.hits}, {travel.stopped:.2f}"
     for axle in ("front", "rear"):
         contact = calc_contact(results, f"{axle}_tyre", window)
-        column[
-            f"{axle} tyres: r.m.s. dynamic load over static"
-        ] = f"{contact.dynamic_rms / contact.static:.2f}"
+        column[f"{axle} tyres: r.m.s. dynamic load over static"] = f"{contact.dynamic_rms / contact.static:.2f}"
         column[f"{axle} tyres: greatest load over static"] = f"{contact.greatest / contact.static:.1f}"
         column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
         column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
         moments = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
-        bending = find_largest_moment(results, *moments, window)
+        bending: Bending | None = find_largest_moment(results, *moments, window)
     else:
         bending = calc_bending(results, "chassis", window)
-    column["largest bending moment kN·m, at x m"] = f"{1e-3 * bending.moment:.0f}, {bending.station:.2f}"
+    moment = f"{1e-3 * bending.moment:.0f}, {bending.station:.2f}" if bending else "–"
+    column["largest bending moment kN·m, at x m"] = moment
     return column
 
 
-def make_tyres_table(numbers):
-    """Point contact beside distributed contact: the chassis, the front tyres, and the speed that the road takes."""
+def make_tyres_table(numbers: Numbers) -> Table:
+    """Point contact compared with distributed contact: the chassis, the front tyres, and the speed at the end."""
     rows = []
     for road in ROADS:
         for count in (0, 2, 4):
@@ -242,7 +245,7 @@ def make_tyres_table(numbers):
     return headings, rows
 
 
-def make_accuracy_table(numbers):
+def make_accuracy_table(numbers: Numbers) -> Table:
     """The paper's cases with 4 modes at the runs' tolerance and at a hundredth of it."""
     rows = []
     for road in ROADS:
@@ -268,8 +271,8 @@ def make_accuracy_table(numbers):
     return headings, rows
 
 
-def list_tables():
-    """All tables of the report by the names of their markers: dict of name → function of Numbers."""
+def list_tables() -> dict[str, Callable[[Numbers], Table]]:
+    """All tables of the report: name of the marker → function that makes the table."""
     return {
         "claims": make_claims_table,
         "bump peaks": make_peaks_table,
@@ -288,6 +291,6 @@ def list_tables():
     }
 
 
-def list_texts():
-    """Parts of the report in a program's own words, by the names of their markers: dict of name → function of Numbers."""
+def list_texts() -> dict[str, Callable[[Numbers], str]]:
+    """The parts of the report that quote a program: name of the marker → function that makes the text."""
     return {"warning": lambda numbers: "\n".join(numbers.run("bump_2modes").warnings)}

@@ -3,16 +3,17 @@
 import os
 import re
 import shutil
+from collections.abc import Callable, Sequence
 from urllib.parse import quote
 
 from sprung_tools.files.errors import InputError
 
 LIST = "list.pvd"
-OURS = re.compile(r"(mode|instant)_\d+\.vtu")  # the files in the folder
+OURS = re.compile(r"(mode|instant)_\d+\.vtu")  # the names of the files in the folder
 
 
-def write_collection(path, entries):
-    """The PVD file: (time or mode number, name of the VTU file) each."""
+def write_collection(path: str, entries: Sequence[tuple[float, str]]) -> None:
+    """Writes the PVD file. entries: (time or mode number, name of the VTU file)."""
     lines = [
         '<?xml version="1.0"?>',
         '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">',
@@ -23,8 +24,9 @@ def write_collection(path, entries):
         file.write("\n".join([*lines, "</Collection>", "</VTKFile>", ""]))
 
 
-def check_target(path, stem):
-    """InputError if the folder is there and holds anything but what this tool writes, which it would take away."""
+def check_target(path: str, stem: str) -> None:
+    """Throws InputError if the folder is there and holds other files than this tool writes: the tool would remove
+    them."""
     if not os.path.lexists(stem):
         return
     strange = [stem] if not os.path.isdir(stem) else [name for name in os.listdir(stem) if not OURS.fullmatch(name)]
@@ -34,11 +36,11 @@ def check_target(path, stem):
         )
 
 
-def write_folder(path, write_files):
+def write_folder(path: str, write_files: Callable[[str], list[tuple[float, str]]]) -> int:
     """Writes NAME.pvd and the folder NAME beside it, whole or not at all. InputError if they cannot be written.
 
-    write_files: writes the VTU files into the folder that it is given, and returns what NAME.pvd lists, as write_collection()
-    takes it. Returns the number of files.
+    write_files: writes the VTU files into the folder that it is given, and returns what NAME.pvd lists, as
+    write_collection() takes it. Returns the number of files.
     """
     stem = path.removesuffix(".pvd")
     check_target(path, stem)

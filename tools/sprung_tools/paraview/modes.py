@@ -1,6 +1,8 @@
 """A superelement's modes for ParaView: a VTU file for each mode, the frame bent by it."""
 
 import os
+from collections.abc import Sequence
+from pathlib import Path
 
 import meshio
 import numpy as np
@@ -13,8 +15,14 @@ from sprung_tools.terminal.progress_bar import Progress
 MODE_SIZE = 0.1  # of the frame's extent: the largest displacement that a mode is drawn with
 
 
-def export_modes(path, folder, wanted, magnification):
-    """One VTU file for each mode, its displacements `magnification` times as large as usual. Returns what the PVD file lists. InputError for a mode that is not there."""
+def export_modes(
+    path: str | Path, folder: str, wanted: Sequence[int] | None, magnification: float
+) -> list[tuple[float, str]]:
+    """Writes a VTU file for each mode. Returns what the PVD file lists.
+
+    wanted: numbers of modes, all if None; magnification: factor of the usual displacements. InputError for a mode that
+    is not there.
+    """
     with open_hdf5(path, SUPERELEMENT) as file:
         places, _ = read_numbers(file, "nodes/position")
         elements = read_numbers(file, "elements/node")[0].astype(int)
@@ -28,7 +36,7 @@ def export_modes(path, folder, wanted, magnification):
             raise InputError(f"{path}: error: no mode {number}; the file has modes 1 to {frequency.size}")
     kinds = sorted(set(sections))
     extent = np.linalg.norm(np.ptp(places, axis=0))
-    entries = []
+    entries: list[tuple[float, str]] = []
     with Progress("modes", len(numbers)) as progress:
         for number in numbers:
             shape = shapes[:, :, number - 1]
@@ -46,7 +54,7 @@ def export_modes(path, folder, wanted, magnification):
             )
             name = f"mode_{number:03d}.vtu"
             mesh.write(os.path.join(folder, name), binary=True)
-            entries.append((number, name))  # not its frequency: ParaView takes equal times for one
+            entries.append((number, name))  # not its frequency: two modes may have the same one
             progress.step()
     print("sections: " + ", ".join(f"{k} {name}" for k, name in enumerate(kinds, start=1)))
     return entries

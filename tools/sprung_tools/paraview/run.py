@@ -1,21 +1,25 @@
 """A run for ParaView: a VTU file for each instant, bodies as lines where they are."""
 
 import os
+from collections.abc import Sequence
+from pathlib import Path
 
 import meshio
 import numpy as np
 
+from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.hdf5_file import read_numbers
-from sprung_tools.files.results_file import open_results
-from sprung_tools.model.vehicle_shape import calc_motion, read_bodies
+from sprung_tools.files.results_file import ResultsFile, open_results
+from sprung_tools.model.vehicle_shape import DrawnBody, calc_motion, read_bodies
 from sprung_tools.paraview.vtu_file import RESULTANTS, in_space
 from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.signals.spans import OptionalSpan
 from sprung_tools.terminal.progress_bar import Progress
 
 
-def choose_samples(results, span, every):
-    """The samples to write within a span (from, to) [s]: the first of each step of `every` seconds, to a thousandth of a
-    step; all of them if `every` is None."""
+def choose_samples(results: ResultsFile, span: OptionalSpan, every: float | None) -> Integers:
+    """Chooses the samples to write within a span of time: the first of each step of `every` seconds, to a thousandth of
+    a step; all samples if `every` is None."""
     inside = np.flatnonzero(samples_between(results, *span))
     if every is None:
         return inside
@@ -24,10 +28,11 @@ def choose_samples(results, span, every):
     return inside[np.unique(step, return_index=True)[1]]
 
 
-def read_resultants(results, bodies, samples):
-    """Name → [k×L×2] at the first and second end of every line; NaN where there is none (rigid bodies, offsets)."""
+def read_resultants(results: ResultsFile, bodies: Sequence[DrawnBody], samples: Integers) -> dict[str, Floats]:
+    """Reads the resultants at the first and second end of every line: name → [k×L×2]. Lines of rigid bodies and offsets
+    have NaN."""
     total = sum(len(body.lines) for body in bodies)
-    found = {name: np.full((len(samples), total, 2), np.nan) for name in RESULTANTS.values()}
+    found: dict[str, Floats] = {name: np.full((len(samples), total, 2), np.nan) for name in RESULTANTS.values()}
     first = 0
     for body in bodies:
         for what, name in RESULTANTS.items():
@@ -38,8 +43,10 @@ def read_resultants(results, bodies, samples):
     return found
 
 
-def export_run(path, folder, span, every, magnification):
-    """One VTU file for each instant that choose_samples() takes. Returns what the PVD file lists."""
+def export_run(
+    path: str | Path, folder: str, span: OptionalSpan, every: float | None, magnification: float
+) -> list[tuple[float, str]]:
+    """Writes a VTU file for each instant that choose_samples() takes. Returns what the PVD file lists."""
     with open_results(path) as results:
         bodies = read_bodies(results)
         samples = choose_samples(results, span, every)
@@ -52,7 +59,7 @@ def export_run(path, folder, span, every, magnification):
     lines = np.concatenate([body.lines + start for body, start in zip(bodies, starts)])
     number = np.concatenate([np.full(len(body.lines), k) for k, body in enumerate(bodies, start=1)])
 
-    def gather(arrays):
+    def gather(arrays: Sequence[Floats]) -> Floats:
         return in_space(np.concatenate(arrays, axis=1))
 
     position = gather([motion.position for motion in motions])

@@ -1,1 +1,1 @@
-"""Pictures of curves."""
+"""Pictures of curves: quantities over time, responses over the frequency, modes."""

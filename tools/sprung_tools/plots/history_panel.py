@@ -1,23 +1,28 @@
 """A quantity of one or more runs over time, in a panel of a picture."""
 
+from collections.abc import Sequence
+
 import numpy as np
+from matplotlib.axes import Axes
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.plots.picture_file import label_unit, line_style
-from sprung_tools.runs.labelled_runs import runs_with, samples_between
+from sprung_tools.runs.labelled_runs import Run, Shown, runs_with, samples_between
+from sprung_tools.signals.spans import OptionalSpan
 
-# A unit, what it is drawn in, the factor, and the peak above which it is drawn as it is.
+# unit → the unit that is drawn, the factor, and the peak above which the unit is kept.
 SCALES = {"m": ("mm", 1e3, 0.5), "N": ("kN", 1e-3, np.inf)}
 
 
-def drawn_unit(unit, peak):
-    """A unit that keeps an axis' numbers readable. Returns (unit, factor)."""
+def drawn_unit(unit: str, peak: float) -> tuple[str, float]:
+    """Chooses a unit in which an axis' numbers are easy to read. Returns (unit, factor)."""
     name, factor, below = SCALES.get(unit, (unit, 1.0, np.inf))
     return (name, factor) if peak < below else (unit, 1.0)
 
 
-def draw_panel(axes, runs, shown, span):
-    """One quantity of all runs that have it, over the samples within span = (from, to) [s]. Returns whether all have."""
+def draw_panel(axes: Axes, runs: Sequence[Run], shown: Shown, span: OptionalSpan) -> bool:
+    """Draws one quantity of all runs that have it, over the samples of a span of time. Returns whether all runs have
+    it."""
     curves = []
     for run in runs_with(runs, shown):
         inside = samples_between(run.results, *span)

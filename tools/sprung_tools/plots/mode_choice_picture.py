@@ -1,10 +1,15 @@
-"""A picture of how modes were chosen: the road's spectrum, what the vehicle makes of it, and what each mode is worth."""
+"""A picture of how modes were chosen: the road's spectrum, the vehicle's transfer functions, each mode's share."""
 
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 import h5py
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from sprung_tools.files.array_types import Flags, Floats
 from sprung_tools.files.errors import InputError, WrongFormatError
 from sprung_tools.files.hdf5_file import (
     MODE_CHOICE,
@@ -24,32 +29,32 @@ SHARES = {
     "forces": ("share/force_rms", "share/force_peak"),
     "static": ("share/static",),
 }
-LEAST_SHARE = 1e-6  # of the lower panel, for modes that are worth nothing
+LEAST_SHARE = 1e-6  # drawn for modes that contribute less
 
 
 class Choice(NamedTuple):
-    """An open file that holds a choice of modes; n modes."""
+    """An open file that holds a choice among n modes."""
 
     file: h5py.File
     tolerance: float
-    mode_frequency: np.ndarray  # [n] Hz
-    is_kept: np.ndarray  # [n]
+    mode_frequency: Floats  # [n] Hz
+    is_kept: Flags  # [n]
 
-    def values(self, name):
-        """A dataset of the choice and its unit."""
+    def values(self, name: str) -> tuple[Floats, str]:
+        """Reads a dataset of the choice. Returns (values, unit)."""
         return read_numbers(self.file, f"{GROUP}/{name}")
 
-    def points(self):
-        """The points that there are transfer functions of."""
+    def points(self) -> list[str]:
+        """The points for which the file holds transfer functions."""
         group = self.file.get(f"{GROUP}/transfer")
         return sorted(group) if group is not None else []
 
-    def share(self, datasets):
-        """Of each mode the larger of some shares [n]."""
-        return np.max([self.values(name)[0] for name in datasets], axis=0)
+    def share(self, datasets: Iterable[str]) -> Floats:
+        """For each mode the largest of several shares [n]."""
+        return np.max(np.array([self.values(name)[0] for name in datasets]), axis=0)
 
 
-def open_choice(path):
+def open_choice(path: str | Path) -> Choice:
     """Opens a file of select-modes, or a results file of a run with modes "auto". InputError for any other."""
     try:
         file = open_hdf5(path, RESULTS)
@@ -59,7 +64,8 @@ def open_choice(path):
         file = open_hdf5(path, MODE_CHOICE)
     if GROUP not in file:
         raise InputError(
-            f'{path}: error: no modes were chosen in this run: its [modes] has none "auto"; what they did over time: --over-time'
+            f'{path}: error: no modes were chosen in this run: its [modes] has none "auto"; what they did over time: '
+            "--over-time"
         )
     if f"{GROUP}/frequency" not in file:
         remarks = "; ".join(read_texts(file, f"{GROUP}/remarks"))
@@ -72,16 +78,16 @@ def open_choice(path):
     )
 
 
-def mark_modes(axes, choice):
-    """A line at each mode's frequency, whole for those kept, dotted for those left out."""
+def mark_modes(axes: Axes, choice: Choice) -> None:
+    """Draws a line at each mode's frequency: solid for the modes kept, dotted for those left out."""
     for kept, style, label in ((True, "-", "mode kept"), (False, ":", "mode left out")):
         for place, frequency in enumerate(np.unique(choice.mode_frequency[choice.is_kept == kept])):
             axes.axvline(frequency, color="0.45", linewidth=0.9, linestyle=style, zorder=0.5,
                          label=label if place == 0 else None)  # fmt: skip
 
 
-def draw_curves(axes, choice, names, label):
-    """Curves over the frequency by their names in the legend."""
+def draw_curves(axes: Axes, choice: Choice, names: Mapping[str, str], label: str) -> None:
+    """Draws curves over the frequency. names: name in the legend → dataset."""
     frequency = choice.values("frequency")[0]
     unit = ""
     with np.errstate(divide="ignore"):
@@ -93,15 +99,16 @@ def draw_curves(axes, choice, names, label):
     axes.legend(loc="best", frameon=False)
 
 
-def draw_shares(axes, choice):
-    """What each mode is worth in each kind of quantity."""
+def draw_shares(axes: Axes, choice: Choice) -> None:
+    """Draws each mode's share in each kind of quantity."""
     for place, (name, datasets) in enumerate(SHARES.items()):
         share = np.maximum(choice.share(datasets), LEAST_SHARE)
         colour = COLOURS[place % len(COLOURS)]
         for kept in (True, False):
+            these = choice.is_kept == kept
             axes.loglog(
-                choice.mode_frequency[choice.is_kept == kept], share[choice.is_kept == kept], linestyle="none", marker="o",
-                markersize=6, color=colour, markerfacecolor=colour if kept else "white", label=name if kept else None,
+                choice.mode_frequency[these], share[these], linestyle="none", marker="o", markersize=6,
+                color=colour, markerfacecolor=colour if kept else "white", label=name if kept else None,
             )  # fmt: skip
     if choice.tolerance > 0.0:
         axes.axhline(choice.tolerance, color="0.3", linewidth=0.9, linestyle="--", label="tolerance, of all left out")
@@ -109,8 +116,8 @@ def draw_shares(axes, choice):
     axes.legend(loc="best", frameon=False)
 
 
-def make_choice_figure(choice, title=""):
-    """Forcing, transfer functions and shares over one axis of frequencies."""
+def make_choice_figure(choice: Choice, title: str = "") -> Figure:
+    """Draws forcing, transfer functions and shares over one axis of frequencies."""
     points = choice.points()
     caption = (
         f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "

@@ -1,27 +1,34 @@
-"""How pictures of curves look, and how they come to the disk."""
+"""The look of all pictures of curves, and writing them."""
 
 import io
 import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import matplotlib
+import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
 
-# Okabe and Ito's colours, which stay apart for colour-blind readers. The first curve lies on top as the thinnest line, so
-# that curves that coincide are all seen.
+Panels = NDArray[np.object_]  # of Axes [panels]
+
+# Okabe and Ito's colours, which colour-blind readers can distinguish. The first curve lies on top as the thinnest line,
+# so that curves that coincide are all seen.
 COLOURS = ("#000000", "#0072B2", "#E69F00", "#009E73", "#CC79A7")
-THINNEST, THICKER = 1.0, 0.6  # points, the first line's width and what each further one has more
+THINNEST, THICKER = 1.0, 0.6  # points: the first line's width, and what each further one has more
 WIDTH, PANEL_HEIGHT, MARGIN_HEIGHT = 8.0, 3.2, 1.4  # inches; at 100 pixels an inch the text is 11 points
 DOTS_PER_INCH = 200
 SETTINGS = {"font.size": 11, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False}
 
 
-def make_figure(heights, title, caption):
-    """A figure of panels one above the other over one axis. Returns (figure, axes [panels]).
+def make_figure(heights: Sequence[float], title: str, caption: str) -> tuple[Figure, Panels]:
+    """Makes a figure of panels one above the other over one axis. Returns (figure, panels).
 
-    heights: of each panel [inches]; caption: the small print under the panels.
+    heights: of the panels [inches]; caption: the small print under them.
     """
     matplotlib.rcParams.update(SETTINGS)
     figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
@@ -31,8 +38,8 @@ def make_figure(heights, title, caption):
     return figure, panels
 
 
-def line_style(place, number):
-    """How the curve of one of `number` files is drawn, by its place among them (0-based): keywords of Axes.plot."""
+def line_style(place: int, number: int) -> dict[str, Any]:
+    """The keywords of Axes.plot for one of `number` curves. place: of the curve among them, 0-based."""
     return {
         "color": COLOURS[place % len(COLOURS)],
         "linewidth": THINNEST + THICKER * place,
@@ -40,12 +47,12 @@ def line_style(place, number):
     }
 
 
-def label_unit(unit):
-    """A unit as it stands on an axis: powers raised."""
+def label_unit(unit: str) -> str:
+    """A unit as an axis shows it: with raised powers."""
     return unit.replace("^2", "²").replace("^3", "³").replace("^0.5", "^½")
 
 
-def write_picture(figure, path):
+def write_picture(figure: Figure, path: str | Path) -> None:
     """Writes a picture whole or not at all. InputError if it cannot be written."""
     drawn = io.BytesIO()
     try:

@@ -1,26 +1,31 @@
-"""A picture of the frequency response of one or more vehicles to the road, or of spectral densities on a random road."""
+"""A picture of the frequency response of vehicles to the road, or of their spectral densities on a random road."""
 
 import os
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import h5py
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers, text_of
 from sprung_tools.plots.picture_file import PANEL_HEIGHT, label_unit, line_style, make_figure
-from sprung_tools.runs.labelled_runs import split_label
+from sprung_tools.runs.labelled_runs import Shown, split_label
 
 
 class Response(NamedTuple):
-    """An open response file with its name in the legend; frequency: [m] Hz."""
+    """An open response file with its name in the legend. frequency: [m] Hz."""
 
     label: str
     file: h5py.File
-    frequency: np.ndarray
+    frequency: Floats
 
-    def values(self, output, *, is_spectrum):
-        """Magnitude of an output's response, or its spectral density [m], and its unit. InputError if there is none."""
+    def values(self, output: str, *, is_spectrum: bool) -> tuple[Floats, str]:
+        """Reads the magnitude of an output's response, or its spectral density [m]. Returns (values, unit). InputError
+        if the file has none."""
         group = self.file.get(f"outputs/{output}")
         if not isinstance(group, h5py.Group) or "response" not in group:
             raise InputError(f"{self.file.filename}: error: no output '{output}'; there are: {', '.join(self.names())}")
@@ -31,20 +36,20 @@ class Response(NamedTuple):
             raise InputError(f"{self.file.filename}: error: has no spectra: its run file has no [response.road]")
         return read_numbers(self.file, f"outputs/{output}/spectrum")
 
-    def rms(self, output):
-        """Root mean square of an output, of a file with spectra."""
+    def rms(self, output: str) -> float:
+        """The r.m.s. of an output, from a file with spectra."""
         return float(self.file[f"outputs/{output}"].attrs["rms"])
 
-    def names(self):
+    def names(self) -> list[str]:
         """The outputs in the file."""
-        found = []
+        found: list[str] = []
         self.file["outputs"].visititems(
             lambda name, item: found.append(name) if isinstance(item, h5py.Group) and "response" in item else None
         )
         return found
 
 
-def open_responses(arguments):
+def open_responses(arguments: Sequence[str]) -> list[Response]:
     """Opens files `[LABEL=]FILE`."""
     responses = []
     for argument in arguments:
@@ -54,8 +59,8 @@ def open_responses(arguments):
     return responses
 
 
-def draw_response_panel(axes, responses, shown, is_spectrum):
-    """One output of all files."""
+def draw_response_panel(axes: Axes, responses: Sequence[Response], shown: Shown, is_spectrum: bool) -> None:
+    """Draws one output of all files."""
     for place, response in enumerate(responses):
         values, unit = response.values(shown.quantity, is_spectrum=is_spectrum)
         label = response.label
@@ -69,8 +74,10 @@ def draw_response_panel(axes, responses, shown, is_spectrum):
     axes.legend(loc="best", frameon=False)
 
 
-def make_response_figure(responses, outputs, title, is_spectrum):
-    """A panel for each output."""
+def make_response_figure(
+    responses: Sequence[Response], outputs: Sequence[Shown], title: str, is_spectrum: bool
+) -> Figure:
+    """Draws a panel for each output. title: the heading, the vehicle's name if empty."""
     speeds = sorted({float(response.file.attrs["speed"]) for response in responses})
     what = "spectral density on a random road" if is_spectrum else "response to the road"
     caption = f"{what}, linearised about static balance; speed {', '.join(f'{speed:g}' for speed in speeds)} m/s"

@@ -1,14 +1,21 @@
 """A picture of quantities of one or more runs over time, a panel for each quantity."""
 
-import numpy as np
+from collections.abc import Sequence
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.plots.history_panel import draw_panel
 from sprung_tools.plots.picture_file import PANEL_HEIGHT, make_figure
+from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.runs.run_caption import make_caption
+from sprung_tools.signals.spans import OptionalSpan
 
 
-def mark_road(axes, results):
-    """Shades the time in which the road under a tyre is not at height 0, a tyre's name to each."""
+def mark_road(axes: Axes, results: ResultsFile) -> None:
+    """Shades the times in which the road under a tyre is not at height 0, and names the tyre."""
     for name in results.names("forces"):
         quantity = f"forces/{name}/road_height"
         if not results.has(quantity):
@@ -23,8 +30,10 @@ def mark_road(axes, results):
         )  # fmt: skip
 
 
-def make_results_figure(runs, quantities, span, title, with_road):
-    """A panel for each quantity, a title, and the caption of what the runs share."""
+def make_results_figure(
+    runs: Sequence[Run], quantities: Sequence[Shown], span: OptionalSpan, title: str, with_road: bool
+) -> Figure:
+    """Draws a panel for each quantity, a title, and a caption of what the runs have in common."""
     legend = ("shaded: tyre over an obstacle",) if with_road else ()
     caption = make_caption([run.results for run in runs], legend)
     figure, panels = make_figure([PANEL_HEIGHT] * len(quantities), title, caption)

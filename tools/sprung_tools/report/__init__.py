@@ -1,1 +1,1 @@
-"""The page that tools/report makes: what it shows of each run (Python), and the page itself (HTML, CSS, JavaScript)."""
+"""The page of tools/report: the data that it shows of each run (Python), and the page itself (web/)."""

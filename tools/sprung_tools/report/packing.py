@@ -1,21 +1,29 @@
-"""Numbers on the page: arrays as base64 of little-endian float32, histories by the samples that are needed to draw them.
+"""Numbers on the page: arrays are base64 of little-endian float32; histories hold the samples that are needed to draw
+them.
 
-Thinning keeps, in each of many short spans of time, the least and the greatest value where they are, so that no peak is
-lost. It is for drawing alone: everything that is computed is computed before it.
+Thinning keeps the least and the greatest value in each of many short spans of time, so that no peak is lost. It is only
+for drawing: statistics and spectra are computed before.
 """
 
 import base64
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+from sprung_tools.files.array_types import Floats, Integers
+
+Packed = dict[str, Any]  # an object of the page's JSON
 
 
-def encode(values):
-    """Numbers as base64 text of float32."""
+def encode(values: NDArray[Any]) -> str:
+    """Encodes numbers as base64 text of float32."""
     return base64.b64encode(np.ascontiguousarray(values, dtype="<f4").tobytes()).decode("ascii")
 
 
-def find_kept(values, most):
-    """The samples of a history [n] to draw it by: at most about `most`, with the least and greatest of each span."""
+def find_kept(values: Floats, most: int) -> Integers:
+    """Chooses the samples to draw a history [n] with: about `most` at most, among them the least and greatest of each
+    span."""
     size = values.size
     if size <= most:
         return np.arange(size)

@@ -1,44 +1,46 @@
-"""The page itself: the template with its styles, scripts and the runs' data put in."""
+"""The page itself: the template, filled with styles, scripts and the data of the runs."""
 
 import html
 import json
 import os
+from collections.abc import Sequence
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.report.packing import Packed
 from sprung_tools.report.run_data import pack_run
+from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.terminal.progress_bar import Progress
 
 WEB = os.path.join(os.path.dirname(os.path.realpath(__file__)), "web")
 SCRIPTS = ("common.js", "tables.js", "charts.js", "spectra.js", "animation.js", "page.js")
 DYGRAPHS = ("/usr/share/javascript/dygraphs", "/usr/share/nodejs/dygraphs/dist")
-LARGEST = 15e6  # bytes of a page; above, it is drawn by fewer samples
+LARGEST = 15e6  # bytes of a page; a larger one is drawn with fewer samples
 THINNINGS = ((4000, 6000), (2000, 3000), (1000, 1500), (500, 750))  # samples of a history, instants of the animation
 
 
-def read_asset(path):
+def read_asset(path: str) -> str:
+    """Reads a file of the page. InputError if it cannot be read."""
     try:
         with open(path, encoding="utf-8") as file:
             return file.read()
     except OSError as error:
-        raise InputError(
-            f"{path}: error: cannot read it ({error.strerror}); tools/setup installs dygraphs"
-        ) from error
+        raise InputError(f"{path}: error: cannot read it ({error.strerror}); tools/setup installs dygraphs") from error
 
 
-def find_dygraphs():
-    """The folder of the library's files. InputError if it is not installed."""
+def find_dygraphs() -> str:
+    """Finds the folder of dygraphs' files. InputError if it is not installed."""
     for folder in DYGRAPHS:
         if os.path.exists(os.path.join(folder, "dygraph.min.js")):
             return folder
     raise InputError(f"{DYGRAPHS[0]}: error: dygraphs is not installed; run tools/setup (package libjs-dygraphs)")
 
 
-def make_page(title, data):
-    """The page's text: the template with styles, scripts and data put in."""
+def make_page(title: str, data: Packed) -> str:
+    """The page's text: the template, filled with styles, scripts and data."""
     library = find_dygraphs()
     script = read_asset(os.path.join(library, "dygraph.min.js")).partition("\n//# sourceMappingURL")[0]
-    # "</script" would end a script element; "</" alone may stand in a regular expression. In the data no "<" stands at
-    # all, because "<!--" and "<script" in a script element change what ends it.
+    # "</script" would end a script element; "</" alone may be part of a regular expression. The data contain no "<" at
+    # all, because "<!--" and "<script" in a script element change where it ends.
     parts = {
         "TITLE": html.escape(title),
         "STYLE": read_asset(os.path.join(library, "dygraph.min.css")).partition("/*# sourceMappingURL")[0]
@@ -51,15 +53,18 @@ def make_page(title, data):
     for name, text in parts.items():
         before, _, after = page.partition(f"@{name}@")
         page = f"{before}\0{name}\0{after}"
-    for name, text in parts.items():  # in a second pass, so that nothing is looked for in what was put in
+    for name, text in parts.items():  # in a second pass, so that a name within an inserted text is left alone
         page = page.replace(f"\0{name}\0", text, 1)
     return page
 
 
-def make_small_page(title, runs, extra, checks, largest=LARGEST):
-    """The page of some runs (runs.Run), drawn by as many samples as leave it smaller than `largest` bytes, if any do.
+def make_small_page(
+    title: str, runs: Sequence[Run], extra: Sequence[Shown], checks: list[Packed], largest: float = LARGEST
+) -> str:
+    """Makes the page of some runs. The numbers of samples are the largest with which it stays below `largest` bytes, or
+    the least ones.
 
-    extra: further quantities (runs.Shown); checks: of summary.read_checks().
+    extra: further quantities; checks: as read_checks() gives them.
     """
     for most, frames in THINNINGS:
         packed = []

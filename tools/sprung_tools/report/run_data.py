@@ -1,14 +1,18 @@
-"""All that the page holds of one run, as a dict for JSON."""
+"""The data of one run on the page, as a dict for JSON."""
+
+from collections.abc import Sequence
 
 from sprung_tools.model.vehicle_shape import read_bodies, read_wheels
 from sprung_tools.report.histories import calc_spectra, list_channels, pack_channel, pack_modes
+from sprung_tools.report.packing import Packed
 from sprung_tools.report.scene import pack_frames, pack_road, pack_vehicle
 from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts, list_frequencies
+from sprung_tools.runs.labelled_runs import Run, Shown
 
 
-def pack_run(run, extra, most, frames):
-    """Everything of one run. run: runs.Run; extra: quantities asked for; most: samples to draw a history by; frames:
-    instants to draw the animation by, at most."""
+def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed:
+    """All data of one run. extra: quantities asked for; most: samples of a history at most; frames: instants of the
+    animation at most."""
     results = run.results
     bodies = read_bodies(results)
     wheels = read_wheels(results, bodies)

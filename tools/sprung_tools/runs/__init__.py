@@ -1,1 +1,1 @@
-"""What happened in one or more runs: their names, captions, measures of ride, the history of their modes."""
+"""What happened in runs: their names and captions, measures of the ride, the history of their modes."""

@@ -1,19 +1,21 @@
-"""Runs on a tool's command line: files `[LABEL=]FILE`, quantities `[LABEL=]QUANTITY`, spans of time."""
+"""Runs and quantities with the names that they have in tables and pictures: `[LABEL=]FILE`, `[LABEL=]QUANTITY`."""
 
 import os
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Flags
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.results_file import open_results
+from sprung_tools.files.results_file import ResultsFile, open_results
 
 
 class Run(NamedTuple):
     """An open results file with the name it has in legends and tables."""
 
     label: str
-    results: object
+    results: ResultsFile
 
 
 class Shown(NamedTuple):
@@ -23,48 +25,54 @@ class Shown(NamedTuple):
     quantity: str
 
 
-def split_label(argument):
-    """`LABEL=VALUE` → (LABEL, VALUE); without a label, or where a file has this very name, ("", argument)."""
+def split_label(argument: str) -> tuple[str, str]:
+    """Splits `LABEL=VALUE` into (LABEL, VALUE); without a label, or if the argument is an existing file, ("",
+    argument)."""
     label, separator, value = argument.partition("=")
     return (label, value) if separator and not os.path.exists(argument) else ("", argument)
 
 
-def open_runs(arguments):
-    """Opens the files of add_run_arguments(), each under a name of its own. InputError as open_results()."""
-    runs = []
+def open_runs(arguments: Iterable[str]) -> list[Run]:
+    """Opens the files `[LABEL=]FILE` and gives each a name of its own. InputError as open_results()."""
+    runs: list[Run] = []
     for argument in arguments:
         label, path = split_label(argument)
         results = open_results(path)
         runs.append(Run(label or describe(results), results))
-    for tell_apart in (lambda run, _: os.path.basename(run.results.path), lambda _, number: f"no. {number}"):
-        labels = [run.label for run in runs]
-        if len(set(labels)) < len(labels):
-            runs = [Run(f"{run.label} ({tell_apart(run, number)})", run.results) for number, run in enumerate(runs, 1)]
-    return runs
+    runs = distinguish(runs, [os.path.basename(run.results.path) for run in runs])
+    return distinguish(runs, [f"no. {number}" for number in range(1, len(runs) + 1)])
 
 
-def shown_quantities(arguments):
-    """The quantities of add_run_arguments()."""
+def distinguish(runs: list[Run], additions: Sequence[str]) -> list[Run]:
+    """Adds a text to each label if two of them are equal."""
+    if len({run.label for run in runs}) == len(runs):
+        return runs
+    return [Run(f"{run.label} ({addition})", run.results) for run, addition in zip(runs, additions)]
+
+
+def shown_quantities(arguments: Iterable[str]) -> list[Shown]:
+    """The quantities `[LABEL=]QUANTITY`; one without a label is its own label."""
     pairs = [split_label(argument) for argument in arguments]
     return [Shown(label or quantity, quantity) for label, quantity in pairs]
 
 
-def runs_with(runs, shown):
-    """Those runs that hold a quantity (a rigid body has no deflection). InputError if none does."""
+def runs_with(runs: Sequence[Run], shown: Shown) -> list[Run]:
+    """The runs that hold a quantity; a rigid body has no deflection, for example. InputError if none does."""
     found = [run for run in runs if run.results.has(shown.quantity)]
     if not found:
-        runs[0].results.series(shown.quantity)  # raises, naming what there is
+        runs[0].results.series(shown.quantity)  # throws an InputError that names what the file holds
     return found
 
 
-def describe(results):
-    """A run named by what is flexible in it: `chassis 2 modes`, or `rigid`."""
+def describe(results: ResultsFile) -> str:
+    """Names a run after its flexible bodies: `chassis 2 modes`, or `rigid`."""
     flexible = [(body, results.num_modes(body)) for body in results.names("bodies")]
     return ", ".join(f"{body} {count} modes" for body, count in flexible if count > 0) or "rigid"
 
 
-def samples_between(results, start, end):
-    """Which samples lie from `start` to `end` [s], None for the run's own. InputError if there are none."""
+def samples_between(results: ResultsFile, start: float | None, end: float | None) -> Flags:
+    """Which samples lie from `start` to `end` [s]; None stands for the run's begin or end. InputError if there are
+    none."""
     first = results.time[0] if start is None else start
     last = results.time[-1] if end is None else end
     inside = (results.time >= first) & (results.time <= last)

@@ -1,30 +1,33 @@
-"""What a run's modes did over time: which took part, when that changed, and what those left out would have done."""
+"""A run's modes over time: which took part, when that changed, and how much the others would have contributed."""
 
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Flags, Floats, Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_numbers, read_texts, text_of
+from sprung_tools.files.hdf5_file import read_numbers, read_texts
+from sprung_tools.files.results_file import ResultsFile
 
-MODES_CHANGED = "modes"  # kind of the event of a mode that joins or leaves
+MODES_CHANGED = "modes"  # kind of the event in which modes join or leave
 
 
 class ModeHistory(NamedTuple):
     """A body's modes over a run of n samples.
 
-    number: of each mode in its superelement [modes]; frequency: clamped, Hz [modes]; is_active: whether it took part
-    [n×modes].
+    number: the mode's number in its superelement [modes]; frequency: its clamped frequency, Hz [modes]; is_active:
+    whether it took part [n×modes].
     """
 
     body: str
-    number: np.ndarray
-    frequency: np.ndarray
-    is_active: np.ndarray
+    number: Integers
+    frequency: Floats
+    is_active: Flags
 
 
 class Neglect(NamedTuple):
-    """What a mode left out would have reached, as a share of the largest of the run up to then, and when [s]."""
+    """What a mode that was left out would have reached: its share of the run's largest value until then, and the time
+    [s]."""
 
     share: float
     body: str
@@ -32,47 +35,47 @@ class Neglect(NamedTuple):
     time: float
 
 
-def read_mode_histories(results):
-    """Histories of all bodies that have modes, by name. InputError if none has."""
+def read_mode_histories(results: ResultsFile) -> list[ModeHistory]:
+    """Reads the histories of all bodies that have modes, in the order of their names. InputError if none has."""
     file = results.file
     found = []
     for body in results.names("bodies"):
         if results.num_modes(body) == 0:
             continue
-        number, _ = read_numbers(file, f"bodies/{body}/modal/mode_number")
+        number = results.mode_numbers(body)
         active, _ = read_numbers(file, f"bodies/{body}/modal/active")
-        superelement = text_of(file[f"model/bodies/{body}"].attrs["superelement"])
-        of_all, _ = read_numbers(file, f"model/superelements/{superelement}/frequency")
-        number = number.astype(int)
+        of_all, _ = read_numbers(file, f"model/superelements/{results.superelement(body)}/frequency")
         found.append(ModeHistory(body, number, of_all[number - 1], active > 0.5))
     if not found:
         raise InputError(f"{results.path}: error: no body of this run has modes")
     return found
 
 
-def count_active(results):
+def count_active(results: ResultsFile) -> Integers:
     """How many modes of all bodies take part at each sample [n]."""
-    return np.sum([np.sum(history.is_active, axis=1) for history in read_mode_histories(results)], axis=0)
+    counts = [np.sum(history.is_active, axis=1) for history in read_mode_histories(results)]
+    return np.sum(np.array(counts), axis=0)
 
 
-def find_change_times(results):
-    """Instants at which modes joined or left [s], ascending, each once."""
+def find_change_times(results: ResultsFile) -> Floats:
+    """The times at which modes joined or left [s], ascending, each once."""
     time, _ = read_numbers(results.file, "events/time")
     kinds = read_texts(results.file, "events/kind")
     return np.unique([when for when, kind in zip(time, kinds) if kind == MODES_CHANGED])
 
 
-def read_neglected(results):
-    """Of each body the mode left out that misses most, over time: dict of body → [n×3], its share of the largest
-    deflection and acceleration so far, and its number. Empty where the run did not look."""
+def read_neglected(results: ResultsFile) -> dict[str, Floats]:
+    """Reads for each body which of the modes left out would have contributed most at each sample: body → [n×3], the
+    mode's shares of the largest deflection and of the largest acceleration so far, and its number. Empty if the run did
+    not record it."""
     names = {body: f"bodies/{body}/modal/neglected" for body in results.names("bodies")}
     return {body: read_numbers(results.file, name)[0] for body, name in names.items() if name in results.file}
 
 
-def find_worst_neglect(results, column):
-    """The mode left out that would have reached most of the deflection (column 0) or of the acceleration (1). None where
-    the run did not look, or where nothing was left out."""
-    worst = None
+def find_worst_neglect(results: ResultsFile, column: int) -> Neglect | None:
+    """The mode left out that would have contributed most to the deflection (column 0) or to the acceleration (1). None
+    if the run did not record it, or if nothing was left out."""
+    worst: Neglect | None = None
     for body, values in read_neglected(results).items():
         sample = int(np.argmax(values[:, column]))
         share = float(values[sample, column])

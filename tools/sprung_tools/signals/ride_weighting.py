@@ -1,4 +1,4 @@
-"""How people standing or sitting feel vertical vibration: the weighting Wk, its r.m.s., the vibration dose value.
+"""How standing or sitting people feel vertical vibration: the weighting Wk, its r.m.s., the vibration dose value.
 
     H(s) = Hh Hl Ht Hs,   s = j 2π f                                                                   (1)
     Hh = s²/(s² + √2 ω₁ s + ω₁²),  Hl = ω₂²/(s² + √2 ω₂ s + ω₂²)            band limits, f₁ = 0.4, f₂ = 100 Hz
@@ -8,20 +8,20 @@
 
 [ISO 2631-1:1997, 6.3.1 and annex A, with the parameters of ISO 8041:2005, table 3]
 
-The filter is applied to the Fourier transform of the samples by the formula itself: no digital filter stands for it, so
-nothing is warped towards half the sampling frequency.
+The Fourier transform of the samples is multiplied by the formula itself. A digital filter in its place would be warped
+towards half the sampling frequency.
 """
 
 import numpy as np
 
-SETTLING = (
-    20.0  # s of rest appended to a signal, so that the end of its response does not come round to its start
-)
+from sprung_tools.files.array_types import ComplexNumbers, Floats
+
+SETTLING = 20.0  # s of rest appended to a signal, so that the end of its response does not reach its start again
 HIGHEST = 80.0  # Hz, where the standard's table ends
-SAMPLES_PER_PERIOD = 4.0  # of the highest frequency, below which a record cannot be weighted
+SAMPLES_PER_PERIOD = 4.0  # needed in a period of the highest frequency
 
 
-def calc_wk(frequency):
+def calc_wk(frequency: Floats) -> ComplexNumbers:
     """The complex response H of (1) at frequencies f ≥ 0 [Hz]."""
     s = 2j * np.pi * np.asarray(frequency, dtype=float)
     w1, w2, w3, w4, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, 12.5, 12.5, 2.37, 3.35])
@@ -33,10 +33,10 @@ def calc_wk(frequency):
     return high_pass * low_pass * transition * step
 
 
-def weight_acceleration(acceleration, step):
-    """a_w [n], m/s², of an acceleration [n] sampled every `step` seconds that was 0 before the record began.
+def weight_acceleration(acceleration: Floats, step: float) -> Floats:
+    """The weighted acceleration a_w [n], m/s², of an acceleration [n] that was 0 before the record began.
 
-    ValueError for samples too far apart to hold what people feel up to 80 Hz.
+    step: between samples [s]. ValueError if the samples are too far apart for the frequencies up to 80 Hz.
     """
     if not step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
         raise ValueError(
@@ -48,7 +48,7 @@ def weight_acceleration(acceleration, step):
     return np.fft.irfft(transform, size)[: acceleration.size]
 
 
-def calc_dose(weighted, step):
-    """Vibration dose value of a weighted acceleration [n]: (∫ a_w⁴ dt)^¼ in m/s^1.75, by the trapezoidal rule."""
+def calc_dose(weighted: Floats, step: float) -> float:
+    """The vibration dose value of a weighted acceleration [n]: (∫ a_w⁴ dt)^¼ in m/s^1.75, by the trapezoidal rule."""
     fourth = np.square(np.square(weighted))
     return float((step * (fourth.sum() - 0.5 * (fourth[0] + fourth[-1]))) ** 0.25)

@@ -5,17 +5,21 @@ One-sided spectral density of the height over wavenumber n [1/m], with exponent 
     G(n) = G(n₀) (n/n₀)^−w                                                                             (1)
     z(x) = Σ_k a_k cos(2π n_k x + ψ_k),   n_k = k/L,   a_k = √(2 G(n_k) Δn),   Δn = 1/L                  (2)
 
-with phases ψ_k uniform in 0 … 2π. The mean of z over the points is removed; raised cosines ease both ends to zero
-(without easing the whole is shifted so that its first point is at height 0). A profile of a wanted r.m.s. is then scaled to it over all of its points, an ISO 8608 profile is not scaled.
+with phases ψ_k uniform in 0 … 2π. The mean of z over the points is removed. Raised cosines ease both ends to zero;
+without easing, the profile is shifted so that its first point is at height 0. If an r.m.s. is wanted, the profile is
+then scaled so that all of its points have it. An ISO 8608 profile is not scaled.
 
 References: ISO 8608:2016, Mechanical vibration — Road surface profiles — Reporting of measured data, annexes A and C.
 """
 
 import random
+from collections.abc import Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 
 REFERENCE_WAVENUMBER = 0.1  # 1/m, ISO 8608
@@ -29,11 +33,11 @@ WHOLE = 1e-9  # a wavenumber this near a whole number of waves in the length cou
 
 
 class Recipe(NamedTuple):
-    """What a profile is made from. Lengths in m, wavenumbers in 1/m; a height follows from `rms` or `density`."""
+    """What a profile is made from. Lengths in m, wavenumbers in 1/m; either `rms` or `density` sets the heights."""
 
     length: float
     spacing: float
-    band: tuple  # lowest and highest wavenumber
+    band: tuple[float, float]  # lowest and highest wavenumber
     exponent: float = 2.0
     rms: float = 0.0  # m, over all points; 0 if `density` is given
     density: float = 0.0  # G(n₀) [m³] at n₀ = 0.1 1/m
@@ -44,10 +48,10 @@ class Recipe(NamedTuple):
 class Profile(NamedTuple):
     """distance, height: [n] m; density: G(0.1 1/m) of the components before easing [m³]; waves: their numbers k."""
 
-    distance: np.ndarray
-    height: np.ndarray
+    distance: Floats
+    height: Floats
     density: float
-    waves: np.ndarray
+    waves: Integers
 
 
 class Octave(NamedTuple):
@@ -59,19 +63,17 @@ class Octave(NamedTuple):
     found: float
 
 
-def calc_iso_density(name):
+def calc_iso_density(name: str) -> float:
     """G(n₀) of an ISO 8608 class [m³]: the geometric mean, 16·4^k·1e-6 with k = 0 … 7 for A … H."""
     return 16e-6 * 4.0 ** ISO_CLASSES.index(name)
 
 
-def check_recipe(recipe):
-    """InputError for a recipe that makes no profile, naming the value and what is expected."""
+def check_recipe(recipe: Recipe) -> None:
+    """Throws InputError for a recipe that makes no profile; its text names the value and what is expected."""
     low, high = recipe.band
     for name in ("length", "spacing"):
         if not 0.0 < getattr(recipe, name) < np.inf:
-            raise InputError(
-                f"error: --{name} must be positive and finite (m), got {getattr(recipe, name):g}"
-            )
+            raise InputError(f"error: --{name} must be positive and finite (m), got {getattr(recipe, name):g}")
     points = recipe.length / recipe.spacing
     if not points < MOST_POINTS:
         raise InputError(
@@ -83,25 +85,21 @@ def check_recipe(recipe):
             f"error: --spacing {recipe.spacing:g} m must divide --length {recipe.length:g} m into 2 parts or more"
         )
     if not 0.0 < low < high:
-        raise InputError(
-            f"error: --band must be two ascending positive wavenumbers (1/m), got {low:g} {high:g}"
-        )
+        raise InputError(f"error: --band must be two ascending positive wavenumbers (1/m), got {low:g} {high:g}")
     if not high * recipe.spacing < 0.5:
         raise InputError(
             f"error: --band ends at {high:g} 1/m, which points every {recipe.spacing:g} m cannot show "
             f"(below {0.5 / recipe.spacing:g} 1/m)"
         )
     if not 0.0 <= 2.0 * recipe.ease < recipe.length:
-        raise InputError(
-            f"error: --ease must be at least 0 and below half of the length, got {recipe.ease:g} m"
-        )
+        raise InputError(f"error: --ease must be at least 0 and below half of the length, got {recipe.ease:g} m")
     if not np.isfinite(recipe.exponent):
         raise InputError(f"error: --exponent must be a finite number, got {recipe.exponent:g}")
     if not 0.0 < max(recipe.rms, recipe.density) < np.inf:
         raise InputError(f"error: --rms must be positive and finite (m), got {recipe.rms:g}")
 
 
-def calc_waves(recipe):
+def calc_waves(recipe: Recipe) -> Integers:
     """The numbers k of waves in the length whose wavenumber k/L lies in the band. InputError if there are none."""
     low, high = (limit * recipe.length for limit in recipe.band)
     waves = np.arange(max(1, int(np.ceil(low - WHOLE))), int(np.floor(high + WHOLE)) + 1)
@@ -112,7 +110,7 @@ def calc_waves(recipe):
     return waves
 
 
-def calc_easing(distance, ease):
+def calc_easing(distance: Floats, ease: float) -> Floats:
     """Raised cosines over the first and the last `ease` metres [n]: 0 at the ends, 1 between them."""
     if ease == 0.0:
         return np.ones_like(distance)
@@ -120,9 +118,11 @@ def calc_easing(distance, ease):
     return np.where(from_end < ease, 0.5 - 0.5 * np.cos(np.pi * from_end / ease), 1.0)
 
 
-def make_profile(recipe):
-    """The profile of a recipe; equal recipes give equal profiles. InputError for a recipe that makes none, also where
-    its heights vanish in the file's decimals or its spectrum leaves the range of numbers.
+def make_profile(recipe: Recipe) -> Profile:
+    """Makes the profile of a recipe; equal recipes give equal profiles.
+
+    InputError for a recipe that makes none, also if its heights vanish in the file's decimals or its spectrum leaves
+    the range of numbers.
 
     The phases come from Python's `random.Random(seed).random()`, whose sequence Python guarantees to keep.
     """
@@ -153,17 +153,18 @@ def make_profile(recipe):
     return Profile(distance, height, density, waves)
 
 
-def check_heights(height):
-    """InputError if a file's decimals cannot hold heights [n], or if they are not heights of a road."""
+def check_heights(height: Floats) -> None:
+    """Throws InputError if a file's decimals cannot hold heights [n], or if no road can have them."""
     highest = np.max(np.abs(height))
     if not LEAST_HEIGHT <= highest <= GREATEST_HEIGHT:
         raise InputError(
-            f"error: the heights reach {highest:.3g} m, expected {LEAST_HEIGHT:g} to {GREATEST_HEIGHT:g} m; change --rms"
+            f"error: the heights reach {highest:.3g} m, expected {LEAST_HEIGHT:g} to {GREATEST_HEIGHT:g} m; "
+            "change --rms"
         )
 
 
-def describe_recipe(recipe, profile, command):
-    """The lines of a file's header: how to make the file again, and what is in it."""
+def describe_recipe(recipe: Recipe, profile: Profile, command: str) -> tuple[str, ...]:
+    """The lines of a file's header: the command that makes the file again, and what is in it."""
     first, last = profile.waves[0], profile.waves[-1]
     easing = (
         f"raised-cosine easing over the first and last {recipe.ease:g} m"
@@ -183,34 +184,32 @@ def describe_recipe(recipe, profile, command):
     )
 
 
-def format_profile(recipe, profile, command):
+def format_profile(recipe: Recipe, profile: Profile, command: str) -> str:
     """The text of a road file (dynamics/models/README.md, shape = "table")."""
     header = "".join(f"# {line}\n" for line in describe_recipe(recipe, profile, command))
     rows = (f"{s:.10g} {h + 0.0:.{DECIMALS}f}\n" for s, h in zip(profile.distance, profile.height))
     return header + "".join(rows)
 
 
-def read_profile(path):
-    """distance, height [n] of a road file with equal spacing. InputError if it cannot be used."""
+def read_profile(path: str | Path) -> tuple[Floats, Floats]:
+    """Reads distance [n] and height [n] of a road file with equal spacing. InputError if it cannot be used."""
     try:
         table = np.loadtxt(path, ndmin=2)
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: error: not a table of distances and heights ({error})") from error
     if table.shape[0] < 3 or table.shape[1] != 2:
-        raise InputError(
-            f"{path}: error: expected 3 rows or more of a distance and a height, got {table.shape}"
-        )
+        raise InputError(f"{path}: error: expected 3 rows or more of a distance and a height, got {table.shape}")
     steps = np.diff(table[:, 0])
     if not np.allclose(steps, steps[0], rtol=1e-4, atol=0.0):
         raise InputError(f"{path}: error: the distances are not equally spaced")
     return table[:, 0], table[:, 1]
 
 
-def estimate_octaves(distance, height, recipe, density):
-    """Mean spectral density in octaves of the recipe's band, wanted and as found in a profile [list of Octave].
+def estimate_octaves(distance: Floats, height: Floats, recipe: Recipe, density: float) -> list[Octave]:
+    """The mean spectral density in octaves of the recipe's band, as wanted and as found in a profile.
 
-    Periodogram over the whole length, |Z(n)|² 2/L, divided by the mean square of the easing; `density` is the
-    wanted G(0.1 1/m). Octaves count down from the highest wavenumber.
+    The spectrum found is the periodogram over the whole length, |Z(n)|² 2/L, divided by the mean square of the easing.
+    Octaves are counted down from the highest wavenumber. density: the wanted G(0.1 1/m).
     """
     waves = calc_waves(recipe)
     length = recipe.length
@@ -229,10 +228,11 @@ def estimate_octaves(distance, height, recipe, density):
     return octaves[::-1]
 
 
-def fit_exponent(octaves, wanted_exponent):
-    """The exponent w of the spectrum found: the wanted one, corrected by a straight line through the logarithms of
-    found over wanted density, against the logarithms of the octaves' middle wavenumbers. Two octaves or more.
+def fit_exponent(octaves: Sequence[Octave], wanted_exponent: float) -> float:
+    """The exponent w of the spectrum found. A straight line is fitted to the logarithm of found over wanted density,
+    against the logarithm of the octaves' middle wavenumbers; its slope corrects the wanted exponent. Two octaves or
+    more.
     """
     middle = np.log([np.sqrt(octave.lowest * octave.highest) for octave in octaves])
     ratio = np.log([octave.found / octave.wanted for octave in octaves])
-    return wanted_exponent - np.polyfit(middle, ratio, 1)[0]
+    return float(wanted_exponent - np.polyfit(middle, ratio, 1)[0])

@@ -1,42 +1,48 @@
-"""What is in a sampled signal at which frequency: r.m.s. by band, amplitude spectra, the frequency of the highest peak.
+"""The content of a sampled signal by frequency: r.m.s. of bands, amplitude spectra, the frequency of the highest peak.
 
 Signals are [n] values at equal time steps [s]; frequencies in Hz. Reference: [Welch 1967] P. D. Welch, The use of fast
 Fourier transform for the estimation of power spectra, IEEE Transactions on Audio and Electroacoustics 15, 70–73.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 
-def calc_rms(values):
-    """√(mean of the squares)."""
+
+def calc_rms(values: Floats) -> float:
+    """The root mean square of the values."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def calc_band_rms(values, step, limits):
-    """R.m.s. in each band of frequencies [len(limits) + 1]: below limits[0], between them, above the last.
+def calc_band_rms(values: Floats, step: float, limits: Sequence[float]) -> Floats:
+    """The r.m.s. in each band of frequencies [len(limits) + 1]: below the first limit, between limits, above the last.
 
-    Their squares add up to the signal's mean square, the mean in the first band. The signal is continued by its mirror
-    image (a cosine series over its length), so that a difference between its ends does not leak into the high bands.
+    Their squares add up to the signal's mean square; the signal's mean belongs to the first band. The signal is
+    continued by its mirror image (a cosine series over its length), so that a difference between its ends does not leak
+    into the high bands.
     """
     mirrored = np.concatenate([values, values[::-1]])
     transform = np.fft.rfft(mirrored) / mirrored.size
     power = np.abs(transform) ** 2
-    power[1:-1] *= 2.0  # the length is even: only 0 and the last stand alone
+    power[1:-1] *= 2.0  # the length is even: only the first and the last have no negative counterpart
     frequency = np.fft.rfftfreq(mirrored.size, step)
     band = np.searchsorted(limits, frequency, side="right")
     return np.sqrt(np.bincount(band, weights=power, minlength=len(limits) + 1))
 
 
-def calc_amplitude_spectrum(values, step):
-    """Amplitudes of the cosines that make up a signal over its length. Returns (frequency [m], amplitude [m])."""
+def calc_amplitude_spectrum(values: Floats, step: float) -> tuple[Floats, Floats]:
+    """The amplitudes of the cosines that a signal consists of. Returns (frequency [m], amplitude [m])."""
     amplitude = 2.0 * np.abs(np.fft.rfft(values)) / values.size
     amplitude[0] /= 2.0
     return np.fft.rfftfreq(values.size, step), amplitude
 
 
-def calc_power_spectrum(values, step, segment_duration):
+def calc_power_spectrum(values: Floats, step: float, segment_duration: float) -> tuple[Floats, Floats]:
     """One-sided power spectral density by averaged periodograms: segments half overlapping, Hann windows, each less its
-    mean [Welch 1967]. Returns (frequency [m], density [m] in unit²/Hz). ValueError if a segment is longer than the signal.
+    mean [Welch 1967]. Returns (frequency [m], density [m] in unit²/Hz). ValueError if a segment is longer than the
+    signal.
     """
     size = round(segment_duration / step)
     if not 8 <= size <= values.size:
@@ -51,15 +57,16 @@ def calc_power_spectrum(values, step, segment_duration):
     return np.fft.rfftfreq(size, step), density
 
 
-def find_dominant_frequency(values, step, segment_duration):
-    """The frequency where the power spectral density is highest, by a parabola through its highest three values' logs."""
+def find_dominant_frequency(values: Floats, step: float, segment_duration: float) -> float:
+    """The frequency where the power spectral density is highest, by a parabola through its highest three values'
+    logs."""
     frequency, density = calc_power_spectrum(values, step, segment_duration)
     top = int(np.argmax(density[1:-1])) + 1
     below, here, above = np.log(density[top - 1 : top + 2])
-    return frequency[top] + 0.5 * (below - above) / (below - 2.0 * here + above) * frequency[1]
+    return float(frequency[top] + 0.5 * (below - above) / (below - 2.0 * here + above) * frequency[1])
 
 
-def count_upward_crossings(values):
-    """How often a signal goes upwards through its mean."""
+def count_upward_crossings(values: Floats) -> int:
+    """How often a signal crosses its mean upwards."""
     above = values > values.mean()
     return int(np.count_nonzero(above[1:] & ~above[:-1]))

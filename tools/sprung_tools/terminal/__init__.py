@@ -1,1 +1,1 @@
-"""What a command says on a terminal: its help and exit code, tables, progress."""
+"""What a command prints: its help, tables, progress, and the line that says why it ended."""

@@ -1,14 +1,17 @@
-"""How every command ends, and how its help looks."""
+"""What all commands share: the form of their help, and how they end."""
 
 import argparse
+import io
 import os
 import sys
+from collections.abc import Callable
+from typing import NoReturn
 
 from sprung_tools.files.errors import InputError
 
 
-def make_parser(description, example):
-    """A parser whose help ends in an example."""
+def make_parser(description: str | None, example: str) -> argparse.ArgumentParser:
+    """Makes a parser whose help ends in an example."""
     return argparse.ArgumentParser(
         description=description,
         epilog=f"Example:\n  {example}",
@@ -17,9 +20,16 @@ def make_parser(description, example):
     )
 
 
-def run_tool(main):
-    """Runs a tool's main() -> exit code, and exits; a InputError, or a file or folder that the system refuses, becomes
-    a line on stderr and code 2, an interruption code 130."""
+def run_tool(main: Callable[[], int]) -> NoReturn:
+    """Runs a command's main(), and exits with the code that it returns.
+
+    An InputError, or a file or folder that the system refuses, becomes a line on stderr and code 2; an interruption
+    becomes code 130.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        # Where the terminal's character set lacks a letter, a question mark stands for it.
+        if isinstance(stream, io.TextIOWrapper) and stream.encoding.lower() not in ("utf-8", "utf8"):
+            stream.reconfigure(errors="replace")
     try:
         code = main()
         sys.stdout.flush()

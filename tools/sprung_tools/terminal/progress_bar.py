@@ -1,33 +1,34 @@
-"""Progress of long work: a bar with the time left on a terminal; elsewhere a line now and then, so that short work
-stays silent."""
+"""Progress of long work: on a terminal a bar with the time left; elsewhere a line every ten seconds, so that short work
+prints nothing."""
 
 import sys
 import time
+from typing import TextIO
 
 BETWEEN_LINES = 10.0  # s, where stderr is not a terminal
 BETWEEN_BARS = 0.1  # s
-WIDTH = 30  # of the bar, characters
+WIDTH = 30  # characters in the bar
 
 
 class Progress:
-    """with Progress("writing", 500) as progress: … progress.step()"""
+    """Reports progress on a stream (stderr if None): `with Progress("writing", 500) as progress: … progress.step()`."""
 
-    def __init__(self, what, total, stream=None):
+    def __init__(self, what: str, total: int, stream: TextIO | None = None) -> None:
         self.what, self.total, self.stream = what, max(total, 1), stream or sys.stderr
         self.done = 0
         self.begun = self.shown = time.monotonic()
         self.on_terminal = self.stream.isatty()
 
-    def __enter__(self):
+    def __enter__(self) -> "Progress":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         if self.on_terminal and self.done:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
-    def step(self, count=1):
-        """So many parts more are done."""
+    def step(self, count: int = 1) -> None:
+        """Records that `count` more parts are done."""
         self.done += count
         now = time.monotonic()
         if now - self.shown < (BETWEEN_BARS if self.on_terminal else BETWEEN_LINES):

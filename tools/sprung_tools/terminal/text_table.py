@@ -1,7 +1,12 @@
 """Tables for a terminal."""
 
+from collections.abc import Sequence
 
-def is_number(cell):
+Rows = Sequence[Sequence[str]]
+Table = tuple[Sequence[str], Rows]  # headings, rows
+
+
+def is_number(cell: str) -> bool:
     """Whether a cell reads as one number."""
     try:
         float(cell)
@@ -10,20 +15,19 @@ def is_number(cell):
     return True
 
 
-def format_table(headings, rows):
-    """Columns two blanks apart, numbers to the right, a rule under the headings; a first cell equal to the one
-    above is left blank.
+def format_table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Formats a table: columns two blanks apart, numbers right-aligned, a rule under the headings. A first cell that is
+    equal to the one above is left blank.
 
-    headings: strings; rows: sequences of as many strings. Returns the table's text without a last line end.
+    rows: as many cells in each as there are headings. Returns the text without a last line end.
     """
     columns = list(zip(headings, *rows))
     widths = [max(map(len, column)) for column in columns]
     to_right = [all(is_number(cell) for cell in column[1:] if cell) for column in columns]
 
-    def line(cells):
+    def line(cells: Sequence[str]) -> str:
         padded = (
-            cell.rjust(width) if right else cell.ljust(width)
-            for cell, width, right in zip(cells, widths, to_right)
+            cell.rjust(width) if right else cell.ljust(width) for cell, width, right in zip(cells, widths, to_right)
         )
         return "  ".join(padded).rstrip()
 

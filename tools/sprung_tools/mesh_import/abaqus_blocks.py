@@ -1,0 +1,118 @@
+"""The blocks of an Abaqus input deck: a keyword line and the data lines under it."""
+
+import math
+import os
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, NoReturn
+
+from sprung_tools.files.errors import InputError
+
+
+class Block(NamedTuple):
+    """A keyword line and the data lines under it."""
+
+    keyword: str  # in capitals, without the asterisk
+    parameters: dict[str, str]  # name in capitals → text, "" where it has none
+    data: list[tuple[int, list[str]]]  # line number, fields
+    path: str
+    line: int
+
+    def fail(self, what: str, line: int | None = None) -> NoReturn:
+        """Throws InputError at a line of the block, its first if none is given."""
+        raise InputError(f"{self.path}:{line or self.line}: error: *{self.keyword}: {what}")
+
+    def describe(self) -> str:
+        """The keyword line in one form, with its number."""
+        shown = [key if not text else f"{key}={text}" for key, text in self.parameters.items()]
+        return f"*{', '.join([self.keyword, *shown])} (line {self.line})"
+
+
+def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
+    """Reads all blocks of a deck; the blocks of an *INCLUDE take its place. InputError if it is not a whole deck.
+
+    including: the chain of files that leads to this one by *INCLUDE.
+    """
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            text = file.read()
+    except OSError as error:
+        raise InputError(f"{path}: error: cannot read the file ({error.strerror})") from error
+    if text and not text.endswith("\n") and not text.rpartition("\n")[2].upper().startswith("*END"):
+        number = text.count("\n") + 1
+        raise InputError(f"{path}:{number}: error: the last line has no line end: the file is truncated")
+    blocks: list[Block] = []
+    for number, line in join_lines(text.splitlines()):
+        if line.startswith("*"):
+            keyword, *parameters = [part.strip() for part in line[1:].split(",")]
+            pairs = [part.partition("=") for part in parameters if part]
+            named = {" ".join(key.upper().split()): value.strip().strip("\"'") for key, _, value in pairs}
+            blocks.append(Block(" ".join(keyword.upper().split()), named, [], path, number))
+        elif not blocks:
+            raise InputError(
+                f"{path}:{number}: error: '{line[:40]}' stands before the first keyword: not an Abaqus deck"
+            )
+        else:
+            blocks[-1].data.append((number, [part.strip().strip("\"'") for part in line.split(",")]))
+    return [found for block in blocks for found in follow_include(block, (*including, path))]
+
+
+def follow_include(block: Block, including: tuple[str, ...]) -> list[Block]:
+    """The blocks of the file that an *INCLUDE names; any other block alone."""
+    if block.keyword != "INCLUDE":
+        return [block]
+    name = block.parameters.get("INPUT", "")
+    if not name:
+        block.fail("has no file (INPUT=…)")
+    path = os.path.join(os.path.dirname(block.path), name)
+    if any(os.path.realpath(path) == os.path.realpath(one) for one in including):
+        block.fail(f"'{name}' includes itself")
+    return read_blocks(path, including)
+
+
+def join_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
+    """Yields (number, text) of the lines that are neither comments nor blank. A keyword line that ends with a comma is
+    joined with the next one."""
+    waiting: tuple[int, str] | None = None
+    for number, line in enumerate(lines, start=1):
+        line = line.strip()
+        if not line or line.startswith("**"):
+            continue
+        if waiting:
+            number, line = waiting[0], waiting[1] + line
+        if line.startswith("*") and line.endswith(","):
+            waiting = (number, line)
+        else:
+            waiting = None
+            yield number, line
+
+
+def read_integer(block: Block, line: int, text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        block.fail(f"'{text}' is not a number", line)
+
+
+def read_real(block: Block, line: int, text: str) -> float:
+    try:
+        value = float(text.upper().replace("D", "E"))  # Fortran's 1.0D0
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        block.fail(f"'{text}' is not a number", line)
+    return value
+
+
+def join_rows(block: Block) -> list[tuple[int, list[int]]]:
+    """The elements of a block as (line number, numbers). An element continues in the next line after a comma at the
+    end."""
+    rows: list[tuple[int, list[int]]] = []
+    continues = False
+    for line, fields in block.data:
+        numbers = [read_integer(block, line, text) for text in fields if text]
+        if continues:
+            rows[-1][1].extend(numbers)
+        else:
+            rows.append((line, numbers))
+        continues = fields[-1] == "" and len(rows[-1][1]) != 3
+    return [row for row in rows if row[1]]

@@ -1,0 +1,24 @@
+"""Reading a mesh file by the reader for its format."""
+
+import os
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.mesh_import.abaqus_deck import read_abaqus
+from sprung_tools.mesh_import.line_mesh import LineMesh
+from sprung_tools.mesh_import.nastran_deck import is_nastran, read_nastran
+
+DECKS = {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".fem": read_nastran}
+
+
+def read_mesh(path: str) -> LineMesh:
+    """Reads the line elements of a mesh file; its ending says which format it has. InputError if it cannot be used."""
+    if not os.path.isfile(path):
+        raise InputError(f"{path}: error: no such file")
+    ending = os.path.splitext(path)[1].lower()
+    if ending in DECKS:
+        return DECKS[ending](path)
+    if ending == ".dat" and is_nastran(path):
+        return read_nastran(path)
+    from sprung_tools.mesh_import.meshio_reader import read_with_meshio  # here because meshio takes long to load
+
+    return read_with_meshio(path)
