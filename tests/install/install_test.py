@@ -1,4 +1,5 @@
-"""What `cmake --install` puts into an empty folder is enough to reduce the truck's bodies, to drive it over the bump, to
+"""What `cmake --install` puts into an empty folder is enough to reduce the truck's bodies, to drive it over the
+bump, to
 draw that, and to build a program that reads superelements. Needs the folder of the build (SPRUNG_BUILD), cmake
 (SPRUNG_CMAKE) and the compiler flags of the build (SPRUNG_CXX_FLAGS)."""
 

@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy as np
 from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement
-from tool_test_case import ROOT, ToolTestCase
+from tool_test_case import ROOT, ToolTestCase, run_program
 
 from sprung_tools.report.packing import find_kept
 from sprung_tools.report.page import make_small_page
@@ -164,7 +164,8 @@ class Refusing(ToolTestCase):
         self.refuse("run.h5", "-o", "a.html", fragment="did not finish (complete = 0)")
 
     def test_what_a_file_lacks_is_named(self):
-        for lacking in ("bodies/chassis/position", "model/bodies", "model/resolved/points/chassis.seat/position", "forces/front_tyre/force",
+        for lacking in ("bodies/chassis/position", "model/bodies", "model/resolved/points/chassis.seat/position",
+                        "forces/front_tyre/force",
                         "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
             with self.subTest(lacking):
                 write_results(self.folder / "run.h5")

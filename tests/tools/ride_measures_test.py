@@ -16,7 +16,14 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel, find_forces, read_window
+from sprung_tools.runs.ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_forces,
+    read_window,
+)
 from sprung_tools.signals.ride_weighting import calc_wk
 
 WINDOW = (1.0, 3.0)
@@ -55,9 +62,7 @@ class RideMeasures(ToolTestCase):
         self.assertAlmostEqual(travel.compression, 0.1, places=6)
         self.assertAlmostEqual(travel.rebound, -0.1, places=6)
         self.assertAlmostEqual(travel.whole, 0.15 - STATIC_DEFLECTION, places=12)
-        self.assertEqual(
-            travel.hits, 2
-        )  # the window holds two periods, each once above 0.15 - 0.06 = 0.09 of 0.1 m
+        self.assertEqual(travel.hits, 2)  # the window holds two periods, each once above 0.15 - 0.06 = 0.09 of 0.1 m
         # 0.1 sin > 0.09: 2 · (1/2 - asin(0.9)/π) of each period
         self.assertAlmostEqual(travel.stopped, 2.0 * (0.5 - np.arcsin(0.9) / np.pi), delta=4 * STEP)
 
@@ -86,9 +91,7 @@ class RideMeasures(ToolTestCase):
     def test_uneven_or_too_few_samples_are_refused(self):
         results = self.open()
         results.time = results.time**2
-        with self.assertRaisesRegex(
-            InputError, "0.h5: error: the samples in 'time' are not equally spaced"
-        ):
+        with self.assertRaisesRegex(InputError, "0.h5: error: the samples in 'time' are not equally spaced"):
             calc_comfort(results, "points/body.seat", WINDOW)
         results.time = 10.0 * STEP * np.arange(results.time.size)
         with self.assertRaisesRegex(InputError, "0.h5: error: a sample every 10 ms is too few"):
@@ -123,9 +126,7 @@ class Tool(ToolTestCase):
     def test_no_share_of_travel_is_told_where_the_vehicle_stands_on_its_stop(self):
         write_ride_results(self.folder / "a.h5", stop=0.05)
         rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
-        self.assertEqual(
-            [row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]]
-        )
+        self.assertEqual([row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]])
 
     def test_points_and_the_span_can_be_chosen(self):
         write_ride_results(self.folder / "a.h5", with_moments=False)
@@ -142,16 +143,12 @@ class Tool(ToolTestCase):
             self.run_tool("ride", "a.h5", "--points", "body.knee"),
             "a.h5: error: no quantity 'points/body.knee/",
         )
-        self.assert_refuses(
-            self.run_tool("ride", "a.h5", "--from", "9"), "a.h5: error: no samples from 9 to 3 s"
-        )
+        self.assert_refuses(self.run_tool("ride", "a.h5", "--from", "9"), "a.h5: error: no samples from 9 to 3 s")
 
     def test_a_run_that_did_not_finish_is_refused(self):
         with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
             file.attrs["complete"] = 0
-        self.assert_refuses(
-            self.run_tool("ride", "a.h5"), "a.h5: error: the run that wrote this file did not finish"
-        )
+        self.assert_refuses(self.run_tool("ride", "a.h5"), "a.h5: error: the run that wrote this file did not finish")
 
 
 if __name__ == "__main__":

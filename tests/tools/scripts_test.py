@@ -70,7 +70,9 @@ class Scripts(ToolTestCase):
                 text = f"raise ModuleNotFoundError('not here', name={needed!r})\n"
                 (blocked / f"{module}.py").write_text(text, encoding="utf-8")
                 process = self.run_tool(tool, *arguments, PYTHONPATH=str(blocked))
-                self.assert_refuses(process, f"tools/{tool}: error: Python's module {module} is not", f"python3-{module}")
+                self.assert_refuses(
+                    process, f"tools/{tool}: error: Python's module {module} is not", f"python3-{module}"
+                )
 
     def test_another_python_earlier_in_the_path_is_not_taken(self):
         other = self.folder / "python3"

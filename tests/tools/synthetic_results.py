@@ -52,7 +52,9 @@ def write_settings(file, settings, integrator=INTEGRATOR, adaptivity=ADAPTIVITY)
     write_group(file, "model/resolved/settings/adaptivity", adaptivity)
 
 
-def write_results(path, num_modes=2, scale=1.0, start_offset=0.0, overrides=(), settings=(), integrator=(), adaptivity=()):
+def write_results(
+    path, num_modes=2, scale=1.0, start_offset=0.0, overrides=(), settings=(), integrator=(), adaptivity=()
+):
     """A truck whose chassis heaves as scale · HEAVE · sin(CIRCULAR t) about its static height. Returns the path.
 
     num_modes: of the chassis, 0 = rigid; start_offset: m, how far above balance the whole motion lies;
@@ -142,7 +144,12 @@ def write_resolved_model(file, num_modes):
     """The vehicle as run, towards -x: the chassis with its points, one tyre, the road."""
     write_group(file, "model/resolved", {"direction": -1.0})
     write_series(file, "model/resolved/gravity", np.array([0.0, -9.80665]), "m/s^2")
-    points = {"origin": (0.0, 0.0), "center_of_mass": (0.0, 0.01), "front_end": (FRONT, 0.0), "seat": (0.0, SEAT_HEIGHT)}
+    points = {
+        "origin": (0.0, 0.0),
+        "center_of_mass": (0.0, 0.01),
+        "front_end": (FRONT, 0.0),
+        "seat": (0.0, SEAT_HEIGHT),
+    }
     nodes = {"front_end": 0, "seat": 1} if num_modes else {}
     for name, place in points.items():
         attributes = {"body": np.bytes_("chassis"), "node": nodes.get(name, -1)}

@@ -8,11 +8,12 @@ tan βL = tanh βL; the designs' √(EI/μL⁴) is 5 rad/s.
 import json
 import math
 import os
+import subprocess
 import unittest
 
 import numpy as np
 
-from verification_case import EXAMPLES, MODELS, SUPERELEMENTS, VerificationCase
+from verification_case import EXAMPLES, MODELS, SUPERELEMENTS, VerificationCase, run_program
 
 UNIT = 5.0  # rad/s
 LENGTH, BENDING_RIGIDITY = 2.0, 4000.0  # of these designs [m, N·m²]

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""/model/resolved against the histories of the same file: what the run did follows from what it says it was made with."""
+"""/model/resolved against the histories of the same file: what the run did follows from what it says it was made
+with."""
 
 import shutil
 import subprocess
@@ -54,7 +55,9 @@ class Resolved(DynamicsTestCase):
         return self.open_run(f"{name}_run.toml", *changes)
 
     def assert_close(self, found, expected, what):
-        np.testing.assert_allclose(found, expected, rtol=0.0, atol=ROUNDING * max(1.0, np.max(np.abs(expected))), err_msg=what)
+        np.testing.assert_allclose(
+            found, expected, rtol=0.0, atol=ROUNDING * max(1.0, np.max(np.abs(expected))), err_msg=what
+        )
 
     def assert_springs(self, file, resolved, kind, exerted):
         """Spring and damper elements exert what their functions give for their deflections. Returns how many."""
@@ -64,7 +67,9 @@ class Resolved(DynamicsTestCase):
                 continue
             count += 1
             history, parameters = file[f"forces/{name}"], element["parameters"]
-            each = evaluate(parameters["spring"], history["deflection"][:]) + evaluate(parameters["damper"], history["rate"][:])
+            each = evaluate(parameters["spring"], history["deflection"][:]) + evaluate(
+                parameters["damper"], history["rate"][:]
+            )
             self.assert_close(history[exerted][:], parameters.attrs["multiplicity"] * each, name)
         return count
 
@@ -80,7 +85,10 @@ class Resolved(DynamicsTestCase):
             self.assert_close(
                 history["penetration"][:], parameters.attrs["radius"] - height + history["road_height"][:], name
             )
-            each = evaluate(parameters["spring"], history["penetration"][:]) + parameters.attrs["damping"] * history["rate"][:]
+            each = (
+                evaluate(parameters["spring"], history["penetration"][:])
+                + parameters.attrs["damping"] * history["rate"][:]
+            )
             if parameters.attrs["one_sided"]:
                 each = np.where(history["contact"][:] > 0.5, np.maximum(each, 0.0), 0.0)
             self.assert_close(history["force"][:], parameters.attrs["multiplicity"] * each, name)
@@ -183,7 +191,8 @@ class Resolved(DynamicsTestCase):
     def test_the_slider_crank_under_overrides_of_its_vehicle(self):
         file, resolved = self.open_example(
             "slider_crank", "duration=0.4", "vehicle.forces.coupling.free_angle=0.1", "vehicle.gravity=[0.0, -1.0]",
-            "vehicle.motions.motor.function={ harmonic = { amplitude = 0.3, frequency = 2.0, mean = -0.1, phase = 0.34 } }",
+            "vehicle.motions.motor.function={ harmonic = { amplitude = 0.3, frequency = 2.0, "
+            "mean = -0.1, phase = 0.34 } }",
             "vehicle.bodies.rod.inertia=2e-3", "vehicle.forces.gas.torque=0.2",
         )  # fmt: skip
         self.assertEqual(self.assert_springs(file, resolved, "rotational-spring-damper", "torque"), 1)

@@ -1,5 +1,7 @@
-"""Prints what runs mean for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk), suspension
-travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending moment of each flexible body.
+"""Prints what runs mean for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk),
+suspension
+travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending moment of
+each flexible body.
 
 Statistics are over the run file's [statistics], or over the span given. Vibration is vertical, in m/s², the dose in
 m/s^1.75; travel is from static balance, compression positive; loads are those of all parallel members together. A tyre
@@ -66,11 +68,7 @@ def make_travel_rows(runs, windows):
     for name in find_forces(runs[0].results, "spring"):
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
-            share = (
-                f"{100 * one.compression / one.whole:.0f} %"
-                if one.whole is not None and one.whole > 0.0
-                else "–"
-            )
+            share = f"{100 * one.compression / one.whole:.0f} %" if one.whole is not None and one.whole > 0.0 else "–"
             hits = ("–", "–") if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
             compression, rebound = (f"{1e3 * value:.1f}" for value in (one.compression, one.rebound))
             yield (name, run.label, compression, share, rebound, *hits)
@@ -114,12 +112,8 @@ def make_bending_rows(runs, windows, superelements):
 
 
 def main():
-    parser = make_parser(
-        __doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat"
-    )
-    parser.add_argument(
-        "runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the tables"
-    )
+    parser = make_parser(__doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat")
+    parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the tables")
     parser.add_argument(
         "--points", nargs="+", metavar="BODY.POINT", default=(),
         help="whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their bodies)",

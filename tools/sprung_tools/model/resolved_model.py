@@ -45,7 +45,8 @@ def open_group(results, name=""):
     path = f"{ROOT}/{name}".rstrip("/")
     if not has_resolved_model(results):
         raise InputError(
-            f"{results.path}: error: holds no '{ROOT}', the model as run, which files have from version 2 on: run it again"
+            f"{results.path}: error: holds no '{ROOT}', the model as run, which files have from version 2 on: "
+            "run it again"
         )
     if path not in results.file:
         raise InputError(f"{results.path}: error: no group '{path}'")

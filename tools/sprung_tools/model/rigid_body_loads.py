@@ -1,4 +1,5 @@
-"""The bending moment in a body that a run took as rigid: from the forces on it and its own inertia, by its superelement.
+"""The bending moment in a body that a run took as rigid: from the forces on it and its own inertia, by its
+superelement.
 
 With the deformation left out of the motion, the modal equations (bodies, eqs. 3–5) become a statics
 problem, the loads being forces F and torques T on the points and d'Alembert's forces of the rigid motion:
@@ -60,12 +61,14 @@ def check_same(results, body, superelement):
     kept = results.file.get(f"model/superelements/{name}") if name else None
     if kept is None or text_of(kept.attrs.get("content_hash", "")) != superelement.content_hash:
         raise InputError(
-            f"{superelement.path}: error: is not the superelement that '{body}' had in {results.path} (another content hash)"
+            f"{superelement.path}: error: is not the superelement that '{body}' had in {results.path} "
+            "(another content hash)"
         )
 
 
 def calc_point_shape(point, superelement):
-    """Displacement and rotation of a point by each mode [3×n]: those of its node, about which an offset turns. A point of
+    """Displacement and rotation of a point by each mode [3×n]: those of its node, about which an offset turns. A
+    point of
     the body frame has none."""
     if point.node < 0:
         return np.zeros((3, superelement.stiffness.shape[0]))
@@ -78,9 +81,7 @@ def calc_point_shape(point, superelement):
 def turn_into_body(vectors, angle):
     """World vectors [m×2] in the axes of a body that is turned by angle [m]: Aᵀ v."""
     cos, sin = np.cos(angle), np.sin(angle)
-    return np.stack(
-        [cos * vectors[:, 0] + sin * vectors[:, 1], cos * vectors[:, 1] - sin * vectors[:, 0]], axis=1
-    )
+    return np.stack([cos * vectors[:, 0] + sin * vectors[:, 1], cos * vectors[:, 1] - sin * vectors[:, 0]], axis=1)
 
 
 def collect_loads(results, body):
@@ -117,7 +118,5 @@ def calc_rigid_moments(results, body, superelement):
         shape = calc_point_shape(point, superelement)
         loads += turn_into_body(wrench[:, :2], angle) @ shape[:2] + np.outer(wrench[:, 2], shape[2])
     amplitudes = np.linalg.solve(superelement.stiffness, loads.T).T
-    moments = (
-        amplitudes @ superelement.resultants[:, MOMENTS, :].reshape(-1, superelement.stiffness.shape[0]).T
-    )
+    moments = amplitudes @ superelement.resultants[:, MOMENTS, :].reshape(-1, superelement.stiffness.shape[0]).T
     return moments, superelement.positions[superelement.elements].reshape(-1, 2)

@@ -205,8 +205,8 @@ def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> d
         column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
         column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
-        moments = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
-        bending: Bending | None = find_largest_moment(results, *moments, window)
+        moments, stations = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
+        bending: Bending | None = find_largest_moment(results, moments, stations, window)
     else:
         bending = calc_bending(results, "chassis", window)
     moment = f"{1e-3 * bending.moment:.0f}, {bending.station:.2f}" if bending else "–"

@@ -31,7 +31,8 @@ def describe_activity(results, history):
     counts = np.sum(history.is_active, axis=1)
     changes = find_change_times(results).size
     return (
-        f"{history.body}: {np.mean(counts):.1f} of {number} modes take part on the run's average, {np.max(counts)} at most; "
+        f"{history.body}: {np.mean(counts):.1f} of {number} modes take part on the run's average, "
+        f"{np.max(counts)} at most; "
         f"changes at {changes} instants"
     )
 
@@ -58,7 +59,8 @@ def draw_modes(axes, results, history):
 
 
 def draw_neglected(axes, results):
-    """What the mode left out that misses most would have reached; the share at which it joins, in a run whose modes join and leave."""
+    """What the mode left out that misses most would have reached; the share at which it joins, in a run whose modes
+    join and leave."""
     found = np.max([values[:, :2] for values in read_neglected(results).values()], axis=0)
     for column, (name, colour) in enumerate(NEGLECT.items()):
         percent = 100.0 * found[:, column]
@@ -81,7 +83,8 @@ def draw_neglected(axes, results):
 def make_mode_history_figure(runs, quantities, span, title=""):
     """Modes of the first run over time, shares left out, and quantities of all runs.
 
-    runs: list of Run, the first with modes (InputError if it has none); quantities: list of Shown; span: (from, to) [s].
+    runs: list of Run, the first with modes (InputError if it has none); quantities: list of Shown; span: (from, to)
+    [s].
     """
     results = runs[0].results
     histories = read_mode_histories(results)

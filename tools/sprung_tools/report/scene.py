@@ -78,7 +78,8 @@ def pack_vehicle(results, bodies, wheels):
 
 
 def pack_road(results, most=20000):
-    """The road as (x, height), thinned like the histories, and how distance along it is counted; None without a road."""
+    """The road as (x, height), thinned like the histories, and how distance along it is counted; None without a
+    road."""
     road = read_road(results)
     if road is None:
         return None

@@ -1,4 +1,5 @@
-"""What the page says in tables: statistics of all samples, what was run, the vehicle's modes, the reduction's checks."""
+"""What the page says in tables: statistics of all samples, what was run, the vehicle's modes, the reduction's
+checks."""
 
 import hashlib
 import os

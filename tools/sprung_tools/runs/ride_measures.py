@@ -37,7 +37,8 @@ class Travel(NamedTuple):
 
 class Contact(NamedTuple):
     """Of a tyre: static and greatest load [N], r.m.s. of the load's departure from the static one [N], time off the
-    ground [s], time without load [s]: also where the tyre still reaches the road, but rises faster than it springs back.
+    ground [s], time without load [s]: also where the tyre still reaches the road, but rises faster than it springs
+    back.
     """
 
     static: float
@@ -128,8 +129,7 @@ def calc_contact(results, name, window):
     contact, _ = read_force_channel(results, name, CONTACT)
     static = calc_static(results, force, inside)
     off_ground, unloaded = (
-        float(np.count_nonzero(bare) * sampling_step(results))
-        for bare in (contact[inside] == 0, force[inside] <= 0.0)
+        float(np.count_nonzero(bare) * sampling_step(results)) for bare in (contact[inside] == 0, force[inside] <= 0.0)
     )
     return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
 
@@ -148,6 +148,4 @@ def find_largest_moment(results, moments, stations, window):
     inside = np.flatnonzero(samples_between(results, *window))
     row, column = np.unravel_index(np.argmax(np.abs(moments[inside])), (inside.size, moments.shape[1]))
     sample = inside[row]
-    return Bending(
-        float(moments[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample])
-    )
+    return Bending(float(moments[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]))

@@ -1,4 +1,5 @@
-"""How the programs in tools/ start: by the name of a command, whose modules may need packages that are not installed."""
+"""How the programs in tools/ start: by the name of a command, whose modules may need packages that are not
+installed."""
 
 import importlib
 import sys
@@ -15,7 +16,8 @@ PACKAGES = {
 
 
 def run_command(name: str) -> None:
-    """Runs main() of sprung_tools/cli/NAME.py, and exits; where a module is missing, with a line on stderr and code 2."""
+    """Runs main() of sprung_tools/cli/NAME.py, and exits; where a module is missing, with a line on stderr and code
+    2."""
     try:
         run_tool(importlib.import_module(f"sprung_tools.cli.{name}").main)
     except ModuleNotFoundError as error:
