@@ -46,6 +46,8 @@ std::string failure_reason() {
   };
   constexpr Known kKnown[] = {
       {"Fletcher32", "its checksum does not fit, the data is damaged"},
+      // All that HDF5 1.14 tells of a filter; the checksum is the only one that our files have.
+      {"filter returned failure during read", "its checksum does not fit, the data is damaged"},
       {"metadata checksum", "the file is damaged (a checksum of its structure does not fit)"},
       {"truncated file", "the file is truncated"},
       {"already open for write", "the file was not closed by the program that wrote it"},
