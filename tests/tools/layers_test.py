@@ -35,7 +35,8 @@ class ThePackage(unittest.TestCase):
         self.assertEqual(set(launchers), modules)
         for name, path in launchers.items():
             imported = [what for _, what in read_imports(path)]
-            self.assertEqual(imported, [f"{PACKAGE}.cli.{name}", f"{PACKAGE}.terminal.program.run_tool"], path)
+            self.assertEqual(imported, [f"{PACKAGE}.terminal.command.run_command"], path)
+            self.assertIn(f'run_command("{name}")', path.read_text(encoding="utf-8"), path)
 
 
 class TheCheck(ToolTestCase):
