@@ -1,20 +1,21 @@
 """Prints what runs mean for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk),
-suspension
-travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending moment of
-each flexible body.
+suspension travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending
+moment of each flexible body.
 
-Statistics are over the run file's [statistics], or over the span given. Vibration is vertical, in m/s², the dose in
-m/s^1.75; travel is from static balance, compression positive; loads are those of all parallel members together. A tyre
-is without load also where it reaches the road but rises faster than it springs back. A moment is positive where it
-stretches the side of -y. With --superelements the bending moment of bodies that a run took as rigid is found from the
-forces on them."""
+The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose in
+m/s^1.75. Travel is from static balance, compression is positive. Loads are those of all parallel members together. A
+tyre is also without load where it reaches the road but rises faster than it springs back. A moment is positive where it
+stretches the side of -y. With --superelements the tool also computes the bending moment of bodies that a run took as
+rigid, from the forces on them."""
 
 import os
+from collections.abc import Iterator, Sequence
 
-from sprung_tools.files.hdf5_file import text_of
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
-from sprung_tools.runs.labelled_runs import open_runs
+from sprung_tools.runs.labelled_runs import Run, open_runs
 from sprung_tools.runs.ride_measures import (
+    Bending,
     calc_bending,
     calc_comfort,
     calc_contact,
@@ -23,6 +24,7 @@ from sprung_tools.runs.ride_measures import (
     find_largest_moment,
     read_window,
 )
+from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
@@ -33,10 +35,9 @@ CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "grea
 BENDING = ("body", "run", "largest moment kN m", "at x m", "at s")
 
 
-def find_points(runs, wanted):
-    """The points to judge: those asked for, or every point called seat and its body's centre of mass, or all bodies'.
-
-    Returns quantities' folders such as `points/chassis.seat`. InputError for a point that a file does not hold.
+def find_points(runs: Sequence[Run], wanted: Sequence[str]) -> list[str]:
+    """The points to judge: those asked for; without any, every point called seat and the centre of mass of its body;
+    without seats, the centres of mass of all bodies. Returns groups such as `points/chassis.seat`.
     """
     results = runs[0].results
     if not wanted:
@@ -51,12 +52,14 @@ def find_points(runs, wanted):
     return points
 
 
-def point_name(folder):
+def point_name(folder: str) -> str:
+    """The name of a point in the tables: `points/chassis.seat` → `chassis.seat`."""
     group, name, *_ = folder.split("/")
     return name if group == "points" else f"{name}.center_of_mass"
 
 
-def make_comfort_rows(runs, points, windows):
+def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of vibration."""
     for point in points:
         for run, window in zip(runs, windows):
             one = calc_comfort(run.results, point, window)
@@ -64,7 +67,8 @@ def make_comfort_rows(runs, points, windows):
             yield (point_name(point), run.label, *(f"{value:.4g}" for value in numbers))
 
 
-def make_travel_rows(runs, windows):
+def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of suspensions."""
     for name in find_forces(runs[0].results, "spring"):
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
@@ -74,7 +78,8 @@ def make_travel_rows(runs, windows):
             yield (name, run.label, compression, share, rebound, *hits)
 
 
-def make_contact_rows(runs, windows):
+def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of tyres."""
     for name in find_forces(runs[0].results, "wheel"):
         for run, window in zip(runs, windows):
             one = calc_contact(run.results, name, window)
@@ -85,42 +90,42 @@ def make_contact_rows(runs, windows):
             )  # fmt: skip
 
 
-def find_bending(results, body, window, superelements):
-    """A body's largest moment as calc_bending(); of a rigid one if its superelement is to be had, else None."""
+def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Bending | None:
+    """A body's largest moment; of a rigid body only if the folder of its superelement is given, else None."""
     found = calc_bending(results, body, window)
-    if found is not None or superelements is None or "model/bodies" not in results.file:
+    name = results.superelement(body)
+    if found is not None or superelements is None or not name:
         return found
-    name = text_of(results.file[f"model/bodies/{body}"].attrs.get("superelement", ""))
-    if not name:
-        return None
     moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
     return find_largest_moment(results, *moments, window)
 
 
-def make_bending_rows(runs, windows, superelements):
+def make_bending_rows(
+    runs: Sequence[Run], windows: Sequence[Span], superelements: str | None
+) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of bending moments."""
     for body in runs[0].results.names("bodies"):
         for run, window in zip(runs, windows):
             found = find_bending(run.results, body, window, superelements)
             if found:
-                yield (
-                    body,
-                    run.label,
-                    f"{1e-3 * found.moment:.4g}",
-                    f"{found.station:.3f}",
-                    f"{found.time:.3f}",
-                )
+                yield body, run.label, f"{1e-3 * found.moment:.4g}", f"{found.station:.3f}", f"{found.time:.3f}"
 
 
-def main():
+def main() -> int:
     parser = make_parser(__doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat")
     parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the tables")
     parser.add_argument(
         "--points", nargs="+", metavar="BODY.POINT", default=(),
-        help="whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their bodies)",
+        help="points whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their "
+        "bodies)",
     )  # fmt: skip
     parser.add_argument("--from", dest="start", type=float, metavar="S", help="judge from this time, s")
     parser.add_argument("--to", dest="end", type=float, metavar="S", help="judge up to this time, s")
-    parser.add_argument("--superelements", metavar="FOLDER", help="for the moments of bodies taken as rigid")
+    parser.add_argument(
+        "--superelements",
+        metavar="FOLDER",
+        help="folder of the superelement files, for the moments of bodies taken as rigid",
+    )
     arguments = parser.parse_args()
     runs = open_runs(arguments.runs)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
@@ -133,8 +138,8 @@ def main():
     spans = ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, windows))
     text = [f"statistics over: {spans}"]
     for headings, rows in tables:
-        rows = list(rows)
-        if rows:
-            text.append(format_table(headings, rows))
+        cells = list(rows)
+        if cells:
+            text.append(format_table(headings, cells))
     print("\n\n".join(text))
     return 0

@@ -1,44 +1,46 @@
-"""The bending moment in a body that a run took as rigid: from the forces on it and its own inertia, by its
-superelement.
+"""The bending moment in a body that a run took as rigid, from the forces on it, its own inertia and its superelement.
 
-With the deformation left out of the motion, the modal equations (bodies, eqs. 3–5) become a statics
-problem, the loads being forces F and torques T on the points and d'Alembert's forces of the rigid motion:
+Without the deformation in the motion, the modal equations (bodies, eqs. 3–5) become a statics problem. Its loads are
+the forces F and torques T on the points and d'Alembert's forces of the rigid motion:
 
     K η = Σ (Φᵀ Aᵀ F + φᵀ T) + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                  (1)
 
-Φ and φ are displacement and rotation of a point by the modes, T is the torque on it. What joints and force elements do
-to each of their points stands in the results file.
-
-All modes of the superelement take part, so η is the finite element solution.
+Φ and φ are the displacement and the rotation of a point by the modes. The results file holds the forces and torques of
+joints and force elements on each of their points. (1) takes all modes of the superelement, so η is the finite element
+solution.
 """
 
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
-from sprung_tools.model.resolved_model import read_elements, read_gravity, read_point
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.resolved_model import Point, read_elements, read_gravity, read_point
 
-MOMENTS = (2, 5)  # of the resultants N, Q, M at both ends of an element
+MOMENTS = (2, 5)  # the places of M among the resultants N, Q, M at both ends of an element
 
 
 class Superelement(NamedTuple):
-    """What (1) needs of a file (reduce/superelement/superelement.md): n modes, N nodes, E elements."""
+    """The part of a superelement file (reduce/superelement/superelement.md) that (1) needs: n modes, N nodes, E
+    elements."""
 
     path: str
     content_hash: str
-    stiffness: np.ndarray  # n×n, 1/s²
-    resultants: np.ndarray  # E×6×n
-    shape: np.ndarray  # N×3×n
-    positions: np.ndarray  # N×2, m
-    elements: np.ndarray  # E×2, nodes
-    P: np.ndarray  # 2×n
-    c: np.ndarray  # n
-    d: np.ndarray  # n
+    stiffness: Floats  # n×n, 1/s²
+    resultants: Floats  # E×6×n
+    shape: Floats  # N×3×n
+    positions: Floats  # N×2, m
+    elements: Integers  # E×2, nodes
+    P: Floats  # 2×n
+    c: Floats  # n
+    d: Floats  # n
 
 
-def read_superelement(path):
+def read_superelement(path: str | Path) -> Superelement:
     """Reads a superelement file for (1). InputError if it cannot be used."""
     with open_hdf5(str(path), SUPERELEMENT) as file:
         return Superelement(
@@ -55,9 +57,9 @@ def read_superelement(path):
         )
 
 
-def check_same(results, body, superelement):
-    """InputError if a superelement is not the one that a body had in its run."""
-    name = text_of(results.file[f"model/bodies/{body}"].attrs.get("superelement", ""))
+def check_same(results: ResultsFile, body: str, superelement: Superelement) -> None:
+    """Throws InputError if a superelement is not the one that a body had in its run."""
+    name = results.superelement(body)
     kept = results.file.get(f"model/superelements/{name}") if name else None
     if kept is None or text_of(kept.attrs.get("content_hash", "")) != superelement.content_hash:
         raise InputError(
@@ -66,10 +68,9 @@ def check_same(results, body, superelement):
         )
 
 
-def calc_point_shape(point, superelement):
-    """Displacement and rotation of a point by each mode [3×n]: those of its node, about which an offset turns. A
-    point of
-    the body frame has none."""
+def calc_point_shape(point: Point, superelement: Superelement) -> Floats:
+    """The displacement and rotation of a point by each mode [3×n]: those of its node, with which an offset turns; 0 for
+    a point that moves with the body frame."""
     if point.node < 0:
         return np.zeros((3, superelement.stiffness.shape[0]))
     shape = superelement.shape[point.node].copy()
@@ -78,17 +79,17 @@ def calc_point_shape(point, superelement):
     return shape
 
 
-def turn_into_body(vectors, angle):
+def turn_into_body(vectors: Floats, angle: Floats) -> Floats:
     """World vectors [m×2] in the axes of a body that is turned by angle [m]: Aᵀ v."""
     cos, sin = np.cos(angle), np.sin(angle)
     return np.stack([cos * vectors[:, 0] + sin * vectors[:, 1], cos * vectors[:, 1] - sin * vectors[:, 0]], axis=1)
 
 
-def collect_loads(results, body):
-    """What acts on a body's points: a list of (point, [m×3] force x, y and torque, world axes)."""
-    loads = []
+def collect_loads(results: ResultsFile, body: str) -> list[tuple[Point, Floats]]:
+    """The loads on a body's points: (point, [m×3] force x, y and torque, world axes)."""
+    loads: list[tuple[Point, Floats]] = []
 
-    def add(name, dataset):
+    def add(name: str, dataset: str) -> None:
         point = read_point(results, name)
         if point.body == body:
             loads.append((point, read_numbers(results.file, dataset)[0]))
@@ -102,9 +103,9 @@ def collect_loads(results, body):
     return loads
 
 
-def calc_rigid_moments(results, body, superelement):
-    """Bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
-    layout of /recovery: both ends of each element. InputError if the superelement is another than the run's.
+def calc_rigid_moments(results: ResultsFile, body: str, superelement: Superelement) -> tuple[Floats, Floats]:
+    """The bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
+    layout of /recovery: both ends of each element. InputError if the superelement is not the run's.
     """
     check_same(results, body, superelement)
     position, _ = read_numbers(results.file, f"bodies/{body}/position")

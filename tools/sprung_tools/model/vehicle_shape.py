@@ -1,42 +1,48 @@
 """How a vehicle looks and moves, from its results file alone: what the animation and ParaView draw.
 
 A body is drawn by nodes and straight lines in its body frame. A body with a superelement has the superelement's nodes
-and elements, and its named points away from nodes hang on their node; a rigid body has its named points, joined to its
-origin. Nodes move with the body frame and the modes:
+and elements; a named point away from all nodes is joined to the node with which it moves. A rigid body has its named
+points, joined to its origin. Nodes move with the body frame and the modes:
 
-    r = R + A(θ) (u₀ + s Φη),   s the magnification of the deflection, 1 for where they are     (bodies, eq. 1)
+    r = R + A(θ) (u₀ + s Φη),   s is the magnification of the deflection, 1 for none            (bodies, eq. 1)
 """
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers, text_of
-from sprung_tools.model.resolved_model import GROUND, read_elements, read_points
+from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.resolved_model import GROUND, Point, read_elements, read_points
 
-HANGS_ON = 1e-6  # of the body's extent: a point nearer to its node than this is that node
+Samples = Integers | Sequence[int]  # indices
+End = tuple[str, int] | tuple[None, tuple[float, float]]  # body and node; None and (x, y) on the ground
+
+SAME_PLACE = 1e-6  # share of the body's extent within which a point coincides with its node
 UNDRAWN = ("center_of_mass",)
-LINKS = {"spring": "spring", "rod": "rod", "pin": "joint"}  # drawings between two points: kinds of links
+LINKS = {"spring": "spring", "rod": "rod", "pin": "joint"}  # drawing of an element between two points → kind of link
 
 
 class DrawnBody(NamedTuple):
-    """N nodes, L lines, n modes of the run (0: rigid)."""
+    """How a body is drawn: N nodes, L lines, n modes of the run (0: rigid)."""
 
     name: str
-    places: np.ndarray  # [N×2] m, undeformed, body frame
-    lines: np.ndarray  # [L×2] 0-based nodes; the superelement's elements come first
-    shapes: np.ndarray  # [N×2×n] m per unit amplitude
-    points: dict  # name of a point without its body → node
-    num_elements: int  # of the superelement, 0 without one
+    places: Floats  # [N×2] m, undeformed, body frame
+    lines: Integers  # [L×2] 0-based nodes; the superelement's elements come first
+    shapes: Floats  # [N×2×n] m per unit amplitude
+    points: dict[str, int]  # name of a point without its body → node
+    num_elements: int  # of the superelement; 0 without one
 
 
 class Motion(NamedTuple):
-    """Of k samples and N nodes, world axes."""
+    """The motion of N nodes in k samples, world axes."""
 
-    position: np.ndarray  # [k×N×2] m, with the deflection magnified
-    velocity: np.ndarray  # [k×N×2] m/s
-    acceleration: np.ndarray  # [k×N×2] m/s²
+    position: Floats  # [k×N×2] m, with the deflection magnified
+    velocity: Floats  # [k×N×2] m/s
+    acceleration: Floats  # [k×N×2] m/s²
 
 
 class Wheel(NamedTuple):
@@ -49,33 +55,33 @@ class Wheel(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What is drawn between two points: a spring-damper, a rod that keeps their distance, or a joint, whose place is
-    that of its first point."""
+    """What is drawn between two points: a spring-damper, a rod that keeps their distance, or a joint, which is drawn at
+    its first point."""
 
     name: str
     kind: str  # spring, rod, joint
-    ends: tuple  # two (body, node), or (None, (x, y)) on the ground
+    ends: tuple[End, End]
 
 
-def read_bodies(results):
-    """All bodies of a run, in the order of their names. InputError if there is none."""
+def read_bodies(results: ResultsFile) -> list[DrawnBody]:
+    """Reads all bodies of a run, in the order of their names. InputError if there is none."""
     names = results.names("model/bodies")
     if not names:
         raise InputError(f"{results.path}: error: no bodies in 'model/bodies'")
     return [read_body(results, name) for name in names]
 
 
-def read_body(results, name):
-    group = results.file[f"model/bodies/{name}"]
+def read_body(results: ResultsFile, name: str) -> DrawnBody:
+    """Reads one body."""
     points = {point: one for point, one in read_points(results, name).items() if point not in UNDRAWN}
-    superelement = text_of(group.attrs.get("superelement", ""))
+    superelement = results.superelement(name)
     if not superelement:
         return join_to_origin(name, {point: one.position for point, one in points.items()})
-    return hang_on_nodes(results, name, superelement, points)
+    return join_to_nodes(results, name, superelement, points)
 
 
-def join_to_origin(name, points):
-    """A rigid body: a line from its origin to each of its points."""
+def join_to_origin(name: str, points: Mapping[str, Floats]) -> DrawnBody:
+    """A rigid body: lines from its origin to its points."""
     others = {point: place for point, place in points.items() if np.any(place != 0.0)}
     places = np.array([(0.0, 0.0), *others.values()])
     lines = np.array([(0, node) for node in range(1, len(places))], dtype=int).reshape(-1, 2)
@@ -83,20 +89,21 @@ def join_to_origin(name, points):
     return DrawnBody(name, places, lines, np.zeros((len(places), 2, 0)), numbers, 0)
 
 
-def hang_on_nodes(results, name, superelement, points):
-    """A body of a superelement: its frame, and the points away from nodes, each joined to the node it moves with."""
+def join_to_nodes(results: ResultsFile, name: str, superelement: str, points: Mapping[str, Point]) -> DrawnBody:
+    """A body with a superelement: its elements, and lines to the points away from all nodes."""
     where = f"model/superelements/{superelement}"
     places, _ = read_numbers(results.file, f"{where}/node_positions")
     elements = read_numbers(results.file, f"{where}/elements")[0].astype(int)
-    chosen = np.zeros(0, dtype=int)
-    if results.num_modes(name) > 0:
-        chosen = read_numbers(results.file, f"bodies/{name}/modal/mode_number")[0].astype(int) - 1
+    chosen = results.mode_numbers(name) - 1
     shapes = read_numbers(results.file, f"{where}/shapes")[0][:, :, chosen]
     extent = np.linalg.norm(np.ptp(places, axis=0))
-    numbers, new_places, new_lines, new_shapes = {}, [], [], []
+    numbers: dict[str, int] = {}
+    new_places: list[Floats] = []
+    new_lines: list[tuple[int, int]] = []
+    new_shapes: list[Floats] = []
     for point, one in points.items():
         node = one.node if one.node >= 0 else int(np.argmin(np.linalg.norm(places - one.position, axis=1)))
-        if np.linalg.norm(one.position - places[node]) <= HANGS_ON * extent:
+        if np.linalg.norm(one.position - places[node]) <= SAME_PLACE * extent:
             numbers[point] = node
             continue
         numbers[point] = len(places) + len(new_places)
@@ -114,12 +121,13 @@ def hang_on_nodes(results, name, superelement, points):
     )
 
 
-def calc_motion(results, body, samples, magnification=1.0):
-    """Where a body's nodes are in some samples (indices or slice), and how they move there."""
+def calc_motion(results: ResultsFile, body: DrawnBody, samples: Samples, magnification: float = 1.0) -> Motion:
+    """The positions, velocities and accelerations of a body's nodes in some samples."""
     state = {}
     for what in ("position", "velocity", "acceleration"):
         state[what] = read_numbers(results.file, f"bodies/{body.name}/{what}")[0][samples]
-    eta = {what: np.zeros((len(state["position"]), 0)) for what in ("amplitude", "rate", "acceleration")}
+    rigid = np.zeros((len(state["position"]), 0))
+    eta: dict[str, Floats] = {what: rigid for what in ("amplitude", "rate", "acceleration")}
     if body.shapes.shape[2] > 0:
         for what in eta:
             eta[what] = read_numbers(results.file, f"bodies/{body.name}/modal/{what}")[0][samples]
@@ -127,67 +135,67 @@ def calc_motion(results, body, samples, magnification=1.0):
     angle = state["position"][:, 2, None]
     omega, alpha = state["velocity"][:, 2, None, None], state["acceleration"][:, 2, None, None]
 
-    def to_world(local):
+    def to_world(local: Floats) -> Floats:
         c, s = np.cos(angle), np.sin(angle)
-        return np.stack(
-            [c * local[..., 0] - s * local[..., 1], s * local[..., 0] + c * local[..., 1]], axis=-1
-        )
+        return np.stack([c * local[..., 0] - s * local[..., 1], s * local[..., 0] + c * local[..., 1]], axis=-1)
 
-    def turned(vector):
+    def cross_z(vector: Floats) -> Floats:
+        """e_z × vector."""
         return np.stack([-vector[..., 1], vector[..., 0]], axis=-1)
 
     arm = to_world(body.places + bend)
     bending = to_world(rate)
     return Motion(
         state["position"][:, None, :2] + to_world(body.places + magnification * bend),
-        state["velocity"][:, None, :2] + omega * turned(arm) + bending,
-        state["acceleration"][:, None, :2] + alpha * turned(arm) - omega**2 * arm + 2.0 * omega * turned(bending)
+        state["velocity"][:, None, :2] + omega * cross_z(arm) + bending,
+        state["acceleration"][:, None, :2] + alpha * cross_z(arm) - omega**2 * arm + 2.0 * omega * cross_z(bending)
         + to_world(change),
     )  # fmt: skip
 
 
-def read_wheels(results, bodies):
-    """The tyres."""
+def read_wheels(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[Wheel]:
+    """Reads the tyres."""
     wheels = []
     for force in read_elements(results, "forces").values():
         if force.drawing == "wheel":
             (centre,) = force.points.values()
-            place = find_point(centre, bodies, {})
-            if place is not None:
-                wheels.append(Wheel(force.name, *place, force.parameters["radius"]))
+            body, node = find_point(centre, bodies, {}) or (None, None)
+            if isinstance(body, str) and isinstance(node, int):
+                wheels.append(Wheel(force.name, body, node, force.parameters["radius"]))
     return wheels
 
 
-def read_links(results, bodies):
-    """What is drawn between two points: springs, rods and joints."""
+def read_links(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[Link]:
+    """Reads what is drawn between two points: springs, rods and joints."""
     ground = read_points(results, GROUND)
     links = []
     for group in ("forces", "joints"):
         for element in read_elements(results, group).values():
-            ends = tuple(find_point(point, bodies, ground) for point in element.points.values())
-            if element.drawing in LINKS and None not in ends:
-                links.append(Link(element.name, LINKS[element.drawing], ends))
+            if element.drawing not in LINKS:
+                continue
+            first, second = (find_point(point, bodies, ground) for point in element.points.values())
+            if first is not None and second is not None:
+                links.append(Link(element.name, LINKS[element.drawing], (first, second)))
     return links
 
 
-def find_point(reference, bodies, ground):
-    """`body.point` → (body, node); on the ground (None, (x, y)); None for a point that is not drawn."""
+def find_point(reference: str, bodies: Sequence[DrawnBody], ground: Mapping[str, Point]) -> End | None:
+    """Finds the point that `body.point` refers to; None for a point that is not drawn."""
     body_name, _, point = reference.partition(".")
     if body_name == GROUND and point in ground:
-        return None, tuple(map(float, ground[point].position))
+        x, y = ground[point].position
+        return None, (float(x), float(y))
     for body in bodies:
         if body.name == body_name and point in body.points:
             return body.name, body.points[point]
     return None
 
 
-def read_road(results):
-    """The road's course [k], [k] m in world axes, ascending in x; None if the file has none."""
+def read_road(results: ResultsFile) -> tuple[Floats, Floats] | None:
+    """Reads the road as x [k], height [k] m in world axes, ascending in x; None if the file has none."""
     if "model/road" not in results.file:
         return None
-    distance, height = (
-        read_numbers(results.file, f"model/road/{name}")[0] for name in ("distance", "height")
-    )
+    distance, height = (read_numbers(results.file, f"model/road/{name}")[0] for name in ("distance", "height"))
     origin, direction = (float(read_attribute(results.file, "model/road", name)) for name in ("origin", "direction"))
     x = (distance + origin) / direction
     order = np.argsort(x, kind="stable")

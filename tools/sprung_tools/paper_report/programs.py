@@ -12,13 +12,7 @@ from typing import NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT
-from sprung_tools.paper_report.paper_runs import (
-    DESIGNS,
-    TRUCK,
-    PaperRun,
-    count_chassis_modes,
-    name_start,
-)
+from sprung_tools.paper_report.paper_runs import DESIGNS, TRUCK, PaperRun, count_chassis_modes, name_start
 
 Printer = Callable[[str], None]
 

@@ -1,30 +1,35 @@
-"""A picture of which modes took part over time, and of what those left out would have done, above what the run did."""
+"""A picture of which modes took part over time, what those left out would have contributed, and what the run did."""
+
+from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import has_resolved_model, read_settings
 from sprung_tools.plots.history_panel import draw_panel
 from sprung_tools.plots.picture_file import COLOURS, make_figure
-from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.mode_history import find_change_times, find_worst_neglect, read_mode_histories, read_neglected
+from sprung_tools.runs.labelled_runs import Run, Shown, samples_between
+from sprung_tools.runs.mode_history import (
+    ModeHistory,
+    find_change_times,
+    find_worst_neglect,
+    read_mode_histories,
+    read_neglected,
+)
 from sprung_tools.runs.run_caption import make_caption
+from sprung_tools.signals.spans import OptionalSpan, find_spans
 
 INDICATOR_HEIGHT, QUANTITY_HEIGHT = 1.9, 2.8  # inches
 LEAST_HEIGHT, HEIGHT_PER_MODE, MOST_HEIGHT = 1.3, 0.12, 4.2  # inches, of a panel with modes
-LABELLED_FREQUENCIES = 9  # at most, beside the modes of a panel
-LEAST_PERCENT = 1e-3  # of the panel with shares
-NEGLECT = {"deflection": COLOURS[0], "acceleration": COLOURS[2]}  # columns of `neglected`
+LABELLED_FREQUENCIES = 9  # at most beside the modes of a panel
+LEAST_PERCENT = 1e-3  # where the panel of shares begins
+NEGLECT = {"deflection": COLOURS[0], "acceleration": COLOURS[2]}  # the first columns of `neglected`
 
 
-def find_spans(is_active, time):
-    """Spans (start, length) [s] in which a mode takes part [n], each sample standing for the time up to the next."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], is_active.astype(int), [0]))))
-    ends = np.append(time, time[-1])
-    return [(ends[first], ends[last] - ends[first]) for first, last in edges.reshape(-1, 2)]
-
-
-def describe_activity(results, history):
-    """What stands above a body's modes: of the whole run, also where only a part of it is drawn."""
+def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
+    """The title above a body's modes. It is about the whole run, even if only a part of the run is drawn."""
     number = history.is_active.shape[1]
     if np.all(history.is_active):
         return f"{history.body}: all {number} modes of the run take part throughout"
@@ -32,16 +37,17 @@ def describe_activity(results, history):
     changes = find_change_times(results).size
     return (
         f"{history.body}: {np.mean(counts):.1f} of {number} modes take part on the run's average, "
-        f"{np.max(counts)} at most; "
-        f"changes at {changes} instants"
+        f"{np.max(counts)} at most; changes at {changes} instants"
     )
 
 
-def draw_modes(axes, results, history):
-    """A bar for each mode while it takes part; clamped frequencies at the right."""
+def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
+    """Draws a bar for each mode while it takes part; its clamped frequency is at the right."""
     rows = np.arange(1, history.number.size + 1)
-    for row, is_active in zip(rows, history.is_active.T):
-        axes.broken_barh(find_spans(is_active, results.time), (row - 0.36, 0.72), color=COLOURS[1], linewidth=0.0)
+    for row in rows:
+        spans = find_spans(history.is_active[:, row - 1], results.time)
+        bars = [(start, end - start) for start, end in spans]
+        axes.broken_barh(bars, (row - 0.36, 0.72), color=COLOURS[1], linewidth=0.0)
     axes.set_ylim(0.3, rows[-1] + 0.7)
     step = max(1, -(-rows.size // LABELLED_FREQUENCIES))
     places = rows[::step]
@@ -58,10 +64,9 @@ def draw_modes(axes, results, history):
     right.spines["top"].set_visible(False)
 
 
-def draw_neglected(axes, results):
-    """What the mode left out that misses most would have reached; the share at which it joins, in a run whose modes
-    join and leave."""
-    found = np.max([values[:, :2] for values in read_neglected(results).values()], axis=0)
+def draw_neglected(axes: Axes, results: ResultsFile) -> None:
+    """Draws the largest share of a mode left out, and the share at which it joins if modes join and leave."""
+    found = np.max(np.array([values[:, :2] for values in read_neglected(results).values()]), axis=0)
     for column, (name, colour) in enumerate(NEGLECT.items()):
         percent = 100.0 * found[:, column]
         worst = find_worst_neglect(results, column)
@@ -80,11 +85,12 @@ def draw_neglected(axes, results):
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.0, frameon=False, fontsize=9.5)
 
 
-def make_mode_history_figure(runs, quantities, span, title=""):
-    """Modes of the first run over time, shares left out, and quantities of all runs.
+def make_mode_history_figure(
+    runs: Sequence[Run], quantities: Sequence[Shown], span: OptionalSpan, title: str = ""
+) -> Figure:
+    """Draws the first run's modes over time, the shares of those left out, and quantities of all runs.
 
-    runs: list of Run, the first with modes (InputError if it has none); quantities: list of Shown; span: (from, to)
-    [s].
+    InputError if the first run has no modes.
     """
     results = runs[0].results
     histories = read_mode_histories(results)

@@ -1,40 +1,53 @@
-"""The histories that the page offers, their spectra and the amplitudes of modes."""
+"""The histories that the page shows, their spectra, and the amplitudes of modes."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_attribute, read_numbers
-from sprung_tools.model.force_channels import DEFLECTION, EXTENT, GIVEN, TORQUE, describe_load, list_force_channels
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.force_channels import (
+    DEFLECTION,
+    EXTENT,
+    GIVEN,
+    TORQUE,
+    ForceChannel,
+    describe_load,
+    list_force_channels,
+)
 from sprung_tools.model.resolved_model import read_elements
-from sprung_tools.report.packing import encode, find_kept
+from sprung_tools.model.vehicle_shape import DrawnBody
+from sprung_tools.report.packing import Packed, encode, find_kept
+from sprung_tools.runs.labelled_runs import Shown
 from sprung_tools.signals.spectra import calc_power_spectrum
 
-MOST_MODES = 12  # of a body whose amplitudes are drawn: the largest
-SEGMENT = 4.0  # s, of the averaged spectra at most: lines 0.25 Hz apart
-HIGHEST_FREQUENCY = 200.0  # Hz, of the spectra drawn
+MOST_MODES = 12  # modes of a body whose amplitudes are drawn: the largest ones
+SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart
+HIGHEST_FREQUENCY = 200.0  # Hz drawn
 
 
 class Channel(NamedTuple):
-    """A history: its group in the page's menus, its name there, values [n] and their unit."""
+    """A history: its group and its name in the page's menus, its values [n] and their unit."""
 
     group: str
     name: str
-    values: np.ndarray
+    values: Floats
     unit: str
 
 
-def list_monitored(results):
-    """The points that the run's summary is about; all bodies' origins if it is about none."""
+def list_monitored(results: ResultsFile) -> list[str]:
+    """The points in the run's summary; the origins of all bodies if it has none."""
     points = results.names("summary/points")
     return points or [f"{body}.origin" for body in results.names("bodies")]
 
 
-def list_channels(results, bodies, extra):
-    """All histories that the page offers. extra: list of Shown."""
+def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequence[Shown]) -> list[Channel]:
+    """All histories that the page shows. extra: the quantities asked for."""
     channels = []
 
-    def add(group, name, quantity, unless_zero=False):
+    def add(group: str, name: str, quantity: str, unless_zero: bool = False) -> None:
         if results.has(quantity):
             values, unit = results.series(quantity)
             if unless_zero and not np.any(values):
@@ -48,15 +61,15 @@ def list_channels(results, bodies, extra):
         add("Vertical motion", f"{point}, {'displacement' if balanced else 'position'}",
             f"points/{point}/{'displacement' if balanced else 'position'}.y")  # fmt: skip
         add("Vertical motion", f"{point}, acceleration", f"points/{point}/acceleration.y")
-    for body in bodies:
-        for point in find_most_bent(results, body):
+    for drawn in bodies:
+        for point in find_most_bent(results, drawn):
             add("Deflection", f"{point}, in the body frame", f"points/{point}/deflection.y")
-        channels.extend(calc_moment_envelope(results, body))
+        channels.extend(calc_moment_envelope(results, drawn))
     forces = read_elements(results, "forces")
     for force in results.names("forces"):
         for channel in list_force_channels(results, force):
             name = describe_history(channel, on_road=forces[force].on_road)
-            if name:  # an applied force may have one of its components alone
+            if name:  # an applied force may have only one of its components
                 unless_zero = channel.role in (GIVEN, TORQUE)
                 add("Forces", f"{force}, {name}", channel.quantity, unless_zero=unless_zero)
     for body in find_heavy(results):
@@ -67,8 +80,8 @@ def list_channels(results, bodies, extra):
     return channels
 
 
-def describe_history(channel, on_road):
-    """What the page calls a channel of a force element; "" for one that it does not show."""
+def describe_history(channel: ForceChannel, on_road: bool) -> str:
+    """The page's name for a channel of a force element; empty for a channel that the page does not show."""
     if channel.role == DEFLECTION:
         return "penetration" if on_road else "compression"
     if channel.role == EXTENT and channel.unit == "rad":
@@ -76,14 +89,14 @@ def describe_history(channel, on_road):
     return describe_load(channel)
 
 
-def find_heavy(results):
-    """The heaviest body's name, in a list."""
+def find_heavy(results: ResultsFile) -> list[str]:
+    """The heaviest body's name in a list; an empty list if there is no body."""
     bodies = results.names("model/bodies")
     return sorted(bodies, key=lambda name: -float(read_attribute(results.file, f"model/bodies/{name}", "mass")))[:1]
 
 
-def find_most_bent(results, body):
-    """The two named points of a body whose vertical deflection varies most; none on a rigid body."""
+def find_most_bent(results: ResultsFile, body: DrawnBody) -> list[str]:
+    """The two named points of a body whose vertical deflection varies most; none of a rigid body."""
     found = []
     for point in body.points:
         quantity = f"points/{body.name}.{point}/deflection.y"
@@ -92,7 +105,7 @@ def find_most_bent(results, body):
     return [point for size, point in sorted(found)[:2] if size < 0.0]
 
 
-def calc_moment_envelope(results, body):
+def calc_moment_envelope(results: ResultsFile, body: DrawnBody) -> list[Channel]:
     """The largest bending moment along a body at each time, and the largest axial force."""
     channels = []
     for what, name in (("moment", "largest bending moment along it"), ("axial", "largest axial force along it")):
@@ -103,7 +116,8 @@ def calc_moment_envelope(results, body):
     return channels
 
 
-def pack_channel(channel, time, most):
+def pack_channel(channel: Channel, time: Floats, most: int) -> Packed:
+    """A history for the page, thinned to `most` samples."""
     kept = find_kept(channel.values, most)
     return {
         "group": channel.group, "name": channel.name, "unit": channel.unit, "t": encode(time[kept]),
@@ -111,8 +125,8 @@ def pack_channel(channel, time, most):
     }  # fmt: skip
 
 
-def calc_spectra(results):
-    """Power spectral densities of the monitored points' vertical accelerations; drawn up to HIGHEST_FREQUENCY."""
+def calc_spectra(results: ResultsFile) -> list[Packed]:
+    """The power spectral densities of the monitored points' vertical accelerations, up to HIGHEST_FREQUENCY."""
     step = float(np.median(np.diff(results.time)))
     even = np.arange(results.time[0], results.time[-1], step)
     spectra = []
@@ -129,15 +143,15 @@ def calc_spectra(results):
     return spectra
 
 
-def pack_modes(results, bodies, most):
-    """For each flexible body its largest modes' contributions, as the largest displacement along the body [m], and
-    when they take part."""
+def pack_modes(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> list[Packed]:
+    """For each flexible body the contributions of its largest modes, and when these take part. A contribution is the
+    largest displacement along the body [m]."""
     packed = []
     for body in bodies:
         if body.shapes.shape[2] == 0:
             continue
         where = f"bodies/{body.name}/modal"
-        numbers = read_numbers(results.file, f"{where}/mode_number")[0].astype(int)
+        numbers = results.mode_numbers(body.name)
         amplitude, _ = read_numbers(results.file, f"{where}/amplitude")
         active = np.ones_like(amplitude)
         if f"{where}/active" in results.file:

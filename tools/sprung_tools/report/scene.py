@@ -1,24 +1,29 @@
-"""What the animation is drawn from: how the vehicle looks, where it is at even times, its road."""
+"""The data of the animation: how the vehicle looks, where it is at equally spaced times, and its road."""
+
+from collections.abc import Sequence
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, FORCE, read_force_channel
 from sprung_tools.model.resolved_model import read_direction
-from sprung_tools.model.vehicle_shape import calc_motion, read_links, read_road
+from sprung_tools.model.vehicle_shape import DrawnBody, Wheel, calc_motion, read_links, read_road
 from sprung_tools.report.histories import find_heavy, list_monitored
-from sprung_tools.report.packing import encode, find_kept
+from sprung_tools.report.packing import Packed, encode, find_kept
+from sprung_tools.signals.spans import find_spans
 
 UNMARKED = ("origin", "center_of_mass")  # points that every body has
-MOST_SEEN = 400  # samples that the view of a mechanism is chosen by
+MOST_SEEN = 400  # samples from which the view of a mechanism is chosen
 
 
-def pack_frames(results, bodies, wheels, most):
-    """What the animation is drawn from: each body's place and amplitudes, and each tyre's contact, at even times."""
+def pack_frames(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequence[Wheel], most: int) -> Packed:
+    """Each body's position and amplitudes, and each tyre's contact, at equally spaced times."""
     count = min(results.time.size, most)
     time = np.linspace(results.time[0], results.time[-1], count)
 
-    def at(values):
+    def at(values: Floats) -> str:
         return encode(np.interp(time, results.time, values))
 
     places, amplitudes, tyres = {}, {}, {}
@@ -32,27 +37,21 @@ def pack_frames(results, bodies, wheels, most):
     for wheel in wheels:
         contact, force = (read_force_channel(results, wheel.name, role)[0] for role in (CONTACT, FORCE))
         spans = find_spans(contact < 0.5, results.time)
-        tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans)}
+        tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans.ravel())}
     return {
         "first": float(time[0]), "last": float(time[-1]), "count": count, "places": places,
         "amplitudes": amplitudes, "tyres": tyres,
     }  # fmt: skip
 
 
-def find_spans(holds, time):
-    """When something holds [n]: [from, to, from, to, …], each from its first sample to the sample after its last."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
-    return time[np.minimum(edges, time.size - 1)]
-
-
-def pack_vehicle(results, bodies, wheels):
-    """How the vehicle looks, and the box [m] that it fills: at the start, or without wheels in all the run."""
+def pack_vehicle(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequence[Wheel]) -> Packed:
+    """How the vehicle looks, and the box [m] that it fills: at the start, or throughout the run if it has no wheels."""
     links = read_links(results, bodies)
-    # A vehicle is followed by the view; a mechanism without wheels is seen from where all of its motion is in view.
+    # The view follows a vehicle; of a mechanism without wheels it shows the whole motion.
     samples = [0] if wheels else np.unique(np.linspace(0, results.time.size - 1, MOST_SEEN).astype(int))
     boxes = [calc_motion(results, body, samples).position for body in bodies]
-    corners = [place for box in boxes for place in box.reshape(-1, 2)]
-    corners += [end[1] for link in links for end in link.ends if end[0] is None]
+    on_ground = [end[1] for link in links for end in link.ends if end[0] is None]
+    corners = np.concatenate([*(box.reshape(-1, 2) for box in boxes), np.reshape(on_ground, (-1, 2))])
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     for wheel in wheels:
         centre = boxes[[body.name for body in bodies].index(wheel.body)][0, wheel.node]
@@ -77,9 +76,9 @@ def pack_vehicle(results, bodies, wheels):
     }  # fmt: skip
 
 
-def pack_road(results, most=20000):
-    """The road as (x, height), thinned like the histories, and how distance along it is counted; None without a
-    road."""
+def pack_road(results: ResultsFile, most: int = 20000) -> Packed | None:
+    """The road as (x, height), thinned like the histories, and the direction in which distance is counted; None without
+    a road."""
     road = read_road(results)
     if road is None:
         return None

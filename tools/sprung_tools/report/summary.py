@@ -1,13 +1,16 @@
-"""What the page says in tables: statistics of all samples, what was run, the vehicle's modes, the reduction's
+"""The data of the page's tables: statistics of all samples, what was run, the vehicle's modes, the reduction's
 checks."""
 
 import hashlib
 import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
     DEFLECTION,
@@ -17,17 +20,23 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.resolved_model import read_road_settings, read_settings
+from sprung_tools.report.histories import Channel
+from sprung_tools.report.packing import Packed
+from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
+from sprung_tools.terminal.number_ranges import format_ranges
 
-MOST_FREQUENCIES = 12  # of a superelement
-MOST_ALIKE = 6  # forces of one kind: where there are more, the summary leaves them to "All numbers"
+Statistic = tuple[str, str, str, float]  # what it is of, name, unit, value
+
+MOST_FREQUENCIES = 12  # of a superelement that are shown
+MOST_ALIKE = 6  # forces of one kind in the summary; if there are more, they are only in "All numbers"
 COMPUTATION = {
     "steps": "steps", "evaluations": "evaluations", "switches": "switches located",
     "energy_closure": "energy balance, relative error", "constraint_violation": "joints, largest violation",
 }  # fmt: skip
 
 
-def calc_hash(path):
+def calc_hash(path: str | Path) -> str:
     """SHA-256 of a file."""
     digest = hashlib.sha256()
     with open(path, "rb") as file:
@@ -36,10 +45,10 @@ def calc_hash(path):
     return digest.hexdigest()
 
 
-def calc_statistics(results, channels):
-    """The rows of the summary, of all samples: dicts of what they are of, name, unit and value."""
+def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[Packed]:
+    """The rows of the summary, from all samples."""
     rows = list_point_rows(results)
-    kinds = {force: find_kind(results, force) for force in results.names("forces")}
+    kinds = {force: results.force_kind(force) for force in results.names("forces")}
     many = {force for force, kind in kinds.items() if list(kinds.values()).count(kind) > MOST_ALIKE}
     for force in kinds:
         rows += calc_force_rows(results, force)
@@ -59,14 +68,9 @@ def calc_statistics(results, channels):
     ]
 
 
-def find_kind(results, force):
-    """A force's kind, as the results file has it; empty if it does not say."""
-    return text_of(results.file[f"forces/{force}"].attrs.get("kind", ""))
-
-
-def list_point_rows(results):
-    """(point, quantity, unit, value) of what sprung-dynamics summed up itself."""
-    rows = []
+def list_point_rows(results: ResultsFile) -> list[Statistic]:
+    """The statistics that sprung-dynamics itself computed, as (point, quantity, unit, value)."""
+    rows: list[Statistic] = []
     for point in results.names("summary/points"):
         attributes = results.file[f"summary/points/{point}"].attrs
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
@@ -76,9 +80,10 @@ def list_point_rows(results):
     return rows
 
 
-def calc_force_rows(results, force):
-    """(force, quantity, unit, value): greatest loads by size; of tyres the time off the road, else the travel."""
-    rows = []
+def calc_force_rows(results: ResultsFile, force: str) -> list[Statistic]:
+    """The greatest loads of a force, and its time off the road (tyre) or its travel, as (force, quantity, unit,
+    value)."""
+    rows: list[Statistic] = []
     for channel in list_force_channels(results, force):
         name = describe_load(channel)
         if not name:
@@ -98,8 +103,8 @@ def calc_force_rows(results, force):
     return rows
 
 
-def list_facts(results, has_tyres, sha256):
-    """What was run: (name, text) in order. Road and speed of a mechanism without tyres are passed over."""
+def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple[str, str]]:
+    """What was run, as (name, text) in order. Road and speed of a mechanism without tyres are left out."""
     settings = read_settings(results)
     facts = [("vehicle", results.title)]
     if has_tyres:
@@ -111,8 +116,7 @@ def list_facts(results, has_tyres, sha256):
     flexible = []
     for body in results.names("bodies"):
         if results.num_modes(body):
-            numbers = read_numbers(results.file, f"bodies/{body}/modal/mode_number")[0].astype(int)
-            flexible.append(f"{body}: modes {shorten_numbers(numbers)}")
+            flexible.append(f"{body}: modes {format_ranges(results.mode_numbers(body))}")
     facts.append(("flexible bodies", "; ".join(flexible) or "none"))
     facts.append(("integrator", describe_integrator(settings["integrator"])))
     changed = read_texts(results.file, "model/overrides") if "model/overrides" in results.file else []
@@ -134,19 +138,8 @@ def list_facts(results, has_tyres, sha256):
     return facts
 
 
-def shorten_numbers(numbers):
-    """1, 2, 3, 7 → "1–3, 7"."""
-    parts, first = [], None
-    for number, after in zip(numbers, [*numbers[1:], None]):
-        first = number if first is None else first
-        if after != number + 1:
-            parts.append(f"{first}" if first == number else f"{first}–{number}")
-            first = None
-    return ", ".join(parts)
-
-
-def list_frequencies(results):
-    """The vehicle's modes about its equilibrium: undamped frequency, damping ratio, who takes part."""
+def list_frequencies(results: ResultsFile) -> list[Packed]:
+    """The vehicle's modes about its equilibrium: undamped frequency, damping ratio, participants."""
     if "model/modes/undamped_frequency" not in results.file:
         return []
     frequency, _ = read_numbers(results.file, "model/modes/undamped_frequency")
@@ -159,15 +152,15 @@ def list_frequencies(results):
     ]
 
 
-def read_checks(folder, runs):
-    """The checks that stage one made of each superelement that the runs used, from the files in a folder, if given.
+def read_checks(folder: str | None, runs: Sequence[Run]) -> list[Packed]:
+    """Reads the checks that stage one made of each superelement that the runs used, from the files in a folder, if one
+    is given.
 
-    A file is used only where its content hash is the one that the run names. Returns a list of dicts. InputError if
-    the folder is not there.
+    A file is used only if its content hash is the one that the run names. InputError if the folder is not there.
     """
     if folder and not os.path.isdir(folder):
         raise InputError(f"{folder}: error: no such folder")
-    users = {}
+    users: dict[tuple[str, str], list[str]] = {}
     for run in runs:
         for name in run.results.names("model/superelements"):
             content = text_of(read_attribute(run.results.file, f"model/superelements/{name}", "content_hash"))
@@ -179,8 +172,8 @@ def read_checks(folder, runs):
     ]
 
 
-def read_checks_of(folder, name, content_hash):
-    """What a superelement's file says of its checks; or the reason, as `problem`, why it cannot be shown."""
+def read_checks_of(folder: str | None, name: str, content_hash: str) -> Packed:
+    """The checks in a superelement's file; or as `problem` the reason why they cannot be shown."""
     if not folder:
         return {"problem": "Not shown: give the folder of the superelement files with --superelements."}
     path = os.path.join(folder, f"{name}.h5")
@@ -194,8 +187,8 @@ def read_checks_of(folder, name, content_hash):
         frequencies, _ = read_numbers(file, "modes/frequency")
         names = read_texts(file, "checks/name")
     checks = [
-        {"name": check, "value": value, "tolerance": tolerance}
-        for check, value, tolerance in zip(names, values.tolist(), tolerances.tolist())
+        {"name": check, "value": float(value), "tolerance": float(tolerance)}
+        for check, value, tolerance in zip(names, values, tolerances)
     ]
     return {"checks": checks, "frequencies": frequencies[:MOST_FREQUENCIES].tolist(),
             "more": frequencies.size > MOST_FREQUENCIES}  # fmt: skip

@@ -4,19 +4,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.files.array_types import Flags, Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, DEFLECTION, FORCE, read_force_channel
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
+from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 
-LONGITUDINAL, VERTICAL = 0, 1  # columns of a station's place
+LONGITUDINAL = 0  # the column of x in a station's position
 
 
 class Comfort(NamedTuple):
-    """Of a point's vertical acceleration [m/s²]; dose in m/s^1.75."""
+    """Measures of a point's vertical acceleration [m/s²]; dose: vibration dose value [m/s^1.75]."""
 
     rms: float
     peak: float
@@ -25,8 +28,11 @@ class Comfort(NamedTuple):
 
 
 class Travel(NamedTuple):
-    """Of a suspension: deflections from balance [m], compression positive; whole: balance to the compression stop [m]
-    or None; hits: how often the stop was struck, or None where there is none; stopped: time on it [s]."""
+    """How far a suspension moves: largest deflections from balance [m], compression is positive.
+
+    whole: the way from balance to the compression stop [m], None without a stop; hits: how often the stop was struck,
+    None without a stop; stopped: the time on it [s].
+    """
 
     compression: float
     rebound: float
@@ -36,9 +42,9 @@ class Travel(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """Of a tyre: static and greatest load [N], r.m.s. of the load's departure from the static one [N], time off the
-    ground [s], time without load [s]: also where the tyre still reaches the road, but rises faster than it springs
-    back.
+    """A tyre's contact with the road: static and greatest load [N], r.m.s. of the difference from the static load [N],
+    time off the ground [s], time without load [s]. A tyre is also without load where it still reaches the road but
+    rises faster than it springs back.
     """
 
     static: float
@@ -56,8 +62,8 @@ class Bending(NamedTuple):
     time: float
 
 
-def read_window(results, start=None, end=None):
-    """The span of time that is judged (from, to) [s]: as given, else the statistics window of the run."""
+def read_window(results: ResultsFile, start: float | None = None, end: float | None = None) -> Span:
+    """The span of time (from, to) [s] that is judged: as given, else the statistics window of the run."""
     if start is None or end is None:
         settings = read_settings(results)
         start = settings["statistics_from"] if start is None else start
@@ -65,7 +71,7 @@ def read_window(results, start=None, end=None):
     return float(start), float(end)
 
 
-def sampling_step(results):
+def sampling_step(results: ResultsFile) -> float:
     """The time between samples [s]. InputError if they are not equally spaced (the last one may come early)."""
     steps = np.diff(results.time)
     step = float(np.median(steps))
@@ -74,8 +80,9 @@ def sampling_step(results):
     return step
 
 
-def calc_comfort(results, point, window):
-    """How a point's vertical acceleration feels. point: `points/chassis.seat` or `bodies/chassis/center_of_mass`."""
+def calc_comfort(results: ResultsFile, point: str, window: Span) -> Comfort:
+    """How people feel a point's vertical acceleration. point: `points/chassis.seat` or
+    `bodies/chassis/center_of_mass`."""
     step = sampling_step(results)
     inside = samples_between(results, *window)
     acceleration, _ = results.series(f"{point}/acceleration.y")
@@ -92,13 +99,13 @@ def calc_comfort(results, point, window):
     )
 
 
-def find_forces(results, drawing):
-    """Names of the force elements that are drawn as `spring`, suspensions, or as `wheel`, tyres."""
+def find_forces(results: ResultsFile, drawing: str) -> list[str]:
+    """The names of the force elements that are drawn as `spring` (suspensions) or as `wheel` (tyres)."""
     return [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]
 
 
-def calc_travel(results, name, window):
-    """How far a suspension moves from its balance; samples decide what counts as a hit of the stop."""
+def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
+    """How far a suspension moves from its balance. The stop counts as struck where a sample is beyond it."""
     inside = samples_between(results, *window)
     deflection, _ = read_force_channel(results, name, DEFLECTION)
     static = calc_static(results, deflection, inside)
@@ -115,15 +122,17 @@ def calc_travel(results, name, window):
     )
 
 
-def calc_static(results, values, inside):
-    """A quantity's value in static balance: where the run began if that was a balance, else its mean over the span."""
-    if results.file["model/equilibrium"].attrs.get("is_static_equilibrium", 0) == 1:
+def calc_static(results: ResultsFile, values: Floats, inside: Flags) -> float:
+    """A quantity's value in static balance: its first value if the run starts from balance, else its mean over the
+    span."""
+    if results.is_from_balance:
         return float(values[0])
     return float(np.mean(values[inside]))
 
 
-def calc_contact(results, name, window):
-    """A tyre's loads, all its wheels together, its time off the ground and without load."""
+def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
+    """A tyre's loads, its time off the ground and its time without load; the loads are those of all its wheels
+    together."""
     inside = samples_between(results, *window)
     force, _ = read_force_channel(results, name, FORCE)
     contact, _ = read_force_channel(results, name, CONTACT)
@@ -134,8 +143,8 @@ def calc_contact(results, name, window):
     return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
 
 
-def calc_bending(results, body, window):
-    """A flexible body's largest bending moment; None for a body of which the file holds no moments."""
+def calc_bending(results: ResultsFile, body: str, window: Span) -> Bending | None:
+    """A flexible body's largest bending moment; None if the file holds no moments of the body."""
     if not results.has(f"recovery/{body}/moment"):
         return None
     moments, _ = read_numbers(results.file, f"recovery/{body}/moment")
@@ -143,8 +152,8 @@ def calc_bending(results, body, window):
     return find_largest_moment(results, moments, stations, window)
 
 
-def find_largest_moment(results, moments, stations, window):
-    """Bending from moments [n×stations] and the stations' places [stations×2] in the body frame."""
+def find_largest_moment(results: ResultsFile, moments: Floats, stations: Floats, window: Span) -> Bending:
+    """The largest of the moments [n×stations] N·m. stations: their positions in the body frame [stations×2] m."""
     inside = np.flatnonzero(samples_between(results, *window))
     row, column = np.unravel_index(np.argmax(np.abs(moments[inside])), (inside.size, moments.shape[1]))
     sample = inside[row]

@@ -1,31 +1,29 @@
-"""The small print under a picture: what its runs have in common, so that the picture can be judged alone."""
+"""The caption under a picture: what its runs have in common, so that the picture can be judged alone."""
 
 import math
 import textwrap
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from sprung_tools.model.resolved_model import (
-    has_resolved_model,
-    read_elements,
-    read_road_settings,
-    read_settings,
-)
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.resolved_model import has_resolved_model, read_elements, read_road_settings, read_settings
 
-LINE_LENGTH = 118  # letters that fit under a picture
+LINE_LENGTH = 118  # characters that fit under a picture
 
 
-def make_caption(results, remarks=()):
-    """Speed, road, integrator and sampling of several open results files: those parts that all of them share.
+def make_caption(results: Sequence[ResultsFile], remarks: Sequence[str] = ()) -> str:
+    """Makes the caption of several runs: speed, road, integrator and sampling, as far as all of them share it.
 
-    results: list of ResultsFile; remarks: further parts. Returns lines of text; what a file does not tell is left out.
+    remarks: further parts. Returns lines of text; what a file does not hold is left out.
     """
-    lists = [calc_parts(one) for one in results]
+    lists = [list_parts(one) for one in results]
     shared = [part for part in lists[0] if all(part in other for other in lists[1:])]
     unbroken = [part.replace(" ", "\N{NO-BREAK SPACE}") for part in (*shared, *remarks)]
     return textwrap.fill("; ".join(unbroken), LINE_LENGTH).replace("\N{NO-BREAK SPACE}", " ")
 
 
-def calc_parts(results):
-    """The caption's parts of one run, in order; of a file of version 1 the sampling alone."""
+def list_parts(results: ResultsFile) -> list[str]:
+    """The caption's parts of one run, in order; for a file of version 1 only the sampling."""
     parts = []
     if has_resolved_model(results):
         settings = read_settings(results)
@@ -40,14 +38,14 @@ def calc_parts(results):
     return parts
 
 
-def describe_integrator(settings):
-    """`method exponential, relative tolerance 1e-06`; an unlimited step and a step that is not fixed are not told."""
-    told = {key: value for key, value in settings.items() if value not in (math.inf, 0.0)}
-    return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in told.items())
+def describe_integrator(settings: Mapping[str, Any]) -> str:
+    """`method exponential, relative tolerance 1e-06`. An unlimited step, and a step that is not fixed, are left out."""
+    shown = {key: value for key, value in settings.items() if value not in (math.inf, 0.0)}
+    return ", ".join(f"{key.replace('_', ' ')} {value}" for key, value in shown.items())
 
 
-def describe_road(road):
-    """`road: half-sine, length 0.4 m, height 0.2 m` from its settings; of a table its file."""
+def describe_road(road: Mapping[str, Any]) -> str:
+    """`road: half-sine, length 0.4 m, height 0.2 m` from the road's settings; for a road from a table its file."""
     parts = [f"road: {road['shape']}"]
     parts += [f"{name} {road[name]:g} m" for name in ("length", "height") if name in road]
     if road.get("file"):

@@ -1,8 +1,8 @@
-"""How the programs in tools/ start: by the name of a command, whose modules may need packages that are not
-installed."""
+"""Starting a command by its name, also where a package that it needs is not installed."""
 
 import importlib
 import sys
+from typing import NoReturn
 
 from sprung_tools.terminal.program import run_tool
 
@@ -15,9 +15,9 @@ PACKAGES = {
 }
 
 
-def run_command(name: str) -> None:
-    """Runs main() of sprung_tools/cli/NAME.py, and exits; where a module is missing, with a line on stderr and code
-    2."""
+def run_command(name: str) -> NoReturn:
+    """Runs main() of sprung_tools/cli/NAME.py, and exits. If a module is missing, it prints a line on stderr and exits
+    with code 2."""
     try:
         run_tool(importlib.import_module(f"sprung_tools.cli.{name}").main)
     except ModuleNotFoundError as error:
