@@ -195,13 +195,14 @@ class Page:
         names = {
             "key": key,
             "code": code,
-            "windowsVirtualKeyCode": {"ArrowRight": 39, "ArrowLeft": 37, " ": 32}.get(key, 0),
+            "windowsVirtualKeyCode": {"ArrowRight": 39, "ArrowLeft": 37, "ArrowDown": 40, " ": 32}.get(key, 0),
         }
         self.call("Input.dispatchKeyEvent", type="keyDown", **names, **text)
         self.call("Input.dispatchKeyEvent", type="keyUp", **names)
 
-    def drag(self, start, end):
-        """The left mouse button from one place in the window to another."""
+    def drag(self, start, end, shift=False):
+        """The left mouse button from one place in the window to another, with the shift key held if asked."""
+        keys = 8 if shift else 0
         for kind, (x, y) in (
             ("mouseMoved", start),
             ("mousePressed", start),
@@ -209,7 +210,39 @@ class Page:
             ("mouseReleased", end),
         ):
             held = {} if kind == "mouseMoved" and (x, y) == start else {"button": "left", "buttons": 1, "clickCount": 1}
-            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **held)
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, modifiers=keys, **held)
+
+    def find(self, selector, share=(0.5, 0.5)):
+        """Where a share of an element's width and height is in the window, after scrolling it there."""
+        self.evaluate(
+            f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})"
+        )
+        self.settle()
+        x, y, width, height = self.box(selector)
+        return x + share[0] * width - self.evaluate("scrollX"), y + share[1] * height - self.evaluate("scrollY")
+
+    def click(self, selector, share=(0.5, 0.5), times=1):
+        """Clicks an element with the mouse, once or several times in a row."""
+        x, y = self.find(selector, share)
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+        for count in range(1, times + 1):
+            for kind in ("mousePressed", "mouseReleased"):
+                self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=count)
+        self.settle()
+
+    def wait_until(self, condition):
+        """Waits frame by frame until a JavaScript expression is true. RuntimeError after a great many frames."""
+        self.evaluate(
+            "new Promise((done, fail) => { let frames = 0; const look = () => {"
+            f"if ({condition}) done(true); else if (++frames > 20000) fail(new Error({json.dumps(condition)}));"
+            "else requestAnimationFrame(look); }; look(); })"
+        )
+
+    def prefer(self, dark):
+        """Switches the system's colour scheme while the page is open."""
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call("Emulation.setEmulatedMedia", features=[scheme])
+        self.settle()
 
     def problems(self):
         """What the page logged as errors or warnings, threw, or asked of the network: texts."""

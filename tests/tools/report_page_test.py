@@ -3,80 +3,19 @@ animation are drawn, that time moves the vehicle to where the results have it. N
 SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import itertools
-import os
 import shutil
-import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
-from browser import Browser
-from tool_test_case import ROOT, TOOLS, make_class_folder, run_program
+from report_page_case import BLACK, BLUE, GROUND, OFF_ROAD, PICTURES, SIZES, PageTestCase, is_colour
 
 from sprung_tools.files.results_file import open_results
 
-MODELS = ROOT / "dynamics/models"
-PICTURES = Path(os.environ.get("SPRUNG_SCREENSHOTS", tempfile.gettempdir()))
-BLACK, BLUE = (0x11, 0x11, 0x11), (0x00, 0x72, 0xB2)  # of the first and the second run on light paper
-OFF_ROAD, GROUND = (0xC2, 0x41, 0x0C), (0xE7, 0xE2, 0xD8)
-SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
 BUMP_TIMES = (0.0, 0.45, 0.75, 1.2, 2.2, 4.0)  # s: before the bump, wheels in the air, second landing, at rest again
 
 
-def is_colour(picture, colour, tolerance=0.02):
-    """Which pixels of a picture […×3] have a colour (0 to 255)."""
-    return np.all(np.abs(picture - np.array(colour) / 255.0) < tolerance, axis=-1)
-
-
-class ReportPage(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = make_class_folder(cls)
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.call(
-            os.environ["SPRUNG_REDUCE"], "build", *sorted((ROOT / "meshes/truck").glob("*.toml")), "--output-dir", "."
-        )
-        for name, modes in (("rigid", 0), ("2 modes", 2)):
-            cls.drive("truck/bump.toml", name, "--set", f"modes.chassis={modes}")
-        cls.report("truck.html", "rigid.h5", "2 modes=2 modes.h5", "--superelements", ".")
-        cls.browser = cls.enterClassContext(Browser())
-
-    @classmethod
-    def call(cls, *command):
-        run_program(command, cwd=cls.folder, check=True)
-
-    @classmethod
-    def drive(cls, run, name, *arguments):
-        target = ("--superelements", ".", "-o", f"{name}.h5", "--quiet")
-        cls.call(os.environ["SPRUNG_DYNAMICS"], "run", MODELS / run, *target, *arguments)
-
-    @classmethod
-    def report(cls, page, *arguments):
-        cls.call(TOOLS / "report", "-o", page, *arguments)
-
-    def open(self, name="truck.html", size="desktop", dark=False):
-        page = self.browser.open(self.folder / name, *SIZES[size], dark=dark, touch=size == "phone")
-        self.addCleanup(page.close)
-        self.assertEqual(page.problems(), [])
-        self.addCleanup(lambda: self.assertEqual(page.problems(), []))
-        return page
-
-    def set_time(self, page, time):
-        """By the scrubber, as a hand does."""
-        page.evaluate(
-            f"(() => {{ const s = document.getElementById('scrubber'); s.value = {time};"
-            "s.dispatchEvent(new Event('input', {bubbles: true})); })()"
-        )
-        page.settle()
-
-    def choose(self, page, element, value):
-        page.evaluate(
-            f"(() => {{ const s = document.getElementById('{element}'); s.value = '{value}';"
-            "for (const kind of ['input', 'change']) s.dispatchEvent(new Event(kind, {bubbles: true})); })()"
-        )
-        page.settle()
-
+class ReportPage(PageTestCase):
     def test_it_opens_in_both_sizes_and_colour_schemes_and_fits_the_window(self):
         for size, dark in itertools.product(SIZES, (False, True)):
             with self.subTest(size=size, dark=dark):

@@ -8,6 +8,7 @@ from sprung_tools.report.packing import Packed
 from sprung_tools.report.scene import pack_frames, pack_road, pack_vehicle
 from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts, list_frequencies
 from sprung_tools.runs.labelled_runs import Run, Shown
+from sprung_tools.runs.run_warnings import list_warnings
 
 
 def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed:
@@ -22,6 +23,7 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "facts": list_facts(results, bool(wheels), calc_hash(results.path)),
         "samples": int(results.time.size),
         "balanced": results.is_from_balance,
+        "warnings": [one._asdict() for one in list_warnings(results)],
         "statistics": calc_statistics(results, channels),
         "frequencies": list_frequencies(results),
         "channels": [pack_channel(channel, results.time, most) for channel in channels],

@@ -73,9 +73,15 @@ function commonOptions(legend) {
   };
 }
 
+/** Removes a diagram's graph. While the next one is made, nothing may ask the destroyed one. */
+function removeGraph(chart) {
+  if (chart.graph) chart.graph.destroy();
+  chart.graph = null;
+}
+
 /** A diagram over time that zooms with the others. rows: for dygraphs; labels: of the columns after the time. */
 function drawLinked(chart, rows, labels, colours, unit, name) {
-  if (chart.graph) chart.graph.destroy();
+  removeGraph(chart);
   chart.plot.setAttribute("aria-label", `${name} over time, ${labels.join(" and ")}; drag to zoom, double click for the whole run`);
   chart.graph = new Dygraph(chart.plot, rows, {
     ...commonOptions(chart.legend), labels: ["time", ...labels], colors: colours, ylabel: unit, xlabel: "time, s",
@@ -166,7 +172,7 @@ function makeHistories() {
   }
   chosen.forEach((key, number) => {
     const chart = makeFigure(byId("history-charts"), false);
-    const select = element("select");
+    const select = element("select", {id: `history-${number + 1}`});
     fillSelect(select, channels);
     select.value = key;
     chart.head.prepend(element("label", {}, element("span", {}, `Diagram ${number + 1}`), select));

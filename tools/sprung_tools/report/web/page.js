@@ -44,6 +44,7 @@ window.addEventListener("resize", () => {
   });
 });
 
+const statisticOf = (run, of, name) => data.runs[run].statistics.find((row) => row.of === of && row.name === name).value;
 const findBody = (name) => player.runs[player.main].vehicle.bodies.find((one) => one.name === name);
 
 /** For tests: where the shown run's main body is at the clock's time, and what went wrong. */

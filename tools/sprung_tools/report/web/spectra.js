@@ -72,7 +72,7 @@ function makeSpectra() {
       colours.push(colourOf(index));
     });
     const peak = Math.max(...series.map((one) => one.v.reduce((a, b) => Math.max(a, b), 0)));
-    if (chart.graph) chart.graph.destroy();
+    removeGraph(chart);
     chart.plot.setAttribute("aria-label", `Spectrum of the vertical acceleration of ${select.value}, ${labels.join(" and ")}`);
     chart.graph = spectrum = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
       ...commonOptions(chart.legend), labels: ["frequency", ...labels], colors: colours, xlabel: "frequency, Hz",

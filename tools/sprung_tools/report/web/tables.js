@@ -31,11 +31,14 @@ function fillStatistics(table, rows) {
   const head = element("tr", {}, element("th", {scope: "col"}, "quantity"), element("th", {scope: "col"}, "unit"), ...runHeadings());
   table.replaceChildren(element("thead", {}, head));
   let body = null, of = null;
+  const doubtful = new Set(warningsOf("summary").flatMap((one) => one.of));
   for (const row of rows) {
     if (row.of !== of) {
       of = row.of;
       body = element("tbody");
-      body.append(element("tr", {}, element("th", {class: "group", colspan: data.runs.length + 2, scope: "rowgroup"}, of)));
+      const heading = element("th", {class: "group", colspan: data.runs.length + 2, scope: "rowgroup"}, of);
+      if (doubtful.has(of)) heading.append(" ", element("span", {class: "bad", title: "see the warnings above"}, "⚠ see the warnings above"));
+      body.append(element("tr", {}, heading));
       table.append(body);
     }
     const known = row.values.filter((value) => value !== null);
@@ -49,8 +52,22 @@ function fillStatistics(table, rows) {
   }
 }
 
+/** The warnings of all runs that belong to a section, each with its run. */
+const warningsOf = (section) => data.runs.flatMap((run, index) =>
+  run.warnings.filter((one) => one.section === section).map((one) => ({...one, run, index})));
+
+/** The places for warnings: each section says those that concern its numbers. */
+function fillWarnings() {
+  for (const place of document.querySelectorAll("[data-warnings]")) {
+    const found = warningsOf(place.dataset.warnings);
+    place.hidden = found.length === 0;
+    place.replaceChildren(...found.map(({text, run, index}) => element("li", {},
+      element("span", {class: "key", style: `--c:${colourOf(index)}`}), element("strong", {}, run.label), `: ${text}`)));
+  }
+}
+
 /** What stands in the summary: the rest is under "All numbers". */
-const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|acceleration, lowest|axial/.test(row.name);
+const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|axial/.test(row.name);
 
 function fillFrequencies(table) {
   const most = Math.max(...data.runs.map((run) => run.frequencies.length));
@@ -118,6 +135,7 @@ function fillFacts(table) {
 }
 
 function fillTables() {
+  fillWarnings();
   const rows = collectStatistics();
   fillStatistics(byId("summary-table"), rows.filter(inSummary));
   fillStatistics(byId("statistics-table"), rows);

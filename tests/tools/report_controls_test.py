@@ -1,0 +1,280 @@
+"""Every control of the report's page in headless Chromium: each menu, button, slider and key, and another colour scheme
+while the page is open; what each did, and that nothing was logged as an error. A control without a case here fails the
+test. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
+
+import unittest
+
+import numpy as np
+from report_page_case import PICTURES, PageTestCase
+
+ALL_CONTROLS = (
+    "[...document.querySelectorAll('select, input, button, summary, a[href]')]"
+    ".filter((one) => !one.matches('.skip, .dygraph-roller'))"
+)
+NAME = "one.id || (one.dataset.zoom && `zoom ${one.dataset.zoom}`) || one.getAttribute('href') || one.outerHTML"
+SPANS = "linked.map((one) => one.graph.xAxisRange())"
+
+
+class Controls(PageTestCase):
+    def find_controls(self, page):
+        return set(page.evaluate(f"{ALL_CONTROLS}.map((one) => {NAME})"))
+
+    def check_alive(self, page):
+        """That diagrams zoom and time runs, whatever was done before."""
+        page.click("[data-zoom=all]")
+        page.click("[data-zoom=in]")
+        spans = page.evaluate(SPANS)
+        for span in spans:
+            np.testing.assert_allclose(span, spans[0], atol=1e-9)
+        self.assertAlmostEqual(spans[0][1] - spans[0][0], 2.5, places=6)
+        page.click("[data-zoom=all]")
+        before = page.evaluate("clock.time")
+        page.click("#play")
+        page.wait_until(f"clock.time !== {before}")
+        page.click("#play")
+        self.assertEqual(page.evaluate("player.playing"), False)
+        self.assertEqual(page.problems(), [])
+
+    def test_every_control_does_what_it_says(self):
+        page = self.open()
+        cases = self.list_cases()
+        self.assertEqual(self.find_controls(page), set(cases))
+        for name, use in cases.items():
+            with self.subTest(control=name):
+                use(page)
+                self.assertEqual(page.problems(), [])
+        self.check_alive(page)
+
+    def list_cases(self):
+        """Each control's name with what uses it and says what must have happened."""
+        cases = {f"history-{number}": self.choose_history(number) for number in (1, 2, 3, 4)}
+        cases |= {f"zoom {action}": self.press_zoom(action) for action in ("in", "out", "left", "right", "all")}
+        cases |= {f"#{section}": self.follow_link(section) for section in self.sections()}
+        return cases | {
+            "main-run": self.use_main_run,
+            "other-run": self.use_other_run,
+            "magnification": self.use_magnification,
+            "speed": self.use_speed,
+            "play": self.use_play,
+            "scrubber": self.use_scrubber,
+            "spectrum-point": self.use_spectrum_point,
+            "mode-body": self.use_mode_body,
+            "all-numbers": self.use_all_numbers,
+        }
+
+    def sections(self):
+        return ("summary", "animation", "histories", "spectra", "modes", "checks", "facts")
+
+    def choose_history(self, number):
+        """Another quantity: its name, its unit, its values; the zoom stays, the other diagrams stay."""
+
+        def use(page):
+            page.click("[data-zoom=all]")
+            page.click("[data-zoom=in]")
+            span = page.evaluate("linked[0].graph.xAxisRange()")
+            wanted = "Forces: rear_tyre, force"
+            self.choose(page, f"history-{number}", wanted)
+            chart = f"linked[{number - 1}]"
+            self.assertIn("rear_tyre, force", page.evaluate(f"{chart}.plot.ariaLabel"))
+            self.assertEqual(page.evaluate(f"document.querySelector('#history-{number}').value"), wanted)
+            np.testing.assert_allclose(page.evaluate(f"{chart}.graph.xAxisRange()"), span, atol=1e-9)
+            greatest = page.evaluate(f"Math.max(...{chart}.graph.file_.map((row) => row[2] ?? 0))")
+            expected = page.evaluate("statisticOf(1, 'rear_tyre', 'force, largest')")
+            self.assertAlmostEqual(greatest / (1e-3 * expected), 1.0, places=5)  # drawn in kN
+            self.assertEqual(page.evaluate(f"{SPANS}.length"), 5)
+            page.click("[data-zoom=all]")
+
+        return use
+
+    def press_zoom(self, action):
+        expected = {"in": (1.25, 3.75), "out": (0.0, 5.0), "left": (0.0, 2.5), "right": (2.5, 5.0), "all": (0.0, 5.0)}
+
+        def use(page):
+            self.set_time(page, 2.5)
+            page.click("[data-zoom=all]")
+            if action != "in":
+                page.click("[data-zoom=in]")
+            page.click(f"[data-zoom={action}]")
+            for span in page.evaluate(SPANS):
+                np.testing.assert_allclose(span, expected[action], atol=1e-9)
+            low, high = expected[action]
+            self.assertEqual(
+                page.evaluate("document.getElementById('zoom-value').textContent"), f"{low:.3f} s to {high:.3f} s"
+            )
+
+        return use
+
+    def follow_link(self, section):
+        def use(page):
+            page.evaluate(f"document.querySelector('nav a[href=\"#{section}\"]').click()")
+            page.settle()
+            self.assertEqual(page.evaluate("location.hash"), f"#{section}")
+            self.assertTrue(page.evaluate(f"document.getElementById('{section}') !== null"))
+
+        return use
+
+    def use_main_run(self, page):
+        self.set_time(page, 0.75)
+        self.choose(page, "other-run", -1)
+        before = page.picture(selector="#scene")
+        self.choose(page, "main-run", 0)
+        self.assertEqual(page.evaluate("player.main"), 0)
+        self.assert_changed(before, page.picture(selector="#scene"))
+        self.choose(page, "main-run", 1)
+
+    def use_other_run(self, page):
+        self.set_time(page, 0.75)
+        self.choose(page, "other-run", -1)
+        before = page.picture(selector="#scene")
+        self.choose(page, "other-run", 0)
+        self.assertEqual(page.evaluate("player.other"), 0)
+        self.assert_changed(before, page.picture(selector="#scene"))
+
+    def use_magnification(self, page):
+        self.set_time(page, 0.75)
+        self.choose(page, "magnification", 1)
+        before = page.picture(selector="#scene")
+        self.choose(page, "magnification", 40)
+        self.assertEqual(page.evaluate("document.getElementById('magnification-value').textContent"), "× 40")
+        self.assert_changed(before, page.picture(selector="#scene"))
+
+    def use_speed(self, page):
+        self.choose(page, "speed", "0.25")
+        self.assertEqual(page.evaluate("player.speed"), 0.25)
+        self.choose(page, "speed", "1")
+
+    def use_play(self, page):
+        self.set_time(page, 1.0)
+        page.click("#play")
+        self.assertEqual(page.evaluate("document.getElementById('play').textContent"), "Pause")
+        page.wait_until("clock.time > 1.0")
+        page.click("#play")
+        self.assertEqual(page.evaluate("document.getElementById('play').textContent"), "Play")
+        stopped = page.evaluate("clock.time")
+        page.settle()
+        self.assertEqual(page.evaluate("clock.time"), stopped)
+        page.click("#scene")  # plays, and pauses, too
+        page.wait_until(f"clock.time > {stopped}")
+        page.click("#scene")
+        self.assertEqual(page.evaluate("player.playing"), False)
+
+    def use_scrubber(self, page):
+        self.set_time(page, 2.0)
+        self.assertEqual(page.evaluate("document.getElementById('clock').textContent"), "2.000 s")
+        page.evaluate("document.getElementById('scrubber').focus()")
+        page.press("ArrowRight", "ArrowRight")
+        self.assertAlmostEqual(page.evaluate("clock.time"), 2.001)
+        page.press("ArrowLeft", "ArrowLeft")
+        self.assertAlmostEqual(page.evaluate("clock.time"), 2.0)
+        page.press(" ", "Space")
+        page.wait_until("clock.time > 2.0")
+        page.press(" ", "Space")
+        self.assertEqual(page.evaluate("player.playing"), False)
+
+    def use_spectrum_point(self, page):
+        before = page.picture(selector="#spectrum-chart .plot")
+        self.choose(page, "spectrum-point", "rear_axle.origin")
+        self.assertIn("rear_axle.origin", page.evaluate("document.querySelector('#spectrum-chart .plot').ariaLabel"))
+        self.assert_changed(before, page.picture(selector="#spectrum-chart .plot"))
+
+    def use_mode_body(self, page):
+        self.assertEqual(page.evaluate("[...document.getElementById('mode-body').options].length"), 1)
+        self.choose(page, "mode-body", "1 0")
+        self.assertIn("All of them take part", page.evaluate("document.getElementById('mode-note').textContent"))
+        self.assertEqual(page.evaluate("linked[4].graph.getLabels()"), ["time", "mode 1", "mode 2"])
+
+    def use_all_numbers(self, page):
+        page.click("#all-numbers")
+        self.assertTrue(page.evaluate("document.querySelector('#summary details').open"))
+        page.click("#all-numbers")
+        self.assertFalse(page.evaluate("document.querySelector('#summary details').open"))
+
+    def assert_changed(self, before, after):
+        self.assertEqual(before.shape, after.shape)
+        self.assertGreater(np.count_nonzero(np.any(np.abs(before - after) > 0.1, axis=2)), 100)
+
+    def test_the_mouse_on_a_diagram_sets_the_time_zooms_moves_and_shows_the_whole_run(self):
+        page = self.open()
+        plot = "#history-charts figure:nth-child(2) .plot"
+        page.click(plot, (0.5, 0.5))
+        self.assertAlmostEqual(page.evaluate("clock.time"), 2.5, delta=0.3)
+        page.drag(page.find(plot, (0.4, 0.5)), page.find(plot, (0.6, 0.5)))
+        page.settle()
+        zoomed = page.evaluate(SPANS)
+        self.assertLess(zoomed[0][1] - zoomed[0][0], 1.5)
+        page.drag(page.find(plot, (0.5, 0.5)), page.find(plot, (0.3, 0.5)), shift=True)
+        page.settle()
+        moved = page.evaluate(SPANS)
+        for before, after in zip(zoomed, moved):
+            self.assertAlmostEqual(after[1] - after[0], before[1] - before[0], places=6)
+            self.assertGreater(after[0], before[0])
+        page.click(plot, times=2)
+        self.assertEqual(page.evaluate(SPANS), [[0, 5]] * 5)
+        self.check_alive(page)
+
+    def test_another_colour_scheme_while_open_keeps_time_zoom_and_choices(self):
+        page = self.open()
+        self.choose(page, "history-2", "Forces: front_tyre, force")
+        self.set_time(page, 0.75)
+        page.click("[data-zoom=in]")
+        span = page.evaluate("linked[0].graph.xAxisRange()")
+        for dark in (True, False, True):
+            page.prefer(dark)
+            self.assertEqual(page.problems(), [])
+            self.assertEqual(page.evaluate("clock.time"), 0.75)
+            self.assertEqual(page.evaluate("document.getElementById('history-2').value"), "Forces: front_tyre, force")
+            for found in page.evaluate(SPANS):
+                np.testing.assert_allclose(found, span, atol=1e-9)
+            colours = page.evaluate("linked[1].graph.getColors()")
+            self.assertEqual(colours, ["#f2f2f2", "#56b4e9"] if dark else ["#111111", "#0072b2"])
+        picture = page.picture(PICTURES / "switched_to_dark.png")
+        self.assertLess(np.mean(picture), 0.5)
+        self.check_alive(page)
+
+    def test_the_note_of_the_modes_is_that_of_the_body_chosen(self):
+        self.drive("truck/bump.toml", "long arms", "--set", "modes.chassis=2", "--set", "modes.front_long_arm=2")
+        self.drive("truck/bump.toml", "adaptive", "--set", "modes.chassis=4", "--set", "adaptivity.enabled=true",
+                   "--set", "adaptivity.drop=0.05")  # fmt: skip
+        self.report("two.html", "long arms=long arms.h5", "adaptive=adaptive.h5")
+        page = self.open("two.html")
+        options = page.evaluate("[...document.getElementById('mode-body').options].map((one) => one.textContent)")
+        self.assertIn("chassis, long arms", options)
+        self.assertIn("front_long_arm, long arms", options)
+        note = "document.getElementById('mode-note').textContent"
+        for place, option in enumerate(options):
+            with self.subTest(option):
+                value = page.evaluate(f"document.getElementById('mode-body').options[{place}].value")
+                self.choose(page, "mode-body", value)
+                always = "adaptive" not in option
+                self.assertEqual("All of them take part throughout the run" in page.evaluate(note), always)
+                self.assertEqual(page.evaluate("document.getElementById('active-strip').hidden"), always)
+                self.assertEqual(page.problems(), [])
+        self.check_alive(page)
+
+    def test_the_page_warns_of_what_the_program_warned_of(self):
+        page = self.open()
+        for index, (name, mode) in enumerate((("rigid", 1), ("2 modes", 3))):
+            self.assertIn(f"modes are missing: chassis.mode {mode}", self.printed[name])
+            for section in ("summary", "modes"):
+                texts = page.evaluate(
+                    f"[...document.querySelectorAll('[data-warnings={section}] li')].map((one) => one.textContent)"
+                )
+                self.assertTrue(texts[index].startswith(f"{name}: modes are missing: chassis.mode {mode}"), texts)
+        marked = page.evaluate(
+            "[...document.querySelectorAll('#summary-table th.group')].filter((one) =>"
+            "one.textContent.includes('⚠')).map((one) => one.firstChild.textContent)"
+        )
+        self.assertEqual(marked, ["chassis.origin", "chassis.seat"])
+
+    def test_the_lowest_value_stands_beside_the_highest(self):
+        page = self.open()
+        names = page.evaluate(
+            "[...document.querySelectorAll('#summary-table tbody tr')].map((one) => one.textContent)"
+        )
+        for what in ("displacement", "acceleration"):
+            for end in ("highest", "lowest"):
+                self.assertEqual(sum(one.startswith(f"{what}, {end}") for one in names), 4, names)
+
+
+if __name__ == "__main__":
+    unittest.main()

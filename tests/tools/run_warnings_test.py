@@ -1,0 +1,74 @@
+"""runs/run_warnings.py: what makes a run's numbers doubtful, and which numbers each warning concerns."""
+
+import unittest
+
+import h5py
+import numpy as np
+from synthetic_results import write_results, write_series
+from tool_test_case import ToolTestCase
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.run_warnings import list_warnings
+
+
+class RunWarnings(ToolTestCase):
+    def list(self, path):
+        with open_results(path) as results:
+            return list_warnings(results)
+
+    def write_neglected(self, path, late=0.0, early=0.0, **options):
+        """A run with shares of mode 5: `early` at the first sample, `late` from the middle on."""
+        write_results(path, num_modes=2, **options)
+        with h5py.File(path, "a") as file:
+            size = file["time"].shape[0]
+            shares = np.zeros((size, 3))
+            shares[:, 2] = 5.0
+            shares[0, 1] = early
+            shares[size // 2 :, 1] = late
+            write_series(file, "bodies/chassis/modal/neglected", shares, "1")
+
+    def test_a_good_run_has_none(self):
+        self.write_neglected(self.folder / "a.h5", late=0.05)
+        self.assertEqual(self.list(self.folder / "a.h5"), [])
+
+    def test_modes_that_are_missing_are_named_with_their_share(self):
+        self.write_neglected(self.folder / "a.h5", late=0.062)
+        found = self.list(self.folder / "a.h5")
+        self.assertEqual([one.section for one in found], ["summary", "modes"])
+        self.assertIn("chassis.mode 5, which was left out, would have reached 0 % of the largest deflection and 6.2 %",
+                      found[0].text)  # fmt: skip
+        self.assertEqual(found[1].of, ("chassis",))
+
+    def test_a_share_of_next_to_nothing_at_the_start_does_not_count(self):
+        self.write_neglected(self.folder / "a.h5", early=1.0)
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file.require_group("summary/points/chassis.seat")
+        self.assertEqual(self.list(self.folder / "a.h5"), [])
+
+    def test_where_modes_join_as_needed_none_is_missing(self):
+        self.write_neglected(self.folder / "a.h5", late=0.062, adaptivity={"enabled": 1})
+        self.assertEqual(self.list(self.folder / "a.h5"), [])
+
+    def test_an_energy_balance_that_does_not_close_is_the_first_warning(self):
+        self.write_neglected(self.folder / "a.h5", late=0.062)
+        for closure, count in ((0.9e-3, 2), (1.2e-3, 3)):
+            with h5py.File(self.folder / "a.h5", "a") as file:
+                file.require_group("summary").attrs["energy_closure"] = closure
+            self.assertEqual(len(self.list(self.folder / "a.h5")), count)
+        self.assertIn("the energy balance does not close (relative 1.2e-03)", self.list(self.folder / "a.h5")[0].text)
+
+    def test_the_modes_about_the_balance_do_not_hold_for_a_wheel_in_the_air(self):
+        self.write_neglected(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            write_series(file, "model/modes/undamped_frequency", np.array([2.0]), "Hz")
+            file["forces/front_tyre/contact"][:] = 1.0
+        self.assertEqual(self.list(self.folder / "a.h5"), [])
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file["forces/front_tyre/contact"][3] = 0.0
+        (found,) = self.list(self.folder / "a.h5")
+        self.assertEqual((found.section, found.of), ("balance", ("front_tyre",)))
+        self.assertIn("front_tyre left the ground", found.text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,100 @@
+"""What makes the numbers of a run doubtful, from its results file: what sprung-dynamics warns of at the end of a run,
+and where a comparison with the linear vehicle does not hold."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Flags
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.force_channels import CONTACT, read_force_channel
+from sprung_tools.model.resolved_model import read_elements, read_settings
+from sprung_tools.runs.mode_history import read_neglected
+
+# The limits at which sprung-dynamics itself warns; report_controls_test.py compares the warnings.
+TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration (dynamics/output/run_report.cpp)
+ALARMING_CLOSURE = 1e-3  # relative (dynamics/program/run_command.cpp)
+NEARLY = 0.9  # of the run's largest acceleration
+
+SUMMARY, MODES, BALANCE = "summary", "modes", "balance"  # which numbers a warning concerns
+
+
+class RunWarning(NamedTuple):
+    """A warning: the numbers it concerns (SUMMARY, MODES, BALANCE), what these are of (bodies, points; empty: all), the
+    text."""
+
+    section: str
+    of: tuple[str, ...]
+    text: str
+
+
+def list_warnings(results: ResultsFile) -> list[RunWarning]:
+    """All warnings of a run, the gravest first."""
+    return [*warn_of_energy(results), *warn_of_missing_modes(results), *warn_of_wheels_in_the_air(results)]
+
+
+def warn_of_energy(results: ResultsFile) -> list[RunWarning]:
+    """The warning of an energy balance that does not close."""
+    closure = float(results.file["summary"].attrs.get("energy_closure", 0.0)) if "summary" in results.file else 0.0
+    if closure <= ALARMING_CLOSURE:
+        return []
+    text = (
+        f"the energy balance does not close (relative {closure:.1e}): do not trust this run; try a smaller relative "
+        "tolerance"
+    )
+    return [RunWarning(SUMMARY, ("computation",), text)]
+
+
+def warn_of_missing_modes(results: ResultsFile) -> list[RunWarning]:
+    """The warning of the mode left out that misses most, in the summary and at the modes; none where modes join as they
+    are needed."""
+    if read_settings(results)["adaptivity"].get("enabled"):
+        return []
+    judged = find_judged(results)
+    worst = TOO_MUCH_LEFT_OUT
+    text = flexible = ""
+    for body, values in read_neglected(results).items():
+        for number in np.unique(values[judged, 2]):
+            chosen = np.flatnonzero(judged & (values[:, 2] == number))
+            shares = values[chosen, :2]
+            if np.max(shares) <= worst:
+                continue
+            worst, flexible = float(np.max(shares)), body
+            deflection, acceleration = 100.0 * np.max(shares, axis=0)
+            time = results.time[chosen[np.argmax(np.max(shares, axis=1))]]
+            text = (
+                f"modes are missing: {body}.mode {number:.0f}, which was left out, would have reached "
+                f"{deflection:.3g} % of the largest deflection and {acceleration:.3g} % of the largest acceleration so "
+                f"far of the points asked for (first at t = {time:.3g} s); take more modes"
+            )
+    if not text:
+        return []
+    points = tuple(name for name in results.names("summary/points") if name.partition(".")[0] == flexible)
+    return [RunWarning(SUMMARY, points, text), RunWarning(MODES, (flexible,), text)]
+
+
+def find_judged(results: ResultsFile) -> Flags:
+    """Samples from which the recorded shares are judged [n]: those after the points in the summary have come to nearly
+    their largest acceleration. Before, shares of the largest value so far are shares of next to nothing."""
+    largest = np.zeros_like(results.time)
+    for point in results.names("summary/points"):
+        quantity = f"points/{point}/acceleration.y"
+        if results.has(quantity):
+            largest = np.maximum(largest, np.abs(results.series(quantity)[0]))
+    return np.maximum.accumulate(largest) >= NEARLY * np.max(largest)
+
+
+def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
+    """The warning that the vehicle's modes, which are those of small motion, do not hold while a wheel is off the
+    ground."""
+    if "model/modes/undamped_frequency" not in results.file:
+        return []
+    tyres = [force.name for force in read_elements(results, "forces").values() if force.on_road]
+    airborne = [name for name in tyres if np.any(read_force_channel(results, name, CONTACT)[0] < 0.5)]
+    if not airborne:
+        return []
+    text = (
+        "the vehicle's modes and frequencies are those of small motion about the balance; here "
+        f"{' and '.join(airborne)} left the ground"
+    )
+    return [RunWarning(BALANCE, tuple(airborne), text)]
