@@ -12,12 +12,12 @@ class RotationalSpringDamper final : public SpringAndDamper {
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
-    double free_angle = 0.0;     ///< [rad]
-    double multiplicity = 1.0;   ///< how many of them act side by side, > 0
-    PiecewisePolynomial spring;  ///< T(d) [N·m], with its stops
-    PiecewisePolynomial damper;  ///< T(ḋ) [N·m]
-    std::optional<double> compression_stop,
-        rebound_stop;  ///< where they begin, part of the spring's law [rad]
+    double free_angle = 0.0;                      ///< [rad]
+    double multiplicity = 1.0;                    ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;                   ///< T(d) [N·m], with its stops
+    PiecewisePolynomial damper;                   ///< T(ḋ) [N·m]
+    std::optional<double> compression_stop = {};  ///< where it begins, part of the spring's law [rad]
+    std::optional<double> rebound_stop = {};      ///< likewise
   };
   RotationalSpringDamper(std::string element_name, Parameters parameters)
       : SpringAndDamper(std::move(element_name)), parameters_(std::move(parameters)) {}

@@ -12,11 +12,12 @@ class SpringDamper final : public SpringAndDamper {
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
-    double free_length = 0.0;                              ///< > 0 [m]
-    double multiplicity = 1.0;                             ///< how many of them act side by side, > 0
-    PiecewisePolynomial spring;                            ///< F(d) [N], with its stops
-    PiecewisePolynomial damper;                            ///< F(ḋ) [N]
-    std::optional<double> compression_stop, rebound_stop;  ///< where they begin, part of the spring's law [m]
+    double free_length = 0.0;                     ///< > 0 [m]
+    double multiplicity = 1.0;                    ///< how many of them act side by side, > 0
+    PiecewisePolynomial spring;                   ///< F(d) [N], with its stops
+    PiecewisePolynomial damper;                   ///< F(ḋ) [N]
+    std::optional<double> compression_stop = {};  ///< where it begins, part of the spring's law [m]
+    std::optional<double> rebound_stop = {};      ///< likewise
   };
   SpringDamper(std::string element_name, Parameters parameters)
       : SpringAndDamper(std::move(element_name)), parameters_(std::move(parameters)) {}
