@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -108,6 +108,47 @@ LeftOut leave_out(const NeglectMeasure& measure, const std::vector<Set>& cluster
   return found;
 }
 
+// Shares of each candidate by itself, and of each cluster together.
+struct Shares {
+  std::vector<NeglectedShares> by_mode, by_cluster;
+};
+
+Shares measure_alone(const NeglectMeasure& measure, std::size_t num_candidates,
+                     const std::vector<Set>& clusters) {
+  std::vector<Set> sets;
+  for (int i = 0; i < static_cast<int>(num_candidates); ++i) sets.push_back({i});
+  std::copy_if(clusters.begin(), clusters.end(), std::back_inserter(sets),
+               [](const Set& set) { return set.size() > 1; });
+  Shares shares{.by_mode = measure.measure_alone(sets), .by_cluster = {}};
+  std::size_t next = num_candidates;
+  for (const Set& cluster : clusters) {
+    const std::size_t place = cluster.size() > 1 ? next++ : static_cast<std::size_t>(cluster.front());
+    shares.by_cluster.push_back(shares.by_mode[place]);
+  }
+  shares.by_mode.resize(num_candidates);
+  return shares;
+}
+
+// Why the cluster at a place of the order is kept or left out.
+std::string explain(std::size_t place, const Set& cluster, const NeglectedShares::Worst& own,
+                    const LeftOut& left_out, const std::vector<CandidateMode>& candidates,
+                    const WatchedQuantities& watched, double tolerance) {
+  const bool is_kept = place >= left_out.count;
+  std::string reason = fmt::format("{}: {} of the {}", is_kept ? "kept" : "left out", percent(own.value),
+                                   describe(own, watched));
+  if (cluster.size() > 1) {
+    reason += fmt::format(", modes {} to {} of one frequency together",
+                          candidates[static_cast<std::size_t>(cluster.front())].number,
+                          candidates[static_cast<std::size_t>(cluster.back())].number);
+  }
+  if (!is_kept || own.value >= tolerance) return reason;
+  reason += "; too much with all that have less";
+  const auto together = left_out.joint.find(place + 1);
+  if (together == left_out.joint.end()) return reason;
+  return reason +
+         fmt::format(", {} of the {}", percent(together->second.value), describe(together->second, watched));
+}
+
 // Forcing and transfer functions, thinned for a picture.
 void add_spectrum(const LinearVehicle& vehicle, const NeglectMeasure& measure,
                   const WatchedQuantities& watched, const std::vector<int>& points, double speed,
@@ -138,6 +179,28 @@ void add_spectrum(const LinearVehicle& vehicle, const NeglectMeasure& measure,
       choice.transfer(static_cast<Eigen::Index>(p), i) =
           std::abs(calc_factor(acceleration, omega)) * outputs(acceleration.rows).norm();
     }
+  }
+}
+
+// Modes above this frequency are kept without being judged [Hz].
+double find_highest_judged(const NeglectMeasure& measure) {
+  if (!measure.is_cut_short()) return std::numeric_limits<double>::infinity();
+  return kJudgedShare * measure.forcing().frequency(measure.num_lines() - 1);
+}
+
+// What the prediction does not take into account.
+void remark_limits(const NeglectMeasure& measure, BasisChoice& choice) {
+  if (measure.is_cut_short()) {
+    choice.remarks.push_back(
+        fmt::format("frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of "
+                    "one of the quantities lie there, so that all modes above {:.4g} Hz are kept",
+                    measure.forcing().frequency(measure.num_lines() - 1), 100.0 * measure.share_above(),
+                    find_highest_judged(measure)));
+  }
+  if (!measure.is_excited()) {
+    choice.remarks.emplace_back(
+        "neither road nor forces in time move the vehicle: modes are judged by what they do under the weight "
+        "alone");
   }
 }
 
@@ -186,81 +249,34 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   // An r.m.s. that loses a part with the share e falls by e²/2 (mode_choice, eq. 6).
   const double cut = std::min(std::sqrt(2.0 * kCutChange * std::max(tolerance, kLeastTolerance)), kMostAbove);
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing, cut);
-  const double highest = measure.forcing().frequency(measure.num_lines() - 1);
-  const bool is_blind = measure.is_cut_short();
-  if (is_blind) {
-    choice.remarks.push_back(
-        fmt::format("frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of "
-                    "one of the quantities lie "
-                    "there, so that all modes above {:.4g} Hz are kept",
-                    highest, 100.0 * measure.share_above(), kJudgedShare * highest));
-  }
-
-  if (!measure.is_excited()) {
-    choice.remarks.emplace_back(
-        "neither road nor forces in time move the vehicle: modes are judged by what they do under the weight "
-        "alone");
-  }
+  remark_limits(measure, choice);
   remark_lifting(vehicle, watched, measure, choice);
-  // Each mode by itself, then each cluster of several.
+
   const std::vector<Set> clusters = find_clusters(candidates);
-  std::vector<Set> sets;
-  for (int i = 0; i < static_cast<int>(candidates.size()); ++i) sets.push_back({i});
-  std::copy_if(clusters.begin(), clusters.end(), std::back_inserter(sets),
-               [](const Set& set) { return set.size() > 1; });
-  const std::vector<NeglectedShares> shares = measure.measure_alone(sets);
-  std::vector<NeglectedShares> by_cluster;
-  std::size_t next = candidates.size();
-  for (const Set& cluster : clusters) {
-    by_cluster.push_back(cluster.size() > 1 ? shares[next++]
-                                            : shares[static_cast<std::size_t>(cluster.front())]);
+  const Shares shares = measure_alone(measure, candidates.size(), clusters);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    choice.verdicts.push_back({.mode = candidates[i],
+                               .worth = summarise(shares.by_mode[i], watched),
+                               .reason = "kept: beyond what the prediction looks at"});
   }
-  const auto is_beyond = [&](std::size_t cluster) {
-    const auto first = static_cast<std::size_t>(clusters[cluster].front());
-    return is_blind && candidates[first].frequency_hz > kJudgedShare * highest;
-  };
-  std::vector<std::size_t> order = sort_clusters(by_cluster);
-  const auto judged_end = std::stable_partition(order.begin(), order.end(), std::not_fn(is_beyond));
-  const std::vector<std::size_t> beyond(judged_end, order.end());
-  order.erase(judged_end, order.end());
-  const LeftOut left_out = leave_out(measure, clusters, order, by_cluster, tolerance);
+  std::vector<std::size_t> order = sort_clusters(shares.by_cluster);
+  const double highest_judged = find_highest_judged(measure);
+  std::erase_if(order, [&](std::size_t cluster) {
+    return candidates[static_cast<std::size_t>(clusters[cluster].front())].frequency_hz > highest_judged;
+  });
+  const LeftOut left_out = leave_out(measure, clusters, order, shares.by_cluster, tolerance);
   if (left_out.count > 0) {
     const NeglectedShares::Worst together = left_out.joint.at(left_out.count);
     choice.neglected = together.value;
     choice.neglected_of = describe(together, watched);
   }
-
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    choice.verdicts.push_back({.mode = candidates[i], .worth = summarise(shares[i], watched), .reason = {}});
-  }
   for (std::size_t place = 0; place < order.size(); ++place) {
-    const NeglectedShares::Worst own = by_cluster[order[place]].worst();
-    const bool is_kept = place >= left_out.count;
     const Set& cluster = clusters[order[place]];
-    std::string reason = fmt::format("{}: {} of the {}", is_kept ? "kept" : "left out", percent(own.value),
-                                     describe(own, watched));
-    if (cluster.size() > 1) {
-      reason += fmt::format(", modes {} to {} of one frequency together",
-                            candidates[static_cast<std::size_t>(cluster.front())].number,
-                            candidates[static_cast<std::size_t>(cluster.back())].number);
-    }
-    if (is_kept && own.value < tolerance) {
-      const auto together = left_out.joint.find(place + 1);
-      reason += "; too much with all that have less";
-      if (together != left_out.joint.end()) {
-        reason += fmt::format(", {} of the {}", percent(together->second.value),
-                              describe(together->second, watched));
-      }
-    }
+    const NeglectedShares::Worst own = shares.by_cluster[order[place]].worst();
     for (const int mode : cluster) {
-      choice.verdicts[static_cast<std::size_t>(mode)].is_kept = is_kept;
-      choice.verdicts[static_cast<std::size_t>(mode)].reason = reason;
-    }
-  }
-  for (const std::size_t cluster : beyond) {
-    for (const int mode : clusters[cluster]) {
-      choice.verdicts[static_cast<std::size_t>(mode)].is_kept = true;
-      choice.verdicts[static_cast<std::size_t>(mode)].reason = "kept: beyond what the prediction looks at";
+      ModeVerdict& verdict = choice.verdicts[static_cast<std::size_t>(mode)];
+      verdict.is_kept = place >= left_out.count;
+      verdict.reason = explain(place, cluster, own, left_out, candidates, watched, tolerance);
     }
   }
   add_spectrum(vehicle, measure, watched, points, forcing.speed, choice);

@@ -81,10 +81,7 @@ void activate_moving_modes(const Model& model, const State& start, std::vector<b
   }
 }
 
-}  // namespace
-
-PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
-  PreparedRun prepared;
+void read_files(const RunRequest& request, PreparedRun& prepared) {
   support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
   apply_overrides(run_document, request.overrides, false);
   prepared.run = read_run(run_document);
@@ -95,72 +92,101 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
   apply_overrides(vehicle_document, request.overrides, true);
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
+}
 
+// What the flexible bodies of the models are made with.
+struct Flexibility {
+  ModalDamping damping;
+  StiffenedBodies stiffened;
+};
+
+// Modes as the run file asks for them; those that are chosen from the forcing are chosen.
+Flexibility choose_modes(PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.selection = resolve_modes(run, vehicle);
   prepared.available = resolve_available_modes(run, prepared.selection, vehicle);
-  prepared.output_points = resolve_output_points(run, vehicle);
-  ModalDamping damping = resolve_modal_damping(run, prepared.available, vehicle);
-  StiffenedBodies stiffened = resolve_stiffening(run, prepared.available, vehicle);
-  if (run.adaptivity.enabled && !stiffened.empty()) {
+  Flexibility flexibility{.damping = resolve_modal_damping(run, prepared.available, vehicle),
+                          .stiffened = resolve_stiffening(run, prepared.available, vehicle)};
+  if (run.adaptivity.enabled && !flexibility.stiffened.empty()) {
     throw support::InputError(
         run.adaptivity.location,
         "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
         "be stiffened; take a fixed set of modes, or leave stiffening out");
   }
-
-  prepared.level_road = std::make_unique<FlatRoad>();
-  prepared.road = make_road(run);
-  if (!list_automatic_bodies(run.modes).empty()) {
-    const ModalDamping start_damping = keep_damping(damping, prepared.available, prepared.selection);
-    prepared.choice =
-        choose_automatic_modes(run, vehicle, prepared.selection, start_damping, stiffened, *prepared.road);
-    prepared.selection = keep_modes(*prepared.choice, prepared.selection);
-    if (!run.adaptivity.enabled) {
-      damping = keep_damping(damping, prepared.available, prepared.selection);
-      prepared.available = prepared.selection;
-      std::erase_if(stiffened, [&](const std::string& body) { return !prepared.selection.contains(body); });
-    }
+  if (list_automatic_bodies(run.modes).empty()) return flexibility;
+  const ModalDamping start_damping =
+      keep_damping(flexibility.damping, prepared.available, prepared.selection);
+  prepared.choice = choose_automatic_modes(run, vehicle, prepared.selection, start_damping,
+                                           flexibility.stiffened, *prepared.road);
+  prepared.selection = keep_modes(*prepared.choice, prepared.selection);
+  if (!run.adaptivity.enabled) {
+    flexibility.damping = keep_damping(flexibility.damping, prepared.available, prepared.selection);
+    prepared.available = prepared.selection;
+    std::erase_if(flexibility.stiffened,
+                  [&](const std::string& body) { return !prepared.selection.contains(body); });
   }
-  if (preparation == Preparation::kChoice) return prepared;
+  return flexibility;
+}
 
-  prepared.balance_model =
-      make_model(vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, damping,
-                 run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, stiffened);
+// The vehicle closed and, where that is asked for, in balance on level ground. @return its coordinates
+Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, PreparedRun& prepared) {
+  const Run& run = prepared.run;
+  const Vehicle& vehicle = prepared.vehicle;
+  prepared.balance_model = make_model(
+      vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, flexibility.damping,
+      run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, flexibility.stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
-  if (preparation == Preparation::kBalance || run.start != Run::Start::kAsGiven) {
-    prepared.equilibrium =
-        find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
-    q = prepared.equilibrium->q;
-    check_steady(run, prepared.balance_model, *prepared.equilibrium);
-  }
+  if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
+  prepared.equilibrium =
+      find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
+  check_steady(run, prepared.balance_model, *prepared.equilibrium);
+  return prepared.equilibrium->q;
+}
 
+// Positions and velocities of the model on its road.
+State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
+  const Run& run = prepared.run;
+  const Model& model = prepared.model;
+  if (!run.initial.empty()) {
+    add_initial_amplitudes(run, model, q);
+    assemble_positions(model, q);
+  }
+  Eigen::VectorXd v = make_start_velocities(run, prepared.vehicle, model);
+  // A system that prescribed motion carries along has its speed from there.
+  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {
+    for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
+    v += prepared.equilibrium->motion.calc_velocity(model, q);
+  }
+  prepared.initial_velocities = project_velocities(model, 0.0, q, v);
+  return make_state(model, q, v);
+}
+
+}  // namespace
+
+PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
+  PreparedRun prepared;
+  read_files(request, prepared);
+  const Vehicle& vehicle = prepared.vehicle;
+  prepared.output_points = resolve_output_points(prepared.run, vehicle);
+  prepared.level_road = std::make_unique<FlatRoad>();
+  prepared.road = make_road(prepared.run);
+  const Flexibility flexibility = choose_modes(prepared);
+  if (preparation == Preparation::kChoice) return prepared;
+
+  const Eigen::VectorXd q = find_balance(flexibility, preparation, prepared);
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
-  prepared.model =
-      make_model(vehicle, prepared.available, prepared.placed_road, damping, MotionUse::kMoving, stiffened);
+  prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, flexibility.damping,
+                              MotionUse::kMoving, flexibility.stiffened);
   IntegratorSettings& integrator = prepared.run.integrator;
   if (!integrator.names_method) integrator.options.method = default_method(prepared.model.num_freedoms());
-  if (preparation == Preparation::kBalance) {
-    prepared.start = make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates));
-    return prepared;
-  }
-  if (!run.initial.empty()) {
-    add_initial_amplitudes(run, prepared.model, q);
-    assemble_positions(prepared.model, q);
-  }
-  Eigen::VectorXd v = make_start_velocities(run, vehicle, prepared.model);
-  if (prepared.equilibrium &&
-      !prepared.equilibrium->motion.is_rest()) {  // carried along, in place of the speed
-    for (const Body& body : prepared.model.bodies) v[body.first_coordinate] -= vehicle.direction * run.speed;
-    v += prepared.equilibrium->motion.calc_velocity(prepared.model, q);
-  }
-  prepared.initial_velocities = project_velocities(prepared.model, 0.0, q, v);
-  prepared.start = make_state(prepared.model, q, v);
+  prepared.start = preparation == Preparation::kBalance
+                       ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
+                       : find_start(q, prepared);
   return prepared;
 }
 

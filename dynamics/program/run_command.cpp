@@ -38,56 +38,52 @@ constexpr double kAlarmingClosure = 1e-3;  // far above what any usable toleranc
       fmt::format("at t = {:.6g} s; what there is so far: {}", time, writer->abandon().string()));
 }
 
-}  // namespace
+void print_description(const PreparedRun& prepared) {
+  fmt::print("{}", describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
+                                prepared.initial_velocities,
+                                prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+  if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
+}
 
-int run_command(const RunRequest& request, const RunOutput& output) {
-  if (support::is_foreign_file(output.results, kResultsFormat)) {
-    throw support::InputError(
-        {.path = output.results.string()},
-        "is in the way and is left alone: it is no results file; move it or name another with -o");
-  }
-  const PreparedRun prepared = prepare_run(request, Preparation::kRun);
-  if (output.dry_run) {
-    fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
-    return support::kGood;
-  }
-  const Run& run = prepared.run;
+void warn_of_small_scale(double length_scale) {
+  if (length_scale >= kSmallestScale) return;
+  fmt::print(stderr,
+             "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so "
+             "within 1e-9 m, which will be seen: give lengths in a larger unit, as mm with g and ms\n",
+             length_scale);
+}
+
+// @return whether it closes
+bool check_energy_balance(double closure) {
+  if (closure <= kAlarmingClosure) return true;
+  fmt::print(
+      stderr,
+      "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
+      "relative tolerance, and look for motion far below the vehicle's size\n",
+      closure);
+  return false;
+}
+
+std::unique_ptr<ResultsWriter> make_writer(const PreparedRun& prepared, const RunRequest& request,
+                                           const std::filesystem::path& path,
+                                           const std::optional<AdaptivityOptions>& adaptivity) {
+  if (path.empty()) return nullptr;
   std::vector<VehicleMode> modes;
-  if (!output.results.empty() && prepared.equilibrium && prepared.equilibrium->stable) {
+  if (prepared.equilibrium && prepared.equilibrium->stable)
     modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
-  }
-  if (!output.json && !request.quiet) {
-    fmt::print("{}", describe_run(prepared.vehicle, prepared.model, run, prepared.assembly,
-                                  prepared.initial_velocities,
-                                  prepared.equilibrium ? &*prepared.equilibrium : nullptr));
-    if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
-  }
+  return std::make_unique<ResultsWriter>(
+      path,
+      ResultsHeader{prepared.run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
+                    request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
+                    std::move(modes), prepared.output_points, adaptivity ? &*adaptivity : nullptr,
+                    prepared.choice ? &*prepared.choice : nullptr});
+}
 
-  if (prepared.model.length_scale < kSmallestScale) {
-    fmt::print(stderr,
-               "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so "
-               "within 1e-9 m, "
-               "which will be seen: give lengths in a larger unit, as mm with g and ms\n",
-               prepared.model.length_scale);
-  }
-  TransientOptions options = make_options(run);
-  std::optional<Model> full_model;
-  options.adaptivity = make_adaptivity(prepared, full_model);
-  std::unique_ptr<ResultsWriter> writer;
-  if (!output.results.empty()) {
-    writer = std::make_unique<ResultsWriter>(
-        output.results,
-        ResultsHeader{run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
-                      request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                      std::move(modes), prepared.output_points,
-                      options.adaptivity ? &*options.adaptivity : nullptr,
-                      prepared.choice ? &*prepared.choice : nullptr});
-  }
-  const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
-  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
-                           run.statistics_to);
-
-  support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
+// The run in time, its results to `statistics` and, if there is one, the writer. An end before the end of the
+// run leaves a file with the results up to there.
+TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options,
+                              support::ProgressBar& progress, RunStatistics& statistics,
+                              ResultsWriter* writer) {
   double time_reached = 0.0;
   options.on_output = [&](const Snapshot& snapshot) {
     statistics.add(snapshot);
@@ -98,10 +94,9 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   };
   options.on_step = [&](double time) {
     time_reached = time;
-    progress.update(time / run.duration);
+    progress.update(time / options.end_time);
     return !support::interrupt_requested();
   };
-  const auto start = std::chrono::steady_clock::now();
   TransientStatistics transient;
   try {
     transient = run_transient(prepared.model, prepared.start, options);
@@ -112,20 +107,43 @@ int run_command(const RunRequest& request, const RunOutput& output) {
         fmt::format("{}; results up to there: {}", error.what(), writer->abandon().string()));
   }
   progress.finish();
-  if (!transient.completed) throw_interrupted(time_reached, writer.get());
+  if (!transient.completed) throw_interrupted(time_reached, writer);
+  return transient;
+}
+
+}  // namespace
+
+int run_command(const RunRequest& request, const RunOutput& output) {
+  if (support::is_foreign_file(output.results, kResultsFormat)) {
+    throw support::InputError(
+        {.path = output.results.string()},
+        "is in the way and is left alone: it is no results file; move it or name another with -o");
+  }
+  const PreparedRun prepared = prepare_run(request, Preparation::kRun);
+  const Run& run = prepared.run;
+  if (output.dry_run) {
+    fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
+    return support::kGood;
+  }
+  if (!output.json && !request.quiet) print_description(prepared);
+  warn_of_small_scale(prepared.model.length_scale);
+
+  TransientOptions options = make_options(run);
+  std::optional<Model> full_model;
+  options.adaptivity = make_adaptivity(prepared, full_model);
+  const auto writer = make_writer(prepared, request, output.results, options.adaptivity);
+  const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
+  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
+                           run.statistics_to);
+  support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
+  const auto start = std::chrono::steady_clock::now();
+  const TransientStatistics transient = integrate(prepared, options, progress, statistics, writer.get());
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (writer) writer->finish(statistics, transient);
 
   const RunSummary summary{statistics, transient, run.duration, elapsed,
                            options.adaptivity ? &*options.adaptivity : nullptr};
-  const bool is_trusted = statistics.energy_closure() <= kAlarmingClosure;
-  if (!is_trusted) {
-    fmt::print(
-        stderr,
-        "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
-        "relative tolerance, and look for motion far below the vehicle's size\n",
-        statistics.energy_closure());
-  }
+  const bool is_trusted = check_energy_balance(statistics.energy_closure());
   fmt::print("{}", output.json ? format_summary_json(prepared.model, summary)
                                : format_summary(prepared.model, summary));
   if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
