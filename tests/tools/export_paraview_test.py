@@ -12,6 +12,7 @@ import numpy as np
 from synthetic_results import write_results
 from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
+from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import open_results
 
 RUN = ROOT / "dynamics/models/truck/bump.toml"
@@ -99,7 +100,7 @@ class OfTheTruck(ToolTestCase):
             for name in points:
                 for sample, (_, mesh) in zip(samples, entries):
                     place, speed, change = (
-                        results.file[f"points/{name}/{what}"][sample]
+                        read_numbers(results.file, f"points/{name}/{what}")[0][sample]
                         for what in ("position", "velocity", "acceleration")
                     )
                     # Several bodies may have a node there, in a joint; of these the point's own is one.
@@ -116,8 +117,8 @@ class OfTheTruck(ToolTestCase):
         with open_results(str(self.folder / "run.h5")) as results:
             bodies = results.names("model/bodies")
             number = bodies.index("chassis") + 1
-            recovered = {name: results.file[f"recovery/chassis/{name}"][:] for name in RECOVERED}
-            tip = results.file["points/chassis.front_end/deflection"][:]
+            recovered = {name: read_numbers(results.file, f"recovery/chassis/{name}")[0] for name in RECOVERED}
+            tip = read_numbers(results.file, "points/chassis.front_end/deflection")[0]
         for time, mesh in read_collection(self.folder / "run.pvd"):
             sample = round(1e3 * time)
             own = np.flatnonzero(mesh.cell_data["body"][0] == number)

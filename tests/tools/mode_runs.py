@@ -22,6 +22,8 @@ def write_adaptive_run(path, *, numbers=(1, 3, 4), is_adaptive=True):
         file[f"{modal}/mode_number"][:] = numbers
         part = file["model/superelements/chassis"]
         write_series(part, "frequency", np.array(FREQUENCIES), "Hz")
+        del part["shapes"]
+        write_series(part, "shapes", np.ones((3, 3, len(FREQUENCIES))), "")
         active = np.ones((NUM_SAMPLES, len(numbers)))
         if is_adaptive:
             active[:, 1] = (time >= 0.25) & ~((time >= 0.5) & (time < 0.75))

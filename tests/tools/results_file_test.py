@@ -9,7 +9,7 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results, parse_quantity
-from sprung_tools.files.hdf5_file import read_attribute, read_texts
+from sprung_tools.files.hdf5_file import read_real, read_texts
 
 
 class Reading(ToolTestCase):
@@ -156,7 +156,7 @@ class Refusing(ToolTestCase):
             del file["bodies/chassis/position"]
             file["bodies/chassis/position"] = np.ones((7, 3))
 
-        self.assert_error(self.changed(shorten), "has shape (7, 3), expected 201 rows")
+        self.assert_error(self.changed(shorten), "has shape (7, 3), expected 201 × 3")
 
     def test_a_dataset_of_text(self):
         def overwrite(file):
@@ -191,14 +191,14 @@ class Parts(ToolTestCase):
         path = write_results(self.folder / "run.h5", overrides=("speed=5", "Ü=1"))
         with open_results(path) as results:
             self.assertEqual(read_texts(results.file, "model/overrides"), ["speed=5", "Ü=1"])
-            self.assertEqual(read_attribute(results.file, "model/bodies/chassis", "mass"), 1e4)
+            self.assertEqual(read_real(results.file, "model/bodies/chassis", "mass"), 1e4)
             for name in ("model/none", "model", "time"):
                 with self.assertRaisesRegex(InputError, f"run.h5: error: no dataset '{name}' of strings"):
                     read_texts(results.file, name)
             with self.assertRaisesRegex(InputError, "run.h5: error: no group 'model/bodies/cab'"):
-                read_attribute(results.file, "model/bodies/cab", "mass")
+                read_real(results.file, "model/bodies/cab", "mass")
             with self.assertRaisesRegex(InputError, "run.h5: error: no attribute 'colour' of 'model/bodies/chassis'"):
-                read_attribute(results.file, "model/bodies/chassis", "colour")
+                read_real(results.file, "model/bodies/chassis", "colour")
 
 
 if __name__ == "__main__":

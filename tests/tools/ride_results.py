@@ -12,7 +12,11 @@ STATIC_DEFLECTION, STOP = 0.06, 0.15  # m
 STATIC_LOAD = 5e4  # N
 BEAT = 1.0  # Hz, of suspension and tyre
 AIRBORNE = -0.8  # of the sine, below which the tyre is off the ground; its load has gone below -2/3
-SETTINGS = {"speed": 3.0, "statistics_from": 1.0, "statistics_to": 3.0}
+SETTINGS = {
+    "speed": 3.0, "duration": DURATION, "output_step": STEP, "statistics_from": 1.0, "statistics_to": 3.0,
+    "start": np.bytes_("equilibrium"),
+}  # fmt: skip
+ENDS = {"a": "body.spring", "b": "axle.origin"}
 STOP_UNIT = {"compression_stop_unit": np.bytes_("m")}
 
 
@@ -36,12 +40,12 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
             write_series(file, f"forces/{name}/deflection", STATIC_DEFLECTION + 0.1 * beat, "m")
             file[f"forces/{name}/deflection"].attrs["role"] = np.bytes_("deflection")
             stops = {"compression_stop": stop, **STOP_UNIT} if name == "suspension" else {}
-            write_element(file, f"forces/{name}", "spring-damper", "spring", {}, stops)
+            write_element(file, f"forces/{name}", "spring-damper", "spring", ENDS, stops)
         write_series(file, "forces/tyre/force", load, "N")
         write_series(file, "forces/tyre/contact", (beat > AIRBORNE).astype(float), "1")
         for name in ("force", "contact"):
             file[f"forces/tyre/{name}"].attrs["role"] = np.bytes_(name)
-        write_element(file, "forces/tyre", "tyre", "wheel", {}, {})
+        write_element(file, "forces/tyre", "tyre", "wheel", {"wheel": "axle.origin"}, {"radius": 0.5})
         if with_moments:
             moment = 3e3 * np.cos(0.5 * np.pi * (time - 2.0))
             write_series(file, "recovery/body/moment", (0.5 * moment, -moment, 0.2 * moment), "N m")

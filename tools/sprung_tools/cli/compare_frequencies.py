@@ -1,7 +1,7 @@
 """Prints the lowest clamped frequencies of a superelement beside known ones, with the differences."""
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
@@ -34,7 +34,7 @@ def main() -> int:
 
     printed = [parse_frequency(number, text) for number, text in enumerate(arguments.printed, start=1)]
     with open_hdf5(arguments.file, SUPERELEMENT) as file:
-        name = text_of(file.attrs.get("name", ""))
+        name = read_text(file, "", "name", "")
         frequencies, _ = read_numbers(file, "modes/frequency")
     if frequencies.size < len(printed):
         raise InputError(f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given")

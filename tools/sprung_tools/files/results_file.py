@@ -16,12 +16,12 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-import h5py
 import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, text_of
+from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, read_text
+from sprung_tools.files.stored_file import StoredFile
 
 COMPONENTS = ("x", "y", "angle")
 
@@ -55,10 +55,10 @@ def open_results(path: str | Path) -> "ResultsFile":
 class ResultsFile:
     """A complete results file, open for reading; made by open_results()."""
 
-    def __init__(self, file: h5py.File) -> None:
+    def __init__(self, file: StoredFile) -> None:
         self.file = file
         self.path: str = file.filename
-        if int(file.attrs.get("complete", 0)) != 1:
+        if file.attribute("", "complete", int, 0) != 1:
             raise InputError(f"{self.path}: error: the run that wrote this file did not finish (complete = 0)")
         self.time, _ = read_numbers(file, "time")
         if self.time.ndim != 1 or self.time.size < 2 or np.any(np.diff(self.time) <= 0):
@@ -73,42 +73,49 @@ class ResultsFile:
     @property
     def title(self) -> str:
         """The run's title; the file's name if it has none."""
-        return text_of(self.file.attrs.get("title", "")) or os.path.basename(self.path)
+        return read_text(self.file, "", "title", "") or os.path.basename(self.path)
 
     @property
     def is_from_balance(self) -> bool:
         """Whether the run starts from static balance; displacements are counted from there."""
-        equilibrium = self.file.get("model/equilibrium")
-        return equilibrium is not None and int(equilibrium.attrs.get("is_static_equilibrium", 0)) == 1
+        group = "model/equilibrium"
+        return self.file.has_group(group) and self.file.attribute(group, "is_static_equilibrium", int, 0) == 1
 
     def names(self, group: str) -> list[str]:
         """The names in a group, e.g. names("bodies"); empty if there is no such group."""
-        found = self.file.get(group)
-        return sorted(found) if isinstance(found, h5py.Group) else []
+        return self.file.names(group)
 
     def has(self, quantity: str) -> bool:
         """Whether the file holds the dataset behind a quantity."""
-        return isinstance(self.file.get(parse_quantity(quantity).dataset), h5py.Dataset)
+        return self.file.has_dataset(parse_quantity(quantity).dataset)
 
     def num_modes(self, body: str) -> int:
         """The number of modes that a body has in the run, 0 if it is rigid."""
-        dataset = self.file.get(f"bodies/{body}/modal/mode_number")
-        return dataset.shape[0] if isinstance(dataset, h5py.Dataset) else 0
+        shape = self.file.shape(f"bodies/{body}/modal/mode_number")
+        return shape[0] if shape else 0
 
     def mode_numbers(self, body: str) -> Integers:
-        """The numbers in its superelement of the modes that a body has in the run; empty if it is rigid."""
+        """The numbers in its superelement of the modes that a body has in the run; empty if it is rigid. InputError if
+        the superelement has no such mode."""
         if self.num_modes(body) == 0:
             return np.zeros(0, dtype=int)
-        return read_numbers(self.file, f"bodies/{body}/modal/mode_number")[0].astype(int)
+        name = f"bodies/{body}/modal/mode_number"
+        numbers, _ = read_numbers(self.file, name)
+        shape = self.file.shape(f"model/superelements/{self.superelement(body)}/shapes") or (0, 0, 0)
+        if not np.all(np.isin(numbers, np.arange(1, shape[-1] + 1))):
+            raise InputError(
+                f"{self.path}: error: dataset '{name}' holds numbers that are not those of a mode, 1 to {shape[-1]}"
+            )
+        return numbers.astype(int)
 
     def superelement(self, body: str) -> str:
         """The name of a body's superelement, empty if it has none."""
-        group = self.file.get(f"model/bodies/{body}")
-        return text_of(group.attrs.get("superelement", "")) if group is not None else ""
+        group = f"model/bodies/{body}"
+        return read_text(self.file, group, "superelement", "") if self.file.has_group(group) else ""
 
     def force_kind(self, force: str) -> str:
         """The kind of a force, `tyre` for example; empty if the file does not say."""
-        return text_of(self.file[f"forces/{force}"].attrs.get("kind", ""))
+        return read_text(self.file, f"forces/{force}", "kind", "")
 
     def series(self, quantity: str) -> tuple[Floats, str]:
         """Reads a quantity's history. Returns (values [n], unit). InputError names what the file holds instead."""
@@ -132,9 +139,9 @@ class ResultsFile:
 
     def _no_such(self, quantity: str, dataset: str) -> InputError:
         folder = dataset
-        while folder and not isinstance(self.file.get(folder), h5py.Group):
+        while folder and not self.file.has_group(folder):
             folder = folder.rpartition("/")[0]
-        there = ", ".join(self.names(folder or "/")) or "nothing"
+        there = ", ".join(self.names(folder)) or "nothing"
         return InputError(f"{self.path}: error: no quantity '{quantity}': '/{folder}' holds {there}")
 
     def _column(self, values: Floats, wanted: Quantity, quantity: str) -> int | None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple, NoReturn
 
 from sprung_tools.files.errors import InputError
+from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
 
 
 class Block(NamedTuple):
@@ -87,13 +88,18 @@ def join_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
 
 
 def read_integer(block: Block, line: int, text: str) -> int:
+    """A whole number; InputError at its line if it is none, or too large."""
     try:
-        return int(text)
+        number = int(text)
     except ValueError:
         block.fail(f"'{text}' is not a number", line)
+    if abs(number) > LARGEST_NUMBER:
+        block.fail(f"'{text}' is not a number of a node or an element, which end at {LARGEST_NUMBER}", line)
+    return number
 
 
 def read_real(block: Block, line: int, text: str) -> float:
+    """A finite number; InputError at its line if it is none."""
     try:
         value = float(text.upper().replace("D", "E"))  # Fortran's 1.0D0
     except ValueError:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.abaqus_blocks import Block, join_rows, read_blocks, read_integer, read_real
-from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members
+from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS, LineMesh, pick_members
 
 IdSets = dict[str, list[int]]  # name → ids, in order
 
@@ -186,7 +186,10 @@ class Deck:
                 row = [read_integer(block, line, text) for text in fields]
                 if len(row) not in (2, 3) or row[1] < row[0] or (len(row) == 3 and row[2] < 1):
                     block.fail("GENERATE expects first, last and an increment > 0", line)
-                members += range(row[0], row[1] + 1, row[2] if len(row) == 3 else 1)
+                generated = range(row[0], row[1] + 1, row[2] if len(row) == 3 else 1)
+                if len(members) + len(generated) > MOST_MEMBERS:
+                    block.fail(f"generates more than {MOST_MEMBERS} members", line)
+                members += generated
                 continue
             for text in fields:
                 plain = self.without_instance(text)

@@ -7,6 +7,9 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 
+LARGEST_NUMBER = 2**31 - 1  # of a node or an element
+MOST_MEMBERS = 10_000_000  # of a set that is written as a range
+
 
 @dataclass
 class LineMesh:

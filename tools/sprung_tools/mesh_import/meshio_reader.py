@@ -1,9 +1,7 @@
 """Reading the frame in any of the formats that meshio reads. The sets keep the names that they have in the file."""
 
-import contextlib
-import io
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import meshio
 import numpy as np
@@ -11,9 +9,11 @@ import numpy as np
 from sprung_tools.files.array_types import Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.line_mesh import LineMesh, shorten
+from sprung_tools.mesh_import.meshio_process import run_meshio
 
 # These cell data number the source's own entities or families; the names of these are read elsewhere.
 NOT_SETS = ("gmsh:geometrical", "cell_tags")
+SIZES = {"vertex": 1, "line": 2}  # nodes of the cells that are used
 NOT_REPORTED = ("gmsh:geometrical", "gmsh:dim_tags", "cell_tags", "point_tags", "gmsh:physical")
 
 
@@ -33,8 +33,6 @@ def read_with_meshio(path: str) -> LineMesh:
             offset += len(block.data)
             blocks.append(orient(mesh, place))
     lines = np.concatenate(blocks) if blocks else np.zeros((0, 2), dtype=int)
-    if lines.size and not (0 <= lines.min() and lines.max() < len(positions)):
-        raise InputError(f"{path}: error: a line names a node that is not there: the file is truncated")
     if not np.all(np.isfinite(positions)):
         raise InputError(f"{path}: error: coordinates are not finite")
     element_sets, node_sets = read_sets(mesh, starts)
@@ -62,20 +60,63 @@ def orient(mesh: meshio.Mesh, place: int) -> Integers:
 
 
 def call_meshio(path: str) -> tuple[meshio.Mesh, str]:
-    """Returns (mesh, name of the format). meshio prints its errors and ends the program; here they become
-    InputErrors."""
+    """Returns (mesh, name of the format). InputError if meshio cannot read the file, or makes no whole mesh of it."""
     if not os.path.isfile(path):
         raise InputError(f"{path}: error: no such file")
     file_format = "gmsh" if is_gmsh(path) else None
-    said = io.StringIO()
-    try:
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            mesh = meshio.read(path, file_format=file_format)
-    except (Exception, SystemExit) as error:  # whatever its many readers raise for a damaged file
-        text = " ".join(said.getvalue().split()) or str(error) or type(error).__name__
-        text = text.split("] ")[-1] if isinstance(error, SystemExit) else f"{type(error).__name__}: {text}"
-        raise InputError(f"{path}: error: meshio {meshio.__version__} cannot read it: {text}") from error
+    mesh = run_meshio(path, file_format)
+    fault = find_fault(mesh)
+    if fault:
+        raise InputError(f"{path}: error: {fault}: the file is damaged")
     return mesh, file_format or os.path.splitext(path)[1].lstrip(".").upper()
+
+
+def find_fault(mesh: meshio.Mesh) -> str:
+    """What is wrong with the shapes and types of the arrays that meshio returns; empty if nothing is."""
+    shape = np.shape(mesh.points)
+    if len(shape) != 2 or shape[1] > 3 or not is_of_kind(mesh.points, "fiu"):
+        return f"its coordinates are an array of shape {shape}"
+    for block in mesh.cells:
+        if np.ndim(block.data) != 2 or not is_of_kind(block.data, "iu"):
+            return f"its {block.type} cells are an array of shape {np.shape(block.data)}"
+        if block.type in SIZES and np.shape(block.data)[1] != SIZES[block.type]:
+            return f"its {block.type} cells have {np.shape(block.data)[1]} nodes each"
+        if np.size(block.data) and not 0 <= np.min(block.data) <= np.max(block.data) < shape[0]:
+            return f"a cell of type {block.type} names a node that is not there"
+    lengths = [len(block.data) for block in mesh.cells]
+    for key, blocks in mesh.cell_data.items():
+        if [len(values) for values in blocks] != lengths:
+            return f"the cell data '{key}' are not one for each cell"
+    for key, values in mesh.point_data.items():
+        if np.ndim(values) == 0 or len(values) != shape[0]:
+            return f"the point data '{key}' are not one for each point"
+    return find_fault_of_sets(mesh, lengths)
+
+
+def find_fault_of_sets(mesh: meshio.Mesh, lengths: Sequence[int]) -> str:
+    """What is wrong with the sets that meshio returns; empty if nothing is. lengths: cells in each block."""
+    for name, blocks in mesh.cell_sets.items():
+        if name != "gmsh:bounding_entities" and len(blocks) != len(lengths):
+            return f"the set '{name}' is not divided like the cells"
+        for members, length in zip(blocks, lengths):
+            if name != "gmsh:bounding_entities" and members is not None and not are_indices(members, length):
+                return f"the set '{name}' names a cell that is not there"
+    for name, members in mesh.point_sets.items():
+        if not are_indices(members, len(mesh.points)):
+            return f"the set '{name}' names a node that is not there"
+    return ""
+
+
+def is_of_kind(values: object, kinds: str) -> bool:
+    """Whether an array holds values of some of NumPy's kinds; an empty one is of any kind."""
+    array = np.asarray(values)
+    return array.size == 0 or array.dtype.kind in kinds
+
+
+def are_indices(members: object, count: int) -> bool:
+    """Whether all members are whole numbers from 0 to count - 1."""
+    array = np.asarray(members)
+    return array.size == 0 or (is_of_kind(array, "iu") and 0 <= array.min() and bool(array.max() < count))
 
 
 def is_gmsh(path: str) -> bool:

@@ -12,7 +12,7 @@ from typing import NamedTuple, NoReturn
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members, shorten
+from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER, MOST_MEMBERS, LineMesh, pick_members, shorten
 
 WITH_DIRECTION = {"CBAR", "CBEAM"}  # id, property, 2 nodes, orientation (3 numbers or a node), …
 WITH_PROPERTY = {"CROD", "CTUBE"}  # id, property, 2 nodes
@@ -47,9 +47,12 @@ class Card(NamedTuple):
         if not text and default is not None:
             return default
         try:
-            return int(text)
+            number = int(text)
         except ValueError:
             self.fail(f"'{text}' is no {what}" if text else f"has no {what}: truncated?")
+        if abs(number) > LARGEST_NUMBER:
+            self.fail(f"'{text}' is no {what}: numbers end at {LARGEST_NUMBER}")
+        return number
 
     def real(self, place: int, what: str) -> float:
         """A field's number, 0 if it is blank. what: its meaning, for the message."""
@@ -229,7 +232,10 @@ def read_members(card: Card) -> Iterator[int]:
         if texts[place + 1 : place + 2] == ["THRU"] and place + 2 < len(texts):
             if not (texts[place].isdecimal() and texts[place + 2].isdecimal()):
                 card.fail(f"'{texts[place]} THRU {texts[place + 2]}' is not a range")
-            yield from range(int(texts[place]), int(texts[place + 2]) + 1)
+            members = range(int(texts[place]), int(texts[place + 2]) + 1)
+            if not 0 < len(members) <= MOST_MEMBERS:
+                card.fail(f"'{texts[place]} THRU {texts[place + 2]}' is not a range of 1 to {MOST_MEMBERS} numbers")
+            yield from members
             place += 3
             continue
         if not texts[place].isdecimal():

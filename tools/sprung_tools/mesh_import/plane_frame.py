@@ -42,7 +42,10 @@ def make_plane_frame(
     if len(mesh.lines) == 0:
         raise InputError(f"{mesh.path}: error: no line elements; {describe_found(mesh)}")
     mesh, remarks = drop_unused_nodes(mesh)
-    positions = scale * project(mesh, plane)
+    with np.errstate(over="ignore", invalid="ignore"):
+        positions = scale * project(mesh, plane)
+        if not np.isfinite(np.linalg.norm(np.ptp(positions, axis=0))):
+            raise InputError(f"{mesh.path}: error: the frame is too large for numbers of double precision")
     check_places(mesh, positions)
     curves = choose_curves(mesh, wanted_sets, remarks)
     points = name_points(mesh, remarks)

@@ -2,13 +2,11 @@
 
 from typing import NamedTuple
 
-import h5py
-
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import text_of
+from sprung_tools.files.hdf5_file import read_text
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.resolved_model import open_group
+from sprung_tools.model.resolved_model import find_group
 
 FORCE, LONGITUDINAL, GIVEN, TORQUE, DEFLECTION = "force", "longitudinal-force", "given", "torque", "deflection"
 EXTENT, RATE, CONTACT, ROAD_HEIGHT = "extent", "rate", "contact", "road-height"
@@ -27,13 +25,13 @@ class ForceChannel(NamedTuple):
 def list_force_channels(results: ResultsFile, force: str) -> list[ForceChannel]:
     """All channels of a force element that have a role, in the order of ROLES. InputError for a file of version 1,
     which has no roles."""
-    open_group(results)
+    find_group(results)
     found = []
-    for name, dataset in results.file[f"forces/{force}"].items():
-        role = text_of(dataset.attrs.get("role", ""))
-        if isinstance(dataset, h5py.Dataset) and role in ROLES:
-            unit = text_of(dataset.attrs.get("unit", ""))
-            found.append(ForceChannel(f"forces/{force}/{name}", name, role, unit))
+    for name in results.names(f"forces/{force}"):
+        quantity = f"forces/{force}/{name}"
+        role = read_text(results.file, quantity, "role", "")
+        if results.file.has_dataset(quantity) and role in ROLES:
+            found.append(ForceChannel(quantity, name, role, read_text(results.file, quantity, "unit", "")))
     return sorted(found, key=lambda channel: (ROLES.index(channel.role), channel.name))
 
 

@@ -6,16 +6,19 @@ Files of version 1 do not hold it. What needs it then throws an InputError that 
 
 from typing import Any, NamedTuple
 
-import h5py
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_numbers, read_texts, text_of
+from sprung_tools.files.hdf5_file import read_numbers, read_texts
 from sprung_tools.files.results_file import ResultsFile
 
 ROOT = "model/resolved"
 GROUND = "ground"
+# The roles of the points that an element has which is drawn as that, and its parameters that are numbers.
+POINTS_OF = {"wheel": ("wheel",), "spring": ("a", "b"), "rod": ("a", "b"), "pin": ("a", "b")}
+NUMBERS_OF = {"wheel": ("radius",)}
+STOPS = {"compression_stop", "rebound_stop"}  # parameters that an element may have; they are numbers
 
 
 class Point(NamedTuple):
@@ -41,70 +44,75 @@ class Element(NamedTuple):
 
 def has_resolved_model(results: ResultsFile) -> bool:
     """Whether a file holds the model as run."""
-    return ROOT in results.file
+    return results.file.has_group(ROOT)
 
 
-def open_group(results: ResultsFile, name: str = "") -> h5py.Group:
-    """Opens a group below /model/resolved. InputError if the file does not hold the model as run."""
+def find_group(results: ResultsFile, name: str = "") -> str:
+    """Returns the path of a group below /model/resolved. InputError if the file does not hold the model as run, or if
+    the group is missing."""
     path = f"{ROOT}/{name}".rstrip("/")
     if not has_resolved_model(results):
         raise InputError(
             f"{results.path}: error: holds no '{ROOT}', the model as run, which files have from version 2 on: "
             "run it again"
         )
-    if path not in results.file:
+    if not results.file.has_group(path):
         raise InputError(f"{results.path}: error: no group '{path}'")
-    return results.file[path]
+    return path
 
 
-def read_attributes(group: h5py.Group) -> dict[str, Any]:
-    """Reads the attributes of a group without those that name units."""
+def read_attributes(results: ResultsFile, name: str = "") -> dict[str, Any]:
+    """Reads the attributes of a group below /model/resolved, which are numbers and texts, without those that name
+    units."""
+    group = find_group(results, name)
     found: dict[str, Any] = {}
-    for name, value in group.attrs.items():
-        if name.endswith("_unit") or name in ("unit", "argument_unit"):
+    for key, value in results.file.attributes(group).items():
+        if key.endswith("_unit") or key in ("unit", "argument_unit"):
             continue
-        found[name] = text_of(value) if isinstance(value, (bytes, str)) else value.item()
+        if not isinstance(value, (int, float, str)) or value != value:
+            raise InputError(f"{results.path}: error: attribute '{key}' of '{group}' is neither a number nor a text")
+        found[key] = value
     return found
 
 
 def read_settings(results: ResultsFile) -> dict[str, Any]:
     """Reads speed, duration, output step, statistics window and start, with `integrator` and `adaptivity` as dicts."""
-    group = open_group(results, "settings")
-    parts = {name: read_attributes(group[name]) for name in ("integrator", "adaptivity")}
-    return read_attributes(group) | parts
+    parts = {name: read_attributes(results, f"settings/{name}") for name in ("integrator", "adaptivity")}
+    return read_attributes(results, "settings") | parts
 
 
 def read_direction(results: ResultsFile) -> float:
     """Reads the direction of travel: 1 towards +x, -1 towards -x."""
-    return float(read_attributes(open_group(results))["direction"])
+    return float(read_attributes(results)["direction"])
 
 
 def read_gravity(results: ResultsFile) -> Floats:
     """Reads the gravity [2] m/s²."""
-    open_group(results)
+    find_group(results)
     return read_numbers(results.file, f"{ROOT}/gravity")[0]
 
 
 def read_road_settings(results: ResultsFile) -> dict[str, Any]:
     """Reads the shape of the road and its parameters; for a road from a table the file's name."""
-    group = open_group(results, "road")
-    return read_attributes(group) | read_attributes(group["parameters"])
+    return read_attributes(results, "road") | read_attributes(results, "road/parameters")
 
 
 def read_point(results: ResultsFile, name: str) -> Point:
     """Reads a point by its name body.point. InputError if there is none."""
     where = f"points/{name}"
-    attributes = read_attributes(open_group(results, where))
+    attributes = read_attributes(results, where)
     position, _ = read_numbers(results.file, f"{ROOT}/{where}/position")
     shapes: Floats = np.zeros((3, 0))
-    if f"{ROOT}/{where}/shapes" in results.file:
+    if results.file.has_dataset(f"{ROOT}/{where}/shapes"):
         shapes, _ = read_numbers(results.file, f"{ROOT}/{where}/shapes")
-    return Point(name, attributes["body"], position, int(attributes["node"]), shapes)
+    point = Point(name, attributes["body"], position, int(attributes["node"]), shapes)
+    check_point(results, f"{ROOT}/{where}", point)
+    return point
 
 
 def read_points(results: ResultsFile, body: str) -> dict[str, Point]:
     """Reads all points of a body, or of the ground, by the part of their names after the dot."""
-    names = sorted(open_group(results, "points"))
+    names = results.names(find_group(results, "points"))
     points = (read_point(results, name) for name in names if name.partition(".")[0] == body)
     return {point.name.partition(".")[2]: point for point in points}
 
@@ -112,16 +120,44 @@ def read_points(results: ResultsFile, body: str) -> dict[str, Point]:
 def read_elements(results: ResultsFile, group: str) -> dict[str, Element]:
     """Reads the `joints` or the `forces` by their names. The prescribed motions are among the joints."""
     elements: dict[str, Element] = {}
-    for name, item in open_group(results, group).items():
-        attributes = read_attributes(item)
+    for name in results.names(find_group(results, group)):
+        attributes = read_attributes(results, f"{group}/{name}")
         where = f"{ROOT}/{group}/{name}"
         points = zip(read_texts(results.file, f"{where}/point_roles"), read_texts(results.file, f"{where}/points"))
-        elements[name] = Element(
+        element = Element(
             name,
             attributes["kind"],
             attributes["drawing"],
             bool(attributes["on_road"]),
             dict(points),
-            read_attributes(item["parameters"]),
+            read_attributes(results, f"{group}/{name}/parameters"),
         )
+        check_element(results, where, element)
+        elements[name] = element
     return elements
+
+
+def check_point(results: ResultsFile, where: str, point: Point) -> None:
+    """Throws InputError if a point does not fit to its body's superelement: its node, or the number of its shapes."""
+    modes = results.num_modes(point.body)
+    if point.shapes.shape[1] != modes:
+        raise InputError(
+            f"{results.path}: error: '{where}' has shapes of {point.shapes.shape[1]} modes, its body has {modes}"
+        )
+    nodes = results.file.shape(f"model/superelements/{results.superelement(point.body)}/node_positions")
+    if not -1 <= point.node < (nodes[0] if nodes else 0):
+        raise InputError(f"{results.path}: error: '{where}' is at node {point.node}, which its body does not have")
+
+
+def check_element(results: ResultsFile, where: str, element: Element) -> None:
+    """Throws InputError if an element lacks what its drawing needs: its points, the radius of a wheel."""
+    expected = POINTS_OF.get(element.drawing, tuple(element.points))
+    if tuple(element.points) != expected:
+        roles = ", ".join(element.points) or "no points"
+        raise InputError(
+            f"{results.path}: error: '{where}' has the point roles {roles}, expected {', '.join(expected)}"
+        )
+    needed = NUMBERS_OF.get(element.drawing, ())
+    for key in {*needed, *STOPS.intersection(element.parameters)}:
+        if not isinstance(element.parameters.get(key), (int, float)):
+            raise InputError(f"{results.path}: error: '{where}/parameters' has no attribute '{key}' that is a number")

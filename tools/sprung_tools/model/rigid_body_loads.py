@@ -17,7 +17,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, text_of
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import Point, read_elements, read_gravity, read_point
 
@@ -45,7 +45,7 @@ def read_superelement(path: str | Path) -> Superelement:
     with open_hdf5(str(path), SUPERELEMENT) as file:
         return Superelement(
             path=str(path),
-            content_hash=text_of(file.attrs.get("content_hash", "")),
+            content_hash=read_text(file, "", "content_hash", ""),
             stiffness=read_numbers(file, "matrices/stiffness")[0],
             resultants=read_numbers(file, "resultants")[0],
             shape=read_numbers(file, "modes/shape")[0],
@@ -60,8 +60,9 @@ def read_superelement(path: str | Path) -> Superelement:
 def check_same(results: ResultsFile, body: str, superelement: Superelement) -> None:
     """Throws InputError if a superelement is not the one that a body had in its run."""
     name = results.superelement(body)
-    kept = results.file.get(f"model/superelements/{name}") if name else None
-    if kept is None or text_of(kept.attrs.get("content_hash", "")) != superelement.content_hash:
+    kept = f"model/superelements/{name}"
+    is_kept = name != "" and results.file.has_group(kept)
+    if not is_kept or read_text(results.file, kept, "content_hash", "") != superelement.content_hash:
         raise InputError(
             f"{superelement.path}: error: is not the superelement that '{body}' had in {results.path} "
             "(another content hash)"

@@ -14,7 +14,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import GROUND, Point, read_elements, read_points
 
@@ -193,10 +193,10 @@ def find_point(reference: str, bodies: Sequence[DrawnBody], ground: Mapping[str,
 
 def read_road(results: ResultsFile) -> tuple[Floats, Floats] | None:
     """Reads the road as x [k], height [k] m in world axes, ascending in x; None if the file has none."""
-    if "model/road" not in results.file:
+    if not results.file.has_group("model/road"):
         return None
     distance, height = (read_numbers(results.file, f"model/road/{name}")[0] for name in ("distance", "height"))
-    origin, direction = (float(read_attribute(results.file, "model/road", name)) for name in ("origin", "direction"))
+    origin, direction = (read_real(results.file, "model/road", name) for name in ("origin", "direction"))
     x = (distance + origin) / direction
     order = np.argsort(x, kind="stable")
     return x[order], height[order]

@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 
 from sprung_tools.files.array_types import Integers
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers, text_of
+from sprung_tools.files.hdf5_file import read_numbers, read_real, read_text
 from sprung_tools.paper_report.mode_runs import ALL
 from sprung_tools.paper_report.run_numbers import FRONT_END, MIDDLE, SEAT, Numbers, RunNumbers, relative
 from sprung_tools.runs.mode_history import count_active, find_change_times
@@ -75,8 +75,8 @@ class Choice:
     def __init__(self, run: RunNumbers) -> None:
         file = run.results.file
         self.kept = 1 + np.flatnonzero(read_numbers(file, "model/mode_choice/kept")[0])
-        self.neglected = float(read_attribute(file, "model/mode_choice", "neglected"))
-        self.neglected_of = text_of(read_attribute(file, "model/mode_choice", "neglected_of"))
+        self.neglected = read_real(file, "model/mode_choice", "neglected")
+        self.neglected_of = read_text(file, "model/mode_choice", "neglected_of")
 
 
 def compare(numbers: Numbers, name: str, suffix: str = "") -> Comparison:

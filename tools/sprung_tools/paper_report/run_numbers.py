@@ -9,7 +9,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_numbers, text_of
+from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
 from sprung_tools.files.results_file import open_results
 from sprung_tools.paper_report.paper_runs import name_modes
 from sprung_tools.paper_report.programs import list_warnings
@@ -89,12 +89,12 @@ class RunNumbers:
     @property
     def evaluations(self) -> int:
         """The integrator's evaluations of the equations of motion, without those for output."""
-        return int(self.results.file["summary"].attrs["evaluations"])
+        return int(read_real(self.results.file, "summary", "evaluations"))
 
     @property
     def closure(self) -> float:
         """The relative error of the energy balance."""
-        return float(self.results.file["summary"].attrs["energy_closure"])
+        return read_real(self.results.file, "summary", "energy_closure")
 
     @property
     def said(self) -> str:
@@ -127,7 +127,7 @@ class RunNumbers:
         file = self.results.file
         frequencies, _ = read_numbers(file, "model/modes/undamped_frequency")
         shapes, _ = read_numbers(file, "model/modes/shapes")
-        rows = [text_of(name) for name in file["model/modes/coordinates"]]
+        rows = read_texts(file, "model/modes/coordinates")
         found = {}
         for name, coordinate in (("bounce", "chassis.y"), ("pitch", "chassis.angle")):
             found[name] = float(frequencies[np.argmax(np.abs(shapes[rows.index(coordinate)]))])

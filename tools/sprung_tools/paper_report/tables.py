@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sprung_tools.files.hdf5_file import read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.paper_report.claims import Claim, format_holds
@@ -258,7 +259,7 @@ def make_accuracy_table(numbers: Numbers) -> Table:
             rows.append(
                 (
                     name,
-                    f"{run.results.file['model'].attrs['relative_tolerance']:g}",
+                    f"{read_real(run.results.file, 'model', 'relative_tolerance'):g}",
                     *(f"{run.peak_acceleration(point):.4f}" for point in (MIDDLE, SEAT)),
                     *(f"{run.rms_acceleration(point):.5f}" for point in (MIDDLE, SEAT)),
                     f"{np.max(np.abs(run.displacement(MIDDLE))) * 1e3:.4f}",

@@ -8,6 +8,7 @@ import meshio
 import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.model.vehicle_shape import DrawnBody, calc_motion, read_bodies
@@ -38,6 +39,11 @@ def read_resultants(results: ResultsFile, bodies: Sequence[DrawnBody], samples: 
         for what, name in RESULTANTS.items():
             if results.has(f"recovery/{body.name}/{what}"):
                 values = read_numbers(results.file, f"recovery/{body.name}/{what}")[0][samples]
+                if values.shape[1] != 2 * body.num_elements:
+                    raise InputError(
+                        f"{results.path}: error: 'recovery/{body.name}/{what}' has {values.shape[1]} stations, "
+                        f"expected {2 * body.num_elements}: both ends of {body.num_elements} elements"
+                    )
                 found[name][:, first : first + body.num_elements] = values.reshape(len(samples), -1, 2)
         first += len(body.lines)
     return found

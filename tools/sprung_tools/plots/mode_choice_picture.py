@@ -4,7 +4,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-import h5py
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -15,11 +14,12 @@ from sprung_tools.files.hdf5_file import (
     MODE_CHOICE,
     RESULTS,
     open_hdf5,
-    read_attribute,
     read_numbers,
+    read_real,
+    read_text,
     read_texts,
-    text_of,
 )
+from sprung_tools.files.stored_file import StoredFile
 from sprung_tools.plots.picture_file import COLOURS, PANEL_HEIGHT, label_unit, line_style, make_figure
 
 GROUP = "model/mode_choice"
@@ -35,7 +35,7 @@ LEAST_SHARE = 1e-6  # drawn for modes that contribute less
 class Choice(NamedTuple):
     """An open file that holds a choice among n modes."""
 
-    file: h5py.File
+    file: StoredFile
     tolerance: float
     mode_frequency: Floats  # [n] Hz
     is_kept: Flags  # [n]
@@ -46,8 +46,7 @@ class Choice(NamedTuple):
 
     def points(self) -> list[str]:
         """The points for which the file holds transfer functions."""
-        group = self.file.get(f"{GROUP}/transfer")
-        return sorted(group) if group is not None else []
+        return self.file.names(f"{GROUP}/transfer")
 
     def share(self, datasets: Iterable[str]) -> Floats:
         """For each mode the largest of several shares [n]."""
@@ -62,19 +61,19 @@ def open_choice(path: str | Path) -> Choice:
         if error.found != MODE_CHOICE:
             raise
         file = open_hdf5(path, MODE_CHOICE)
-    if GROUP not in file:
+    if not file.has_group(GROUP):
         raise InputError(
             f'{path}: error: no modes were chosen in this run: its [modes] has none "auto"; what they did over time: '
             "--over-time"
         )
-    if f"{GROUP}/frequency" not in file:
+    if not file.has_dataset(f"{GROUP}/frequency"):
         remarks = "; ".join(read_texts(file, f"{GROUP}/remarks"))
         raise InputError(f"{path}: error: the forcing was not looked at: {remarks}")
     return Choice(
         file,
-        float(read_attribute(file, GROUP, "tolerance")),
+        read_real(file, GROUP, "tolerance"),
         read_numbers(file, f"{GROUP}/mode_frequency")[0],
-        np.asarray(file[f"{GROUP}/kept"][:], dtype=bool),
+        read_numbers(file, f"{GROUP}/kept")[0] != 0.0,
     )
 
 
@@ -121,9 +120,9 @@ def make_choice_figure(choice: Choice, title: str = "") -> Figure:
     points = choice.points()
     caption = (
         f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
-        f"{read_attribute(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
+        f"{read_real(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
     )
-    title = title or text_of(choice.file.attrs["title"])
+    title = title or read_text(choice.file, "", "title")
     figure, panels = make_figure([PANEL_HEIGHT] * (3 if points else 2), title, caption)
     draw_curves(panels[0], choice, {"road": "road"}, "road under the front wheel")
     if points:

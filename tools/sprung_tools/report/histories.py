@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     DEFLECTION,
@@ -92,7 +92,7 @@ def describe_history(channel: ForceChannel, on_road: bool) -> str:
 def find_heavy(results: ResultsFile) -> list[str]:
     """The heaviest body's name in a list; an empty list if there is no body."""
     bodies = results.names("model/bodies")
-    return sorted(bodies, key=lambda name: -float(read_attribute(results.file, f"model/bodies/{name}", "mass")))[:1]
+    return sorted(bodies, key=lambda name: -read_real(results.file, f"model/bodies/{name}", "mass"))[:1]
 
 
 def find_most_bent(results: ResultsFile, body: DrawnBody) -> list[str]:
@@ -110,8 +110,10 @@ def calc_moment_envelope(results: ResultsFile, body: DrawnBody) -> list[Channel]
     channels = []
     for what, name in (("moment", "largest bending moment along it"), ("axial", "largest axial force along it")):
         dataset = f"recovery/{body.name}/{what}"
-        if dataset in results.file and results.file[dataset].shape[1] > 0:
-            values, unit = read_numbers(results.file, dataset)
+        if not results.has(dataset):
+            continue
+        values, unit = read_numbers(results.file, dataset)
+        if values.size > 0:
             channels.append(Channel("Deflection", f"{body.name}, {name}", np.max(np.abs(values), axis=1), unit))
     return channels
 
@@ -154,7 +156,7 @@ def pack_modes(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> 
         numbers = results.mode_numbers(body.name)
         amplitude, _ = read_numbers(results.file, f"{where}/amplitude")
         active = np.ones_like(amplitude)
-        if f"{where}/active" in results.file:
+        if results.has(f"{where}/active"):
             active, _ = read_numbers(results.file, f"{where}/active")
         size = np.max(np.linalg.norm(body.shapes, axis=1), axis=0)  # m per unit amplitude
         largest = np.argsort(-np.max(np.abs(amplitude * size), axis=0), kind="stable")[:MOST_MODES]

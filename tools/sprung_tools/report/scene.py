@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.files.hdf5_file import read_attribute, read_numbers
+from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, FORCE, read_force_channel
 from sprung_tools.model.resolved_model import read_direction
@@ -84,5 +84,5 @@ def pack_road(results: ResultsFile, most: int = 20000) -> Packed | None:
         return None
     x, height = road
     kept = find_kept(height, most)
-    origin, direction = (float(read_attribute(results.file, "model/road", name)) for name in ("origin", "direction"))
+    origin, direction = (read_real(results.file, "model/road", name) for name in ("origin", "direction"))
     return {"x": encode(x[kept]), "h": encode(height[kept]), "direction": direction, "origin": origin}

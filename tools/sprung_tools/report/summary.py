@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_attribute, read_numbers, read_texts, text_of
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_real, read_text, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
@@ -57,9 +57,11 @@ def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[P
             point, _, what = channel.name.partition(", ")
             largest = what if what.startswith("largest") else "deflection, largest"
             rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values)))))
-    attributes = results.file["summary"].attrs if "summary" in results.file else {}
+    there = results.file.attributes("summary") if results.file.has_group("summary") else {}
     rows += [
-        ("computation", name, "", float(attributes[key])) for key, name in COMPUTATION.items() if key in attributes
+        ("computation", name, "", read_real(results.file, "summary", key))
+        for key, name in COMPUTATION.items()
+        if key in there
     ]
     hidden = {"computation", *many}
     return [
@@ -72,11 +74,13 @@ def list_point_rows(results: ResultsFile) -> list[Statistic]:
     """The statistics that sprung-dynamics itself computed, as (point, quantity, unit, value)."""
     rows: list[Statistic] = []
     for point in results.names("summary/points"):
-        attributes = results.file[f"summary/points/{point}"].attrs
+        group = f"summary/points/{point}"
+        there = results.file.attributes(group)
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
             for part, name in (("max", "highest"), ("min", "lowest"), ("rms", "r.m.s.")):
-                if f"{what}_{part}" in attributes:
-                    rows.append((point, f"{what}, {name}", unit, float(attributes[f"{what}_{part}"])))
+                if f"{what}_{part}" in there:
+                    value = read_real(results.file, group, f"{what}_{part}")
+                    rows.append((point, f"{what}, {name}", unit, value))
     return rows
 
 
@@ -119,19 +123,20 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
             flexible.append(f"{body}: modes {format_ranges(results.mode_numbers(body))}")
     facts.append(("flexible bodies", "; ".join(flexible) or "none"))
     facts.append(("integrator", describe_integrator(settings["integrator"])))
-    changed = read_texts(results.file, "model/overrides") if "model/overrides" in results.file else []
+    changed = read_texts(results.file, "model/overrides") if results.file.has_dataset("model/overrides") else []
     facts.append(("changed by --set", ", ".join(changed) or "nothing"))
     facts.append(("starts from", "static balance" if results.is_from_balance else "the positions given"))
     for name in results.names("model/superelements"):
         version, content = (
-            text_of(read_attribute(results.file, f"model/superelements/{name}", attribute))
+            read_text(results.file, f"model/superelements/{name}", attribute)
             for attribute in ("program_version", "content_hash")
         )
         facts.append((f"superelement {name}", f"sprung-reduce {version}, content {content}"))
-    if "program_version" in results.file.attrs:
-        facts.append(("sprung-dynamics", text_of(results.file.attrs["program_version"])))
+    version = read_text(results.file, "", "program_version", "")
+    if version:
+        facts.append(("sprung-dynamics", version))
     for name, dataset in (("vehicle file", "vehicle_text"), ("run file", "run_text")):
-        if f"model/{dataset}" in results.file:
+        if results.file.has_dataset(f"model/{dataset}"):
             (text,) = read_texts(results.file, f"model/{dataset}")
             facts.append((f"{name}, SHA-256", hashlib.sha256(text.encode()).hexdigest()))
     facts.append(("results file, SHA-256", sha256))
@@ -140,7 +145,7 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
 
 def list_frequencies(results: ResultsFile) -> list[Packed]:
     """The vehicle's modes about its equilibrium: undamped frequency, damping ratio, participants."""
-    if "model/modes/undamped_frequency" not in results.file:
+    if not results.file.has_dataset("model/modes/undamped_frequency"):
         return []
     frequency, _ = read_numbers(results.file, "model/modes/undamped_frequency")
     damping, _ = read_numbers(results.file, "model/modes/damping_ratio")
@@ -163,7 +168,7 @@ def read_checks(folder: str | None, runs: Sequence[Run]) -> list[Packed]:
     users: dict[tuple[str, str], list[str]] = {}
     for run in runs:
         for name in run.results.names("model/superelements"):
-            content = text_of(read_attribute(run.results.file, f"model/superelements/{name}", "content_hash"))
+            content = read_text(run.results.file, f"model/superelements/{name}", "content_hash")
             users.setdefault((name, content), []).append(run.label)
     return [
         {"name": name, "hash": content, "runs": labels, "problem": "", "checks": [], "frequencies": [], "more": False}
@@ -180,7 +185,7 @@ def read_checks_of(folder: str | None, name: str, content_hash: str) -> Packed:
     if not os.path.exists(path):
         return {"problem": f"Not shown: there is no {path}."}
     with open_hdf5(path, SUPERELEMENT) as file:
-        if text_of(file.attrs.get("content_hash", "")) != content_hash:
+        if read_text(file, "", "content_hash", "") != content_hash:
             return {"problem": f"Not shown: {path} is another superelement than the one that was run."}
         values, _ = read_numbers(file, "checks/value")
         tolerances, _ = read_numbers(file, "checks/tolerance")

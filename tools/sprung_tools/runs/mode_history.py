@@ -69,7 +69,7 @@ def read_neglected(results: ResultsFile) -> dict[str, Floats]:
     mode's shares of the largest deflection and of the largest acceleration so far, and its number. Empty if the run did
     not record it."""
     names = {body: f"bodies/{body}/modal/neglected" for body in results.names("bodies")}
-    return {body: read_numbers(results.file, name)[0] for body, name in names.items() if name in results.file}
+    return {body: read_numbers(results.file, name)[0] for body, name in names.items() if results.has(name)}
 
 
 def find_worst_neglect(results: ResultsFile, column: int) -> Neglect | None:

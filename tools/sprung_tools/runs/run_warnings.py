@@ -35,7 +35,8 @@ def list_warnings(results: ResultsFile) -> list[RunWarning]:
 
 def warn_of_energy(results: ResultsFile) -> list[RunWarning]:
     """The warning of an energy balance that does not close."""
-    closure = float(results.file["summary"].attrs.get("energy_closure", 0.0)) if "summary" in results.file else 0.0
+    has_summary = results.file.has_group("summary")
+    closure = results.file.attribute("summary", "energy_closure", float, 0.0) if has_summary else 0.0
     if closure <= ALARMING_CLOSURE:
         return []
     text = (
@@ -87,7 +88,7 @@ def find_judged(results: ResultsFile) -> Flags:
 def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
     """The warning that the vehicle's modes, which are those of small motion, do not hold while a wheel is off the
     ground."""
-    if "model/modes/undamped_frequency" not in results.file:
+    if not results.has("model/modes/undamped_frequency"):
         return []
     tyres = [force.name for force in read_elements(results, "forces").values() if force.on_road]
     airborne = [name for name in tyres if np.any(read_force_channel(results, name, CONTACT)[0] < 0.5)]

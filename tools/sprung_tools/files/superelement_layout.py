@@ -1,0 +1,26 @@
+"""The layouts of superelement files (reduce/superelement/superelement.md) and of response files
+(dynamics/output/response.md), as far as the tools read them."""
+
+from sprung_tools.files.layout import Layout, Numbers, Texts
+
+MODES = "modes/frequency"
+SUPERELEMENT_LAYOUT = Layout({
+    "nodes/position": Numbers((None, 2)),
+    "elements/node": Numbers((None, 2), within="nodes/position"),
+    "elements/section": Texts("elements/node"),
+    MODES: Numbers((None,)),
+    "modes/shape": Numbers(("nodes/position", 3, MODES)),
+    "matrices/stiffness": Numbers((MODES, MODES)),
+    "resultants": Numbers(("elements/node", 6, MODES)),
+    "inertia/P": Numbers((2, MODES)),
+    "inertia/c": Numbers((MODES,)),
+    "inertia/d": Numbers((MODES,)),
+    "checks/name": Texts(),
+    "checks/value": Numbers(("checks/name",)),
+    "checks/tolerance": Numbers(("checks/name",)),
+})  # fmt: skip
+RESPONSE_LAYOUT = Layout({
+    "frequency": Numbers((None,)),
+    "outputs/**/response": Numbers(("frequency", 2)),
+    "outputs/**/spectrum": Numbers(("frequency",)),
+})  # fmt: skip
