@@ -13,8 +13,8 @@ namespace {
 
 using Kind = RelativeCoordinate::Kind;
 
-// Most that a prescribed motion may move in one step, of the length scale or of 1 rad: from there the
-// dependent coordinates are found on the same branch of the mechanism.
+// Largest change of a prescribed motion in one step, in units of the length scale or of 1 rad: it keeps the
+// dependent coordinates on the same branch of the mechanism.
 constexpr double kLargestMovement = 0.25;
 
 }  // namespace
@@ -28,7 +28,7 @@ CoordinateJoint::CoordinateJoint(std::string joint_name, int marker_of_a, int ma
   }
 }
 
-// What holds a distance alone pushes along the line through both points.
+// The force that holds a distance acts along the line through both points.
 bool CoordinateJoint::carries_torque() const {
   return std::any_of(parts_.held.begin(), parts_.held.end(),
                      [](const Held& one) { return one.coordinate.kind() != Kind::kDistance; });

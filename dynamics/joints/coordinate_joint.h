@@ -8,9 +8,10 @@
 
 namespace sprung::dynamics {
 
-/// Holds up to three relative coordinates of two markers at values that may be functions of time:
-/// φ_k = c_k(a, b) − f_k(t). Every kind of joint but the revolute one, and all prescribed motion, is made of
-/// these (joints, eqs. 3–6).
+/// Keeps up to three relative coordinates of two markers at values that may be functions of time:
+/// φ_k = c_k(a, b) − f_k(t). All joints except the revolute one, and all prescribed motion, are of this class
+/// (joints, eqs. 3–6).
+/// Checked by tests/dynamics/joints/coordinate_joint_test.cpp
 class CoordinateJoint final : public Joint {
  public:
   struct Held {
@@ -20,9 +21,10 @@ class CoordinateJoint final : public Joint {
   };
   struct Parts {
     std::string_view kind;
-    std::vector<Held> held;                        ///< 1 to 3
-    std::optional<RelativeCoordinate> coordinate;  ///< what the joint is moved in; none where nothing is free
-    std::vector<Parameter> parameters = {};        ///< what it was made with
+    std::vector<Held> held;  ///< 1 to 3
+    std::optional<RelativeCoordinate>
+        coordinate;                          ///< free or driven; none where the joint leaves nothing free
+    std::vector<Parameter> parameters = {};  ///< for results files
     Drawing drawing = Drawing::kPin;
     bool is_motion = false;  ///< prescribed motion: the first held coordinate is driven
   };
@@ -61,20 +63,21 @@ class CoordinateJoint final : public Joint {
   Parts parts_;
 };
 
-/// b slides along an axis through a that turns with a, without turning against it: two constraints.
+/// Marker b slides along an axis that is fixed to a, at a constant angle to a: two constraints.
 /// @param axis   in the axes of a's body, not zero
-/// @param angle  of b against a [rad]
+/// @param angle  of b relative to a [rad]
 CoordinateJoint::Parts make_translational_joint(const Eigen::Vector2d& axis, double angle);
-/// b stays in a's place and at an angle against it: three constraints. @param angle [rad]
+/// Marker b coincides with a at a constant angle to it: three constraints.
+/// @param angle  of b relative to a [rad]
 CoordinateJoint::Parts make_fixed_joint(double angle);
-/// A massless link: b keeps its distance from a, free to turn at both ends: one constraint.
+/// A massless link, free to rotate at both ends, between a and b: one constraint.
 /// @param length  > 0 at all times [m]
 CoordinateJoint::Parts make_distance_joint(const TimeFunction& length);
-/// A pin, b, stays on a line through a that turns with a, free to turn: one constraint.
+/// A pin, marker b, slides along a line through a that turns with a, free to rotate: one constraint.
 /// @param axis  in the axes of a's body, not zero
 CoordinateJoint::Parts make_pin_in_slot_joint(const Eigen::Vector2d& axis);
 /// Prescribed motion: a coordinate follows a function of time, one constraint.
-/// @param value  continuous with its first derivative [m, rad]
+/// @param value  continuously differentiable [m, rad]
 CoordinateJoint::Parts make_motion(const RelativeCoordinate& coordinate, const TimeFunction& value);
 
 }  // namespace sprung::dynamics

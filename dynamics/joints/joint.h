@@ -23,8 +23,9 @@ using JointJacobian = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 
 /// k values, one for each constraint.
 using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxJointConstraints, 1>;
 
-/// Holds two markers together: φ(a, b, t) = 0. A joint sees markers alone, never coordinates, so that any mix
-/// of rigid bodies, flexible bodies and ground can be joined and a new kind of joint touches nothing else.
+/// A constraint between two markers: φ(a, b, t) = 0 with k equations. A joint sees markers alone, never
+/// coordinates. So any mix of rigid bodies, flexible bodies and ground can be joined, and the solver does not
+/// depend on the kinds of joints.
 class Joint {
  public:
   Joint(std::string joint_name, int marker_of_a, int marker_of_b, support::SourceLocation where)
@@ -35,19 +36,18 @@ class Joint {
   virtual ~Joint() = default;
 
   virtual std::string_view kind() const = 0;
-  /// Its points in the order a, b, and what it was made with.
+  /// Its points in the order a, b, and its parameters.
   virtual ElementDescription describe() const = 0;
-  /// Prescribed motion: moves its markers by a function of time, doing work.
+  /// Whether it is prescribed motion: it moves its markers by a function of time and does work.
   virtual bool is_motion() const { return false; }
-  /// What the joint leaves free and prescribed motion may drive; none where it leaves nothing, or more than
-  /// one.
+  /// The coordinate that results show and that prescribed motion may drive; none for a joint without one.
   virtual std::optional<RelativeCoordinate> coordinate() const { return std::nullopt; }
 
-  /// Whether it can carry a torque at its point a.
+  /// Whether its reaction at a can contain a torque.
   virtual bool carries_torque() const = 0;
 
   virtual int num_constraints() const = 0;
-  /// What constraint k (0-based) holds, for messages: "x", "y".
+  /// The quantity that constraint k (0-based) holds, for messages: "x", "y".
   virtual std::string_view constraint_name(int k) const = 0;
   virtual std::string_view constraint_unit(int /*k*/) const { return "m"; }
 
@@ -58,11 +58,11 @@ class Joint {
   /// @param[out] Ga, Gb  ∂φ/∂(motion of a), ∂φ/∂(motion of b), k×3; φ̇ = Ga (v_a, ω_a) + Gb (v_b, ω_b) + φ_t
   virtual void calc_jacobian(const MarkerState& a, const MarkerState& b, JointJacobian& Ga,
                              JointJacobian& Gb) const = 0;
-  /// Whether Ga and Gb are the same at all positions. They are then asked for once, and where they are zero
-  /// nothing is eliminated.
+  /// Whether Ga and Gb are the same at all positions. They are then computed once, and their zero entries are
+  /// left out of the elimination.
   virtual bool has_constant_jacobian() const { return false; }
 
-  /// @param[out] phi_t  k partial time derivatives of φ [m/s, rad/s]; zero unless the joint moves by itself
+  /// @param[out] phi_t  k partial time derivatives of φ [m/s, rad/s]; zero unless φ depends on time
   virtual void calc_time_rate(const MarkerState& a, const MarkerState& b, double time,
                               JointVector& phi_t) const;
 
@@ -71,9 +71,9 @@ class Joint {
   virtual void calc_drift(const MarkerState& a, const MarkerState& b, double time,
                           JointVector& drift) const = 0;
 
-  /// The functions of time in it, whose breaks the integrator has to step to.
+  /// Its functions of time; the integrator ends a step at each of their breaks.
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
-  /// How far the integrator may go in one step for its motion to be followed [s].
+  /// Largest integration step for which the prescribed motion can be followed [s].
   /// @param length_scale  of the model [m]
   virtual double calc_longest_step(double /*time*/, double /*length_scale*/) const {
     return std::numeric_limits<double>::infinity();

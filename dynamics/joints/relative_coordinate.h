@@ -7,8 +7,9 @@
 
 namespace sprung::dynamics {
 
-/// A scalar that says where marker b is as seen from marker a: what joints hold and prescribed motion drives
-/// (joints, eqs. 3, 5).
+/// A scalar that describes the position or angle of marker b relative to marker a. Joints hold such
+/// coordinates, and prescribed motion drives them (joints, eqs. 3, 5).
+/// Checked by tests/dynamics/joints/relative_coordinate_test.cpp
 class RelativeCoordinate {
  public:
   enum class Kind {
@@ -16,14 +17,14 @@ class RelativeCoordinate {
     kY,         ///< y_b − y_a, world axes [m]
     kAngle,     ///< angle_b − angle_a [rad]
     kAlong,     ///< (r_b − r_a) · axis, the axis turning with a [m]
-    kDistance,  ///< |r_b − r_a| [m]; has no derivative where b is in a's place
+    kDistance,  ///< |r_b − r_a| [m]; has no derivative where both points coincide
   };
   /// @param axis  for kAlong: its direction in the axes of a's body, not zero
   explicit RelativeCoordinate(Kind kind, const Eigen::Vector2d& axis = Eigen::Vector2d::UnitX())
       : kind_(kind), axis_(axis.normalized()) {}
 
   Kind kind() const { return kind_; }
-  /// Of kAlong, in the axes of a's body, of length 1.
+  /// The axis of kAlong, a unit vector in the axes of a's body.
   const Eigen::Vector2d& axis() const { return axis_; }
   bool is_angle() const { return kind_ == Kind::kAngle; }
 
@@ -35,11 +36,11 @@ class RelativeCoordinate {
     Eigen::RowVector3d a, b;
   };
   Gradient gradient(const MarkerState& a, const MarkerState& b) const;
-  /// Whether the gradient is the same at all positions: of x, y and angle.
+  /// Whether the gradient is the same at all positions, as for x, y and angle.
   bool has_constant_gradient() const {
     return kind_ == Kind::kX || kind_ == Kind::kY || kind_ == Kind::kAngle;
   }
-  /// What c̈ is while no marker accelerates: Ġ_a (v_a, ω_a) + Ġ_b (v_b, ω_b).
+  /// c̈ without the accelerations of the markers: Ġ_a (v_a, ω_a) + Ġ_b (v_b, ω_b).
   double drift(const MarkerState& a, const MarkerState& b) const;
 
  private:
@@ -48,7 +49,7 @@ class RelativeCoordinate {
   Eigen::Vector2d axis_;  // unit, axes of a's body
 };
 
-/// As in results files: "along".
+/// The name that a results file uses: "along".
 std::string_view coordinate_kind_name(RelativeCoordinate::Kind kind);
 
 }  // namespace sprung::dynamics

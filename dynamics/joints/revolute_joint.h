@@ -4,7 +4,8 @@
 
 namespace sprung::dynamics {
 
-/// Two markers at one place, free to turn: r_a − r_b = 0, two constraints in world axes (joints, eq. 1).
+/// Two markers that coincide, free to rotate: r_a − r_b = 0, two constraints in world axes (joints, eq. 1).
+/// Checked by tests/dynamics/joints/revolute_joint_test.cpp
 class RevoluteJoint final : public Joint {
  public:
   using Joint::Joint;
