@@ -10,22 +10,22 @@
 
 namespace sprung::dynamics {
 
-/// A force on a mode that is let go smoothly: F (1 + cos πs)/2, s = (t − start)/duration from 0 to 1, nothing
-/// behind.
+/// A force on a mode that fades out smoothly: F (1 + cos πs)/2 with s = (t − start)/duration from 0 to 1,
+/// F before and zero afterwards.
 struct FadingForce {
   int mode = 0;           ///< 0-based among the active ones
-  double force = 0.0;     ///< F, what it is at the start
+  double force = 0.0;     ///< F, the value at the start
   double start = 0.0;     ///< [s]
   double duration = 0.0;  ///< > 0 [s]
 
   double value(double time) const;
 };
 
-/// Whether a body's axial forces stiffen or soften it against bending.
+/// Whether axial forces in a body change its bending stiffness.
 enum class Stiffening { kOff, kOn };
 
 /// A planar floating-frame body with the modes that are active: r = R + A(θ)(u₀ + Φη), coordinates (R, θ, η).
-/// A rigid body has no modes. All in the body frame; n active modes.
+/// A rigid body has no modes. All values are in the body frame; n active modes.
 struct Body {
   std::string name;
   int first_coordinate = 0;       ///< of the body's 3 + n in q
@@ -42,24 +42,27 @@ struct Body {
   Eigen::MatrixXd B;                ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
   Eigen::MatrixXd stiffness;        ///< n×n
   Eigen::MatrixXd damping;          ///< n×n
-  std::vector<FadingForce> fading;  ///< of modes that have just joined
+  std::vector<FadingForce> fading;  ///< on modes that have just joined
   Eigen::VectorXd mode_scale;       ///< n, largest displacement of any node per unit modal coordinate [m]
-  std::optional<BodyStiffening> stiffening;  ///< where it is switched on and there are modes
+  std::optional<BodyStiffening> stiffening;  ///< present where it is switched on and there are modes
 
   int num_modes() const { return static_cast<int>(mode_numbers.size()); }
   int num_coordinates() const { return 3 + num_modes(); }
 };
 
 /// A rigid body whose frame is at its centre of mass.
-/// @param mass > 0 [kg], inertia > 0 about the centre of mass [kg·m²]
+/// @param mass     > 0 [kg]
+/// @param inertia  > 0, about the centre of mass [kg·m²]
+/// @throws std::invalid_argument if one of them is not positive
+/// Checked by tests/dynamics/bodies/body_test.cpp
 Body make_rigid_body(const std::string& name, double mass, double inertia);
 
-/// A body from a superelement with the given modes active; none of them: rigid with the same mass and
+/// A body from a superelement with the given modes active. Without modes it is rigid, with the same mass and
 /// inertia.
 /// @param mode_numbers   1-based, ascending, without repetition, at most superelement.num_modes()
-/// @throws std::invalid_argument for a mode that the superelement lacks, or whose geometric stiffness it
-/// lacks
-///         where the body is to stiffen
+/// @throws std::invalid_argument for a mode that the superelement lacks; with stiffening, for a mode whose
+///         geometric stiffness it lacks
+/// Checked by tests/dynamics/bodies/body_test.cpp
 Body make_flexible_body(const std::string& name, const reduce::Superelement& superelement,
                         const std::vector<int>& mode_numbers, Stiffening stiffening = Stiffening::kOff);
 

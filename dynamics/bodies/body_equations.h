@@ -20,12 +20,13 @@ struct FrameRotation {
   }
 };
 
-/// The rotation of a frame whose angle is asked for again and again nearby: sine and cosine there come from
-/// those at an angle that is kept, by their series, exact to rounding.
+/// Sine and cosine of an angle that changes little between calls. They are computed by power series from
+/// those of a stored angle, exact to rounding; a large change stores the new angle.
+/// Checked by tests/dynamics/bodies/body_equations_test.cpp
 class NearbyRotation {
  public:
   FrameRotation at(double theta) {
-    constexpr double kNearby = 0.03;  // rad: what the series leave out is below 1e-18
+    constexpr double kNearby = 0.03;  // rad: the truncation error of the series is below 1e-18
     const double turn = theta - kept_angle_, square = turn * turn;
     if (!(square < kNearby * kNearby)) return keep(theta);
     const double turn_sine =
@@ -51,29 +52,37 @@ inline Eigen::Vector2d turned(const Eigen::Vector2d& p) {
 /// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (bodies, eq. 3)
 ///
 /// @param eta   n modal coordinates
-/// @param mass  (3+n)×(3+n), all of it written
-/// Source: [Shabana 2013], §5.4, with the invariants of the superelement
+/// @param mass  (3+n)×(3+n), all entries are written
+/// Source: [Shabana 2013], §5.4, with the invariants of the superelement — checked by
+/// tests/dynamics/bodies/body_equations_test.cpp
 void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
                       const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
-/// The same where mass holds that of another state of the body: what no state changes is left as it stands.
+/// Like calc_mass_matrix, where `mass` holds the matrix of another state of the same body: writes only the
+/// entries that depend on the state.
 void update_mass_matrix(const Body& body, const FrameRotation& rotation,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
 /// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (bodies, eq. 4)
 ///
-/// @param theta_dot [rad/s]; eta, eta_dot n; Q 3+n, added to
+/// @param theta_dot     angular velocity [rad/s]
+/// @param eta, eta_dot  n
+/// @param[in,out] Q     3+n, added to
+/// Checked by tests/dynamics/bodies/body_equations_test.cpp
 void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
                                    const Eigen::Ref<const Eigen::VectorXd>& eta,
                                    const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
                                    Eigen::Ref<Eigen::VectorXd> Q);
 
 /// Weight of a body, through its invariants.                                           (bodies, eq. 5)
-/// @param gravity in the world [m/s²]; Q 3+n, added to
+/// @param gravity    in the world [m/s²]
+/// @param eta        n
+/// @param[in,out] Q  3+n, added to
+/// Checked by tests/dynamics/bodies/body_equations_test.cpp
 void add_gravity_forces(const Body& body, const FrameRotation& rotation, const Eigen::Vector2d& gravity,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::VectorXd> Q);
 
-/// First moment of mass about the frame's origin with the body bent: S₀ + Pη, body axes [kg·m].
+/// First moment of mass of the deformed body about the frame's origin: S₀ + Pη, body axes [kg·m].
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
 /// Momentum of a body and its angular momentum about the world's origin.

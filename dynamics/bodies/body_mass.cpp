@@ -8,7 +8,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Off-diagonal parts of M_ff below this share are the rounding of mass-normalised modes.
+// Off-diagonal entries of M_ff below this fraction are rounding errors of mass-normalised modes.
 constexpr double kRounding = 1e-12;
 
 bool is_diagonal(const Eigen::MatrixXd& matrix) {
@@ -43,7 +43,7 @@ BodyMass::BodyMass(const Body& body)
   }
 }
 
-// One number at a time: pairs that were just written by their halves are slow to read.
+// Scalars are read one at a time: a vector load of two scalars that have just been stored singly is slow.
 void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   if (constant_) return;
   update_mass_matrix(*body_, rotation, eta, M_);

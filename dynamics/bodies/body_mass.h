@@ -7,8 +7,8 @@
 
 namespace sprung::dynamics {
 
-/// The mass matrix of a body, factorised by its blocks. M_ff never changes, so only a 3×3 matrix is left to
-/// be factorised at each state, whatever the number of modes:
+/// The mass matrix of a body, factorised by blocks. M_ff never changes, so only a 3×3 matrix is factorised at
+/// each state, whatever the number of modes:
 ///
 ///     M = [M_r H; Hᵀ M_ff],   C = M_r − H M_ff⁻¹ Hᵀ                                  (bodies, eq. 6)
 class BodyMass {
@@ -19,8 +19,8 @@ class BodyMass {
   void update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta);
   const Eigen::MatrixXd& matrix() const { return M_; }  ///< (3+n)×(3+n)
 
-  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither its
-  /// weight nor its turning make a torque.
+  /// Whether the body is rigid with its frame at the centre of mass. Its mass matrix is then diagonal and
+  /// constant, and neither weight nor rotation causes a torque.
   bool is_constant() const { return constant_; }
 
   /// x ← M⁻¹ x.  @param x  3+n values
@@ -32,7 +32,7 @@ class BodyMass {
     }
   }
 
-  /// Two rows G of a Jacobian made ready for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
+  /// Prepares two rows G of a Jacobian for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
   ///
   ///     U = (Y, G_f),   V = (Y C⁻¹, G_f M_ff⁻¹)
   ///
@@ -58,7 +58,7 @@ class BodyMass {
   bool constant_;
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
-  Eigen::MatrixXd M_ff_inverse_;  // used where it is not
+  Eigen::MatrixXd M_ff_inverse_;  // used if M_ff is not diagonal
   Eigen::MatrixXd M_;
   Eigen::Matrix3Xd W_;  // H M_ff⁻¹
   Eigen::Matrix3d C_inverse_;

@@ -21,7 +21,7 @@ Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<co
   return deflection;
 }
 
-// The gradients of the displacement of second order are −ηᵀK.
+// The gradient of the second-order displacement is −ηᵀK.
 void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta,
                                Eigen::Vector2d& u, MarkerState& state) {
   const Eigen::Vector3d back = calc_half_form(marker.K, eta);

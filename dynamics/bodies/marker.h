@@ -11,8 +11,8 @@ namespace sprung::dynamics {
 inline constexpr int kGround = -1;
 
 /// A point of a body, with axes, where joints and forces act and results are asked for. On a flexible body it
-/// moves with a node; an offset from the node turns with the node's rotation, so that both together are
-/// linear in η.
+/// moves with a node. An offset from the node turns with the node's rotation, to first order, so that the
+/// displacement stays linear in η.
 struct Marker {
   std::string name;  ///< "body.point"
   int body = kGround;
@@ -20,30 +20,31 @@ struct Marker {
       Eigen::Vector2d::Zero();  ///< undeformed position from the body frame's origin, body axes [m]
   double alpha_BP = 0.0;        ///< undeformed angle against the body's axes [rad]
   Eigen::Matrix3Xd Phi;  ///< displacement and rotation per unit modal coordinate, body axes, 3×n [m, m, rad]
-  SecondOrder K;         ///< of the point where its body stiffens, else empty
+  SecondOrder K;         ///< second-order displacement where axial forces stiffen the body, else empty
 
   bool has_second_order() const { return K[0].size() > 0; }
 };
 
-/// Motion of a marker, world axes; what joints and forces see of the vehicle. What is read together stands
-/// together, in a cache line: places and velocities, then what accelerations and gradients need.
+/// Motion of a marker, world axes: all that joints and forces know of the vehicle. Members that are read
+/// together share a cache line: positions and velocities first, then the terms of accelerations and
+/// gradients.
 struct alignas(64) MarkerState {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();        ///< position [m]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
-  double angle = 0.0;                                 ///< θ, its own, and by the modes [rad]
-  double omega = 0.0;                                 ///< angular velocity [rad/s]
-  Eigen::Vector2d v = Eigen::Vector2d::Zero();        ///< velocity [m/s]
-  Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
-  double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
-  FrameRotation rotation;                             ///< A of its body, where that has modes
-  Eigen::Matrix3Xd Phi;  ///< ∂(place in the body, angle)/∂η, 3×n [m, m, rad]
+  double angle = 0.0;                                ///< of the body, of the marker in it, of the modes [rad]
+  double omega = 0.0;                                ///< angular velocity [rad/s]
+  Eigen::Vector2d v = Eigen::Vector2d::Zero();       ///< velocity [m/s]
+  Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();  ///< acceleration while q̈ = 0 [m/s²]
+  double alpha_bias = 0.0;                           ///< angular acceleration while q̈ = 0 [rad/s²]
+  FrameRotation rotation;                            ///< A of its body, if the body has modes
+  Eigen::Matrix3Xd Phi;  ///< ∂(position in the body, angle)/∂η, 3×n [m, m, rad]
 
   /// ∂r/∂η, 2×n [m]
   Eigen::Matrix2Xd r_eta() const;
 };
 
-/// What multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of a joint's
-/// Jacobian.
+/// A row vector that multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of
+/// a joint's Jacobian.
 struct MarkerRow {
   double x, y, angle;
 
@@ -59,33 +60,34 @@ struct MarkerRow {
   double by_mode(const double* shape) const { return x * shape[0] + y * shape[1] + angle * shape[2]; }
 };
 
-/// A marker's state with room for its gradients; of a marker on the ground, which stays so, its position too.
+/// A marker's state with storage for its gradients. For a marker on the ground the state is complete.
 MarkerState make_marker_state(const Marker& marker);
 
-/// Displacement of the marker that its body's modes make, body axes: Φη, and of second order [m].
+/// Displacement of the marker by the modes of its body, body axes: Φη and the second-order part [m].
 /// @param eta  n
+/// Checked by tests/dynamics/bodies/marker_test.cpp
 Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and
-/// their gradients; to the acceleration while q̈ = 0.
+/// Contributions of the second-order displacement (bodies, eq. 11): to the position u in the body, the angle
+/// and their gradients; to the acceleration while q̈ = 0.
 void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta,
                                Eigen::Vector2d& u, MarkerState& state);
 void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
                            MarkerState& state);
 
-/// Position of a marker that is at u in its body, as it is deformed, and the gradient of that by the body's
-/// angle.
-/// @param u  body axes [m]   @param q  the body's coordinates, the first two of them
+/// Sets the position of a marker, and its derivative with respect to the body's angle.
+/// @param u  position in the deformed body, body axes [m]
+/// @param q  the first two coordinates of the body
 inline void place_in_body(const Eigen::Vector2d& u, const FrameRotation& rotation, const double* q,
                           MarkerState& state) {
-  // One number at a time: pairs that were just written by their halves are slow to read.
+  // Scalars are read one at a time: a vector load of two scalars that have just been stored singly is slow.
   const double arm_x = rotation.cosine * u.x() - rotation.sine * u.y();
   const double arm_y = rotation.sine * u.x() + rotation.cosine * u.y();
   state.r = {q[0] + arm_x, q[1] + arm_y};
   state.r_theta = {-arm_y, arm_x};
 }
 
-/// Velocity of a marker of a rigid body, after its position.
+/// Sets the velocity of a marker of a rigid body; the position must be up to date.
 /// @param v  the body's 3 velocities
 inline void move_with_body(const double* v, MarkerState& state) {
   const double omega = v[2];
@@ -98,6 +100,7 @@ inline void move_with_body(const double* v, MarkerState& state) {
 /// Position-level part of a marker's state.                                       (bodies, eqs. 1, 11)
 /// @param q      the body's 3+n coordinates
 /// @param state  made by make_marker_state
+/// Checked by tests/dynamics/bodies/marker_test.cpp
 inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
                                  MarkerState& state) {
   const Eigen::Index n = marker.Phi.cols();
@@ -118,13 +121,14 @@ inline void calc_marker_position(const Marker& marker, const FrameRotation& rota
   place_in_body(u, rotation, q, state);
 }
 
-/// Velocity-level part, after calc_marker_position.                               (bodies, eqs. 2, 11)
+/// Velocity-level part of a marker's state, after calc_marker_position.          (bodies, eqs. 2, 11)
 /// @param v  the body's 3+n velocities
+/// Checked by tests/dynamics/bodies/marker_test.cpp
 inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
   const Eigen::Index n = marker.Phi.cols();
   const double* eta_dot = v + 3;
   const double* shape = state.Phi.data();
-  double x = 0.0, y = 0.0, turn = 0.0;  // u̇, and the rotation that goes with it
+  double x = 0.0, y = 0.0, turn = 0.0;  // u̇ and the angular velocity due to the modes
   for (Eigen::Index k = 0; k < n; ++k, shape += 3) {
     x += shape[0] * eta_dot[k];
     y += shape[1] * eta_dot[k];
@@ -142,6 +146,7 @@ inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerSt
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].
 /// @param v_dot  the body's 3+n accelerations
+/// Checked by tests/dynamics/bodies/marker_test.cpp
 Eigen::Vector2d calc_marker_acceleration(const MarkerState& state,
                                          const Eigen::Ref<const Eigen::VectorXd>& v_dot);
 

@@ -38,8 +38,8 @@ SecondOrder calc_second_order(const reduce::Superelement& superelement, const st
   const int node = superelement.points[static_cast<std::size_t>(point)].node;
   SecondOrder K = superelement.geometric_stiffness->point_loads[static_cast<std::size_t>(point)];
   for (Eigen::MatrixXd& matrix : K) matrix = matrix(columns, columns).eval();
-  // Against the frame that shares no momentum with it (bodies, eq. 9), then of the offset as it turns
-  // (bodies, eq. 10).
+  // Seen from the frame to which the displacement gives no momentum (bodies, eq. 9), then the part of the
+  // offset that turns with the node (bodies, eq. 10).
   K[2] += stiffening.origin[2];
   const Eigen::Vector2d across = turned(superelement.node_positions.col(node));
   const Eigen::Vector2d across_offset = turned(offset);
