@@ -11,14 +11,14 @@
 
 namespace sprung::dynamics {
 
-/// A value that an element was made with, SI units.
+/// A value that an element was constructed with, SI units.
 struct Parameter {
   using Value = std::variant<double, bool, std::string, Eigen::Vector2d, std::vector<double>,
                              PiecewisePolynomial, TimeFunction>;
   std::string name;  ///< "free_length"
   Value value;
   std::string unit = {};           ///< of the value; empty for texts and flags
-  std::string argument_unit = {};  ///< of the variable of a function
+  std::string argument_unit = {};  ///< of the independent variable, where the value is a function
 };
 
 /// How a picture of the vehicle shows an element.
@@ -30,16 +30,17 @@ enum class Drawing {
   kPin,     ///< a mark at its first point
 };
 
-/// As in results files: "wheel".
+/// The name that a results file uses: "wheel".
 std::string_view drawing_name(Drawing drawing);
 
-/// What a joint, force element or road says of itself, besides its name and kind. Whoever writes or shows a
-/// model needs no more, so that a new kind of element asks for no change there.
+/// How a joint, force element or road describes itself, besides its name and kind. Code that writes or draws
+/// a model uses this alone, so a new kind of element needs no change there.
+/// Checked by tests/dynamics/program/resolved_model_test.py
 struct ElementDescription {
-  std::vector<std::string> points;  ///< what each of its markers is to it: "a", "b", "wheel"
+  std::vector<std::string> points;  ///< the role of each of its markers: "a", "b", "wheel"
   std::vector<Parameter> parameters;
   Drawing drawing = Drawing::kNone;
-  bool on_road = false;  ///< stands on the road of the run
+  bool on_road = false;  ///< whether it stands on the road of the run
 };
 
 }  // namespace sprung::dynamics
