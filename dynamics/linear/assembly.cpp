@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMaxIterations = 60;
 constexpr double kTolerance = 1e-12;       // of the length scale
-constexpr double kLoaded = 1e-6;           // of forces whose sizes are about 1: less is rounding
+constexpr double kLoaded = 1e-6;           // smaller ones of forces of the order 1 are rounding errors
 constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
@@ -68,9 +68,9 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
                   name_constraints(model, open)));
 }
 
-// Flexible bodies that dependent constraints load in themselves: forces that balance each other at several of
-// their points, and that the modes do not feel. More modes would, and make the constraints independent.
-// @param terms  after update_jacobian   @param dependent  what find_dependent_constraints found
+// Flexible bodies that dependent constraints load by forces in equilibrium at several points, without work on
+// the active modes. With more modes the forces would do work, and the constraints would be independent.
+// @param terms  after update_jacobian   @param dependent  from find_dependent_constraints
 std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
                                                     const std::vector<int>& dependent) {
   const Model& model = terms.model();
@@ -79,7 +79,7 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.num_constraints);
   lambda(dependent) = svd.matrixU().rightCols<1>();  // forces of the joints that move nothing
-  // Of each body the forces and the torque about its frame's origin that it is loaded by, place by place.
+  // For each body and position in it, the force there and its torque about the body frame's origin.
   std::map<std::tuple<int, double, double>, Eigen::Vector3d> loads;
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
     const Joint& joint = *model.joints[joint_of_constraint(model, block.row)];
@@ -113,7 +113,7 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
   if (!bodies.empty()) {
     throw support::InputError(
         location,
-        fmt::format("too few modes: with those that {} has, it cannot give way to what {} hold, so that "
+        fmt::format("too few modes: with those that {} has, it cannot deform as {} require, so that "
                     "their reactions have no unique value; take more modes of it",
                     fmt::join(bodies, " or "), names));
   }
@@ -121,9 +121,8 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
       location,
       fmt::format(
           "redundant joints: {} hold the same motion more than once, so that their reactions have no "
-          "unique value; leave one of them out or free a direction, or, if they do so in this position "
-          "alone, "
-          "a change point of the mechanism, draw it a little beside it",
+          "unique value; leave one of them out or free a direction. If they do so in this position alone (a "
+          "change point of the mechanism), start slightly away from it",
           names));
 }
 
@@ -147,7 +146,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
     const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();
     Eigen::SparseMatrix<double> normal = Phi_q * weighted;
-    // Redundant joints are told of below; until then they must not be in the way.
+    // Redundant joints make the matrix singular; the shift allows for them, and they are reported below.
     const double shift = kRegularisation * normal.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < normal.rows(); ++i) normal.coeffRef(i, i) += shift;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
@@ -190,7 +189,8 @@ VelocityReport project_velocities(const Model& model, double time, const Eigen::
   equations.terms().update_jacobian();
   if (!std::isfinite(equations.close_rates(v))) {
     throw support::NumericalError(fmt::format(
-        "the joints allow no velocities at t = {:.9g} s: a singular position; start beside it", time));
+        "the joints allow no velocities at t = {:.9g} s: a singular position; start slightly away from it",
+        time));
   }
   v = equations.v();
   for (int i = 0; i < model.num_coordinates; ++i) {

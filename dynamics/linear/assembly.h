@@ -6,30 +6,33 @@
 
 namespace sprung::dynamics {
 
-/// What was done to satisfy the constraints at the start.
+/// How the constraints were satisfied at the start.
 struct AssemblyReport {
   double largest_movement = 0.0;  ///< of any marker [m]
   std::string moved_marker;       ///< which one
   double residual = 0.0;          ///< largest |φ| afterwards
 };
 
-/// Moves the bodies from the positions of the input file so that every joint closes, the heavy ones least
-/// (Gauss–Newton, least movement in the mass metric).
+/// Moves the bodies from the positions of the input file so that every joint closes, with the least movement
+/// in the mass metric: heavy bodies move least (Gauss–Newton).
 /// @param[in,out] q  num_coordinates
-/// @throws support::InputError at the joint, if the joints cannot be closed from there, or if some of them
-///         are redundant (all that take part are named)
+/// @throws support::InputError at the joint, if the joints cannot be closed from the given positions, or if
+///         some of them are redundant (the message names all that take part)
+/// Checked by tests/dynamics/linear/assembly_test.cpp
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q);
 
-/// What the joints made of the velocities asked for.
+/// The largest change of the given velocities by project_velocities.
 struct VelocityReport {
   double largest_change = 0.0;  ///< [natural sizes/s]
-  std::string coordinate;       ///< whose it is
+  std::string coordinate;       ///< the coordinate that has it
 };
 
-/// The velocity nearest to v, in the mass metric, that the constraints allow; for prescribed motion it is the
-/// one that follows it.
-/// @param q  assembled
+/// Replaces v by the nearest velocity, in the mass metric, that satisfies the constraints. Prescribed motion
+/// is followed.
+/// @param q          assembled positions, num_coordinates
+/// @param[in,out] v  num_coordinates
 /// @throws support::NumericalError at a singular position
+/// Checked by tests/dynamics/linear/assembly_test.cpp
 VelocityReport project_velocities(const Model& model, double time, const Eigen::VectorXd& q,
                                   Eigen::VectorXd& v);
 

@@ -18,14 +18,14 @@ namespace {
 
 constexpr int kMaxIterations = 200;
 constexpr double kTolerance = Equilibrium::kTolerance;
-constexpr double kRounding = 1e-10;        // steps below that no longer fall are made by rounding
-constexpr double kWorstRounding = 1e-5;    // of steps: more would be no balance
-constexpr double kRoundingMargin = 4.0;    // an estimate of rounding is good to a factor of a few
-constexpr double kPushedStiffness = 1e-9;  // of what is pushed and not held, of the largest one
+constexpr double kRounding = 1e-10;        // steps below this that stop decreasing are rounding
+constexpr double kWorstRounding = 1e-5;    // largest rounding of a step that is accepted
+constexpr double kRoundingMargin = 4.0;    // the estimate of rounding is correct to a factor of a few
+constexpr double kPushedStiffness = 1e-9;  // for a direction with force and no stiffness, of the largest one
 constexpr double kNeutralForce = 1e-7;     // acceleration along a neutral direction, natural sizes/s²
 constexpr double kLargestStep = 0.05;      // natural sizes per iteration, at first
-constexpr double kForetold = 0.1;          // what forces may differ by from what the stiffness foretold
-constexpr double kFastFall = 0.3;          // of the step before, with the stiffness of the step before
+constexpr double kPredictionError = 0.1;   // of the change of forces that the stiffness predicts
+constexpr double kFastDecrease = 0.3;      // ratio of two successive steps with the same stiffness
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates,
                        const Eigen::VectorXd& values) {
@@ -41,10 +41,10 @@ double largest_natural(const Model& model, const std::vector<int>& coordinates,
 struct ModalForce {
   UndampedModes modes;
   Eigen::VectorXd force;
-  double stiffest = 0.0;         // largest |ω²|; where nothing is stiff, what bounds a step by force alone
-  double rounding_step = 0.0;    // what rounding of the forces makes of a step [natural sizes]
-  std::vector<bool> is_neutral;  // neither held nor pushed: left where it is
-  bool is_falling = false;       // pushed, but not held
+  double stiffest = 0.0;  // largest |ω²|, or more where the forces would cause steps above kLargestStep
+  double rounding_step = 0.0;    // the step that rounding of the forces causes [natural sizes]
+  std::vector<bool> is_neutral;  // without stiffness and without force: keeps its value
+  bool is_falling = false;       // some direction has a force, but no stiffness
 
   ModalForce(const Model& model, const LinearisedSystem& system)
       : modes(calc_undamped_modes(system.stiffness, system.mass, system.stiffness_rounding)) {
@@ -69,7 +69,7 @@ struct ModalForce {
     return modes.is_free(k) ? kPushedStiffness * stiffest : std::abs(modes.omega_squared[k]);
   }
 
-  /// Downhill step under forces r, each direction's stiffness raised by `damping`; neutral directions stay.
+  // Descent step under forces r, with `damping` added to each direction's stiffness; zero along neutral ones.
   Eigen::VectorXd calc_step(const Eigen::VectorXd& r, double damping) const {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(r.size());
     for (Eigen::Index k = 0; k < force.size(); ++k) {
@@ -123,7 +123,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   const double least = std::max(modal.rounding_step, kTolerance);
   if (!modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
-        "no static equilibrium: rounding beside the largest stiffness, of {:.3g} Hz, leaves steps "
+        "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
         "of up to {:.1e} of the natural size; take fewer of the highest modes",
         std::sqrt(modal.stiffest) / (2.0 * std::numbers::pi), modal.rounding_step));
   }
@@ -137,13 +137,13 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
                   kMaxIterations, last_step, least, direction.description));
 }
 
-// How far a step may reach: longer each time that the forces change as the stiffness foretold.
+// Bounds of a step. They widen each time the forces change as the stiffness predicts.
 struct TrustRegion {
   double damping = 0.0;  // added to the stiffness of each direction
   double reach = kLargestStep;
 };
 
-// One accepted step downhill from q_i: the potential energy falls, or the forces do.
+// One accepted descent step from q_i: the potential energy decreases, or the forces do.
 Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations,
                               const LinearisedSystem& system, const ModalForce& modal,
                               const Eigen::VectorXd& q_i, const SteadyMotion& motion, TrustRegion& trust) {
@@ -162,9 +162,9 @@ Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equation
     if (assembled &&
         (trial_potential < potential || (V.transpose() * trial_force).norm() < modal.force.norm())) {
       const Eigen::VectorXd change = V.transpose() * (system.stiffness * step),
-                            surprise = V.transpose() * (trial_force - system.force) + change;
-      const bool is_foretold = !modal.is_falling && surprise.norm() < kForetold * change.norm();
-      trust.reach = is_cut && is_foretold ? 2.0 * trust.reach : kLargestStep;
+                            error = V.transpose() * (trial_force - system.force) + change;
+      const bool is_predicted = !modal.is_falling && error.norm() < kPredictionError * change.norm();
+      trust.reach = is_cut && is_predicted ? 2.0 * trust.reach : kLargestStep;
       trust.damping *= 0.1;
       break;
     }
@@ -181,18 +181,19 @@ Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::
   return q_i;
 }
 
-// On from a step that was Newton's, as long as steps by the same stiffness fall fast: each costs one
-// evaluation, where the stiffness costs four for each freedom. @return positions   @param[in,out] steps taken
-Eigen::VectorXd go_on_by_same_stiffness(const Model& model, PartitionedEquations& equations,
-                                        const LinearisedSystem& system, const ModalForce& modal,
-                                        const SteadyMotion& motion, double last_size, int& steps) {
+// Further steps after a Newton step, with the same stiffness, as long as they decrease fast. Each costs one
+// evaluation; a new stiffness costs four for each freedom.
+// @param[in,out] steps  number of steps taken   @return positions
+Eigen::VectorXd iterate_with_same_stiffness(const Model& model, PartitionedEquations& equations,
+                                            const LinearisedSystem& system, const ModalForce& modal,
+                                            const SteadyMotion& motion, double last_size, int& steps) {
   while (last_size > kTolerance) {
     Eigen::VectorXd q_i = select_independent(system, equations.q());
     const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
     if (force.size() == 0) break;
     const Eigen::VectorXd step = modal.calc_step(modal.modes.vectors.transpose() * force, 0.0);
     const double size = largest_natural(model, system.partition.independent, step);
-    if (!(size < kFastFall * last_size)) break;
+    if (!(size < kFastDecrease * last_size)) break;
     q_i += step;
     if (calc_static_force(equations, 0.0, q_i, nullptr, motion).size() == 0) break;
     ++steps;
@@ -210,7 +211,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
   Equilibrium equilibrium;
   equilibrium.q = q;
   equilibrium.motion = motion;
-  if (model.num_freedoms() == 0) {  // nothing is left to come to rest
+  if (model.num_freedoms() == 0) {  // the constraints determine all positions
     equations.choose_partition_at(0.0, q);
     equilibrium.linearised.partition = equations.partition();
     return equilibrium;
@@ -237,7 +238,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
           equilibrium.stable = false;
         }
       }
-      // What turns may stand on its Coriolis forces where its stiffness alone would not hold it.
+      // Coriolis forces may stabilise a rotating system that has a direction of negative stiffness.
       if (motion.omega != 0.0) equilibrium.stable = is_stable(system);
       equilibrium.linearised = std::move(system);
       return equilibrium;
@@ -247,8 +248,8 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
                                   motion, trust);
     ++equilibrium.iterations;
     if (trust.damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
-      equilibrium.q = go_on_by_same_stiffness(model, equations, system, modal, motion, newton_step,
-                                              equilibrium.iterations);
+      equilibrium.q = iterate_with_same_stiffness(model, equations, system, modal, motion, newton_step,
+                                                  equilibrium.iterations);
     }
   }
 }

@@ -10,9 +10,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Of the largest |s|. The eigenvalues of A are good to about 1e-14 of it, and the differences that stiffness
-// and damping are made of leave 1e-11 of each; a double eigenvalue would be good to the root of that, but the
-// one at zero, of what nothing holds, is not among the states.
+// Of the largest |s|. The rounding of the eigenvalues of A is about 1e-14 of it; that of the differences
+// which give stiffness and damping is 1e-11 of each. A double eigenvalue has the square root of these errors,
+// but the double zero of a free mode is avoided, as its position is no state.
 constexpr double kEigenvalueRounding = 1e-9;
 
 }  // namespace
@@ -28,7 +28,7 @@ FirstOrderForm make_first_order_form(const Eigen::MatrixXd& mass, const Eigen::M
   order.insert(order.end(), bound.begin(), bound.end());
   form.V = modes.vectors(Eigen::all, order);
   form.scale = modes.omega_squared(bound).cwiseAbs().cwiseSqrt();
-  // What is not symmetric, of forces without a potential, is no part of the modes.
+  // The modes are those of the symmetric part. The skew part, of forces without a potential, couples them.
   Eigen::MatrixXd K = form.V.transpose() * (0.5 * (stiffness - stiffness.transpose())) * form.V;
   K.diagonal() = modes.omega_squared(order);
 
@@ -40,7 +40,7 @@ FirstOrderForm make_first_order_form(const Eigen::MatrixXd& mass, const Eigen::M
   return form;
 }
 
-// Each y from that of its two states which is the larger: above a mode's own frequency y = ẏ/s.
+// Each y follows from the larger of its two states: above the mode's own frequency y = ẏ/s.
 Eigen::MatrixXcd FirstOrderForm::calc_amplitudes(const Eigen::MatrixXcd& states,
                                                  std::complex<double> s) const {
   Eigen::MatrixXcd y = states.bottomRows(V.rows()) / s;

@@ -18,10 +18,10 @@ namespace {
 
 using RealRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kWorstVectors = 1e-9;  // reciprocal condition of eigenvectors that are still good to 1e-6
+constexpr double kWorstVectors = 1e-9;  // reciprocal condition of eigenvectors; results are accurate to 1e-6
 constexpr Eigen::Index kAtOnce = 256;   // frequencies
 
-// Eigenvectors in real form, both of a pair to the same scale.
+// Eigenvectors in real form; both columns of a pair have the same scale.
 Eigen::MatrixXd normalise(const support::GeneralEigenpairs& eigen) {
   Eigen::MatrixXd T = eigen.real_vectors;
   for (Eigen::Index i = 0; i < T.cols(); ++i) {
@@ -32,13 +32,13 @@ Eigen::MatrixXd normalise(const support::GeneralEigenpairs& eigen) {
   return T;
 }
 
-// Solves (s − [a b; −b a]) u = r in place, in the rows from `row` on: for each column's s = iω, or for one of
-// all; one row where b = 0.
+// Solves (s − [a b; −b a]) u = r in place, in the rows from `row` on, with s = iω for one ω per column or one
+// for all columns. The block has one row where b = 0.
 void solve_block(double a, double b, const Eigen::VectorXd& omega, RowsXcd& r, Eigen::Index row) {
   std::complex<double> difference, inverse;
   const auto set_frequency = [&](double w) {
     difference = {-a, w};
-    // Of (s − a)² + b², or of s − a alone.
+    // The inverse of (s − a)² + b², or of s − a where b = 0.
     const double re = b == 0.0 ? -a : a * a - w * w + b * b, im = b == 0.0 ? w : -2.0 * a * w;
     const double size = re * re + im * im;
     inverse = {re / size, -im / size};
@@ -63,7 +63,7 @@ void solve_block(double a, double b, const Eigen::VectorXd& omega, RowsXcd& r, E
 
 }  // namespace
 
-RowsXcd multiply(const Eigen::MatrixXd& A, const RowsXcd& X) {
+RowsXcd multiply_real_complex(const Eigen::MatrixXd& A, const RowsXcd& X) {
   RowsXcd product(A.rows(), X.cols());
   if (A.size() == 0 || X.size() == 0) {
     product.setZero();
@@ -79,13 +79,13 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
                               const std::vector<int>& coordinates) {
   const LinearisedSystem& full = vehicle.system();
   const Eigen::Index f = full.mass.rows();
-  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(f, f);  // what holding leaves free, f×g
+  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(f, f);  // N, a basis of the motions that remain, f×g
   Eigen::MatrixXd by_acceleration = outputs.by_acceleration;
   DrivenSystem held;
   held.by_position = outputs.by_position;
   held.by_velocity = outputs.by_velocity;
   if (!coordinates.empty()) {
-    // D_Sᵀ λ = (K̂ + sĈ + s²M̂) x − F: the holding forces and what they do to the outputs.
+    // D_Sᵀ λ = (K̂ + sĈ + s²M̂) x − F: the reactions of the held coordinates and their effect on the outputs.
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> holding(
         full.directions(coordinates, Eigen::all).transpose());
     const Eigen::MatrixXd Q = holding.householderQ() * Eigen::MatrixXd::Identity(f, f);
@@ -106,7 +106,7 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
   held.by_velocity *= free;
   by_acceleration *= free;
   if (by_acceleration.size() > 0 && !by_acceleration.isZero(0.0)) {
-    const Eigen::MatrixXd by_inertia =  // of forces on the free coordinates
+    const Eigen::MatrixXd by_inertia =  // outputs per force on the free coordinates
         support::solve_positive_definite(held.mass, by_acceleration.transpose()).transpose();
     held.by_position -= by_inertia * held.stiffness;
     held.by_velocity -= by_inertia * held.damping;
@@ -161,7 +161,7 @@ RowsXcd HarmonicSweep::project(const Eigen::MatrixXcd& forces) const {
     throw std::invalid_argument(fmt::format("HarmonicSweep: needs forces on {} coordinates, got {}",
                                             system_.input.cols(), forces.rows()));
   }
-  return multiply(input_, forces);
+  return multiply_real_complex(input_, forces);
 }
 
 RowsXcd HarmonicSweep::calc_states(const Eigen::VectorXd& omega, const RowsXcd& projected) const {
@@ -182,7 +182,7 @@ RowsXcd HarmonicSweep::calc_states(const Eigen::VectorXd& omega, const RowsXcd& 
     if (imaginary_[i] != 0.0) ++i;
   }
   if (free_rates_.rows() > 0) {
-    states.bottomRows(free_rates_.rows()) = multiply(free_rates_, states.topRows(num_states));
+    states.bottomRows(free_rates_.rows()) = multiply_real_complex(free_rates_, states.topRows(num_states));
     for (Eigen::Index i = 0; i < k; ++i) {
       states.col(i).tail(free_rates_.rows()) /= std::complex<double>(0.0, at(i));
     }
@@ -195,9 +195,10 @@ RowsXcd HarmonicSweep::respond(const Eigen::VectorXd& omega, const Eigen::Matrix
   for (Eigen::Index first = 0; first < omega.size(); first += kAtOnce) {
     const Eigen::Index count = std::min(kAtOnce, omega.size() - first);
     const RowsXcd some = forces.middleCols(first, count);
-    y.middleCols(first, count) =
-        multiply(state_outputs_, calc_states(omega.segment(first, count), multiply(input_, some)));
-    if (system_.by_force.size() > 0) y.middleCols(first, count) += multiply(system_.by_force, some);
+    y.middleCols(first, count) = multiply_real_complex(
+        state_outputs_, calc_states(omega.segment(first, count), multiply_real_complex(input_, some)));
+    if (system_.by_force.size() > 0)
+      y.middleCols(first, count) += multiply_real_complex(system_.by_force, some);
   }
   return y;
 }

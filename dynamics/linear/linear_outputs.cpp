@@ -28,7 +28,7 @@ LinearOutputs make_empty(const LinearVehicle& vehicle, Eigen::Index p) {
   return outputs;
 }
 
-// Motion by the independent coordinates, 3×f, as displacement, velocity or acceleration: rows from `row` on.
+// Adds a motion, 3×f, as displacement, velocity or acceleration in the rows from `row` on.
 void add_motion(LinearOutputs& outputs, Eigen::Index row, std::size_t derivative,
                 const Eigen::MatrixXd& motion, const std::string& group, OutputSubject subject) {
   static constexpr std::array<const char*, 3> kSuffixes{"", "/s", "/s^2"};
@@ -58,7 +58,7 @@ Eigen::VectorXd calc_channels(const PartitionedEquations& equations, std::span<c
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// What the joints do to their points a, −Gaᵀ λ, for given multipliers: 3 each.
+// Force and torque of the joints on their points a, −Gaᵀ λ, for given multipliers: 3 for each joint.
 Eigen::VectorXd calc_reactions(const PartitionedEquations& equations, const Eigen::VectorXd& multipliers) {
   const Model& model = equations.terms().model();
   const std::span<const MarkerState> markers = equations.terms().markers();
@@ -87,7 +87,7 @@ Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
   return support::solve_positive_definite(S, transposed.transpose());
 }
 
-// Of p values of the state, in the vehicle's own independent coordinates: p×f each.
+// Derivatives of p values of the state with respect to the vehicle's independent coordinates: p×f each.
 void differentiate(const LinearVehicle& vehicle, const StateFunction& function, Eigen::MatrixXd& by_position,
                    Eigen::MatrixXd& by_velocity) {
   PartitionedEquations equations(vehicle.model());

@@ -16,7 +16,7 @@ std::vector<int> branches_at(const PartitionedEquations& equations) {
   return branches;
 }
 
-constexpr double kClosed = 1e-12;  // of the length scale: joints are closed to that (PartitionedEquations)
+constexpr double kClosed = 1e-12;  // of the length scale: how exactly PartitionedEquations closes joints
 
 // K x of the bodies' modes, or |K| x. @param x  nq×k   @return nq×k
 Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x, bool of_sizes = false) {
@@ -30,7 +30,7 @@ Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd&
   return product;
 }
 
-// Size of the rounding of dependent modal coordinates, which is that of the joints they close, nq.
+// Rounding errors of the dependent coordinates: those of the joints that they close, nq.
 Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& partition,
                                          const Eigen::VectorXd& q) {
   Eigen::VectorXd rounding = Eigen::VectorXd::Zero(model.num_coordinates);
@@ -41,7 +41,7 @@ Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& pa
   return rounding;
 }
 
-// DᵀM D ρ̈_i at the state evaluated last.
+// DᵀM D ρ̈_i at the state that the equations were last evaluated at.
 Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const Eigen::MatrixXd& directions,
                                     const SteadyMotion& motion) {
   Eigen::VectorXd force = equations.calc_reduced_force(directions);
@@ -80,13 +80,14 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
 
 namespace {
 
-// Stiffness and the rounding of stiffness and force, of a system that has all else. Equations at rest at q_i.
+// Adds the stiffness, and the rounding of stiffness and force, to a system that is complete otherwise.
+// @param equations  evaluated at rest at q_i
 void add_stiffness(PartitionedEquations& equations, double time, const Eigen::VectorXd& q_i,
                    const SteadyMotion& motion, LinearisedSystem& system) {
   const Model& model = equations.terms().model();
   const Eigen::VectorXd q = equations.q(), forces = equations.terms().forces();
   const Eigen::Index f = q_i.size(), n = model.num_coordinates;
-  // Below the reduced force the forces themselves: their sizes are those of its rounding.
+  // The reduced force, followed by the forces themselves, whose sizes give its rounding.
   const Eigen::MatrixXd derivative = differentiate_by_position(
       equations, time, q_i,
       [&](const PartitionedEquations& at, auto) {
@@ -101,7 +102,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
-  // D is good to rounding in natural sizes, also where it is zero: so is what each force does along it.
+  // All entries of D, zeros too, have rounding errors in natural sizes, and so does the work of each force.
   Eigen::VectorXd scales(n);
   for (int i = 0; i < model.num_coordinates; ++i) scales[i] = model.coordinate_scale(i);
   const double work = scales.dot(forces.cwiseAbs());
@@ -133,7 +134,7 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   system.directions = equations.calc_directions();
   system.mass = equations.calc_reduced_mass(system.directions);
 
-  // At fixed positions the directions are the same; of moved ones they are their own.
+  // The directions depend on positions alone, so they are the same at all velocities.
   system.damping = -differentiate_by_velocity(
       equations,
       [&](const PartitionedEquations& at, auto) {

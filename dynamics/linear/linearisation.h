@@ -16,22 +16,24 @@ struct LinearisedSystem {
   Eigen::MatrixXd mass, damping, stiffness;  ///< f×f
   Eigen::MatrixXd stiffness_rounding;        ///< f×f, ≥ 0: R (linear, eq. 14)
   Eigen::MatrixXd directions;                ///< nq×f, ∂q/∂q_i
-  Eigen::VectorXd force;                     ///< f, what is left of the forces: 0 at an equilibrium
+  Eigen::VectorXd force;                     ///< f, residual: 0 at an equilibrium
   Eigen::VectorXd force_rounding;            ///< f, ≥ 0: r (linear, eq. 16)
 };
 
-/// Stiffness from differences of the reduced force, central and extrapolated to fourth order, so that a kink
-/// counts with the mean of its two slopes; that of the bodies' modes is added as it is, so that stiff modes
-/// leave no rounding of differences. Damping likewise about rest. About steady motion, that of the
-/// coordinates which are carried along (linear, eqs. 4, 5).
-/// @param q  assembled positions; the branches are chosen at each of the points compared
+/// Linearises the vehicle about rest, or about steady motion in the coordinates relative to it
+/// (linear, eqs. 1–5). Stiffness and damping come from central differences, so that a kink counts with the
+/// mean of its two slopes; those of the stiffness are extrapolated to fourth order. The stiffness of the
+/// bodies' modes is added without a difference, so that stiff modes cause no rounding error.
+/// @param q  assembled positions; the branches are chosen at each point of the differences
 /// @throws support::NumericalError if the constraints cannot be satisfied around q
+/// Checked by tests/dynamics/linear/vehicle_modes_test.cpp, tests/verification/steady_test.py
 LinearisedSystem linearise(PartitionedEquations& equations, double time, const Eigen::VectorXd& q,
                            const SteadyMotion& motion = {});
 
-/// Reduced force at rest; about steady motion on who stands still in it: M̂ ρ̈_i.
-/// @param[out] potential  potential energy there [J], less the kinetic energy of steady motion, if not null
-/// @return f; empty if the dependents cannot be found for q_independent
+/// Reduced force DᵀQ at rest. With steady motion, M̂ ρ̈_i of a system at rest relative to it.
+/// @param q_independent   f
+/// @param[out] potential  potential energy [J], less the kinetic energy of the steady motion; may be null
+/// @return f; empty if the dependent coordinates cannot be found for q_independent
 Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
                                   const Eigen::VectorXd& q_independent, double* potential = nullptr,
                                   const SteadyMotion& motion = {});

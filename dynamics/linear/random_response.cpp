@@ -16,17 +16,17 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kTolerance = 1e-7;  // of a panel, of the whole mean square
-constexpr double kRounding = 1e-18;  // mean square that is nothing beside others of its unit
+constexpr double kTolerance = 1e-7;  // error of a panel, of the whole mean square
+constexpr double kRounding = 1e-18;  // mean square that counts as zero, of the largest in the same unit
 constexpr double kPanelsPerDecade = 6.0;
 constexpr double kMostDelays = 20000.0;  // panels for the delay between the wheels
 
 void check(double speed, const FrequencyRange& range) {
   if (!(speed > 0.0) || !(range.from > 0.0) || !(range.to > range.from)) {
-    throw std::invalid_argument(fmt::format(
-        "random response: speed must be > 0 m/s and frequencies ascend from above 0 Hz, got {} m/s, {} to "
-        "{} Hz",
-        speed, range.from, range.to));
+    throw std::invalid_argument(
+        fmt::format("random response: speed must be > 0 m/s and frequencies > 0 Hz and ascending, got {} "
+                    "m/s, {} to {} Hz",
+                    speed, range.from, range.to));
   }
 }
 
@@ -40,7 +40,7 @@ double calc_wheelbase(const LinearVehicle& vehicle) {
   return vehicle.inputs().empty() ? 0.0 : last - first;
 }
 
-// Frequencies that part the range into panels on each of which a spectrum is smooth, ascending.
+// Frequencies that divide the range into panels on each of which the spectrum is smooth, ascending.
 std::vector<double> find_panel_ends(const RoadSpectrum& road, double speed, const FrequencyRange& range,
                                     const Eigen::VectorXcd& eigenvalues, double wheelbase) {
   std::vector<double> ends{range.from, range.to};
@@ -53,7 +53,7 @@ std::vector<double> find_panel_ends(const RoadSpectrum& road, double speed, cons
     const double peak = s.imag() / (2.0 * std::numbers::pi), width = -s.real() / (2.0 * std::numbers::pi);
     for (const double times : {-4.0, 0.0, 4.0}) ends.push_back(peak + times * width);
   }
-  // |1 + e^{iωL/V}|² goes up and down once in V/L.
+  // |1 + e^{iωL/V}|² has the period V/L.
   const double period = speed / wheelbase;
   if (wheelbase > 0.0 && range.to < kMostDelays * period) {
     for (double f = period * std::ceil(range.from / period); f < range.to; f += period) ends.push_back(f);

@@ -13,19 +13,20 @@ struct FrequencyRange {
   double from = 0.0, to = 0.0;
 };
 
-/// One-sided spectral densities of the outputs of a vehicle that goes over a random road at a speed, p
-/// [unit²/Hz]: |H|² G(n)/V at n = f/V. (linear, eq. 11)
-/// @param frequency_hz > 0  @param speed > 0 [m/s]
+/// One-sided spectral densities of the outputs of a vehicle on a random road, p [unit²/Hz]:
+/// |H|² G(n)/V at n = f/V (linear, eq. 11).
+/// @param speed         > 0 [m/s]
+/// @param frequency_hz  > 0 [Hz]
 Eigen::VectorXd calc_response_spectrum(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                        const RoadSpectrum& road, double speed, double frequency_hz);
 
-/// Root mean squares of the outputs, p: √ of the integral of their spectral densities over a range of
-/// frequencies, to about 1e-6 (adaptive Gauss–Kronrod in the logarithm of the frequency, parted at the
-/// vehicle's resonances).
-/// Source: [Piessens 1983], rule QK15
-/// @throws std::invalid_argument for a range or speed that is none
-/// @throws support::NumericalError naming the resonance, where the integral does not converge: no damping
-/// there
+/// Root mean squares of the outputs, p: the square roots of the integrals of their spectral densities over a
+/// range of frequencies, accurate to about 1e-6. The integration is adaptive in the logarithm of the
+/// frequency, with panels that end at the vehicle's resonances.
+/// @throws std::invalid_argument for an empty range or a speed that is not positive
+/// @throws support::NumericalError where the integral does not converge at an undamped resonance, which the
+///         message names
+/// Checked by tests/dynamics/linear/linear_vehicle_test.cpp
 Eigen::VectorXd calc_root_mean_squares(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                                        const RoadSpectrum& road, double speed, const FrequencyRange& range);
 

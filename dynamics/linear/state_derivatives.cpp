@@ -29,10 +29,10 @@ std::span<const double> span_of(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-// Velocities relative to what the motion carries along, and accelerations, at the present positions.
+// Evaluates velocities relative to a steady motion, and accelerations, at the present positions.
 // @return the branches in use
-std::vector<int> move(PartitionedEquations& equations, const Eigen::VectorXd& rate_independent,
-                      const SteadyMotion& motion) {
+std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::VectorXd& rate_independent,
+                                const SteadyMotion& motion) {
   const Eigen::VectorXd w = motion.calc_velocity(model_of(equations), equations.q());
   Eigen::VectorXd v_independent = rate_independent;
   for (Eigen::Index k = 0; k < v_independent.size(); ++k) v_independent[k] += w[coordinate_of(equations, k)];
@@ -43,19 +43,20 @@ std::vector<int> move(PartitionedEquations& equations, const Eigen::VectorXd& ra
   return branches;
 }
 
-// Rest at the positions shifted along the k-th independent coordinate. @return the branches in use
-std::vector<int> shift(PartitionedEquations& equations, double time, Eigen::VectorXd q_independent,
-                       Eigen::Index k, double distance, const SteadyMotion& motion) {
+// Evaluates rest at positions that are shifted along the k-th independent coordinate.
+// @return the branches in use
+std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, Eigen::VectorXd q_independent,
+                                  Eigen::Index k, double distance, const SteadyMotion& motion) {
   q_independent[k] += distance;
   if (equations.update_positions(time, span_of(q_independent)) != PartitionedEquations::Outcome::kGood) {
     throw support::NumericalError(
         fmt::format("linearise: the constraints cannot be satisfied at a distance of {} along {}", distance,
                     model_of(equations).coordinate_name(coordinate_of(equations, k))));
   }
-  return move(equations, Eigen::VectorXd::Zero(q_independent.size()), motion);
+  return set_velocities(equations, Eigen::VectorXd::Zero(q_independent.size()), motion);
 }
 
-// Elements whose branches are not the same in both.
+// Adds the elements whose branches differ.
 void add_changed(const Model& model, const std::vector<int>& one, const std::vector<int>& other,
                  bool in_position, std::vector<Kink>& kinks) {
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
@@ -75,7 +76,7 @@ Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, doubl
                                           const SteadyMotion& motion) {
   Eigen::MatrixXd derivative;
   const auto value_at = [&](Eigen::Index k, double distance) {
-    return function(equations, shift(equations, time, q_independent, k, distance, motion));
+    return function(equations, set_shifted_rest(equations, time, q_independent, k, distance, motion));
   };
   for (Eigen::Index k = 0; k < q_independent.size(); ++k) {
     const double h = kPositionStep * scale_of(equations, k);
@@ -92,7 +93,7 @@ Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const
   const Eigen::Index f = equations.num_freedoms();
   Eigen::MatrixXd derivative;
   const auto value_at = [&](Eigen::Index k, double velocity) {
-    return function(equations, move(equations, velocity * Eigen::VectorXd::Unit(f, k), motion));
+    return function(equations, set_velocities(equations, velocity * Eigen::VectorXd::Unit(f, k), motion));
   };
   for (Eigen::Index k = 0; k < f; ++k) {
     const double step = kVelocityStep * scale_of(equations, k);
@@ -110,14 +111,14 @@ std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
   std::vector<Kink> kinks;
   for (Eigen::Index k = 0; k < f; ++k) {
     const double reach = 2.0 * kPositionStep * scale_of(equations, k);
-    const std::vector<int> ahead = shift(equations, time, q_independent, k, reach, {});
-    add_changed(model, ahead, shift(equations, time, q_independent, k, -reach, {}), true, kinks);
+    const std::vector<int> ahead = set_shifted_rest(equations, time, q_independent, k, reach, {});
+    add_changed(model, ahead, set_shifted_rest(equations, time, q_independent, k, -reach, {}), true, kinks);
   }
-  if (f > 0) shift(equations, time, q_independent, 0, 0.0, {});
+  if (f > 0) set_shifted_rest(equations, time, q_independent, 0, 0.0, {});
   for (Eigen::Index k = 0; k < f; ++k) {
     const Eigen::VectorXd velocity = kVelocityStep * scale_of(equations, k) * Eigen::VectorXd::Unit(f, k);
-    const std::vector<int> forward = move(equations, velocity, {});
-    add_changed(model, forward, move(equations, -velocity, {}), false, kinks);
+    const std::vector<int> forward = set_velocities(equations, velocity, {});
+    add_changed(model, forward, set_velocities(equations, -velocity, {}), false, kinks);
   }
   return kinks;
 }

@@ -15,32 +15,34 @@ namespace sprung::dynamics {
 /// difference is of the order of step⁴, its rounding of 1e-16/step.
 inline constexpr double kPositionStep = 1e-4;
 
-/// p values made of the state that the equations were evaluated at, positions to accelerations.
+/// Computes p values from the state that the equations were evaluated at, positions to accelerations.
 using StateFunction =
     std::function<Eigen::VectorXd(const PartitionedEquations& equations, std::span<const int> branches)>;
 
-/// Derivatives of a function of the state with respect to the independent positions, about rest: central
-/// differences extrapolated to fourth order, branches chosen at each point, so that a kink counts with the
-/// mean of its slopes. The equations are left at the last point compared.
-/// @param q_independent  f, that the constraints can be satisfied around
-/// @param motion  rest is that of what it carries along
+/// Derivatives of a function of the state with respect to the independent positions, about rest, by central
+/// differences extrapolated to fourth order. Branches are chosen at each point, so that a kink counts with
+/// the mean of its slopes. The equations are left at the last point evaluated.
+/// @param q_independent  f
+/// @param motion         rest means rest relative to this motion
 /// @return p×f
-/// @throws support::NumericalError where they cannot
+/// @throws support::NumericalError where the constraints cannot be satisfied around q_independent
 Eigen::MatrixXd differentiate_by_position(PartitionedEquations& equations, double time,
                                           const Eigen::VectorXd& q_independent, const StateFunction& function,
                                           const SteadyMotion& motion = {});
 
-/// Likewise with respect to the independent velocities, about rest at the positions evaluated last.
+/// Likewise with respect to the independent velocities, by central differences about rest at the positions
+/// that the equations were last evaluated at.
 /// @return p×f
 Eigen::MatrixXd differentiate_by_velocity(PartitionedEquations& equations, const StateFunction& function,
                                           const SteadyMotion& motion = {});
 
-/// A force element that goes over to another of its formulas within the differences above.
+/// A force element whose branch changes within the differences above.
 struct Kink {
   std::string element;      ///< its name
-  bool in_position = true;  ///< false: as the velocities pass through rest
+  bool in_position = true;  ///< false if it changes with the sign of a velocity
 };
-/// The kinks about rest at given positions, each element once for each of its kinds, positions first.
+/// The kinks about rest at given positions: each element at most once in position and once in velocity,
+/// positions first.
 std::vector<Kink> find_kinks(PartitionedEquations& equations, double time,
                              const Eigen::VectorXd& q_independent);
 

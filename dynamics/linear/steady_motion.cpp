@@ -9,17 +9,17 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kAllowed = 1e-9;  // of the prescribed rates: what constraints may leave of them
-constexpr double kSame = 1e-6;     // of the largest acceleration: equal accelerations
-constexpr double kPlace = 1e-3;    // how far from the balance they are compared, natural sizes
-constexpr std::array<double, 2> kTurns{0.7, 2.1};  // how far carried [rad, or lengths of the model]
+constexpr double kAllowed = 1e-9;  // residual of the constraints, of the prescribed rates
+constexpr double kSame = 1e-6;     // difference of accelerations that counts as none, of the largest one
+constexpr double kOffset = 1e-3;   // distance from the equilibrium of the comparison [natural sizes]
+constexpr std::array<double, 2> kTurns{0.7, 2.1};  // later positions of the motion [rad, or length scales]
 
 std::span<const double> span_of(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-// ρ̈ of who stands still in the motion at positions q and a time, seen from time 0; empty where q does not
-// fit.
+// ρ̈ of a system at rest relative to the motion, at positions q and a time, rotated back to time 0; empty
+// where q does not satisfy the constraints.
 Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion& motion,
                                           const Eigen::VectorXd& q, double time) {
   PartitionedEquations equations(model);
@@ -40,10 +40,10 @@ Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion
   equations.update_accelerations(branches);
   const Eigen::VectorXd relative =
       equations.v_dot() - motion.calc_acceleration(model, equations.q(), equations.v());
-  return motion.turn_back(model, relative, time);
+  return motion.rotate_back(model, relative, time);
 }
 
-// Accelerations in natural sizes.
+// The largest entry in natural sizes.
 double largest_natural(const Model& model, const Eigen::VectorXd& values) {
   double largest = 0.0;
   for (int i = 0; i < model.num_coordinates; ++i) {
@@ -74,7 +74,7 @@ Eigen::VectorXd SteadyMotion::calc_acceleration(const Model& model, const Eigen:
   return acceleration;
 }
 
-Eigen::VectorXd SteadyMotion::carry(const Model& model, Eigen::VectorXd q, double time) const {
+Eigen::VectorXd SteadyMotion::move_positions(const Model& model, Eigen::VectorXd q, double time) const {
   const FrameRotation rotation = FrameRotation::from_angle(omega * time);
   for (const Body& body : model.bodies) {
     auto R = q.segment<2>(body.first_coordinate);
@@ -89,7 +89,7 @@ Eigen::VectorXd SteadyMotion::carry(const Model& model, Eigen::VectorXd q, doubl
   return q;
 }
 
-Eigen::VectorXd SteadyMotion::turn_back(const Model& model, Eigen::VectorXd vectors, double time) const {
+Eigen::VectorXd SteadyMotion::rotate_back(const Model& model, Eigen::VectorXd vectors, double time) const {
   const FrameRotation rotation = FrameRotation::from_angle(-omega * time);
   for (const Body& body : model.bodies) {
     auto part = vectors.segment<2>(body.first_coordinate);
@@ -117,13 +117,13 @@ std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::
 
 bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::VectorXd& q) {
   if (motion.is_rest()) return true;
-  // A little off the balance, so that what is stiff shows as well.
+  // Slightly away from the equilibrium, so that the forces of stiff elements are compared as well.
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   Eigen::VectorXd q_i(equations.num_freedoms());
   for (Eigen::Index k = 0; k < q_i.size(); ++k) {
     const int i = equations.partition().independent[static_cast<std::size_t>(k)];
-    q_i[k] = q[i] + kPlace * std::cos(1.7 * static_cast<double>(k + 1)) * model.coordinate_scale(i);
+    q_i[k] = q[i] + kOffset * std::cos(1.7 * static_cast<double>(k + 1)) * model.coordinate_scale(i);
   }
   if (equations.update_positions(0.0, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return false;
   const Eigen::VectorXd place = equations.q();
@@ -135,7 +135,7 @@ bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::Vect
     const double time =
         turn / (motion.omega != 0.0 ? std::abs(motion.omega) : motion.velocity.norm() / model.length_scale);
     const Eigen::VectorXd there =
-        calc_carried_acceleration(model, motion, motion.carry(model, place, time), time);
+        calc_carried_acceleration(model, motion, motion.move_positions(model, place, time), time);
     if (there.size() != here.size() || largest_natural(model, there - here) > kSame * size) return false;
   }
   return true;

@@ -17,8 +17,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMaxSweeps = 8;  // two are needed: the matrix is nearly diagonal at the start
 
-// Jacobi's rotations make K diagonal and go along in V, until what is left of each entry is rounding of the
-// two modes that it joins. @return whether one was rotated
+// Makes K diagonal by Jacobi rotations, which are applied to V as well, until each off-diagonal entry is
+// rounding relative to its two modes. @return whether there was a rotation
 bool sweep(Eigen::MatrixXd& K, Eigen::MatrixXd& V) {
   bool has_rotated = false;
   for (Eigen::Index j = 1; j < K.cols(); ++j) {
@@ -58,7 +58,7 @@ UndampedModes calc_undamped_modes(const Eigen::MatrixXd& stiffness, const Eigen:
   modes.vectors = V(Eigen::all, order);
   const Eigen::MatrixXd sizes = modes.vectors.cwiseAbs();
   modes.rounding = (sizes.array() * (rounding * sizes).array()).colwise().sum().transpose();
-  // The entries of the vectors are themselves good to their rounding only.
+  // The entries of the vectors have rounding errors themselves.
   const Eigen::VectorXd entries = kRoundingUnit * sizes.rowwise().maxCoeff();
   modes.rounding.array() += entries.dot(stiffness.cwiseAbs() * entries);
   return modes;

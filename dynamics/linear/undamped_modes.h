@@ -6,7 +6,8 @@
 
 namespace sprung::dynamics {
 
-/// Rounding of what a product of matrices or a sum of forces computes, of the sum of the sizes of its terms.
+/// Rounding error of a product of matrices or of a sum of forces, relative to the sum of the sizes of its
+/// terms.
 inline constexpr double kRoundingUnit = 100.0 * std::numeric_limits<double>::epsilon();
 
 /// Undamped modes K x = ω² M x, of the symmetric part of K: f freedoms.
@@ -15,16 +16,18 @@ struct UndampedModes {
   Eigen::MatrixXd vectors;        ///< f×f, xᵀMx = 1
   Eigen::VectorXd rounding;       ///< of each ω² (linear, eq. 15)
 
-  /// Whether nothing holds mode k: its stiffness is no more than rounding.
+  /// Whether mode k is free: its stiffness is not above rounding.
   bool is_free(Eigen::Index k) const { return std::abs(omega_squared[k]) <= rounding[k]; }
 };
 
-/// Rounding of a stiffness matrix that is known to all its digits, f×f.
+/// Rounding of a stiffness matrix that is exact to machine precision, f×f.
 Eigen::MatrixXd calc_matrix_rounding(const Eigen::MatrixXd& stiffness);
 
-/// The modes by a general solver, then rotated until each product xᵢᵀKxⱼ is zero by its own size: the ω² of a
-/// soft mode is as good as K allows, however stiff others are.
-/// @param stiffness  f×f   @param mass  f×f, symmetric positive definite   @param rounding  R of K, f×f, ≥ 0
+/// The modes from a general solver, improved by Jacobi rotations until each product xᵢᵀKxⱼ is rounding
+/// relative to modes i and j. So ω² of a soft mode is as accurate as K allows, however stiff others are.
+/// @param stiffness  f×f
+/// @param mass       f×f, symmetric positive definite
+/// @param rounding   R of K, f×f, ≥ 0
 /// @throws support::NumericalError if the mass is not positive definite
 /// Source: [Golub & Van Loan 2013], §8.5 (Jacobi's method) — checked by
 /// tests/dynamics/linear/undamped_modes_test.cpp

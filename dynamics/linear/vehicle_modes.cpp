@@ -17,17 +17,17 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSameShape = 1e-9;  // difference of modal assurance criteria that is none
+constexpr double kSameShape = 1e-9;  // difference of modal assurance criteria that counts as none
 
-// Eigenvalues with Im ≥ 0 of the damped system and the position parts of their vectors, in the undamped
+// Eigenvalues of the damped system with Im ≥ 0, and the positions of their eigenvectors in the undamped
 // modes.
 struct DampedModes {
   std::vector<std::complex<double>> eigenvalues;
   std::vector<Eigen::VectorXcd> shapes;  // of length 1
 
-  // The eigenvalue whose shape is most like u by the modal assurance criterion; it is left out from now on.
-  // Of equally good ones, the two of a motion that does not oscillate, the faster one.
-  std::complex<double> take_most_alike(const Eigen::VectorXcd& u) {
+  // Removes and returns the eigenvalue whose shape is most similar to u by the modal assurance criterion. The
+  // two of a motion that does not oscillate have equal shapes: the larger one is taken.
+  std::complex<double> take_most_similar(const Eigen::VectorXcd& u) {
     if (shapes.empty()) throw support::NumericalError("modes: fewer damped modes than undamped ones");
     std::size_t best = 0;
     double most = -1.0;
@@ -63,11 +63,11 @@ DampedModes calc_damped_modes(const FirstOrderForm& form) {
 
 // A mode of the system without damping.
 struct UndampedMode {
-  double omega = 0.0;      // [rad/s]; 0 of one that nothing holds
+  double omega = 0.0;      // [rad/s]; 0 for a free mode
   Eigen::VectorXcd shape;  // in the undamped modes of stiffness and mass alone
 };
 
-// By growing frequency, those that nothing holds first.
+// The modes of M̂ and K̂, free ones first.
 std::vector<UndampedMode> list_undamped_modes(const FirstOrderForm& form) {
   const Eigen::Index f = form.V.rows();
   std::vector<UndampedMode> modes;
@@ -77,8 +77,8 @@ std::vector<UndampedMode> list_undamped_modes(const FirstOrderForm& form) {
   return modes;
 }
 
-// With Coriolis forces, the skew part of Ĉ, shapes are complex: of each the phase with the most kinetic
-// energy.
+// The modes with Coriolis forces, the skew part of Ĉ. Their shapes are complex; each is taken at the phase
+// with the most kinetic energy.
 std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
   const DampedModes complex_modes = calc_damped_modes(form);
   std::vector<UndampedMode> modes;
@@ -87,14 +87,15 @@ std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
     const std::complex<double> square = u.cwiseProduct(u).sum();
     modes.push_back({std::abs(complex_modes.eigenvalues[i]), u * std::polar(1.0, -0.5 * std::arg(square))});
   }
-  // What nothing holds takes two states, and has one here.
+  // Two free modes that Coriolis forces couple have one pair of eigenvalues here, since positions of free modes
+  // are no states. The mode that is then missing is free.
   while (static_cast<Eigen::Index>(modes.size()) < form.V.rows()) {
     modes.push_back({0.0, Eigen::VectorXcd::Unit(form.V.rows(), 0)});
   }
   return modes;
 }
 
-// Which bodies carry the kinetic energy of a shape, largest first; a body's own modes in brackets.
+// The bodies' shares of the kinetic energy of a shape, largest first, with a body's main mode in brackets.
 std::string describe_participants(const Model& model, const SystemTerms& terms,
                                   const Eigen::VectorXd& shape) {
   struct Share {
@@ -144,7 +145,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
             : list_undamped_modes(form);
   std::stable_sort(undamped.begin(), undamped.end(),
                    [](const UndampedMode& a, const UndampedMode& b) { return a.omega < b.omega; });
-  // A motion that decays without damping has two real values.
+  // A motion that does not oscillate has two real eigenvalues.
   const auto f = static_cast<std::size_t>(form.V.rows());
   if (undamped.size() > f) undamped.erase(undamped.begin(), undamped.end() - static_cast<std::ptrdiff_t>(f));
   DampedModes damped = calc_damped_modes(form);
@@ -161,7 +162,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
     mode.is_rigid_body = one.omega == 0.0;
     if (!mode.is_rigid_body) {
       mode.undamped_frequency_hz = one.omega / (2.0 * pi);
-      const std::complex<double> s = damped.take_most_alike(one.shape);
+      const std::complex<double> s = damped.take_most_similar(one.shape);
       mode.damped_frequency_hz = s.imag() / (2.0 * pi);
       mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / one.omega;
     }

@@ -12,15 +12,16 @@ namespace sprung::dynamics {
 struct VehicleMode {
   double undamped_frequency_hz = 0.0;  ///< 0 for a rigid-body mode
   double damped_frequency_hz = 0.0;    ///< 0 where the mode does not oscillate
-  double damping_ratio = 0.0;          ///< of critical; > 1 where it does not oscillate; −Re s/|s|
+  double damping_ratio = 0.0;  ///< −Re s/|s|; where the mode does not oscillate, −s/ω of the larger s
   bool is_rigid_body = false;
   Eigen::VectorXd shape;     ///< nq, undamped, mass-normalised
   std::string participants;  ///< bodies with the most kinetic energy: "chassis 62 % (mode 1: 40 %), …"
 };
 
-/// Modes of the linearised vehicle: undamped ones from M̂, K̂, each with the eigenvalue of the damped system
-/// whose shape is most like its own, rigid-body modes first, then ascending (linear, eqs. 1–3).
-/// @throws support::NumericalError if the equilibrium is unstable and no frequency can be given
+/// Modes of the linearised vehicle: undamped ones from M̂ and K̂, each with the eigenvalue of the damped system
+/// whose shape is most similar. Rigid-body modes come first, then ascending frequencies (linear, eqs. 1–3).
+/// @throws support::NumericalError if the equilibrium is unstable
+/// Checked by tests/dynamics/linear/vehicle_modes_test.cpp
 std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium);
 
 }  // namespace sprung::dynamics

@@ -17,12 +17,12 @@ namespace {
 using Kind = WatchedQuantity::Kind;
 using Set = std::vector<int>;  // positions among the candidates
 
-// What leaving out all above the highest frequency looked at may change an r.m.s. by, of the tolerance.
+// Largest change of an r.m.s. by leaving out all frequencies above the highest line, of the tolerance.
 constexpr double kCutChange = 0.02;
-// Of the highest frequency looked at: modes up to there are judged also where more than that lies above it.
+// Of the highest line: modes up to there are judged even if the change is larger than that.
 constexpr double kJudgedShare = 0.5;
-constexpr double kMostAbove = 0.02;       // share of an r.m.s. above it at most: peaks want more than r.m.s.
-constexpr double kLeastTolerance = 1e-4;  // what it is never finer than
+constexpr double kMostAbove = 0.02;       // largest share of an r.m.s. above the lines, for the sake of peaks
+constexpr double kLeastTolerance = 1e-4;  // the tolerance that kCutChange refers to at least
 constexpr Eigen::Index kMostShown = 2000;
 
 std::string describe(const NeglectedShares::Worst& worst, const WatchedQuantities& watched) {
@@ -59,7 +59,7 @@ ModeWorth summarise(const NeglectedShares& shares, const WatchedQuantities& watc
   return worth;
 }
 
-// The least first; of equals the higher mode.
+// Clusters by ascending share; of equal shares the higher mode first.
 std::vector<std::size_t> sort_clusters(const std::vector<NeglectedShares>& shares) {
   std::vector<std::size_t> order(shares.size());
   std::iota(order.rbegin(), order.rend(), std::size_t{0});
@@ -69,20 +69,20 @@ std::vector<std::size_t> sort_clusters(const std::vector<NeglectedShares>& share
   return order;
 }
 
-// How many of the clusters in an order can be left out, and what was measured on the way: of the first so
-// many.
+// How many of the first clusters in an order can be left out together.
 struct LeftOut {
   std::size_t count = 0;
-  std::map<std::size_t, NeglectedShares::Worst> joint;
+  std::map<std::size_t, NeglectedShares::Worst> joint;  // by number of clusters, where it was computed
 };
 
-// From a guess, that shares add up like independent ones, by growing steps and halving.
+// Starts from the number for which the root of the sum of squared shares reaches the tolerance. Then brackets
+// the number by growing steps and bisects.
 LeftOut leave_out(const NeglectMeasure& measure, const std::vector<Set>& clusters,
                   const std::vector<std::size_t>& order, const std::vector<NeglectedShares>& by_cluster,
                   double tolerance) {
   LeftOut found;
   if (!(tolerance > 0.0)) return found;
-  std::size_t guess = 0, most = 0;  // what is too much by itself stays
+  std::size_t guess = 0, most = 0;  // clusters above the tolerance by themselves stay
   double squares = 0.0;
   for (; most < order.size() && by_cluster[order[most]].worst().value < tolerance; ++most) {
     squares += std::pow(by_cluster[order[most]].worst().value, 2);
@@ -108,7 +108,7 @@ LeftOut leave_out(const NeglectMeasure& measure, const std::vector<Set>& cluster
   return found;
 }
 
-// Shares of each candidate by itself, and of each cluster together.
+// Shares of each candidate alone, and of each cluster.
 struct Shares {
   std::vector<NeglectedShares> by_mode, by_cluster;
 };
@@ -129,7 +129,7 @@ Shares measure_alone(const NeglectMeasure& measure, std::size_t num_candidates,
   return shares;
 }
 
-// Why the cluster at a place of the order is kept or left out.
+// The reason why the cluster at a position in the order is kept or left out.
 std::string explain(std::size_t place, const Set& cluster, const NeglectedShares::Worst& own,
                     const LeftOut& left_out, const std::vector<CandidateMode>& candidates,
                     const WatchedQuantities& watched, double tolerance) {
@@ -142,14 +142,14 @@ std::string explain(std::size_t place, const Set& cluster, const NeglectedShares
                           candidates[static_cast<std::size_t>(cluster.back())].number);
   }
   if (!is_kept || own.value >= tolerance) return reason;
-  reason += "; too much with all that have less";
+  reason += "; too much together with all of smaller shares";
   const auto together = left_out.joint.find(place + 1);
   if (together == left_out.joint.end()) return reason;
   return reason +
          fmt::format(", {} of the {}", percent(together->second.value), describe(together->second, watched));
 }
 
-// Forcing and transfer functions, thinned for a picture.
+// Adds forcing and transfer functions at some of the lines, for a picture.
 void add_spectrum(const LinearVehicle& vehicle, const NeglectMeasure& measure,
                   const WatchedQuantities& watched, const std::vector<int>& points, double speed,
                   BasisChoice& choice) {
@@ -188,23 +188,23 @@ double find_highest_judged(const NeglectMeasure& measure) {
   return kJudgedShare * measure.forcing().frequency(measure.num_lines() - 1);
 }
 
-// What the prediction does not take into account.
+// Remarks what the prediction does not take into account.
 void remark_limits(const NeglectMeasure& measure, BasisChoice& choice) {
   if (measure.is_cut_short()) {
-    choice.remarks.push_back(
-        fmt::format("frequencies above {:.4g} Hz are left out of the prediction: {:.2g} % of the r.m.s. of "
-                    "one of the quantities lie there, so that all modes above {:.4g} Hz are kept",
-                    measure.forcing().frequency(measure.num_lines() - 1), 100.0 * measure.share_above(),
-                    find_highest_judged(measure)));
+    choice.remarks.push_back(fmt::format(
+        "frequencies above {:.4g} Hz are left out of the prediction: up to {:.2g} % of the r.m.s. "
+        "of a quantity lie there, so that all modes above {:.4g} Hz are kept",
+        measure.forcing().frequency(measure.num_lines() - 1), 100.0 * measure.share_above(),
+        find_highest_judged(measure)));
   }
   if (!measure.is_excited()) {
     choice.remarks.emplace_back(
-        "neither road nor forces in time move the vehicle: modes are judged by what they do under the weight "
+        "neither road nor forces in time move the vehicle: modes are judged by their effect under the weight "
         "alone");
   }
 }
 
-// Wheels that the prediction pulls at: where it is outside its range.
+// Remarks wheels whose predicted force falls below zero, where the linear prediction is not valid.
 void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watched,
                     const NeglectMeasure& measure, BasisChoice& choice) {
   std::string wheels;
@@ -218,13 +218,12 @@ void remark_lifting(const LinearVehicle& vehicle, const WatchedQuantities& watch
     const double lowest = measure.find_lowest(row);
     if (!(standing > 0.0) || standing + lowest >= 0.0) continue;
     if (!wheels.empty()) wheels += ", ";
-    wheels += fmt::format("'{}' by {:.2g} times its standing force", input.name, -lowest / standing);
+    wheels += fmt::format("'{}' by {:.2g} times its static force", input.name, -lowest / standing);
   }
   if (wheels.empty()) return;
   choice.remarks.push_back(
-      fmt::format("relieved of more than what they stand with: {}; these wheels leave the ground, which the "
-                  "prediction does "
-                  "not see: compare the run with one with more modes",
+      fmt::format("wheels whose force falls by more than its static value: {}; they leave the ground, which "
+                  "the prediction does not contain: compare the run with one with more modes",
                   wheels));
 }
 
@@ -246,7 +245,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   std::vector<int> coordinates;
   for (const CandidateMode& mode : candidates) coordinates.push_back(mode.coordinate);
   const WatchedQuantities watched = make_watched_quantities(vehicle, points);
-  // An r.m.s. that loses a part with the share e falls by e²/2 (mode_choice, eq. 6).
+  // An r.m.s. decreases by e²/2 without a part of the share e (mode_choice, eq. 6).
   const double cut = std::min(std::sqrt(2.0 * kCutChange * std::max(tolerance, kLeastTolerance)), kMostAbove);
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing, cut);
   remark_limits(measure, choice);
@@ -257,7 +256,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     choice.verdicts.push_back({.mode = candidates[i],
                                .worth = summarise(shares.by_mode[i], watched),
-                               .reason = "kept: beyond what the prediction looks at"});
+                               .reason = "kept: above the frequencies of the prediction"});
   }
   std::vector<std::size_t> order = sort_clusters(shares.by_cluster);
   const double highest_judged = find_highest_judged(measure);
@@ -286,7 +285,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
 BasisChoice keep_all(const std::vector<CandidateMode>& candidates, double tolerance, const std::string& why) {
   BasisChoice choice{.tolerance = tolerance};
   for (const CandidateMode& mode : candidates) {
-    choice.verdicts.push_back({.mode = mode, .worth = {}, .reason = "kept: not measured, as " + why});
+    choice.verdicts.push_back({.mode = mode, .worth = {}, .reason = "kept: not judged, as " + why});
   }
   choice.remarks.push_back("all modes are kept, as " + why);
   return choice;

@@ -19,13 +19,13 @@ struct CandidateMode {
   int coordinate = 0;         ///< of the model with all modes
 };
 
-/// What a mode by itself is worth: the largest share in each group of quantities, by r.m.s. and by peak.
+/// Shares of a single mode that is left out: the largest in each group of quantities, by r.m.s. and by peak.
 struct ModeWorth {
   struct Pair {
     double rms = 0.0, peak = 0.0;
   };
-  Pair displacement, acceleration, force;  ///< forces, torques and reactions together
-  double weight = 0.0;                     ///< under the weight alone, the largest of all
+  Pair displacement, acceleration, force;  ///< `force`: forces, torques and reactions together
+  double weight = 0.0;                     ///< under the weight alone, the largest of all quantities
 };
 
 struct ModeVerdict {
@@ -35,32 +35,37 @@ struct ModeVerdict {
   std::string reason;  ///< "kept: 12 % of the peak acceleration of chassis.seat"
 };
 
-/// The modes that a run needs, by what is known of its forcing.
+/// The modes that a run needs, as predicted from its forcing.
 struct BasisChoice {
-  double tolerance = 0.0;                  ///< joint share that may be neglected
+  double tolerance = 0.0;                  ///< largest share of all modes left out together
   std::vector<ModeVerdict> verdicts = {};  ///< body after body, ascending
-  double neglected = 0.0;                  ///< the largest share that all modes left out have together
+  double neglected = 0.0;                  ///< the largest share of all modes left out together
   std::string neglected_of = {};  ///< "r.m.s. acceleration of chassis.seat"; empty where none is left out
-  std::vector<std::string> remarks = {};  ///< what was not taken into account, or kept without being measured
+  std::vector<std::string> remarks = {};  ///< what was not taken into account, or kept without being judged
 
   std::vector<double> frequency_hz =
-      {};                     ///< m, at which the forcing was looked at, thinned; empty where it was not
+      {};                     ///< m frequencies of the forcing, for a picture; empty without forcing
   Eigen::VectorXd road = {};  ///< m, |Fourier transform| of the height under the foremost wheel [m/Hz]
   std::vector<std::string> transfer_names = {};  ///< the points asked for
-  Eigen::MatrixXd transfer =
-      {};  ///< points×m, acceleration on a wave of the road of 1 m [m/s²/m]; empty at rest
+  /// Points×m, acceleration on a road wave of 1 m [m/s²/m]; empty for a vehicle at rest.
+  Eigen::MatrixXd transfer = {};
 
   std::size_t num_kept() const;
 };
 
-/// Leaves out clusters of modes, the least share first, as long as what is neglected jointly stays below the
-/// tolerance (mode_choice, eqs. 1–6; linear, eqs. 12, 13). At a tolerance of 0 all modes are kept.
-/// @param vehicle  with all candidates active, at its equilibrium
+/// Leaves out clusters of modes, those of the smallest shares first, as long as the share of all that are
+/// left out stays below the tolerance (mode_choice, eqs. 1–6; linear, eqs. 12, 13). At a tolerance of 0 all
+/// modes are kept.
+/// @param vehicle    with all candidates active, at its equilibrium
+/// @param points     markers whose motion is watched
 /// @param tolerance  ≥ 0, < 1
+/// @throws std::invalid_argument for another tolerance
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,
                          const std::vector<int>& points, const KnownForcing& forcing, double tolerance);
 
-/// All modes kept without being measured. @param why  "prescribed motion drives the vehicle"
+/// Keeps all modes without judging them.
+/// @param why  "prescribed motion drives the vehicle"
 BasisChoice keep_all(const std::vector<CandidateMode>& candidates, double tolerance, const std::string& why);
 
 }  // namespace sprung::dynamics

@@ -17,10 +17,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kMostSamples = 1 << 22;
-constexpr double kShortest = 1e-3;  // forcing, of the run: where there is none
-constexpr double kRest = 0.01;      // of the motion, when it counts as settled
+constexpr double kShortest = 1e-3;  // duration of the forcing where there is none, of the run
+constexpr double kRest = 0.01;      // of its amplitude, to which a motion decays in the settling time
 
-// Forcing during the run; behind it, its last value fading away over the first half of the settling.
+// Samples of the forcing during the run; afterwards its last value fades out over the first half of settling.
 std::vector<double> sample(const std::function<double(double)>& value, double duration, double period,
                            Eigen::Index n) {
   const double fading = 0.5 * (period - duration);
@@ -51,7 +51,7 @@ bool changes_with_time(const ForceElement& force) {
                      [](const TimeFunction* f) { return !f->is_constant(); });
 }
 
-// A force or torque on a marker that a force element changes with time: `component` x, y, torque.
+// A component of force or torque on a marker that varies with time: 0: x, 1: y, 2: torque.
 struct TimedForce {
   std::size_t force = 0;
   int marker = 0;
@@ -73,7 +73,7 @@ class TimedForces {
 
   const std::vector<TimedForce>& list() const { return list_; }
 
-  // With the vehicle at rest in its place.
+  // Its value at a time, with the vehicle at rest at its equilibrium.
   double value(const TimedForce& timed, double time) {
     const Model& model = vehicle_.model();
     const ForceElement& force = *model.forces[timed.force];
@@ -145,7 +145,7 @@ double calc_settling_time(const LinearVehicle& vehicle, double longest) {
   const double rounding = calc_eigenvalue_rounding(eigenvalues);
   double slowest = eigenvalues.cwiseAbs().maxCoeff();
   for (const std::complex<double>& s : eigenvalues) {
-    if (std::abs(s) <= rounding) continue;  // a direction that nothing holds
+    if (std::abs(s) <= rounding) continue;  // a free mode
     slowest = std::min(slowest, std::max(-s.real(), 0.0));
   }
   return slowest > 0.0 ? std::min(-std::log(kRest) / slowest, longest) : longest;

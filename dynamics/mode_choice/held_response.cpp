@@ -24,7 +24,7 @@ HeldResponse HeldResponseSolver::solve(double omega, const Eigen::VectorXcd& for
   right.rightCols(n) = modal_.transpose().cast<std::complex<double>>();
   const Eigen::MatrixXcd x = support::solve_lu(Z, right);
   const Eigen::MatrixXcd eta = modal_ * x;
-  // Modal forces act on no channel directly.
+  // Modal forces have no direct effect on the channels.
   const Eigen::MatrixXcd by_motion =
       outputs_->by_position + s * outputs_->by_velocity + (s * s) * outputs_->by_acceleration;
   return {.outputs = sum_outputs(*outputs_, omega, x.col(0), force, channels),

@@ -7,24 +7,27 @@
 
 namespace sprung::dynamics {
 
-/// A linear vehicle under harmonic forcing and under a unit force on each of n modal coordinates, at one
-/// frequency: all that it takes to say what holding some of these modes still would change. p outputs.
+/// Response of a linear vehicle at one frequency to its forcing, and to a unit force on each of n modal
+/// coordinates. From these follows the effect of holding some of the modes. p outputs.
 struct HeldResponse {
   Eigen::VectorXcd outputs;           ///< p, of the vehicle with all modes
   Eigen::VectorXcd amplitudes;        ///< n, of the modal coordinates
-  Eigen::MatrixXcd outputs_by_force;  ///< p×n
-  Eigen::MatrixXcd receptance;        ///< n×n, modal coordinates by modal forces
+  Eigen::MatrixXcd outputs_by_force;  ///< p×n, outputs per unit modal force
+  Eigen::MatrixXcd receptance;        ///< n×n, modal coordinates per unit modal force
 };
 
-/// Evaluates a vehicle at one frequency: a factorisation of K̂ + iωĈ − ω²M̂, as there are many right-hand
-/// sides.
+/// Computes these responses, at each frequency by one factorisation of K̂ + iωĈ − ω²M̂.
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 class HeldResponseSolver {
  public:
-  /// @param coordinates  the n modal coordinates  @param vehicle, outputs  have to outlive this
+  /// @param vehicle, outputs  must outlive this
+  /// @param coordinates       the n modal coordinates, as positions in q
   HeldResponseSolver(const LinearVehicle& vehicle, const LinearOutputs& outputs,
                      std::vector<int> coordinates);
 
-  /// @param force  nq, generalized  @param channels  of all force elements
+  /// @param omega     [rad/s]
+  /// @param force     generalized forces, nq
+  /// @param channels  direct part of the channels of all force elements
   HeldResponse solve(double omega, const Eigen::VectorXcd& force, const Eigen::VectorXcd& channels) const;
 
  private:
@@ -34,9 +37,11 @@ class HeldResponseSolver {
   Eigen::MatrixXd modal_;  // n×f, of the modal coordinates by the independent ones
 };
 
-/// What the outputs change by when a set of modes is held still, the others keeping on: with Y the outputs by
-/// modal forces, H the receptance and η the amplitudes, −Y_S H_SS⁻¹ η_S (mode_choice, eq. 3).
-/// @param modes  positions among the n  @return p
+/// Change of the outputs when a set S of modes is held and the others are not: −Y_S H_SS⁻¹ η_S with Y the
+/// outputs per modal force, H the receptance and η the amplitudes (mode_choice, eq. 3).
+/// @param modes  positions among the n
+/// @return p
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 Eigen::VectorXcd calc_change(const HeldResponse& response, const std::vector<int>& modes);
 
 }  // namespace sprung::dynamics

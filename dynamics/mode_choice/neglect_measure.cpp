@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "dynamics/mode_choice/lone_modes.h"
+#include "dynamics/mode_choice/small_sets.h"
 #include "dynamics/mode_choice/thinned_lines.h"
 
 namespace sprung::dynamics {
@@ -20,18 +20,17 @@ namespace {
 using Kind = WatchedQuantity::Kind;
 
 constexpr double kLongestSettling = 20.0;  // s
-constexpr double kHighest = 1.5;           // frequencies looked at, of the vehicle's highest
-constexpr double kRoughSpacing = 0.02;     // of lines in the search for the highest, of their frequency
-constexpr double kRoughSampling = 2.0;     // of the forcing, there
+constexpr double kHighest = 1.5;  // end of the search for the highest line, of the vehicle's frequencies
+constexpr double kRoughSpacing = 0.02;  // of lines in this search, relative to their frequency
+constexpr double kRoughSampling = 2.0;  // fineness of the forcing in this search
 constexpr Eigen::Index kMostLines = (1 << 15) - 1;
-constexpr double kStatic = 0.01;  // of the lowest frequency: slow enough to be static
+constexpr double kStatic = 0.01;  // of the lowest frequency: at this frequency the response is static
 
 double calc_highest_frequency(const LinearVehicle& vehicle) {
   return vehicle.solver().eigenvalues().cwiseAbs().maxCoeff() / (2.0 * std::numbers::pi);
 }
 
-// The quantities of each group that have the largest share: displacements, accelerations, forces with
-// torques.
+// The quantity with the largest share in each group: displacements, accelerations, forces with torques.
 std::vector<std::size_t> find_largest(const WatchedQuantities& watched, const Eigen::VectorXd& shares) {
   std::vector<std::size_t> largest;
   for (int group = 0; group < 3; ++group) {
@@ -91,7 +90,7 @@ double NeglectMeasure::find_highest_frequency(const KnownForcing& forcing, doubl
     inputs.calc_gains(frequency, gains);
     const RowsXcd states =
         sweep_.calc_states(Eigen::VectorXd::Constant(1, omega), sweep_.project(gains.forces));
-    const Eigen::MatrixXcd outputs = multiply(sweep_.state_outputs(), states) + gains.direct;
+    const Eigen::MatrixXcd outputs = multiply_real_complex(sweep_.state_outputs(), states) + gains.direct;
     const Eigen::VectorXd powers = calc_powers(outputs, thinned.powers[k]);
     for (Eigen::Index i = 0; i < w; ++i) {
       const WatchedQuantity& quantity = watched_->list[static_cast<std::size_t>(i)];
@@ -100,14 +99,14 @@ double NeglectMeasure::find_highest_frequency(const KnownForcing& forcing, doubl
     }
   }
   const Eigen::VectorXd sizes =
-      raise_small(*watched_, squares.rowwise().sum().cwiseSqrt(), vehicle_->model().length_scale);
+      apply_lower_bounds(*watched_, squares.rowwise().sum().cwiseSqrt(), vehicle_->model().length_scale);
   const double most = static_cast<double>(kMostLines) / rough.period;
   Eigen::VectorXd above = Eigen::VectorXd::Zero(w);
   double highest = rough.frequency(0);
   for (std::size_t k = thinned.size(); k-- > 0;) {
     const double end = rough.frequency(thinned.ends[k] - 1);
     const Eigen::VectorXd more = above + squares.col(static_cast<Eigen::Index>(k));
-    const double share = divide(more.cwiseSqrt(), sizes).maxCoeff();
+    const double share = calc_shares(more.cwiseSqrt(), sizes).maxCoeff();
     if (share > cut && end <= most) {
       highest = end;
       break;
@@ -154,8 +153,8 @@ void NeglectMeasure::calc_references() {
 
   std::vector<int> all(coordinates_.size());
   std::iota(all.begin(), all.end(), 0);
-  // Bending under the weight counts against what is largest of its kind anywhere: at one point modes may
-  // cancel.
+  // The effect of the weight refers to the largest one on any quantity of the kind, because the effects of
+  // the modes may cancel at a point.
   const Eigen::VectorXcd flexible = calc_change(at_rest_, all);
   std::array<double, WatchedQuantity::kNumKinds> bending{};
   for (const WatchedQuantity& quantity : watched_->list) {
@@ -168,9 +167,9 @@ void NeglectMeasure::calc_references() {
     weight = std::max(weight, bending[static_cast<std::size_t>(watched_->list[i].kind)]);
   }
   const double length = vehicle_->model().length_scale;
-  rms_ = raise_small(*watched_, sizes.rms, length);
-  peak_ = raise_small(*watched_, sizes.peak, length);
-  weight_ = raise_small(*watched_, weight_, length);
+  rms_ = apply_lower_bounds(*watched_, sizes.rms, length);
+  peak_ = apply_lower_bounds(*watched_, sizes.peak, length);
+  weight_ = apply_lower_bounds(*watched_, weight_, length);
 }
 
 Eigen::VectorXd NeglectMeasure::calc_static_shares(const std::vector<int>& set) const {
@@ -179,7 +178,7 @@ Eigen::VectorXd NeglectMeasure::calc_static_shares(const std::vector<int>& set) 
   for (Eigen::Index i = 0; i < sizes.size(); ++i) {
     sizes[i] = calc_static_size(watched_->list[static_cast<std::size_t>(i)], change);
   }
-  return divide(sizes, weight_);
+  return calc_shares(sizes, weight_);
 }
 
 NeglectedShares NeglectMeasure::measure(const std::vector<int>& set) const {
@@ -187,16 +186,17 @@ NeglectedShares NeglectMeasure::measure(const std::vector<int>& set) const {
   for (const int mode : set) held.push_back(coordinates_[static_cast<std::size_t>(mode)]);
   const HarmonicSweep sweep(make_held_system(*vehicle_, watched_->outputs, held));
   const QuantitySizes sizes = calc_sizes(*watched_, sweep.respond(omega_, forces_) - outputs_, omega_);
-  return {divide(sizes.rms, rms_), divide(sizes.peak, peak_), calc_static_shares(set)};
+  return {calc_shares(sizes.rms, rms_), calc_shares(sizes.peak, peak_), calc_static_shares(set)};
 }
 
 std::vector<NeglectedShares> NeglectMeasure::measure_alone(const std::vector<std::vector<int>>& sets) const {
-  const LoneModes modes({*vehicle_, *watched_, *inputs_, amplitudes_, omega_}, coordinates_);
+  const SmallSets modes({*vehicle_, *watched_, *inputs_, amplitudes_, omega_}, coordinates_);
   const std::vector<QuantitySizes> sizes = modes.measure(
-      sets, [&](const Eigen::VectorXd& rms) { return find_largest(*watched_, divide(rms, rms_)); });
+      sets, [&](const Eigen::VectorXd& rms) { return find_largest(*watched_, calc_shares(rms, rms_)); });
   std::vector<NeglectedShares> shares;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    shares.push_back({divide(sizes[i].rms, rms_), divide(sizes[i].peak, peak_), calc_static_shares(sets[i])});
+    shares.push_back(
+        {calc_shares(sizes[i].rms, rms_), calc_shares(sizes[i].peak, peak_), calc_static_shares(sets[i])});
   }
   return shares;
 }

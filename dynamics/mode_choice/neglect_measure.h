@@ -13,12 +13,12 @@
 
 namespace sprung::dynamics {
 
-/// What holding a set of modes still changes, as shares of w watched quantities (mode_choice, eq. 4).
+/// The effect of holding a set of modes, as shares of w watched quantities (mode_choice, eq. 4).
 struct NeglectedShares {
-  Eigen::VectorXd rms;   ///< w, of each one's r.m.s. over the run and the vehicle's coming to rest
-  Eigen::VectorXd peak;  ///< w, of its largest value
-  /// w, under the weight alone: of its largest value, or of what all modes do to the quantity of its kind
-  /// that they change most.
+  Eigen::VectorXd rms;   ///< w, of the r.m.s. over the run and the time until the vehicle is at rest
+  Eigen::VectorXd peak;  ///< w, of the largest value
+  /// w, under the weight alone: of the largest value or, if that is larger, of the largest effect of all
+  /// modes on a quantity of the same kind.
   Eigen::VectorXd weight;
 
   struct Worst {
@@ -29,33 +29,37 @@ struct NeglectedShares {
   Worst worst() const;
 };
 
-/// Measures what sets of modes are worth to a linear vehicle under a forcing that is known beforehand.
+/// Computes the effect of holding sets of modes of a linear vehicle under a known forcing.
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 class NeglectMeasure {
  public:
-  /// @param coordinates  the n modal coordinates in question
-  /// @param cut          share of each quantity's r.m.s. that may lie above the highest frequency looked at,
-  /// > 0
-  /// @param vehicle, watched  have to outlive this
+  /// @param vehicle, watched  must outlive this
+  /// @param coordinates       the n modal coordinates in question, as positions in q
+  /// @param cut               share of each quantity's r.m.s. that may lie above the highest line, > 0
   NeglectMeasure(const LinearVehicle& vehicle, const WatchedQuantities& watched, std::vector<int> coordinates,
                  const KnownForcing& forcing, double cut);
 
-  /// Of one set of positions among the modes, at every line.
+  /// Shares of one set, computed at every line.
+  /// @param set  positions among the n modes
   NeglectedShares measure(const std::vector<int>& set) const;
-  /// Of many small sets, to a few hundredths of each share; the peak of the quantity of each kind with the
-  /// largest share of r.m.s., 0 of all others.
+  /// Shares of each of many small sets, accurate to a few hundredths. Peaks are computed for the quantity of
+  /// each kind with the largest r.m.s. share; those of all others are 0.
   std::vector<NeglectedShares> measure_alone(const std::vector<std::vector<int>>& sets) const;
 
-  /// The lowest value of an output of the vehicle with all modes, counted from where it stands.
+  /// The lowest value of an output of the vehicle with all modes, relative to the equilibrium.
   double find_lowest(int row) const;
-  /// Watched outputs on a wave of the road of 1 m under the foremost wheel.  @param lines  k  @return p×k
+  /// Watched outputs on a road wave of 1 m under the foremost wheel, at k lines.
+  /// @return p×k
   RowsXcd calc_wave_response(const std::vector<Eigen::Index>& lines) const;
 
   const ForcingSpectrum& forcing() const { return forcing_; }
   Eigen::Index num_lines() const { return omega_.size(); }
-  /// What lies above the lines, of the r.m.s. of the quantity that has most of it there.
+  /// Share of the r.m.s. that lies above the lines, for the quantity with the largest one.
   double share_above() const { return share_above_; }
-  bool is_excited() const { return rms_.size() > 0 && rms_.maxCoeff() > 0.0; }  ///< moves at all
-  bool is_cut_short() const { return is_cut_short_; }  ///< more than what was allowed
+  /// Whether the forcing moves the vehicle.
+  bool is_excited() const { return rms_.size() > 0 && rms_.maxCoeff() > 0.0; }
+  /// Whether share_above() is larger than allowed.
+  bool is_cut_short() const { return is_cut_short_; }
 
  private:
   double find_highest_frequency(const KnownForcing& forcing, double settling, double cut);
@@ -69,15 +73,15 @@ class NeglectMeasure {
   double speed_;
   HarmonicSweep sweep_;
   ForcingSpectrum forcing_;
-  std::optional<HarmonicInputs> inputs_;  // once the forces are known
+  std::optional<HarmonicInputs> inputs_;  // made after forcing_
   double share_above_ = 0.0;
   bool is_cut_short_ = false;
   HeldResponse at_rest_;
   Eigen::VectorXd omega_;                // m
   Eigen::MatrixXcd amplitudes_;          // of the inputs, i×m
   Eigen::MatrixXcd forces_;              // on the independent coordinates, f×m
-  RowsXcd outputs_, whole_;              // p×m, of the motion alone, and with what the road does directly
-  Eigen::VectorXd rms_, peak_, weight_;  // w, what shares are of
+  RowsXcd outputs_, whole_;              // p×m, without and with the direct effect of the road
+  Eigen::VectorXd rms_, peak_, weight_;  // w, sizes that shares refer to
 };
 
 }  // namespace sprung::dynamics

@@ -16,7 +16,7 @@ namespace {
 using Kind = WatchedQuantity::Kind;
 
 constexpr double kLeastSize = 0.01;  // of the largest quantity of its kind
-constexpr double kRounding = 1e-6;   // torque that is none, of force times length
+constexpr double kRounding = 1e-6;   // torque that counts as zero, of force times length
 
 }  // namespace
 
@@ -47,8 +47,8 @@ Eigen::VectorXd calc_peaks(const WatchedQuantities& watched, const RowsXcd& line
   const auto num_times =
       static_cast<Eigen::Index>(std::bit_ceil(static_cast<std::size_t>(2 * lines.cols() + 1)));
   const auto count = static_cast<Eigen::Index>(quantities.size());
-  // Two of the rows at a time.
-  std::vector<std::pair<Eigen::Index, int>> rows;  // which of the quantities, row
+  // One transform gives the histories of two rows.
+  std::vector<std::pair<Eigen::Index, int>> rows;  // index into `quantities`, row
   for (Eigen::Index i = 0; i < count; ++i) {
     for (const int row : watched.list[quantities[static_cast<std::size_t>(i)]].rows)
       rows.emplace_back(i, row);
@@ -80,7 +80,7 @@ double calc_static_size(const WatchedQuantity& quantity, const Eigen::VectorXcd&
   return std::sqrt(sum);
 }
 
-Eigen::VectorXd raise_small(const WatchedQuantities& watched, Eigen::VectorXd sizes, double length) {
+Eigen::VectorXd apply_lower_bounds(const WatchedQuantities& watched, Eigen::VectorXd sizes, double length) {
   std::array<double, WatchedQuantity::kNumKinds> largest{};
   for (std::size_t i = 0; i < watched.size(); ++i) {
     double& one = largest[static_cast<std::size_t>(watched.list[i].kind)];
@@ -96,7 +96,7 @@ Eigen::VectorXd raise_small(const WatchedQuantities& watched, Eigen::VectorXd si
   return sizes;
 }
 
-Eigen::VectorXd divide(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
+Eigen::VectorXd calc_shares(const Eigen::VectorXd& change, const Eigen::VectorXd& size) {
   return change.binaryExpr(size, [](double a, double b) { return b > 0.0 ? a / b : 0.0; });
 }
 

@@ -6,8 +6,8 @@ namespace {
 
 using Kind = WatchedQuantity::Kind;
 
-// Adds the outputs as rows behind those there are. @return their places
-std::vector<int> append(WatchedQuantities& watched, const LinearOutputs& outputs) {
+// Adds outputs after the present ones. @return their rows
+std::vector<int> add_outputs(WatchedQuantities& watched, const LinearOutputs& outputs) {
   std::vector<int> rows;
   for (int i = 0; i < outputs.size(); ++i) rows.push_back(watched.outputs.size() + i);
   if (watched.outputs.size() == 0) {
@@ -18,7 +18,7 @@ std::vector<int> append(WatchedQuantities& watched, const LinearOutputs& outputs
   return rows;
 }
 
-// Outputs whose subject fits.
+// Rows of the outputs whose subject satisfies a condition.
 template <typename Fits>
 std::vector<int> find_outputs(const LinearOutputs& outputs, Fits fits) {
   std::vector<int> rows;
@@ -44,10 +44,10 @@ void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
     });
     if (!forces.empty())
       watched.list.push_back(
-          {"force of " + force->name, Kind::kForce, append(watched, outputs.pick(forces))});
+          {"force of " + force->name, Kind::kForce, add_outputs(watched, outputs.pick(forces))});
     if (!torques.empty())
       watched.list.push_back(
-          {"torque of " + force->name, Kind::kTorque, append(watched, outputs.pick(torques))});
+          {"torque of " + force->name, Kind::kTorque, add_outputs(watched, outputs.pick(torques))});
   }
 }
 
@@ -64,10 +64,10 @@ void add_reactions(const LinearVehicle& vehicle, WatchedQuantities& watched) {
       return is_of_joint(subject) && subject.component == 2;
     });
     watched.list.push_back(
-        {"reaction of " + joint->name, Kind::kForce, append(watched, outputs.pick(forces))});
+        {"reaction of " + joint->name, Kind::kForce, add_outputs(watched, outputs.pick(forces))});
     if (!joint->carries_torque()) continue;
     watched.list.push_back(
-        {"reaction torque of " + joint->name, Kind::kTorque, append(watched, outputs.pick(torques))});
+        {"reaction torque of " + joint->name, Kind::kTorque, add_outputs(watched, outputs.pick(torques))});
   }
 }
 
@@ -77,7 +77,7 @@ WatchedQuantities make_watched_quantities(const LinearVehicle& vehicle, const st
   WatchedQuantities watched;
   for (const int marker : points) {
     const std::string& name = vehicle.model().markers[static_cast<std::size_t>(marker)].name;
-    const std::vector<int> rows = append(watched, make_point_outputs(vehicle, marker).pick({0, 1}));
+    const std::vector<int> rows = add_outputs(watched, make_point_outputs(vehicle, marker).pick({0, 1}));
     watched.list.push_back({"displacement of " + name, Kind::kDisplacement, rows});
     watched.list.push_back({"acceleration of " + name, Kind::kAcceleration, rows});
   }

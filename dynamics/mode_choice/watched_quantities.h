@@ -7,7 +7,7 @@
 
 namespace sprung::dynamics {
 
-/// A vector or scalar by which modes are judged: the size of some rows of outputs together.
+/// A vector or scalar by which modes are judged; its components are rows of the outputs.
 struct WatchedQuantity {
   enum class Kind { kDisplacement, kAcceleration, kForce, kTorque };
   static constexpr std::size_t kNumKinds = 4;
@@ -16,8 +16,9 @@ struct WatchedQuantity {
   std::vector<int> rows;  ///< of the outputs; an acceleration's are those of the displacement
 };
 
-/// What a user of a run cares about: displacement and acceleration (x, y) of the points asked for, reactions
-/// of all joints, forces and torques of all force elements that are not given in time.
+/// The quantities by which modes are judged: displacement and acceleration (x, y) of the points asked for,
+/// reactions of all joints, forces and torques of all force elements that are not given in time.
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 struct WatchedQuantities {
   LinearOutputs outputs;
   std::vector<WatchedQuantity> list;

@@ -234,7 +234,8 @@ TEST_CASE("What is beyond the lines of a very long run is kept", "[choice]") {
              Contains("are left out of the prediction: ") && Contains(", so that all modes above "));
   for (int k = 2; k < kNumModes; ++k) {
     CHECK(choice.verdicts[static_cast<std::size_t>(k)].is_kept);
-    CHECK(choice.verdicts[static_cast<std::size_t>(k)].reason == "kept: beyond what the prediction looks at");
+    CHECK(choice.verdicts[static_cast<std::size_t>(k)].reason ==
+          "kept: above the frequencies of the prediction");
   }
 }
 

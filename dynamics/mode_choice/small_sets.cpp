@@ -1,4 +1,4 @@
-#include "dynamics/mode_choice/lone_modes.h"
+#include "dynamics/mode_choice/small_sets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +10,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kMostDamping = 0.02;  // spacing of lines at most, of frequency
-constexpr double kLeastDamping = 0.005;
-constexpr double kOscillates = 0.5;  // damping ratio up to which a motion has a resonance worth resolving
-constexpr std::size_t kMostValues = 1 << 23;  // complex numbers held at once
+constexpr double kMostSpacing = 0.02;  // of lines, relative to their frequency
+constexpr double kLeastSpacing = 0.005;
+constexpr double kOscillates = 0.5;           // damping ratio up to which a resonance is resolved
+constexpr std::size_t kMostValues = 1 << 23;  // complex numbers in memory at once
 
 // The watched outputs and, below them, the modal coordinates.
 DrivenSystem add_amplitudes(const LinearVehicle& vehicle, const LinearOutputs& outputs,
@@ -27,21 +27,21 @@ DrivenSystem add_amplitudes(const LinearVehicle& vehicle, const LinearOutputs& o
   return system;
 }
 
-// Half the width of the narrowest resonance, of its frequency.
+// Half the width of the narrowest resonance, relative to its frequency.
 double find_spacing(const LinearVehicle& vehicle) {
   const Eigen::VectorXcd eigenvalues = vehicle.solver().eigenvalues();
   const double rounding = calc_eigenvalue_rounding(eigenvalues);
-  double least = kMostDamping;
+  double least = kMostSpacing;
   for (const std::complex<double>& s : eigenvalues) {
     const double ratio = -s.real() / std::abs(s);
     if (std::abs(s) > rounding && ratio < kOscillates) least = std::min(least, ratio);
   }
-  return std::max(least, kLeastDamping);
+  return std::max(least, kLeastSpacing);
 }
 
 }  // namespace
 
-LoneModes::LoneModes(const Scene& scene, const std::vector<int>& coordinates)
+SmallSets::SmallSets(const Scene& scene, const std::vector<int>& coordinates)
     : scene_(scene),
       p_(scene.watched.outputs.size()),
       n_(static_cast<Eigen::Index>(coordinates.size())),
@@ -52,19 +52,20 @@ LoneModes::LoneModes(const Scene& scene, const std::vector<int>& coordinates)
   projected_ = sweep_.project(modal.cast<std::complex<double>>());
 }
 
-void LoneModes::calc_node(Eigen::Index line, Node& node) const {
+void SmallSets::calc_node(Eigen::Index line, Node& node) const {
   HarmonicInputs::Gains gains;
   const double omega = scene_.omega[line];
   scene_.inputs.calc_gains(omega / (2.0 * std::numbers::pi), gains);
   RowsXcd projected(projected_.rows(), n_ + gains.forces.cols());
   projected << projected_, sweep_.project(gains.forces);
   node.states = sweep_.calc_states(Eigen::VectorXd::Constant(1, omega), projected);
-  node.outputs_by_force = multiply(sweep_.state_outputs().topRows(p_), node.states.leftCols(n_)) + direct_;
-  node.amplitudes =
-      multiply(sweep_.state_outputs().bottomRows(n_), node.states.rightCols(gains.forces.cols()));
+  node.outputs_by_force =
+      multiply_real_complex(sweep_.state_outputs().topRows(p_), node.states.leftCols(n_)) + direct_;
+  node.amplitudes = multiply_real_complex(sweep_.state_outputs().bottomRows(n_),
+                                          node.states.rightCols(gains.forces.cols()));
 }
 
-Eigen::MatrixXcd LoneModes::calc_change(const Node& node, const std::vector<int>& set) const {
+Eigen::MatrixXcd SmallSets::calc_change(const Node& node, const std::vector<int>& set) const {
   const auto count = static_cast<Eigen::Index>(set.size());
   Eigen::MatrixXcd receptance(count, count), by_force(p_, count), amplitudes(count, node.amplitudes.cols());
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -80,7 +81,7 @@ Eigen::MatrixXcd LoneModes::calc_change(const Node& node, const std::vector<int>
   return -by_force * support::solve_lu(receptance, amplitudes);
 }
 
-std::vector<QuantitySizes> LoneModes::measure(const std::vector<std::vector<int>>& sets,
+std::vector<QuantitySizes> SmallSets::measure(const std::vector<std::vector<int>>& sets,
                                               const FindShown& find_shown) const {
   std::vector<QuantitySizes> sizes;
   const auto values = static_cast<std::size_t>(p_ * scene_.amplitudes.rows()) * thinned_.size();
@@ -98,7 +99,7 @@ std::vector<QuantitySizes> LoneModes::measure(const std::vector<std::vector<int>
   return sizes;
 }
 
-QuantitySizes LoneModes::calc_sizes(const std::vector<Eigen::MatrixXcd>& changes,
+QuantitySizes SmallSets::calc_sizes(const std::vector<Eigen::MatrixXcd>& changes,
                                     const FindShown& find_shown) const {
   const std::vector<WatchedQuantity>& list = scene_.watched.list;
   const auto w = static_cast<Eigen::Index>(list.size());
@@ -118,7 +119,7 @@ QuantitySizes LoneModes::calc_sizes(const std::vector<Eigen::MatrixXcd>& changes
   for (const std::size_t i : shown) rows.insert(rows.end(), list[i].rows.begin(), list[i].rows.end());
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  RowsXcd lines(p_, scene_.omega.size());  // only these rows
+  RowsXcd lines(p_, scene_.omega.size());  // only the rows of `rows` are set
   for (const int row : rows) {
     for (std::size_t k = 0; k < thinned_.size(); ++k) {
       const Eigen::Index begin = thinned_.lines[k];

@@ -10,11 +10,11 @@
 
 namespace sprung::dynamics {
 
-/// What holding small sets of modes still changes, many such sets at once. Outputs by modal forces and
-/// receptance are looked at in thinned lines only, about as far apart as the half-width of a resonance; in
-/// between the outputs by the inputs are taken as straight lines for histories. Good to a few hundredths of
-/// each change.
-class LoneModes {
+/// The effect of holding small sets of modes, for many sets at once. Responses are computed at thinned lines
+/// only, whose distance is about the half-width of a resonance. For peaks, the transfer functions are
+/// interpolated linearly between them. The error is a few hundredths of each change.
+/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
+class SmallSets {
  public:
   struct Scene {
     const LinearVehicle& vehicle;
@@ -23,33 +23,35 @@ class LoneModes {
     const Eigen::MatrixXcd& amplitudes;  ///< of the inputs, i×m
     const Eigen::VectorXd& omega;        ///< m
   };
-  /// @param coordinates  the n modal coordinates  @param scene  what it names has to outlive this
-  LoneModes(const Scene& scene, const std::vector<int>& coordinates);
+  /// @param scene        its members must outlive this
+  /// @param coordinates  the n modal coordinates, as positions in q
+  SmallSets(const Scene& scene, const std::vector<int>& coordinates);
 
-  /// @param sets  of positions among the modes
-  /// @param find_shown  the quantities whose largest values are wanted, by the r.m.s. of the changes of all
-  /// @return for each set; peaks of other quantities are 0
+  /// Sizes of the changes when the modes of a set are held.
+  /// @param sets        of positions among the n modes
+  /// @param find_shown  given the r.m.s. changes of all quantities, selects those whose peaks are computed
+  /// @return one for each set; peaks of other quantities are 0
   using FindShown = std::function<std::vector<std::size_t>(const Eigen::VectorXd& rms)>;
   std::vector<QuantitySizes> measure(const std::vector<std::vector<int>>& sets,
                                      const FindShown& find_shown) const;
 
  private:
   struct Node {
-    RowsXcd states;                     // under modal forces, then inputs: s×(n+i)
+    RowsXcd states;                     // under unit modal forces, then unit inputs: s×(n+i)
     Eigen::MatrixXcd outputs_by_force;  // p×n
-    Eigen::MatrixXcd amplitudes;        // n×i
+    Eigen::MatrixXcd amplitudes;        // of the modes under unit inputs, n×i
   };
   void calc_node(Eigen::Index line, Node& node) const;
-  // Changes of the outputs by each input, p×i.
+  // Change of the outputs under each unit input, p×i.
   Eigen::MatrixXcd calc_change(const Node& node, const std::vector<int>& set) const;
   QuantitySizes calc_sizes(const std::vector<Eigen::MatrixXcd>& changes, const FindShown& find_shown) const;
 
   Scene scene_;
   Eigen::Index p_, n_;
-  Eigen::MatrixXd direct_;  // p×n, of modal forces on the outputs
+  Eigen::MatrixXd direct_;  // p×n, direct effect of modal forces on the outputs
   ThinnedLines thinned_;
   HarmonicSweep sweep_;  // outputs: the watched ones, then the modal coordinates
-  RowsXcd projected_;    // modal forces
+  RowsXcd projected_;    // unit modal forces
 };
 
 }  // namespace sprung::dynamics
