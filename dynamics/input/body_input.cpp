@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Products and squares of what lies between stay numbers; nothing on wheels is near either.
+// Products and squares of values between these do not overflow. No vehicle comes near either limit.
 constexpr double kLeast = 1e-30, kMost = 1e30;  // kg, kg·m²
 constexpr std::array<std::string_view, 2> kReservedPoints{"origin", "center_of_mass"};
 
@@ -61,7 +61,7 @@ BodyDescription read_body(const std::string& name, const support::TomlValue& val
   body.name = name;
   body.location = value.location();
   check_name(name, "body", value.location());
-  if (name == "ground") throw table.error("cannot be a body: 'ground' is what never moves");
+  if (name == "ground") throw table.error("cannot be a body: 'ground' is the world, which never moves");
 
   if (const std::optional<support::TomlValue> superelement = table.find("superelement")) {
     body.superelement = superelement->string();
@@ -94,7 +94,7 @@ BodyDescription read_body(const std::string& name, const support::TomlValue& val
 
 std::string list_superelements(const std::filesystem::path& folder, const std::string& wanted) {
   std::vector<std::string> names;
-  std::error_code error;  // a folder that cannot be listed has none for us
+  std::error_code error;  // a folder that cannot be listed gives no names
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".h5") names.push_back(entry.path().stem().string());
   }
@@ -116,7 +116,7 @@ reduce::Superelement read_named(const BodyDescription& body, const std::filesyst
   return reduce::read_superelement(path);
 }
 
-// `origin` may name a node, if it is the node there.
+// A node may be named `origin` only if it is at the origin.
 void check_reserved_nodes(const BodyDescription& body, const reduce::Superelement& superelement) {
   for (const reduce::NamedPoint& point : superelement.points) {
     const Eigen::Vector2d at = superelement.node_positions.col(point.node);

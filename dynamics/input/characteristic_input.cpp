@@ -18,7 +18,7 @@ PiecewisePolynomial read_polynomial(const support::TomlValue& value, const LawUn
   const std::vector<double> coefficients = value.numbers(support::any(units.coefficient));
   if (coefficients.empty())
     throw value.error(fmt::format("must have at least one coefficient [{}]", units.coefficient));
-  // The first coefficient that is not zero after the constant decides the stiffness where d is small.
+  // The first non-zero coefficient after the constant determines the stiffness for small d.
   const auto first =
       std::find_if(coefficients.begin() + 1, coefficients.end(), [](double a) { return a != 0.0; });
   if (first != coefficients.end() && *first < 0.0) {
@@ -32,7 +32,7 @@ PiecewisePolynomial read_polynomial(const support::TomlValue& value, const LawUn
 PiecewisePolynomial read_spring_table(const support::TomlValue& value, const LawUnits& units) {
   const PointList points = read_point_list(value, support::any(units.deflection), support::any(units.force));
   const PiecewisePolynomial law = PiecewisePolynomial::through_points(points.x, points.y);
-  // The piece on either side of 0; the first and the last go on for ever.
+  // The slopes on either side of 0; the first and the last piece have no end.
   const double step = 1e-9 * (points.x.back() - points.x.front());
   const double softest = std::min(law.slope(-step), law.slope(step));
   if (!(softest >= 0.0)) {
@@ -87,7 +87,7 @@ double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynom
 }
 
 PiecewisePolynomial read_damper(const support::TomlTable& table, const LawUnits& units) {
-  // Either of the two-way damper's keys stands for both; the one that is missing is then missed.
+  // One key of a two-way damper stands for both here; the missing one is reported when it is read.
   const std::string_view two_way = table.has("compression") ? "compression" : "rebound";
   const std::array<std::string_view, 3> ways{"coefficient", two_way, "table"};
   const std::string_view way =

@@ -7,7 +7,7 @@
 
 namespace sprung::dynamics {
 
-/// Units of a law, for messages: a spring-damper's along a line, or about an axis.
+/// Units of a force law, for messages: of a spring-damper along a line, or about an axis.
 struct LawUnits {
   std::string_view deflection, rate, force, coefficient, stiffness, damping;
 };
@@ -29,13 +29,15 @@ inline constexpr LawUnits kRotation{.deflection = "rad",
 ///     { polynomial = [a_0, a_1, …] }       F = Σ a_k d^k
 ///     { table = [[d, F], …] }              straight lines through the points
 ///
-/// @throws support::InputError also for a negative stiffness where the spring is unloaded (d = 0)
+/// @throws support::InputError also for a negative stiffness at d = 0
+/// Checked by tests/dynamics/input/force_input_test.cpp
 PiecewisePolynomial read_spring(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
-/// Reads a stop, { deflection, rate }, of a spring's law: from that deflection on, up for compression and
-/// down for rebound, the force goes on straight with `rate` > 0 [N/m].
-/// @param spring  as read_spring gives it, changed
+/// Reads a stop, { deflection, rate }, and adds it to a spring's law: beyond that deflection, above it for
+/// compression and below it for rebound, the force is linear with the slope `rate` > 0 [N/m].
+/// @param[in,out] spring  from read_spring
 /// @return the deflection where the stop begins [m]
+/// Checked by tests/dynamics/input/force_input_test.cpp
 double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring,
                  const LawUnits& units = kTranslation);
 
@@ -45,7 +47,8 @@ double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynom
 ///     { compression = c_1, rebound = c_2 }         F = c_1 ḋ for ḋ > 0, c_2 ḋ for ḋ < 0
 ///     { table = [[ḋ, F], …] }                      straight lines through the points, F(0) = 0
 ///
-/// @throws support::InputError also for a damper that would put energy in
+/// @throws support::InputError also for a damper that would generate energy
+/// Checked by tests/dynamics/input/force_input_test.cpp
 PiecewisePolynomial read_damper(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
 }  // namespace sprung::dynamics

@@ -14,10 +14,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Reads the keys of one type of force into a description that has name and place already.
+// Reads the keys of one type of force into a description that has its name and location already.
 using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force);
 
-// The spring with its stops, and where these begin.
+// Reads the spring with its stops, and the deflections where these begin.
 template <typename Parameters>
 void read_spring_with_stops(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
   const std::optional<support::TomlTable> law = table.find_table("spring");
@@ -37,7 +37,7 @@ void read_spring_with_stops(const support::TomlTable& table, const LawUnits& uni
   }
 }
 
-// Spring, stops and damper, of which there must be one.
+// Reads spring, stops and damper, of which there must be at least one.
 template <typename Parameters>
 void read_laws(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
   parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
@@ -92,7 +92,7 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
   force.parameters = std::move(parameters);
 }
 
-// What both kinds of tyre are made from; DistributedTyre has no use for one_sided.
+// Reads the parameters that both kinds of tyre share; DistributedTyre does not use one_sided.
 PointContactTyre::Parameters read_tyre_laws(const support::TomlTable& table) {
   PointContactTyre::Parameters parameters;
   parameters.radius = table.number("radius", support::positive("m"));
@@ -111,7 +111,7 @@ PointContactTyre::Parameters read_tyre_laws(const support::TomlTable& table) {
   }
   if (!parameters.one_sided && !(parameters.spring.value(-parameters.radius) < 0.0)) {
     throw spring.error(fmt::format(
-        "of a tyre that is not one-sided must pull at a penetration of -{} m, got {} N; odd powers do",
+        "of a tyre that is not one-sided must pull at a penetration of -{} m, got {} N; use odd powers",
         parameters.radius, parameters.spring.value(-parameters.radius)));
   }
   return parameters;
@@ -147,7 +147,7 @@ const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
   return readers;
 }
 
-// Of each kind the element, its markers put in.
+// Each makes the element of one kind, with its markers.
 std::unique_ptr<ForceElement> place(const std::string& name, SpringDamper::Parameters parameters,
                                     std::span<const int> markers, const PlacedRoad& /*road*/) {
   parameters.marker_a = markers[0];

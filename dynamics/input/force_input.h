@@ -17,12 +17,12 @@
 
 namespace sprung::dynamics {
 
-/// What a force element of any kind is made with.
+/// Parameters of a force element of any kind.
 using ForceParameters =
     std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters, AppliedForce::Parameters,
                  PointContactTyre::Parameters, DistributedTyre::Parameters>;
 
-/// A force element as the vehicle file has it.
+/// A force element as described in the vehicle file.
 struct ForceDescription {
   std::string name;
   std::string kind;                    ///< the file's `type`
@@ -33,15 +33,15 @@ struct ForceDescription {
   ForceParameters parameters;  ///< all but its markers
 };
 
-/// Reads one entry of `[[forces]]`: name, type and the keys of its type. A new kind of force is one more row
-/// in the table of this function's source.
-/// @throws support::InputError for a missing, unknown or unfit key; whether the points exist is the vehicle's
-/// matter
+/// Reads one entry of `[[forces]]`: name, type and the keys of its type, by the table `force_readers`. It
+/// does not check that the points exist; `read_vehicle` does.
+/// @throws support::InputError for a key that is missing, unknown or has a bad value
+/// Checked by tests/dynamics/input/force_input_test.cpp
 ForceDescription read_force(const support::TomlTable& table);
 
-/// The element described.
-/// @param markers  of its points, in their order
-/// @param road     for elements that stand on it; what it points to must outlive the element
+/// Makes the element of a description.
+/// @param markers  of its points, in the order of force.points
+/// @param road     for elements that stand on it; its road must outlive the element
 std::unique_ptr<ForceElement> make_force(const ForceDescription& force, std::span<const int> markers,
                                          const PlacedRoad& road);
 

@@ -49,7 +49,7 @@ Eigen::Vector2d read_vector(const support::TomlValue& value, std::string_view un
 Eigen::Vector2d read_direction(const support::TomlValue& value) {
   const Eigen::Vector2d direction = read_vector(value, "");
   if (!(direction.stableNorm() > 0.0)) throw value.error("must be a direction [x, y], got [0, 0]");
-  return direction.stableNormalized();  // of any length
+  return direction.stableNormalized();  // without overflow or underflow
 }
 
 }  // namespace sprung::dynamics

@@ -15,18 +15,19 @@ struct PointList {
 };
 
 /// Reads at least 2 pairs with ascending x.
-/// @throws support::InputError at the pair that does not fit
+/// @throws support::InputError at the first pair that is wrong
 PointList read_point_list(const support::TomlValue& value, const support::Quantity& x_unit,
                           const support::Quantity& y_unit);
 
-/// The one key, of several ways of saying a thing, that a table uses; there must be exactly one.
-/// @param expected  the ways in words, for messages: "either 'polynomial' or 'table'"
+/// The one of several alternative keys that a table has; it must have exactly one.
+/// @param expected  the alternatives in words, for messages: "either 'polynomial' or 'table'"
+/// @throws support::InputError if the table has none of them, or several
 std::string_view find_only_key(const support::TomlTable& table, std::span<const std::string_view> keys,
                                std::string_view expected);
 
 /// Two numbers [x, y] of one unit.
 Eigen::Vector2d read_vector(const support::TomlValue& value, std::string_view unit);
-/// A direction [x, y], not [0, 0], made of length 1.
+/// A direction [x, y], not [0, 0], scaled to length 1.
 Eigen::Vector2d read_direction(const support::TomlValue& value);
 
 }  // namespace sprung::dynamics

@@ -18,7 +18,7 @@ namespace {
 
 using Kind = RelativeCoordinate::Kind;
 
-// Reads the keys of one type of joint into a description that has name, points and place already.
+// Reads the keys of one type of joint into a description that has its name, points and location already.
 using JointReader = void (*)(const support::TomlTable& table, JointDescription& joint);
 
 std::optional<double> read_angle(const support::TomlTable& table) {

@@ -11,25 +11,26 @@
 
 namespace sprung::dynamics {
 
-/// Whether functions of time go on, or stand still at their value at t = 0, as for a static balance.
+/// Whether functions of time vary, or keep their value at t = 0, as for static equilibrium.
 enum class MotionUse { kMoving, kHeld };
 
-/// What a joint is made from besides its description.
+/// What a joint needs besides its description.
 struct JointPlace {
   int marker_a = 0;
   int marker_b = 0;
-  double angle = 0.0;  ///< of b's body against a's, as the vehicle file has them [rad]
+  double angle = 0.0;  ///< of b's body relative to a's in the vehicle file [rad]
   MotionUse motions = MotionUse::kMoving;
 };
 
-/// What a joint of each kind is made with; an angle that is not given is the one in the vehicle file.
+/// Parameters of a joint of each kind. Without an angle, the one between the bodies in the vehicle file is
+/// kept.
 struct RevoluteParameters {};
 struct TranslationalParameters {
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();  ///< in the axes of a's body
-  std::optional<double> angle;                      ///< of b against a [rad]
+  std::optional<double> angle;                      ///< of b relative to a [rad]
 };
 struct FixedParameters {
-  std::optional<double> angle;  ///< of b against a [rad]
+  std::optional<double> angle;  ///< of b relative to a [rad]
 };
 struct DistanceParameters {
   TimeFunction length;  ///< > 0 [m]
@@ -40,25 +41,25 @@ struct PinInSlotParameters {
 using JointParameters = std::variant<RevoluteParameters, TranslationalParameters, FixedParameters,
                                      DistanceParameters, PinInSlotParameters>;
 
-/// A joint as the vehicle file has it.
+/// A joint as described in the vehicle file.
 struct JointDescription {
   std::string name;
   std::string kind;  ///< the file's `type`
   PointReference a, b;
   support::SourceLocation location;
   std::optional<RelativeCoordinate>
-      coordinate;               ///< that prescribed motion may drive; none: the joint leaves none free
+      coordinate;               ///< that prescribed motion may drive; none if nothing is free
   bool needs_distance = false;  ///< its two points must not coincide
   JointParameters parameters;
 };
 
-/// Reads one entry of `[[joints]]`: name, type, a, b and the keys of its type. A new kind of joint is one
-/// more row in the table of this function's source.
-/// @throws support::InputError for a missing, unknown or unfit key; whether the points exist is the vehicle's
-/// matter
+/// Reads one entry of `[[joints]]`: name, type, a, b and the keys of its type, by the table `joint_readers`.
+/// It does not check that the points exist; `read_vehicle` does.
+/// @throws support::InputError for a key that is missing, unknown or has a bad value
+/// Checked by tests/dynamics/input/joint_input_test.cpp
 JointDescription read_joint(const support::TomlTable& table);
 
-/// The joint described.
+/// Makes the joint of a description.
 std::unique_ptr<Joint> make_joint(const JointDescription& joint, const JointPlace& place);
 
 }  // namespace sprung::dynamics

@@ -49,7 +49,7 @@ Body make_body(const Vehicle& vehicle, const BodyDescription& description, const
   return body;
 }
 
-// Where a point's body stiffens, its displacement of second order.
+// Second-order displacement of a point of a body with stiffening.
 SecondOrder make_second_order(const reduce::Superelement& superelement, const VehiclePoint& point,
                               const Body& body) {
   if (point.kind == VehiclePoint::Kind::kCenterOfMass) return {};

@@ -59,12 +59,12 @@ std::vector<int> resolve_count(const ModeRequest& request, const reduce::Superel
   if (request.count > 0) {
     const auto [first, last] = find_cluster(superelement, request.count);
     if (last != request.count) {
-      refuse(
-          request.location, request.key,
-          fmt::format(
-              "is {}, which parts modes {} to {} of one frequency, {:.6g} Hz; take {} or {} modes, or list "
-              "their numbers",
-              request.count, first, last, superelement.frequency_hz[request.count - 1], first - 1, last));
+      refuse(request.location, request.key,
+             fmt::format("is {}, which separates modes {} to {} of one frequency, {:.6g} Hz; take {} or {} "
+                         "modes, or list "
+                         "their numbers",
+                         request.count, first, last, superelement.frequency_hz[request.count - 1], first - 1,
+                         last));
     }
   }
   std::vector<int> numbers(static_cast<std::size_t>(request.count));

@@ -10,7 +10,8 @@
 
 namespace sprung::dynamics {
 
-/// Prescribed motion as the vehicle file has it: of a joint's coordinate, or of a point against the ground.
+/// Prescribed motion as described in the vehicle file: of a joint's coordinate, or of a point relative to the
+/// ground.
 struct MotionDescription {
   std::string name;
   PointReference a, b;  ///< the joint's points; or "ground.origin" and the moved point
@@ -19,13 +20,15 @@ struct MotionDescription {
   support::SourceLocation location;
 };
 
-/// Reads one entry of `[[motions]]`: name, `joint` or `point` with `coordinate`, and the function of time.
+/// Reads one entry of `[[motions]]`: name, `joint` or `point` with `coordinate`, and the function of time. It
+/// does not check that the point exists; `read_vehicle` does.
 /// @param joints  of the vehicle
-/// @throws support::InputError for a missing, unknown or unfit key, and for a joint that has no free
-/// coordinate; whether the point exists is the vehicle's matter
+/// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a joint without
+///         a free coordinate
+/// Checked by tests/dynamics/input/motion_input_test.cpp
 MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints);
 
-/// The motion described, as the joint that it is to the solver.
+/// Makes the joint that prescribes a motion.
 std::unique_ptr<Joint> make_joint(const MotionDescription& motion, const JointPlace& place);
 
 }  // namespace sprung::dynamics

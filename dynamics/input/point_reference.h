@@ -8,7 +8,7 @@
 
 namespace sprung::dynamics {
 
-/// The name that points of the ground have in front.
+/// The first part of the names of points of the ground: "ground.origin".
 inline constexpr std::string_view kGroundName = "ground";
 
 /// A point as an input file names it: "body.point", or "ground.point".
@@ -17,19 +17,24 @@ struct PointReference {
   support::SourceLocation location;
 };
 
-/// A reference as the file has it; that it names a point of the vehicle is checked by `check_point`.
+/// Reads a reference; `check_point` checks that it names a point of the vehicle.
+/// @throws support::InputError if it is not of the form "body.point"
 PointReference read_point(const support::TomlValue& value);
 
+/// Checks that a reference names a point of the vehicle.
 /// @param known  names of all points of the vehicle
-/// @throws support::InputError at the reference's place, naming the nearest known point
+/// @throws support::InputError at the reference otherwise, with the nearest known point
+/// Checked by tests/dynamics/input/vehicle_test.cpp
 void check_point(const PointReference& reference, std::span<const std::string> known);
 
 /// The part of "body.point" before the dot.
 std::string body_of_point(const std::string& point_name);
 
-/// A name given by the user, of a body, point, joint or force: letters, digits, '_' and '-', so that it can
-/// stand in "body.point", in a key and in the results file.
-/// @throws support::InputError at `location`, naming `what` and the name
+/// Checks a name that the user gives to a body, point, joint or force: it consists of letters, digits, '_'
+/// and
+/// '-', so that it can be used in "body.point", in a key and in the results file.
+/// @param what  for the message: "body"
+/// @throws support::InputError at `location` for another name
 void check_name(const std::string& name, const std::string& what, const support::SourceLocation& location);
 
 }  // namespace sprung::dynamics

@@ -9,23 +9,23 @@
 
 namespace sprung::dynamics {
 
-/// What a run file asks of the frequency response, `[response]`.
+/// The frequency response that a run file asks for, `[response]`.
 struct ResponseRequest {
   enum class Spacing { kLogarithmic, kLinear };
   double from = 0.1, to = 50.0;  ///< 0 < from < to [Hz]
   int number = 1000;             ///< of frequencies, ≥ 2
   Spacing spacing = Spacing::kLogarithmic;
-  std::vector<PointReference> points;  ///< none: the run's
-  std::optional<RoadSpectrum> road;    ///< none: frequency response alone
-  support::SourceLocation location;    ///< of the table; its path alone where there is none
+  std::vector<PointReference> points;  ///< if empty, those of the run
+  std::optional<RoadSpectrum> road;    ///< if absent, only transfer functions are computed
+  support::SourceLocation location;    ///< of the table; without a table, of the file
 };
 
-/// Reads `[response]`.
-/// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the
-/// keys)
+/// Reads `[response]` (dynamics/models/README.md lists the keys).
+/// @throws support::InputError at the first key or value that is wrong
+/// Checked by tests/dynamics/input/response_input_test.cpp
 ResponseRequest read_response(const support::TomlTable& table);
 
-/// The frequencies asked for, ascending, `from` and `to` among them [Hz].
+/// The frequencies asked for, ascending, including `from` and `to` [Hz].
 std::vector<double> list_frequencies(const ResponseRequest& request);
 
 }  // namespace sprung::dynamics

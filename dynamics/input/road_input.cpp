@@ -18,13 +18,13 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr std::string_view kSeparators = " \t\r,";
-constexpr double kLevel = 1e-9;  // m, what TableRoad takes for height 0
+constexpr double kLevel = 1e-9;  // m, largest height that TableRoad accepts as 0
 
 struct RoadPoints {
   std::vector<double> distance, height;
 };
 
-// Takes the next number off a line.
+// Reads the next number of a line from position `at`, and moves `at` behind it.
 double take_number(std::string_view line, std::size_t& at, const support::SourceLocation& line_start,
                    std::string_view what) {
   const std::size_t begin = line.find_first_not_of(kSeparators, at);
@@ -75,7 +75,7 @@ RoadPoints read_road_table(const std::filesystem::path& path) {
   const std::string text = support::read_text_file(path);
   RoadPoints points;
   support::SourceLocation location{.path = path.string()};
-  const bool has_mark = text.starts_with("\xEF\xBB\xBF");  // of byte order, as spreadsheets write it
+  const bool has_mark = text.starts_with("\xEF\xBB\xBF");  // byte order mark, as spreadsheets write it
   for (std::size_t begin = has_mark ? 3 : 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     ++location.line;
@@ -100,7 +100,7 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
   road.location = table.at("shape").location();
   road.shape = table.at("shape").one_of(shapes);
   if (road.shape != "flat") {
-    // On the start, where the vehicle stands in balance, the road is level.
+    // Where the vehicle starts in equilibrium, the road is level.
     road.start = table.number("start", support::non_negative("m"));
   }
   if (road.shape == "table") {

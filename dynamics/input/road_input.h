@@ -21,12 +21,15 @@ struct RoadDescription {
 };
 
 /// Reads `[road]`: shape and the keys of that shape.
-/// @param folder  what the table's `file` is relative to
+/// @param folder  the folder that the key `file` is relative to
+/// @throws support::InputError at the first key or value that is wrong
+/// Checked by tests/dynamics/input/road_input_test.cpp
 RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder);
 
-/// The road described; for a table its file is read: two columns, distance [m] and height [m], parted by
-/// blanks or a comma, distances ascending, first height 0; `#` begins a comment.
-/// @throws support::InputError at the fault's line and column in the table's file
+/// Makes the road of a description. For a table it reads the file: two columns, distance [m] and height [m],
+/// separated by blanks or a comma, distances ascending, first height 0; `#` begins a comment.
+/// @throws support::InputError at the line and column of the fault in the table's file
+/// Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 
 }  // namespace sprung::dynamics

@@ -60,7 +60,7 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
     settings.names_method = true;
     settings.options.method = static_cast<SteppingMethod>(place - kNames.begin());
   }
-  // Tighter than 1e-13 the rounding of the evaluation is mistaken for error of the step.
+  // With a tolerance below 1e-13, rounding of the evaluation would be mistaken for error of the step.
   settings.options.relative_tolerance =
       table.number_or("relative_tolerance", settings.options.relative_tolerance,
                       {.unit = "", .at_least = 1e-13, .at_most = 1e-1});
@@ -71,7 +71,7 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   const std::optional<support::TomlValue> fixed_step = table.find("fixed_step");
   for (const auto& value : {radius, fixed_step}) {
     if (value && !(settings.names_method && settings.options.method == SteppingMethod::kGeneralizedAlpha)) {
-      throw value->error("has a meaning with method = \"generalized-alpha\" alone");
+      throw value->error("has a meaning with method = \"generalized-alpha\" only");
     }
   }
   if (radius)
@@ -148,7 +148,7 @@ std::vector<PointReference> read_output(const support::TomlTable& table) {
   return points;
 }
 
-// Their names without repetition.
+// Names of the points without repetition.
 std::vector<std::string> resolve_points(const std::vector<PointReference>& points, const Vehicle& vehicle) {
   const std::vector<std::string> known = point_names(vehicle);
   std::vector<std::string> names;
@@ -168,7 +168,7 @@ const Body& find_moved_body(const Model& model, const std::string& name, const I
                                                          name, support::nearest_name_hint(name, names)));
 }
 
-// The body's part of q or v that belongs to its modes.
+// Adds values to the part of q or v that belongs to a body's modes.
 void add_modal_values(const Body& body, const std::vector<double>& values, const char* key,
                       const InitialMotion& motion, Eigen::VectorXd& coordinates) {
   if (values.empty()) return;
@@ -225,7 +225,7 @@ std::unique_ptr<Road> make_road(const Run& run) {
 
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
   ModeRequests requests = run.modes;
-  if (run.adaptivity.enabled) {  // "auto" chooses from what may be recalled
+  if (run.adaptivity.enabled) {  // "auto" chooses from the modes that may be recalled
     for (const std::string& body : list_automatic_bodies(run.modes)) {
       const auto available = run.adaptivity.available.find(body);
       if (available != run.adaptivity.available.end()) requests[body] = available->second;
@@ -237,13 +237,13 @@ ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle) {
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle) {
   ModeRequests requests = run.adaptivity.available;
   if (!run.adaptivity.enabled) {
-    resolve_modes(requests, vehicle);  // what is wrong there is wrong, though nothing comes of it
+    resolve_modes(requests, vehicle);  // reports mistakes, although the result is not used
     return selected;
   }
   for (const auto& [body, request] : run.modes) {
     ModeRequest all = request;
     all.kind = ModeRequest::Kind::kAll;
-    requests.emplace(body, all);  // unless it is named
+    requests.emplace(body, all);  // no effect if the body has a request already
   }
   ModeSelection available = resolve_modes(requests, vehicle);
   for (const auto& [body, numbers] : selected) {

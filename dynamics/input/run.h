@@ -22,19 +22,19 @@
 
 namespace sprung::dynamics {
 
-/// What the start of a run adds to one body's motion, `[initial.BODY]`.
+/// What a run adds to the initial motion of one body, `[initial.BODY]`.
 struct InitialMotion {
   Eigen::Vector2d velocity =
       Eigen::Vector2d::Zero();          ///< of the body frame, added to the run's speed, world axes [m/s]
   double angular_velocity = 0.0;        ///< [rad/s]
-  std::vector<double> modal_amplitude;  ///< of the active modes, none: 0
+  std::vector<double> modal_amplitude;  ///< one for each active mode; if empty, 0
   std::vector<double> modal_rate;       ///< [1/s]
   support::SourceLocation location;
 };
 
 struct IntegratorSettings {
   SteppingOptions options;
-  bool names_method = false;                                      ///< else the method is default_method()
+  bool names_method = false;                                      ///< otherwise default_method() is used
   double largest_step = std::numeric_limits<double>::infinity();  ///< > 0 [s]
 };
 
@@ -42,17 +42,17 @@ struct IntegratorSettings {
 struct AdaptivitySettings {
   support::SourceLocation location;
   bool enabled = false;
-  bool indicator = true;  ///< whether a run with a fixed set is told what it misses
+  bool indicator = true;  ///< whether a run with a fixed set estimates the effect of the modes left out
   AdaptivityThresholds thresholds;
-  ModeRequests available;  ///< bodies that are not named have all modes of their file
+  ModeRequests available;  ///< for a body that is not named, all modes of its superelement
 };
 
-/// What a run file says.
+/// The contents of a run file.
 struct Run {
   enum class Start {
-    kEquilibrium,  ///< static balance, prescribed motion standing still
-    kSteady,       ///< balance of what prescribed motion carries along at its rate
-    kAsGiven,
+    kEquilibrium,  ///< static equilibrium, prescribed motion kept at its initial value
+    kSteady,       ///< equilibrium relative to a prescribed motion at its initial rate
+    kAsGiven,      ///< the positions of the vehicle file
   };
 
   std::string text;                    ///< the file as read
@@ -74,42 +74,45 @@ struct Run {
   IntegratorSettings integrator;
   AdaptivitySettings adaptivity;
   std::map<std::string, InitialMotion> initial;  ///< by body
-  std::vector<PointReference> output_points;     ///< none: what the vehicle file monitors
+  std::vector<PointReference> output_points;     ///< if empty, the vehicle's `monitor`
   ResponseRequest response;
 };
 
-/// As in run files: "as-given".
+/// The name that a run file uses: "as-given".
 std::string_view start_name(Run::Start start);
 
-/// Reads a run file; the vehicle's own file is not opened.
-/// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the
-/// keys)
+/// Reads a run file (dynamics/models/README.md lists the keys). The vehicle file is not opened.
+/// @throws support::InputError at the first key or value that is wrong
+/// Checked by tests/dynamics/input/run_test.cpp
 Run read_run(const support::TomlDocument& document);
 
 std::unique_ptr<Road> make_road(const Run& run);
 ModeSelection resolve_modes(const Run& run, const Vehicle& vehicle);
-/// The modes that may be active: those selected, and with adaptivity the ones available besides.
+/// The modes that may become active: those selected and, with adaptivity, the others that are available.
 /// @throws support::InputError as resolve_modes
 ModeSelection resolve_available_modes(const Run& run, const ModeSelection& selected, const Vehicle& vehicle);
 ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
-/// @throws support::InputError at the run's reference to a point that the vehicle lacks
+/// @throws support::InputError at a reference to a point that the vehicle lacks
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle);
-/// Names of the points whose frequency response is reported: those of `[response]`, else the above.
+/// Names of the points whose frequency response is reported: those of `[response]`, else those of
+/// resolve_output_points.
 /// @throws support::InputError likewise
 std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle);
 
 /// Adds the run's initial modal amplitudes to q.
-/// @throws support::InputError for a body the vehicle lacks, or amplitudes that are not as many as its active
-/// modes
+/// @throws support::InputError for a body that the vehicle lacks, or for a number of amplitudes that is not
+///         that of its active modes
+/// Checked by tests/dynamics/input/run_test.cpp
 void add_initial_amplitudes(const Run& run, const Model& model, Eigen::VectorXd& q);
 
 /// Velocities at the start: all bodies at the run's speed along the vehicle's heading, and what `[initial]`
-/// adds. The constraints may ask for others, which is the solver's matter.
+/// adds. They may violate the constraints; project_velocities (dynamics/linear/assembly.h) corrects them.
 /// @return v, model.num_coordinates
-/// @throws support::InputError as above
+/// @throws support::InputError as add_initial_amplitudes
+/// Checked by tests/dynamics/input/run_test.cpp
 Eigen::VectorXd make_start_velocities(const Run& run, const Vehicle& vehicle, const Model& model);
 
 }  // namespace sprung::dynamics

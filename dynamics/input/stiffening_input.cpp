@@ -25,7 +25,7 @@ StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const Mod
           request.location,
           fmt::format(
               "'{}' needs the geometric stiffness of superelement '{}', whose file is of version 1 and "
-              "has none; make it again from its design with sprung-reduce build",
+              "has none; build it again from its design with sprung-reduce build",
               request.key, superelement.name));
     }
     const auto active = selection.find(body);

@@ -10,10 +10,10 @@
 
 namespace sprung::dynamics {
 
-/// Bodies that their axial forces stiffen or soften.
+/// Names of the bodies whose bending stiffness depends on axial forces.
 using StiffenedBodies = std::set<std::string>;
 
-/// What a run file says of one body under `[stiffening]`.
+/// A value of `[stiffening]` in a run file.
 struct StiffeningRequest {
   bool on = false;
   std::string key;  ///< for messages: "stiffening.blade"
@@ -21,12 +21,14 @@ struct StiffeningRequest {
 };
 using StiffeningRequests = std::map<std::string, StiffeningRequest>;  ///< by body
 
-/// Reads `[stiffening]`: of each body true or false.
+/// Reads `[stiffening]`: for each body true or false.
+/// Checked by tests/dynamics/input/stiffening_input_test.cpp
 StiffeningRequests read_stiffening(const support::TomlTable& table);
 
-/// The bodies that the requests mean; those that move as rigid ones are left out.
-/// @throws support::InputError at the request's place: no such body, a body without superelement, or a
-///         superelement without the geometric stiffness of all active modes
+/// The bodies that the requests switch on, without those that have no active modes.
+/// @throws support::InputError at the request if there is no such body, it has no superelement, or the
+///         superelement lacks the geometric stiffness of an active mode
+/// Checked by tests/dynamics/input/stiffening_input_test.cpp
 StiffenedBodies resolve_stiffening(const StiffeningRequests& requests, const ModeSelection& selection,
                                    const Vehicle& vehicle);
 

@@ -111,7 +111,7 @@ Eigen::Vector2d start_position(const Vehicle& vehicle, const std::vector<Vehicle
   return body.position + FrameRotation::from_angle(body.angle) * found->p_BP;
 }
 
-// Bodies that no arithmetic of 16 digits holds in one system, or whose mass is nowhere near its own inertia.
+// Rejects masses that differ too much for arithmetic of 16 digits, and inertias that do not match the mass.
 void check_masses(const Vehicle& vehicle) {
   constexpr double kMostRatio = 1e12, kMostRadius = 1e9;
   std::vector<double> masses;
@@ -146,7 +146,7 @@ void check_masses(const Vehicle& vehicle) {
   }
 }
 
-// The line of a force or a link needs a direction to begin with.
+// The line of action of a force or a link needs a direction at the start.
 void check_lines(const Vehicle& vehicle) {
   const std::vector<VehiclePoint> points = list_points(vehicle);
   const auto check = [&](const auto& acting, const char* what, const PointReference& point_a,
@@ -205,7 +205,7 @@ Vehicle read_vehicle(const support::TomlDocument& document,
     vehicle.ground_points = read_points(ground->at("points").table(), false);
     ground->reject_unknown_keys();
   }
-  // Everything that needs no other file first.
+  // Unknown keys are reported before other files are read.
   for (const std::string_view key : {"joints", "motions", "forces", "monitor"}) root.find(key);
   root.reject_unknown_keys();
   vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);

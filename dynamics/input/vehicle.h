@@ -18,13 +18,14 @@ namespace sprung::dynamics {
 /// A named point of a body, or of the ground.
 struct PointDescription {
   std::string name;
-  std::string node;  ///< point of the superelement it is fixed to; empty: fixed to the body frame
+  std::string
+      node;  ///< named node of the superelement that it is fixed to; if empty, fixed to the body frame
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< from the frame's origin or the node, body axes [m]
   support::SourceLocation location;
 };
 
-/// A body: rigid by mass and inertia (frame at the centre of mass), or by a superelement (frame at its
-/// reference node), which may then move with its modes.
+/// A body given by mass and inertia (rigid, frame at the centre of mass), or by a superelement (frame at its
+/// reference node, modes may be active).
 struct BodyDescription {
   std::string name;
   support::SourceLocation location;
@@ -37,7 +38,7 @@ struct BodyDescription {
   std::vector<PointDescription> points;
 };
 
-/// What a vehicle file says, with the superelements that its bodies name.
+/// The contents of a vehicle file, with the superelements that its bodies name.
 struct Vehicle {
   std::string name;
   std::string text;                        ///< the file as read
@@ -58,9 +59,10 @@ struct Vehicle {
   std::vector<std::string> body_names() const;
 };
 
-/// Reads a vehicle file and FOLDER/NAME.h5 of every superelement that a body names, each once.
-/// @throws support::InputError at the place of whatever does not fit (dynamics/models/README.md lists the
-/// keys)
+/// Reads a vehicle file (dynamics/models/README.md lists the keys), and FOLDER/NAME.h5 of every superelement
+/// that a body names.
+/// @throws support::InputError at the first key or value that is wrong
+/// Checked by tests/dynamics/input/vehicle_test.cpp
 Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder);
 
 /// A point that joints, forces and results can refer to.
@@ -74,8 +76,8 @@ struct VehiclePoint {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< from the node, body axes [m]
 };
 
-/// Every point of a vehicle: of each body `origin` and `center_of_mass`, the named nodes of its superelement
-/// and the points that the file gives it; then those of the ground, last its `origin`, the world's.
+/// Every point of a vehicle. For each body: `origin`, `center_of_mass`, the named nodes of its superelement
+/// and its points in the file. Then the points of the ground; the last is its `origin`, that of the world.
 std::vector<VehiclePoint> list_points(const Vehicle& vehicle);
 std::vector<std::string> point_names(const Vehicle& vehicle);
 

@@ -7,7 +7,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// A named node at the frame's origin may itself be called "origin": it is the same point.
+// A named node at the frame's origin may be called "origin": it is the same point.
 void add_nodes(const reduce::Superelement& superelement, int body, const std::string& prefix,
                std::vector<VehiclePoint>& points) {
   for (const reduce::NamedPoint& named : superelement.points) {

@@ -195,7 +195,7 @@ TEST_CASE("A tyre begins to push where it touches") {
         "0 N");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0, 5.0] }\none_sided = false")) ==
         "f.toml:6:10: error: 'forces.0.spring' of a tyre that is not one-sided must pull at a penetration of "
-        "-0.5 m, got 1.25 N; odd powers do");
+        "-0.5 m, got 1.25 N; use odd powers");
 }
 
 TEST_CASE("A rotational spring-damper's laws are over angles") {

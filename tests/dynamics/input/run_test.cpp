@@ -207,7 +207,7 @@ TEST_CASE("Settings of the integrator out of range are refused") {
         "runs/first.toml:25:14: error: 'integrator.fixed_step' must be > 0 s, got 0");
   CHECK(error_of("largest_step = 0.01", "fixed_step = 0.01") ==
         "runs/first.toml:26:14: error: 'integrator.fixed_step' has a meaning with method = "
-        "\"generalized-alpha\" alone");
+        "\"generalized-alpha\" only");
 }
 
 TEST_CASE("Generalized-α takes a spectral radius and a fixed step") {

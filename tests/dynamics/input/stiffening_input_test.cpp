@@ -48,7 +48,7 @@ TEST_CASE("Stiffening that cannot be is refused") {
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_cart()); }) ==
         "run.toml:2:9: error: 'stiffening.frame' needs the geometric stiffness of superelement 'frame', "
         "whose file is "
-        "of version 1 and has none; make it again from its design with sprung-reduce build");
+        "of version 1 and has none; build it again from its design with sprung-reduce build");
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_stiffening_cart(3)); }) ==
         "run.toml:2:9: error: 'stiffening.frame' cannot be true with mode 4: superelement 'frame' has "
         "geometric "

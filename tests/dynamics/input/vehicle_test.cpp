@@ -153,9 +153,9 @@ TEST_CASE("Names are bare words, unique, and not those that exist already") {
   CHECK(error_of_cart("name = \"wheel\"", "name = \"rope\"") ==
         "cart.toml:43:8: error: there is a force 'rope' already, in line 31");
   const std::string ground = with_change(cart_text(), "[bodies.arm]\n", "[bodies.ground]\n");
-  CHECK(input_error_of([&] {
-          read_cart(with_change(ground, "[bodies.arm.points]", "[bodies.ground.points]"));
-        }) == "cart.toml:13:1: error: 'bodies.ground' cannot be a body: 'ground' is what never moves");
+  CHECK(input_error_of(
+            [&] { read_cart(with_change(ground, "[bodies.arm.points]", "[bodies.ground.points]")); }) ==
+        "cart.toml:13:1: error: 'bodies.ground' cannot be a body: 'ground' is the world, which never moves");
   const std::string joint =
       "[[joints]]\nname = \"hinge\"\ntype = \"revolute\"\na = \"frame.top\"\nb = \"arm.tip\"\n\n";
   CHECK(error_of_cart("[[forces]]\nname = \"rope\"", joint + "[[forces]]\nname = \"rope\"") ==
