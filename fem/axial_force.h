@@ -14,8 +14,8 @@ struct AxialForce {
   double at(double xi) const { return constant + xi * (linear + xi * quadratic); }
 };
 
-/// How the frame that a body is held in moves, in the mesh's axes: the point at r from the origin has the
-/// acceleration a + α S r − ω² r.
+/// Acceleration of the frame in which a body is at rest, in the mesh's axes: the point at r from the origin
+/// has the acceleration a + α S r − ω² r.
 struct FrameAcceleration {
   Eigen::Vector2d linear = Eigen::Vector2d::Zero();  ///< a, of the origin [m/s²]
   double angular = 0.0;                              ///< α [rad/s²]
@@ -28,8 +28,8 @@ struct FrameAcceleration {
 /// @return 3N [N, N·m]
 Eigen::VectorXd calc_inertia_load(const MassMoments& moments, const FrameAcceleration& acceleration);
 
-/// Axial forces in equilibrium with the loads that displaced a frame: exact along the elements, too, where
-/// those of the shape functions are their means (fem, eqs. 23, 24).
+/// Axial forces in equilibrium with the loads that displaced a frame. They are exact along the elements; the
+/// shape functions alone would give their means (fem, eqs. 23, 24).
 ///
 /// @param displacement  3N, solution of K u = loads at nodes + calc_inertia_load [m, rad]
 /// @param acceleration  of the frame about `origin` [m, mesh's axes]

@@ -4,7 +4,7 @@
 
 namespace sprung::fem {
 
-/// What a beam element needs to know of its cross section. Parallel members are already counted in.
+/// Properties of a beam element's cross section. Parallel members are included.
 struct BeamProperties {
   double axial_rigidity = 0.0;    ///< EA > 0 [N]
   double bending_rigidity = 0.0;  ///< EI > 0 [N·m²]

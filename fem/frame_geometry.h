@@ -10,7 +10,7 @@ namespace sprung::fem {
 
 /// A frame as a design describes it: named points and straight lines between them.
 ///
-/// Lines are joined at common points only: where two lines cross without a point, they pass each other.
+/// Lines are joined at common points only: two lines that cross without a point are not connected there.
 struct FrameGeometry {
   struct Point {
     std::string name;
@@ -30,10 +30,10 @@ struct FrameGeometry {
   std::vector<Line> lines;
 };
 
-/// Checks everything that a line frame can have wrong by itself: there is a line; point and line names are
-/// unique; a line's points exist and differ; no two lines join the same points; num_elements is 1 … 100000;
-/// positions are finite; no two points at one place; no point without a line.
-/// @throws support::InputError at the place of the point or line
+/// Checks a frame: there is a line; point and line names are unique; a line's points exist and differ; no two
+/// lines join the same points; num_elements is 1 … 100000; positions are finite; no two points have the same
+/// position; every point belongs to a line.
+/// @throws support::InputError at the location of the point or line
 /// Checked by tests/fem/frame_geometry_test.cpp
 void check_frame_geometry(const FrameGeometry& geometry);
 

@@ -13,8 +13,8 @@ namespace sprung::fem {
 /// Checked by tests/fem/geometric_stiffness_test.cpp
 Eigen::Matrix<double, 1, 6> calc_slope(double length, const BeamProperties& properties, double xi);
 
-/// Geometric stiffness in own axes, Kᴳ = ∫ N w'ᵀ w' dx, of an element under an axial force: what its ends
-/// feel where stressed fibres turn (fem, eq. 21).
+/// Geometric stiffness in own axes, Kᴳ = ∫ N w'ᵀ w' dx, of an element under an axial force: the forces at its
+/// ends that arise because the axial force rotates with the beam (fem, eq. 21).
 ///
 /// @param length  > 0 [m]
 /// @return 6×6, symmetric, zero for axial displacements and translation [N/m, N, N·m]

@@ -31,8 +31,8 @@ std::string describe_line(const GmshContents::Line& line) {
                      line.second);
 }
 
-// Groups of all elements that lie between the same two nodes: a format that lists an element once for each of
-// its groups is understood, too.
+// Groups of all elements between the same two nodes, because some formats list an element once for each of
+// its groups.
 void check_groups(const GmshContents& contents, const SourceLocation& where) {
   std::map<std::pair<std::int64_t, std::int64_t>, int> group_between;
   for (const GmshContents::Line& line : contents.lines) {
@@ -61,7 +61,7 @@ void check_groups(const GmshContents& contents, const SourceLocation& where) {
   }
 }
 
-// Nodes that a line uses; a node with a point alone is a construction point.
+// Nodes that a line uses; a node that only a point uses is a construction point.
 void add_nodes(Mesh& mesh, NodeNumbers& numbers, const GmshContents& contents, const SourceLocation& where) {
   std::set<std::int64_t> used;
   std::set<std::int64_t> with_point;

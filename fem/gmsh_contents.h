@@ -10,7 +10,8 @@
 
 namespace sprung::fem {
 
-/// What gmsh holds after meshing or reading, in plain arrays: nodes, points, two-node lines, physical groups.
+/// The contents of gmsh after meshing or reading, as plain arrays: nodes, points, two-node lines, physical
+/// groups.
 struct GmshContents {
   struct Node {
     std::int64_t id = 0;

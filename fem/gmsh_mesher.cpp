@@ -24,8 +24,8 @@ using support::InputError;
 constexpr int kLineType = 1;    // gmsh's number of the two-node line
 constexpr int kPointType = 15;  // and of the point
 
-// gmsh between initialize and finalize. gmsh sets the locale and keeps parameters of files from one session
-// to the next: both are put right here.
+// A session of gmsh, from initialize to finalize. gmsh sets the locale and keeps parameters of files from one
+// session to the next: this class resets both.
 class GmshSession {
  public:
   GmshSession() : locale_(std::setlocale(LC_ALL, nullptr)) {
@@ -172,9 +172,9 @@ void build_lines(const FrameGeometry& geometry) {
   }
 }
 
-// gmsh finds the places of a curve's nodes by numerical integration, good to 1e-12 of its length; a thousand
-// elements on a line would differ by 1e-9 in length and a symmetric frame would not be symmetric. Straight
-// lines are divided exactly here.
+// gmsh finds the positions of a curve's nodes by numerical integration with an error of 1e-12 of its length.
+// A thousand elements on a line would differ by 1e-9 in length, and a symmetric frame would not be symmetric.
+// So straight lines are divided exactly here.
 void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
   std::map<std::string, Eigen::Vector2d> points;
   for (const FrameGeometry::Point& point : geometry.points) points[point.name] = point.position;

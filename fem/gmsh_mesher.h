@@ -24,14 +24,14 @@ Mesh mesh_lines(const FrameGeometry& geometry);
 ///
 /// Sections are the names of the physical curves, named nodes those of the physical points. Nodes are in
 /// ascending order of the file's numbers, elements likewise, each in the direction that its physical curve
-/// gives it. Points that no line uses (centres of arcs) are left out. Nothing but straight two-node lines is
-/// taken.
+/// gives it. Points that no line uses (centres of arcs) are left out. Only straight two-node lines are
+/// accepted.
 ///
 /// @param path  ends in .geo or .msh
 /// @throws support::InputError `path: error: …` for a file that is missing, empty, of another format or
-///         version, truncated (numbers of nodes and elements against what it declares), or in error by gmsh's
-///         own account; a line in no physical curve, in two, or in one without a name; elements that are no
-///         lines, or of higher order; z that is not constant; a physical point of several points, or through
+///         version, truncated (fewer nodes or elements than it declares), or that gmsh reports as wrong; for
+///         a line in no physical curve, in two, or in one without a name; for elements that are no lines, or
+///         of higher order; for z that is not constant; for a physical point of several points, or through
 ///         which no line passes; and as check_mesh
 /// Checked by tests/fem/gmsh_mesher_test.cpp
 Mesh read_gmsh_file(const std::filesystem::path& path);

@@ -14,7 +14,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-// The triplets of the four matrices, beside the vectors that are added up in place.
+// The triplets of the four matrices; the vectors are summed in place.
 struct Sums {
   MassMoments moments;
   Triplets NxNx, NxNy, NyNy, rotary_NN;
@@ -38,8 +38,7 @@ void add(Triplets& triplets, const std::array<int, 6>& dofs, const Matrix6& valu
   }
 }
 
-// What a piece of mass dm and rotary inertia dI at position r contributes to the moments without shape
-// functions.
+// Adds a mass dm with rotary inertia dI at position r to the moments without shape functions.
 void add_piece(MassMoments& moments, const Eigen::Vector2d& r, double dm, double dI) {
   moments.mass += dm;
   moments.first_moment += dm * r;

@@ -7,7 +7,7 @@
 
 namespace sprung::fem {
 
-/// Integrals over a frame's mass, of which its inertia in large motion consists (fem, eqs. 16–20).
+/// Integrals over a frame's mass that describe its inertia in large motion (fem, eqs. 16–20).
 ///
 /// (x, y) is a material point's position relative to the origin, in the mesh's axes, linear along each
 /// element; N_x, N_y, N_ψ are the rows (1×3N) that give its displacement and its section's rotation from the
@@ -36,7 +36,8 @@ struct MassMoments {
   double second_moment() const { return xx + yy + rotary; }
 };
 
-/// The moments by Gauss quadrature of the elements' shape functions (exact for them) plus the point masses.
+/// The moments of the elements, by Gauss quadrature that is exact for their shape functions, and of the point
+/// masses.
 ///
 /// @param origin  of the body frame, whose axes are the mesh's [m]
 /// @throws std::invalid_argument if the model is not consistent (check_beam_model) or origin not finite

@@ -61,7 +61,8 @@ void check_duplicates(const Mesh& mesh, const support::SourceLocation& where) {
                                         describe_node(mesh, twice->second)));
 }
 
-// Nodes sorted along a direction that frames do not have by themselves: near nodes are near in this order.
+// Nodes sorted along a direction that is no direction of usual frames: neighbouring nodes are close in this
+// order.
 void check_coincident(const Mesh& mesh, double smallest, const support::SourceLocation& where) {
   const Eigen::RowVectorXd along = Eigen::RowVector2d(0.8016, 0.5978).normalized() * mesh.node_positions;
   std::vector<int> order(mesh.node_ids.size());
@@ -97,7 +98,7 @@ void check_connected(const Mesh& mesh, const support::SourceLocation& where) {
   std::unordered_map<int, std::vector<int>> parts;
   for (int node = 0; node < mesh.num_nodes(); ++node) parts[find_root(parent, node)].push_back(node);
   if (parts.size() <= 1) return;
-  // Of equally small parts the one that holds the latest node.
+  // Among equally small parts, the one that contains the last node.
   const auto smaller = [](const auto& a, const auto& b) {
     return std::pair(a.second.size(), b.second.back()) < std::pair(b.second.size(), a.second.back());
   };

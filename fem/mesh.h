@@ -38,17 +38,19 @@ int find_node(const Mesh& mesh, std::string_view name);
 /// Distance between the ends of an element [m].
 double calc_length(const Mesh& mesh, const Mesh::Element& element);
 
-/// How messages call a node: `node 12 at (0.5, 0.25)` and, if it has one, its name.
+/// The text by which messages name a node: `node 12 at (0.5, 0.25)`, with its name if it has one.
 std::string describe_node(const Mesh& mesh, int node);
 
-/// @throws std::invalid_argument if an array's size or an index does not fit the rest (names function, item)
+/// @throws std::invalid_argument if an array's size or an index is not consistent with the rest (the message
+///         names function and item)
 void check_mesh_indices(const Mesh& mesh, const char* function);
 
-/// Checks that the mesh is one sound frame: it has elements, none shorter than 1e-9 of the frame's extent, no
-/// two between the same nodes; every node belongs to an element; no two nodes at one place (nearer than 1e-9
-/// of the extent); all elements hang together.
-/// @param where  place of the mesh's origin, for the message
-/// @throws support::InputError naming the nodes concerned (where the frame falls apart, of the smallest part)
+/// Checks that the mesh is one connected frame: it has elements, none shorter than 1e-9 of the frame's
+/// extent, no two between the same nodes; every node belongs to an element; no two nodes are at the same
+/// position (nearer than 1e-9 of the extent); all elements are connected.
+/// @param where  source of the mesh, for the message
+/// @throws support::InputError naming the nodes concerned (of the smallest part, if the frame is not
+/// connected)
 /// @throws std::invalid_argument as check_mesh_indices
 /// Checked by tests/fem/mesh_test.cpp
 void check_mesh(const Mesh& mesh, const support::SourceLocation& where);

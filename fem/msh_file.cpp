@@ -116,8 +116,8 @@ Format read_format(std::string_view file, const std::string& path) {
   return format;
 }
 
-// The number of points and lines' nodes; other types are refused later, so their elements are not gone
-// through.
+// The number of nodes of a point or line element; other types are rejected later, so their elements are not
+// read.
 int get_num_nodes_of_type(std::int64_t type) {
   return type == 1 ? 2 : type == 15 ? 1 : 0;
 }

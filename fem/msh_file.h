@@ -7,7 +7,7 @@
 
 namespace sprung::fem {
 
-/// What a gmsh mesh file says about itself, read without gmsh, to judge gmsh's reading by.
+/// The declarations of a gmsh mesh file, read without gmsh, as a check of what gmsh has read.
 struct MshDeclaration {
   std::string version;            ///< "2.2" or "4.1"
   std::int64_t num_nodes = 0;     ///< declared in $Nodes

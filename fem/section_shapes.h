@@ -2,7 +2,7 @@
 
 namespace sprung::fem {
 
-/// What a cross section contributes to a beam that bends in the plane of its height.
+/// Geometric properties of a cross section whose beam bends in the plane of its height.
 struct SectionGeometry {
   double area = 0.0;               ///< A [m²]
   double second_moment = 0.0;      ///< I about the centroid's axis perpendicular to the height [m⁴]
@@ -43,7 +43,9 @@ struct ISection {
 /// between the walls' middles; it is an approximation where the walls are thick.
 ///
 /// @param poissons_ratio  ν, −1 < ν ≤ 0.5 [-]
-/// @throws std::invalid_argument if a dimension is not positive or they exclude each other (name and value)
+/// @throws std::invalid_argument if a dimension is not positive or dimensions contradict each other (the
+/// message
+///         gives name and value)
 /// Source: [Cowper 1966] — checked by tests/fem/section_shapes_test.cpp
 SectionGeometry calc_section_geometry(const Rectangle& rectangle, double poissons_ratio);
 SectionGeometry calc_section_geometry(const Box& box, double poissons_ratio);
