@@ -11,7 +11,7 @@ using support::Json;
 
 namespace {
 
-// The force elements' channels at rest.
+// Computes the channels of the force elements at rest.
 struct RestingForces {
   SystemTerms terms;
   std::vector<int> branches;
@@ -41,14 +41,14 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
-  std::string text = fmt::format(
-      "{}: {} after {} iterations, last step {:.1e} of the natural size{}{}\n", report.vehicle.name,
-      report.is_steady ? "steady motion" : "static equilibrium", equilibrium.iterations,
-      equilibrium.last_step,
-      equilibrium.is_usual()
-          ? ""
-          : fmt::format(", as small as rounding allows (usually {:.0e})", Equilibrium::kTolerance),
-      equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
+  std::string text =
+      fmt::format("{}: {} after {} iterations, last step {:.1e} of the natural size{}{}\n",
+                  report.vehicle.name, report.is_steady ? "steady motion" : "static equilibrium",
+                  equilibrium.iterations, equilibrium.last_step,
+                  equilibrium.is_usual()
+                      ? ""
+                      : fmt::format(", limited by rounding (otherwise {:.0e})", Equilibrium::kTolerance),
+                  equilibrium.stable ? "" : "; UNSTABLE: a direction of negative stiffness");
   if (report.assembly.largest_movement > 1e-9) {
     text += fmt::format("Joints closed first: {} moved {:.3g} m\n", report.assembly.moved_marker,
                         report.assembly.largest_movement);
@@ -110,8 +110,8 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
                          bool is_steady) {
   std::string text = fmt::format(
       "{}: modes about {}, {} freedoms\n"
-      "Where a force has two slopes at rest (dampers that differ in compression and rebound), their mean is "
-      "taken.\n\n",
+      "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
+      "counts with their mean.\n\n",
       vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_freedoms());
   support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
   int number = 0;

@@ -10,18 +10,19 @@
 
 namespace sprung::dynamics {
 
-/// A static equilibrium with what it started from.
+/// An equilibrium, and the positions that the search started from.
 struct BalanceReport {
   const Model& model;
   const Vehicle& vehicle;
   const Equilibrium& equilibrium;
   const AssemblyReport& assembly;
-  bool is_steady = false;          ///< what is carried along is in balance in its motion
-  Eigen::VectorXd file_positions;  ///< num_coordinates, as the vehicle file has them
+  bool is_steady = false;          ///< whether it is an equilibrium relative to a steady motion
+  Eigen::VectorXd file_positions;  ///< num_coordinates, as given in the vehicle file
 };
 
-/// Positions of the bodies, force elements and what is neutral, as tables for people.
+/// Positions of the bodies, values of the force elements and neutral directions, as text tables.
 std::string format_equilibrium(const BalanceReport& report);
+/// Positions, values and neutral directions as one JSON object, SI units.
 std::string format_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes.

@@ -14,7 +14,7 @@ std::string percent(double share) {
   return fmt::format("{:.2g}", 100.0 * share);
 }
 
-// Columns of all modes, in the order of the table.
+// The shares of a mode, in the order of the table's columns.
 struct Column {
   const char* name;
   double (*value)(const ModeWorth&);
@@ -34,7 +34,7 @@ constexpr Column kColumns[] = {
 std::string summarise_choice(const BasisChoice& choice) {
   const std::size_t left_out = choice.verdicts.size() - choice.num_kept();
   std::string text =
-      fmt::format("Modes chosen from the forcing: {} of {} kept; the share left out has to stay below {:g} %",
+      fmt::format("Modes chosen from the forcing: {} of {} kept; the share left out must be below {:g} %",
                   choice.num_kept(), choice.verdicts.size(), 100.0 * choice.tolerance);
   if (left_out > 0) {
     text += fmt::format(", predicted {} % of the {}", percent(choice.neglected), choice.neglected_of);

@@ -8,13 +8,14 @@
 
 namespace sprung::dynamics {
 
-/// The choice in a line or two: how many modes, what is neglected, what was not taken into account.
+/// The choice in a few lines: how many modes, their predicted share, and the remarks.
 std::string summarise_choice(const BasisChoice& choice);
-/// The modes chosen for a run, as a table for people: what each is worth by itself, kept or not, and why.
+/// The summary, and a table of the modes with the shares of each one alone, the decision and its reason.
 std::string format_choice(const BasisChoice& choice);
-/// The same as a JSON object, shares as numbers.
+/// The choice as a JSON object, shares as numbers.
 support::Json make_choice_json(const BasisChoice& choice);
-/// Writes it with forcing and transfer functions into a group of a file (dynamics/output/results.md).
+/// Writes the choice with forcing and transfer functions into a group of a file (dynamics/output/results.md).
+/// Checked by tests/verification/select_test.py
 void write_choice(support::Hdf5Writer& file, const std::string& group, const BasisChoice& choice);
 
 }  // namespace sprung::dynamics

@@ -12,9 +12,10 @@ namespace sprung::dynamics {
 void write_number(support::Hdf5Writer& file, const std::string& group, const std::string& name, double value,
                   std::string_view unit);
 
-/// Writes what an element says of itself into its group: how it is drawn, what its points are to it, and the
-/// group `parameters` (dynamics/output/results.md, "Parameters").
-/// @param group  of the element, made already
+/// Writes the description of an element into its group: the attributes `drawing` and `on_road`, and the group
+/// `parameters` (dynamics/output/results.md, "The model as run").
+/// @param group  of the element, must exist
+/// Checked by tests/dynamics/program/resolved_model_test.py
 void write_description(support::Hdf5Writer& file, const std::string& group,
                        const ElementDescription& description);
 

@@ -7,13 +7,13 @@
 
 namespace sprung::dynamics {
 
-/// Beam resultants of a flexible body from its active modes: one station at each end of each element,
-/// elements in the superelement's order, first end first.
+/// Stress resultants of the beams of a flexible body from its active modes. There is one station at each end
+/// of each element, in the superelement's order of elements, first end first.
 class ResultantRecovery {
  public:
   ResultantRecovery(const reduce::Superelement& superelement, const Body& body);
   int num_stations() const { return static_cast<int>(axial_.rows()); }
-  /// Where the stations are, undeformed, body axes, stations×2 [m].
+  /// Undeformed positions of the stations, body axes, stations×2 [m].
   const Eigen::MatrixXd& positions() const { return positions_; }
 
   Eigen::VectorXd axial(const Eigen::VectorXd& eta) const { return axial_ * eta; }    ///< N [N]

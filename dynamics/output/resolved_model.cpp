@@ -109,7 +109,7 @@ void write_points(support::Hdf5Writer& file, const Model& model, const Vehicle& 
   }
 }
 
-// What joints and force elements have in common.
+// Writes what joints and force elements have in common.
 template <typename Element>
 void write_element(support::Hdf5Writer& file, const std::string& group, const Element& element,
                    std::span<const int> markers, const Model& model) {

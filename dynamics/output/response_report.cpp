@@ -11,7 +11,7 @@ using support::Json;
 
 namespace {
 
-// In the table for people: vertical motion of points, what force elements exert and how they deflect.
+// In the text table: vertical motion of points, forces, torques and deflections of force elements.
 bool is_shown(const OutputSubject& subject) {
   if (subject.kind == OutputSubject::Kind::kPoint) return subject.component == 1;
   if (subject.kind != OutputSubject::Kind::kChannel) return false;

@@ -6,8 +6,7 @@
 
 namespace sprung::dynamics {
 
-/// What the driver and the suspension get to feel, as tables for people: vertical motion of the points,
-/// forces and deflections.
+/// The main outputs as a text table: vertical motion of the points, forces and deflections of force elements.
 std::string format_response(const ResponseResult& result);
 /// All outputs as one JSON object, SI units.
 std::string format_response_json(const ResponseResult& result);

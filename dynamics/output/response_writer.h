@@ -10,7 +10,7 @@ namespace sprung::dynamics {
 /// Root attribute `format` of a response file.
 inline constexpr std::string_view kResponseFormat = "sprung-response";
 
-/// Writes a response file (dynamics/output/response.md), whole or not at all.
+/// Writes a response file (dynamics/output/response.md). On failure no file is left.
 /// @throws support::InputError if it cannot be written
 void write_response(const std::filesystem::path& path, const ResponseResult& result);
 

@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Heights of the road wherever a wheel may come, and at the ends of its segments.
+// Writes heights of the road over the whole range of the wheels, and at the ends of its segments.
 void write_road(support::Hdf5Writer& file, const ResultsHeader& header) {
   constexpr double kSpacing = 0.01;  // m
   constexpr double kMaxSamples = 20000;

@@ -149,7 +149,7 @@ void ResultsWriter::add_joint_series() {
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     const Joint& joint = *model_->joints[j];
     const int row_of_joint = model_->joint_rows[j];
-    // What the joint does to its points: −Gaᵀλ, −Gbᵀλ.
+    // Reactions on the joint's points: −Gaᵀλ, −Gbᵀλ.
     for (const bool of_a : {true, false}) {
       const std::string dataset = "/joints/" + joint.name + (of_a ? "/reaction" : "/reaction_b");
       add_series(dataset, 3, "N, N, N m",
@@ -183,7 +183,7 @@ void ResultsWriter::add_joint_coordinate(const Joint& joint, int row_of_joint) {
     row[0] = coordinate->rate(markers[a], markers[b]);
   });
   if (!joint.is_motion()) return;
-  // Work of the constraint −λ δφ with φ = coordinate − f(t): what drives the coordinate is −λ.
+  // The work of the constraint is −λ δφ with φ = coordinate − f(t), so −λ drives the coordinate.
   add_series(group + "/drive", 0, coordinate->is_angle() ? "N m" : "N",
              [row_of_joint](const Snapshot& now, std::vector<double>& row) {
                row[0] = -now.multipliers()[row_of_joint];
@@ -195,7 +195,7 @@ void ResultsWriter::add_force_series() {
     const ForceElement& force = *model_->forces[f];
     const auto first = static_cast<std::size_t>(model_->force_branches[f]);
     const auto count = static_cast<std::size_t>(force.num_branches());
-    // All of a force's channels come at once, with the first of them.
+    // The first of an element's series computes the values of all its channels.
     channels_.emplace_back(force.channels().size());
     const std::span<double> values = channels_.back();
     for (std::size_t c = 0; c < force.channels().size(); ++c) {
@@ -221,7 +221,7 @@ void ResultsWriter::add_wrench_series(std::size_t f) {
   wrenches_.resize(model_->markers.size());
   for (std::size_t p = 0; p < markers.size(); ++p) {
     const auto marker = static_cast<std::size_t>(markers[p]);
-    // All wrenches of the element come at once, with the first of them.
+    // The first of an element's series computes all its wrenches.
     add_series(fmt::format("/forces/{}/on_{}", force.name, roles[p]), 3, "N, N, N m",
                [this, &force, f, markers, marker, p](const Snapshot& now, std::vector<double>& row) {
                  if (p == 0) {

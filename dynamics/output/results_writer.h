@@ -21,7 +21,7 @@
 
 namespace sprung::dynamics {
 
-/// What a results file says about the run besides its time histories.
+/// The contents of a results file besides its time histories.
 struct ResultsHeader {
   const Run& run;
   const Vehicle& vehicle;
@@ -32,15 +32,15 @@ struct ResultsHeader {
   const Equilibrium* equilibrium = nullptr;       ///< null for a run that starts as given
   std::vector<VehicleMode> modes;                 ///< about the equilibrium
   const std::vector<std::string>& output_points;  ///< whose motion is reported
-  const AdaptivityOptions* adaptivity = nullptr;  ///< null where no modes change, nor is their neglect told
-  const BasisChoice* choice = nullptr;            ///< of modes "auto"; null where there are none
+  const AdaptivityOptions* adaptivity = nullptr;  ///< null without adaptivity and without indicator
+  const BasisChoice* choice = nullptr;            ///< of modes "auto"; null if there are none
 };
 
 /// Root attribute `format` of a results file.
 inline constexpr std::string_view kResultsFormat = "sprung-results";
 
-/// Writes the results file of a run as it goes (dynamics/output/results.md). It stands as NAME.partial.h5
-/// until the run is whole.
+/// Writes the results file during a run (dynamics/output/results.md). Its name is NAME.partial.h5 until the
+/// run is complete. Checked by tests/dynamics/program/output_test.py
 class ResultsWriter {
  public:
   /// @throws support::InputError if the file cannot be written
@@ -55,7 +55,7 @@ class ResultsWriter {
   std::filesystem::path abandon();
 
  private:
-  // A time history: where its values go and how a row is made.
+  // A time history: its dataset, and the function that fills a row.
   struct Series {
     support::Hdf5GrowingDataset* dataset;
     std::vector<double> row;
@@ -76,11 +76,11 @@ class ResultsWriter {
   void write_events();
 
   const Model* model_;
-  std::vector<VehiclePoint> points_;  // of the model's markers
+  std::vector<VehiclePoint> points_;  // in the order of the model's markers
   support::Hdf5Writer file_;
   std::vector<Series> series_;
-  std::vector<std::vector<double>> channels_;  // of each force element, at the snapshot being added
-  std::vector<Wrench> wrenches_;               // on all markers, of the force element being added
+  std::vector<std::vector<double>> channels_;  // for each force element, of the present snapshot
+  std::vector<Wrench> wrenches_;               // on all markers, by the present force element
   std::vector<Event> events_;
   std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
 };

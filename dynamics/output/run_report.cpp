@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTooMuchLeftOut = 0.05;  // share above which the summary warns
 
-// Then modes cannot join and leave.
+// Whether a body is stiffened; adaptivity is then not allowed.
 bool is_stiffened(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
                      [](const Body& body) { return body.stiffening.has_value(); });
@@ -59,14 +59,14 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
         equilibrium->stable ? "" : " (unstable)", equilibrium->iterations,
         equilibrium->is_usual()
             ? ""
-            : fmt::format(", to {:.1e} of the natural size, as rounding allows", equilibrium->last_step),
-        neutral.empty() ? "" : fmt::format("; nothing holds {} (kept as given)", fmt::join(neutral, "; ")));
+            : fmt::format(", to {:.1e} of the natural size, limited by rounding", equilibrium->last_step),
+        neutral.empty() ? "" : fmt::format("; neutral, kept as given: {}", fmt::join(neutral, "; ")));
   } else {
     text += "Start: positions as given\n";
   }
   if (velocities.largest_change > 1e-9) {
     text += fmt::format(
-        "Initial velocities changed to those that the joints allow: {} by {:.3g} of its natural size per s\n",
+        "Initial velocities changed to satisfy the joints: {} by {:.3g} of its natural size per s\n",
         velocities.coordinate, velocities.largest_change);
   }
   text += fmt::format("Road: {}; speed {} m/s; {} s, output every {} s; {}, relative tolerance {}\n",
@@ -92,7 +92,7 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
       {"largest constraint violation", fmt::format("{:.1e}", summary.statistics.constraint_violation())});
   if (transient.stepper.velocity_violation > 0.0) {
     run.add_row(
-        {"of velocities, closed for output", fmt::format("{:.1e}", transient.stepper.velocity_violation)});
+        {"velocity violation before output", fmt::format("{:.1e}", transient.stepper.velocity_violation)});
   }
   run.add_row({"energy balance, relative", fmt::format("{:.1e}", summary.statistics.energy_closure())});
   run.add_row({"steps", fmt::format("{}", transient.stepper.integrator.steps)});
@@ -114,7 +114,7 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
       if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
         warning = fmt::format(
-            "\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
+            "\nwarning: modes are missing: {}, which was left out, would have contributed {} of the points "
             "asked for (at t = {:.3g} s); take more modes{}\n",
             name, shares, worst.time, is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
       }
@@ -122,7 +122,8 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
   }
   run.add_row({"time", fmt::format("{:.3f} s", summary.elapsed)});
   run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / summary.elapsed)});
-  return fmt::format("\nVertical, from the start's balance\n{}\n{}{}", points.str(), run.str(), warning);
+  return fmt::format("\nVertical motion, relative to the equilibrium or the given start\n{}\n{}{}",
+                     points.str(), run.str(), warning);
 }
 
 std::string format_summary_json(const Model& model, const RunSummary& summary) {

@@ -21,10 +21,10 @@ SampleStatistics RunStatistics::Accumulator::result(long count) const {
 
 namespace {
 
-// A motion that a usual tolerance does not resolve [natural sizes].
+// A motion below the resolution of a usual tolerance [natural sizes].
 constexpr double kUnresolved = 1e-7;
 
-// Work of weights, strains and force elements, each by itself, over the natural sizes [J].
+// Sum of the works of all weights, strains and force elements over the natural sizes [J].
 double calc_work_of_loads(const SystemTerms& terms) {
   const Model& model = terms.model();
   double work = 0.0;
@@ -67,13 +67,13 @@ void RunStatistics::add(const Snapshot& snapshot) {
   has_first_ = true;
   const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
                         std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
-  // Where next to nothing moves, the changes are themselves rounding errors of the terms; where a mechanism
-  // turns steadily they are errors of its integration.
+  // Lower bounds: almost at rest, the changes are rounding errors of the terms; in steady rotation they are
+  // errors of the integration.
   const double size =
       std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
   largest_change_ = std::max(
       {largest_change_, change, 1e-9 * size, 0.01 * now.kinetic, kUnresolved * calc_work_of_loads(terms)});
-  // Term by term, so that a large potential far from the origin does not swallow the digits.
+  // Term by term, so that a large potential far from the origin causes no cancellation.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
                            (now.gravity - first_.gravity) + (now.spring - first_.spring) +
                            snapshot.energy.dissipated - snapshot.energy.input;

@@ -16,19 +16,19 @@ struct SampleStatistics {
   double peak() const { return std::max(-minimum, maximum); }
 };
 
-/// What one point did: vertical displacement from the reference position and vertical acceleration.
+/// Motion of one point: vertical displacement from the reference position and vertical acceleration.
 struct PointStatistics {
   std::string point;
   SampleStatistics displacement;  ///< [m]
   SampleStatistics acceleration;  ///< [m/s²]
 };
 
-/// Statistics of a run over its outputs, gathered one by one.
+/// Statistics of a run over its outputs, which are added one by one.
 class RunStatistics {
  public:
-  /// @param points      names of markers to report, "body.point"
-  /// @param reference_q positions that displacements are counted from (static equilibrium)
-  /// @param from, to    window of time for the points [s]
+  /// @param points       names of markers to report, "body.point"
+  /// @param reference_q  positions that displacements refer to: the equilibrium, or the given start
+  /// @param from, to     window of time for the points [s]
   RunStatistics(const Model& model, const std::vector<std::string>& points,
                 const Eigen::VectorXd& reference_q, double from, double to);
 
@@ -37,9 +37,7 @@ class RunStatistics {
   std::vector<PointStatistics> point_statistics() const;
   /// Largest |φ| at any output [m, rad].
   double constraint_violation() const { return constraint_violation_; }
-  /// Largest |change of stored + dissipated − input| over the largest sum of the absolute changes of the
-  /// stored terms (but at least a hundredth of the kinetic energy, for what turns steadily, a billionth of
-  /// the terms, and the work of the loads over 1e-7 of the natural sizes).
+  /// Relative error of the energy balance (output, eq. 1).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 

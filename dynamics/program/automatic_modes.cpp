@@ -20,9 +20,9 @@ bool is_driven(const Model& moving) {
   });
 }
 
-// Why the forcing of a run cannot be known beforehand; "" where it can.
+// The reason why the forcing of a run is not known beforehand; "" if it is known.
 std::string find_unknown(const Run& run, const Model& moving) {
-  if (run.start != Run::Start::kEquilibrium) return "the run does not start in static balance";
+  if (run.start != Run::Start::kEquilibrium) return "the run does not start in static equilibrium";
   if (is_driven(moving)) return "prescribed motion drives the vehicle";
   if (!run.initial.empty()) return "[initial] adds motion at the start";
   if (run.speed < 0.0 && run.road.shape != "flat") return "the vehicle drives backwards over the road";
@@ -66,7 +66,7 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   const Equilibrium equilibrium = find_equilibrium(model, q);
   const LinearVehicle linear(model, equilibrium.q);
   if (!equilibrium.stable || has_growth(linear.solver().eigenvalues())) {
-    return keep_all(candidates, tolerance, "the static balance is unstable");
+    return keep_all(candidates, tolerance, "the static equilibrium is unstable");
   }
   std::vector<int> points;
   for (const std::string& name : resolve_output_points(run, vehicle)) {
@@ -78,7 +78,7 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   for (const RoadInput& input : linear.inputs()) {
     if (!input.is_pressed)
       choice.remarks.push_back("'" + input.name +
-                               "' is off the ground in static balance: the road does nothing there");
+                               "' is off the ground in static equilibrium: the road does not act on it");
   }
   return choice;
 }

@@ -6,11 +6,11 @@
 
 namespace sprung::dynamics {
 
-/// What `run` is told on the command line besides the input.
+/// Options of a command about its output.
 struct RunOutput {
-  std::filesystem::path results;  ///< file to write; empty: none
-  bool dry_run = false;           ///< says what would be run, and runs nothing
-  bool json = false;              ///< summary as JSON on standard output, in place of tables
+  std::filesystem::path results;  ///< file to write; none if empty
+  bool dry_run = false;           ///< prints the model and runs nothing
+  bool json = false;              ///< prints JSON on standard output in place of tables
 };
 
 /// Runs the vehicle and writes its results. @return exit code
@@ -19,9 +19,9 @@ int run_command(const RunRequest& request, const RunOutput& output);
 int equilibrium_command(const RunRequest& request, bool json);
 /// Prints the vehicle's modes about its static equilibrium. @return exit code
 int modes_command(const RunRequest& request, bool json);
-/// Prints, and writes where asked to, the modes that the forcing calls for. @return exit code
+/// Prints the modes that the forcing requires; writes them to output.results, if given. @return exit code
 int select_modes_command(const RunRequest& request, const RunOutput& output);
-/// Prints, and writes where asked to, the vehicle's linear response to the road. @return exit code
+/// Prints the vehicle's linear response to the road; writes it to output.results, if given. @return exit code
 int response_command(const RunRequest& request, const RunOutput& output);
 
 }  // namespace sprung::dynamics

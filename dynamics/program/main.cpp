@@ -26,7 +26,7 @@ void add_input_options(CLI::App& command, RunRequest& request, RunOutput& output
   command.add_flag("--quiet", request.quiet, "no progress on stderr");
 }
 
-// An empty name, as of a shell's variable that is not set, is no wish to have no file.
+// An empty name, as from an unset variable of a shell, is an error: the user wants a file.
 void add_output_option(CLI::App& command, RunOutput& output, const char* what) {
   command
       .add_option("-o,--output", output.results, fmt::format("{} (HDF5); none is written without it", what))
@@ -51,7 +51,7 @@ int run(int argc, char** argv) {
   add_input_options(*run, request, output);
   add_output_option(*run, output, "results file");
   run->add_flag("--dry-run", output.dry_run,
-                "says what would be run: bodies, modes, joints, freedoms and static balance; writes nothing");
+                "prints what would be run: bodies, modes, joints, freedoms and equilibrium; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
   add_input_options(*equilibrium, request, output);
   CLI::App* modes =
@@ -64,7 +64,7 @@ int run(int argc, char** argv) {
   add_output_option(*response, output, "response file");
   CLI::App* select = app.add_subcommand(
       "select-modes",
-      "what each mode is worth under the run's forcing, and which are kept for modes \"auto\"");
+      "effect of leaving out each mode under the run's forcing, and the modes that \"auto\" keeps");
   add_input_options(*select, request, output);
   add_output_option(*select, output, "file of the choice");
 

@@ -6,10 +6,10 @@
 
 namespace sprung::dynamics {
 
-/// What a run is made of, for `run --dry-run`: bodies with their modes, joints with what they hold, force
-/// elements, freedoms, and the static balance it starts from, as tables for people.
+/// The model of a run for `run --dry-run`, as text tables: bodies with their modes, joints with their
+/// constraints, force elements, freedoms, and the equilibrium at the start.
 std::string format_model(const PreparedRun& prepared);
-/// The same as one JSON object, SI units.
+/// The model as one JSON object, SI units.
 std::string format_model_json(const PreparedRun& prepared);
 
 }  // namespace sprung::dynamics

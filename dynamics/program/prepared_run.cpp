@@ -15,9 +15,9 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr std::string_view kVehiclePrefix = "vehicle.";
-constexpr double kNoRate = 1e-10;  // of a mode at the start, that is rounding, of all velocities
+constexpr double kNoRate = 1e-10;  // rate of a mode at the start that counts as zero, of all velocities
 
-// The overrides of one of the two files, each with its place on the command line.
+// Applies the overrides of one of the two files; messages locate them by their number on the command line.
 void apply_overrides(support::TomlDocument& document, const std::vector<std::string>& overrides,
                      bool of_vehicle) {
   for (std::size_t i = 0; i < overrides.size(); ++i) {
@@ -43,29 +43,29 @@ bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
   return std::all_of(free.begin(), free.end(), [&](int i) { return model.body_coordinate(i).is_modal(); });
 }
 
-// The motion that a run's start is in balance in.
+// The steady motion relative to which a run starts in equilibrium.
 SteadyMotion find_motion(const Run& run, const Model& model, const Eigen::VectorXd& q) {
   if (run.start != Run::Start::kSteady) return {};
   if (const std::optional<SteadyMotion> motion = find_steady_motion(model, q)) return *motion;
-  // Modes stand still in their bodies, however these move.
+  // Modes are at rest in their bodies for any motion of these.
   if (only_modes_are_free(model, q)) return {};
   throw support::InputError(run.start_location,
-                            "'start' can be \"steady\" only where prescribed motion carries the whole system "
-                            "round or along as if it were rigid, or leaves nothing free but modes");
+                            "'start' can be \"steady\" only where prescribed motion moves the whole system "
+                            "like one rigid body, or leaves nothing free but modes");
 }
 
 void check_steady(const Run& run, const Model& model, const Equilibrium& equilibrium) {
   if (is_steady(model, equilibrium.motion, equilibrium.q)) return;
   throw support::InputError(
       run.start_location,
-      "'start' can be \"steady\" only where what is carried along sees the same forces "
-      "at all times: not with weight on what turns, springs to the ground, or a motion that "
-      "changes its rate");
+      "'start' can be \"steady\" only where the moving system sees the same forces "
+      "at all times: not with weight on a rotating system, springs to the ground, or a motion "
+      "whose rate changes");
 }
 
-// Modes that the start sets in motion take part from there: what is held has no rate.
+// Activates the modes that have a velocity at the start, because a held mode has none.
 void activate_moving_modes(const Model& model, const State& start, std::vector<bool>& active) {
-  double energy = 0.0;  // twice the kinetic one, without what couples motions
+  double energy = 0.0;  // twice the kinetic energy, without coupling terms
   for (const Body& body : model.bodies) {
     energy += body.mass * start.v.segment<2>(body.first_coordinate).squaredNorm();
     energy += body.second_moment * std::pow(start.v[body.first_coordinate + 2], 2);
@@ -94,13 +94,13 @@ void read_files(const RunRequest& request, PreparedRun& prepared) {
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
 }
 
-// What the flexible bodies of the models are made with.
+// The modes of the flexible bodies of the models, with their damping and stiffening.
 struct Flexibility {
   ModalDamping damping;
   StiffenedBodies stiffened;
 };
 
-// Modes as the run file asks for them; those that are chosen from the forcing are chosen.
+// Selects the modes that the run file asks for, and chooses those of bodies with modes "auto".
 Flexibility choose_modes(PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
@@ -111,8 +111,8 @@ Flexibility choose_modes(PreparedRun& prepared) {
   if (run.adaptivity.enabled && !flexibility.stiffened.empty()) {
     throw support::InputError(
         run.adaptivity.location,
-        "'adaptivity' cannot be enabled together with 'stiffening': a mode that is held would not "
-        "be stiffened; take a fixed set of modes, or leave stiffening out");
+        "'adaptivity' cannot be enabled together with 'stiffening': held modes would not be stiffened; "
+        "take a fixed set of modes, or leave stiffening out");
   }
   if (list_automatic_bodies(run.modes).empty()) return flexibility;
   const ModalDamping start_damping =
@@ -129,7 +129,8 @@ Flexibility choose_modes(PreparedRun& prepared) {
   return flexibility;
 }
 
-// The vehicle closed and, where that is asked for, in balance on level ground. @return its coordinates
+// Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
+// @return its coordinates
 Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
@@ -145,7 +146,7 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   return prepared.equilibrium->q;
 }
 
-// Positions and velocities of the model on its road.
+// Sets the positions and velocities at the start of the model on its road.
 State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Model& model = prepared.model;
@@ -154,7 +155,7 @@ State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
     assemble_positions(model, q);
   }
   Eigen::VectorXd v = make_start_velocities(run, prepared.vehicle, model);
-  // A system that prescribed motion carries along has its speed from there.
+  // The steady motion replaces the speed.
   if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {
     for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
     v += prepared.equilibrium->motion.calc_velocity(model, q);
@@ -198,7 +199,7 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
   options.thresholds = settings.thresholds;
   if (settings.enabled) {
     options.full = &prepared.model;
-    // On the road the vehicle stands as it does on level ground.
+    // The road is level at the start, so the equilibrium on level ground is that on the road.
     const std::optional<Equilibrium>& balance = prepared.equilibrium;
     if (balance && balance->motion.is_rest() && prepared.start.q == balance->q) {
       options.linearised = &balance->linearised;
@@ -212,7 +213,7 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
       std::vector<int>& numbers = all[body.name];
       numbers.resize(static_cast<std::size_t>(superelement->num_modes()));
       std::iota(numbers.begin(), numbers.end(), 1);
-      // A ratio for all modes holds for those left out, too; a list names its own.
+      // One ratio for all modes holds for those left out as well; a list does not name them.
       const auto request = prepared.run.modal_damping.find(body.name);
       if (request != prepared.run.modal_damping.end() && request->second.ratios.size() == 1) {
         damping[body.name] = request->second.ratios;

@@ -15,7 +15,7 @@
 
 namespace sprung::dynamics {
 
-/// What the command line names.
+/// The input that the command line names.
 struct RunRequest {
   std::filesystem::path run_file;
   std::filesystem::path superelement_folder;
@@ -23,13 +23,13 @@ struct RunRequest {
   bool quiet = false;
 };
 
-/// A run made ready: input read, vehicle assembled and balanced, road placed under it.
+/// A run that is ready to start: input read, vehicle assembled and in equilibrium, road placed under it.
 struct PreparedRun {
   Run run;
   Vehicle vehicle;
-  ModeSelection selection;  ///< at the start
-  ModeSelection available;  ///< of the models below: more than `selection` where modes join and leave
-  std::optional<BasisChoice> choice;  ///< of bodies with modes "auto"; none where there are none
+  ModeSelection selection;            ///< at the start
+  ModeSelection available;            ///< of the models below: more than `selection` if modes join and leave
+  std::optional<BasisChoice> choice;  ///< present if a body has modes "auto"
   std::vector<std::string> output_points;
   AssemblyReport assembly;
   VelocityReport initial_velocities;
@@ -41,18 +41,20 @@ struct PreparedRun {
   State start;
 };
 
-/// Which part of the preparation is wanted.
+/// The part of the preparation that a command needs.
 enum class Preparation {
   kChoice,   ///< up to the choice of the modes
-  kBalance,  ///< up to the equilibrium, whatever the run's own start
+  kBalance,  ///< up to the equilibrium, also for a run that starts as given
   kRun,      ///< all of it
 };
 
-/// How modes join and leave in the run, or what is told of those left out; none where nothing is left out.
-/// @param[out] full  filled with the model that the options point to, where it is not prepared.model
+/// Options for modes that join and leave, or for the indicator of modes left out; none if neither is needed.
+/// @param[out] full  filled with the model that the options point to, unless that is prepared.model
 std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, std::optional<Model>& full);
 
-/// @throws support::InputError, support::NumericalError
+/// Reads the input and prepares a run.
+/// @throws support::InputError for bad input, support::NumericalError if there is no equilibrium
+/// Checked by tests/dynamics/program/bad_input_test.py
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation);
 
 }  // namespace sprung::dynamics

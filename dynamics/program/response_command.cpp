@@ -20,8 +20,8 @@ constexpr double kSameSpeed = 1e-6;
 
 void check_request(const Run& run) {
   if (run.start == Run::Start::kSteady) {
-    throw support::InputError(run.start_location,
-                              "'start' must not be \"steady\" for a response: it is about static balance");
+    throw support::InputError(
+        run.start_location, "'start' must not be \"steady\" for a response, which needs static equilibrium");
   }
   if (!(run.speed > 0.0)) {
     throw support::InputError(
@@ -35,7 +35,7 @@ void check_stability(const PreparedRun& prepared, const LinearVehicle& vehicle) 
   const double growth = eigenvalues.real().maxCoeff();
   if (!prepared.equilibrium->stable || has_growth(eigenvalues)) {
     throw support::NumericalError(fmt::format(
-        "response: the equilibrium is unstable (growth {:.3g} 1/s): a linear response means nothing there",
+        "response: the equilibrium is unstable (growth {:.3g} 1/s), so there is no steady linear response",
         growth));
   }
 }
@@ -45,14 +45,14 @@ void check_inputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   if (inputs.empty()) {
     throw support::InputError(
         prepared.run.vehicle_location,
-        "the vehicle has no force element on the road, of type \"tyre\": nothing to respond to");
+        "the vehicle has no force element on the road, of type \"tyre\", so the road cannot excite it");
   }
   if (std::none_of(inputs.begin(), inputs.end(), [](const RoadInput& input) { return input.is_pressed; })) {
-    throw support::NumericalError("response: no wheel is on the ground in static balance");
+    throw support::NumericalError("response: no wheel is on the ground in static equilibrium");
   }
 }
 
-// How fast the wheels roll at the start of a run, where prescribed motion has its say too.
+// Warns of wheels whose velocity at the start of a run differs from `speed`, because of prescribed motion.
 void remark_on_speed(const PreparedRun& prepared, const LinearVehicle& vehicle,
                      std::vector<std::string>& warnings) {
   const Model& model = prepared.model;
@@ -76,12 +76,13 @@ std::vector<std::string> list_warnings(const PreparedRun& prepared, const Linear
   for (const RoadInput& input : vehicle.inputs()) {
     if (input.is_pressed) continue;
     warnings.push_back(
-        fmt::format("'{}' is off the ground in static balance: no road comes in there", input.name));
+        fmt::format("'{}' is off the ground in static equilibrium: the road does not act on it", input.name));
   }
   for (const Kink& kink : vehicle.kinks()) {
     if (!kink.in_position) continue;
-    warnings.push_back(fmt::format(
-        "'{}' changes its law at, or within a hair of, static balance: a mean slope is taken", kink.element));
+    warnings.push_back(
+        fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
+                    kink.element));
   }
   remark_on_speed(prepared, vehicle, warnings);
   return warnings;
@@ -94,7 +95,7 @@ std::string describe_mean_slopes(const LinearVehicle& vehicle) {
   }
   return names.empty()
              ? ""
-             : fmt::format("The mean of its two slopes at rest is taken of: {}", fmt::join(names, ", "));
+             : fmt::format("Linearised with the mean of the two slopes at rest: {}", fmt::join(names, ", "));
 }
 
 LinearOutputs make_outputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
@@ -113,7 +114,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   if (support::is_foreign_file(output.results, kResponseFormat)) {
     throw support::InputError(
         {.path = output.results.string()},
-        "is in the way and is left alone: it is no response file; move it or name another with -o");
+        "exists and is no response file, so it is not overwritten; move it or name another with -o");
   }
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
   check_request(prepared.run);

@@ -29,13 +29,13 @@ TransientOptions make_options(const Run& run) {
   return options;
 }
 
-constexpr double kSmallestScale = 1e-4;    // m: a hundred thousand dead bands of switches
-constexpr double kAlarmingClosure = 1e-3;  // far above what any usable tolerance gives
+constexpr double kSmallestScale = 1e-4;    // m: a hundred thousand times the dead band of switches
+constexpr double kAlarmingClosure = 1e-3;  // far above the closure at any useful tolerance
 
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
   throw support::Interrupted(
-      fmt::format("at t = {:.6g} s; what there is so far: {}", time, writer->abandon().string()));
+      fmt::format("at t = {:.6g} s; partial results: {}", time, writer->abandon().string()));
 }
 
 void print_description(const PreparedRun& prepared) {
@@ -48,18 +48,18 @@ void print_description(const PreparedRun& prepared) {
 void warn_of_small_scale(double length_scale) {
   if (length_scale >= kSmallestScale) return;
   fmt::print(stderr,
-             "warning: no point is farther than {:.1e} m from its body's origin; forces that switch do so "
-             "within 1e-9 m, which will be seen: give lengths in a larger unit, as mm with g and ms\n",
+             "warning: no point is farther than {:.1e} m from its body's origin; the dead band of switching "
+             "forces, 1e-9 m, is not small against that: use smaller units, as mm with g and ms\n",
              length_scale);
 }
 
-// @return whether it closes
+// Warns if the energy balance does not close. @return whether it closes
 bool check_energy_balance(double closure) {
   if (closure <= kAlarmingClosure) return true;
   fmt::print(
       stderr,
       "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
-      "relative tolerance, and look for motion far below the vehicle's size\n",
+      "relative tolerance, and look for motion much smaller than the vehicle\n",
       closure);
   return false;
 }
@@ -79,8 +79,8 @@ std::unique_ptr<ResultsWriter> make_writer(const PreparedRun& prepared, const Ru
                     prepared.choice ? &*prepared.choice : nullptr});
 }
 
-// The run in time, its results to `statistics` and, if there is one, the writer. An end before the end of the
-// run leaves a file with the results up to there.
+// Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
+// that is interrupted or fails leaves a file with the results up to there.
 TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options,
                               support::ProgressBar& progress, RunStatistics& statistics,
                               ResultsWriter* writer) {
@@ -104,7 +104,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
     progress.finish();
     if (!writer) throw;
     throw support::NumericalError(
-        fmt::format("{}; results up to there: {}", error.what(), writer->abandon().string()));
+        fmt::format("{}; partial results: {}", error.what(), writer->abandon().string()));
   }
   progress.finish();
   if (!transient.completed) throw_interrupted(time_reached, writer);
@@ -117,7 +117,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (support::is_foreign_file(output.results, kResultsFormat)) {
     throw support::InputError(
         {.path = output.results.string()},
-        "is in the way and is left alone: it is no results file; move it or name another with -o");
+        "exists and is no results file, so it is not overwritten; move it or name another with -o");
   }
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;

@@ -33,12 +33,12 @@ int select_modes_command(const RunRequest& request, const RunOutput& output) {
   if (support::is_foreign_file(output.results, kChoiceFormat)) {
     throw support::InputError(
         {.path = output.results.string()},
-        "is in the way and is left alone: it is no file of chosen modes; move it or name another with -o");
+        "exists and is no file of chosen modes, so it is not overwritten; move it or name another with -o");
   }
   const PreparedRun prepared = prepare_run(request, Preparation::kChoice);
   if (!prepared.choice) {
     throw support::InputError({.path = request.run_file.string()},
-                              "leaves no body's modes to the program: say [modes] BODY = \"auto\"");
+                              "has no body with modes \"auto\", so there is nothing to choose");
   }
   if (!output.results.empty()) write_choice_file(output.results, prepared, request.overrides);
   fmt::print("{}", output.json ? support::format_json(make_choice_json(*prepared.choice))

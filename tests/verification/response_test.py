@@ -127,7 +127,7 @@ spring = { polynomial = [0.0, 1.0e5] }
         text = (MODELS / "half_car.toml").read_text(encoding="utf-8")
         response = self.response_text(text + spare, "speed = 14.0\nduration = 1.0\n")
         self.assertEqual(response.report["remarks"],
-                         ["Warning: 'spare' is off the ground in static balance: no road comes in there"])
+                         ["Warning: 'spare' is off the ground in static equilibrium: the road does not act on it"])
         self.assert_close(response["forces/spare/force"], 0.0)
         name = "points/beam.origin/displacement.y"
         self.assert_close(np.abs(response[name] - self.response(HALF_CAR)[name]), 0.0, absolute=1e-9)

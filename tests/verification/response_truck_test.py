@@ -29,7 +29,7 @@ class Truck(ResponseCase):
             self.assert_close(response[f"points/{point}/displacement.y"][0] * np.exp(1j * kappa * behind), 1.0,
                               absolute=1e-5)
         self.assertEqual(response.report["remarks"],
-                         ["The mean of its two slopes at rest is taken of: front_suspension, rear_suspension"])
+                         ["Linearised with the mean of the two slopes at rest: front_suspension, rear_suspension"])
 
     def test_forces_move_the_masses(self):
         # Newton for the front axle, at every frequency: tyres, suspension and the reactions of both arms' joints.

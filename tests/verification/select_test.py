@@ -128,7 +128,7 @@ class Truck(VerificationCase):
         # Its wheels fly, and that is said.
         for report in (short, long):
             self.assertEqual(len(report["remarks"]), 1)
-            self.assertRegex(report["remarks"][0], "'front_tyre' by .* times its standing force.*leave the ground")
+            self.assertRegex(report["remarks"][0], "'front_tyre' by .* times its static force.*leave the ground")
         slow = self.select("terrain", *overrides(speed=1.0))
         self.assertEqual(slow["remarks"], [])
 
@@ -185,14 +185,14 @@ class Truck(VerificationCase):
 
     def test_says_why_all_are_kept_where_the_forcing_is_not_known(self):
         for setting, why in (
-            (overrides(start="'as-given'"), "the run does not start in static balance"),
+            (overrides(start="'as-given'"), "the run does not start in static equilibrium"),
             (overrides(initial__chassis__angular_velocity=0.1), "[initial] adds motion at the start"),
             (overrides(speed=-3.0), "the vehicle drives backwards over the road"),
         ):
             report = self.select("bump", *setting)
             self.assertEqual(len(self.kept(report)), 36)
             self.assertEqual(report["remarks"], [f"all modes are kept, as {why}"])
-            self.assertEqual({mode["reason"] for mode in report["modes"]}, {f"kept: not measured, as {why}"})
+            self.assertEqual({mode["reason"] for mode in report["modes"]}, {f"kept: not judged, as {why}"})
 
     def test_a_run_stores_what_select_modes_and_the_dry_run_show(self):
         short = overrides(duration=0.05, mode_choice__tolerance=0.2)
@@ -222,8 +222,8 @@ class Truck(VerificationCase):
 
     def test_refusals(self):
         for arguments, fragment in (
-            ((), 'leaves no body\'s modes to the program: say [modes] BODY = "auto"'),
-            ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: is in the way and is left alone"),
+            ((), 'has no body with modes "auto", so there is nothing to choose'),
+            ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: exists and is no file of chosen modes, so it is not overwritten"),
         ):
             (self.folder / "foreign.h5").write_text("mine", encoding="utf-8")
             command = [os.environ["SPRUNG_DYNAMICS"], "select-modes", TRUCK / "bump.toml"]

@@ -129,7 +129,7 @@ class Steady(VerificationCase):
             turning.replace("polynomial = [0.2, 9.0]", "polynomial = [0.2, 9.0, 1.0]"),
         ):
             self.write(vehicle)
-            self.assert_fails(2, "run.toml:3:9: error: 'start' can be \"steady\" only where what is carried along")
+            self.assert_fails(2, "run.toml:3:9: error: 'start' can be \"steady\" only where the moving system sees")
 
     def assert_fails(self, code, words):
         process = run_program([os.environ["SPRUNG_DYNAMICS"], "modes", "run.toml"], cwd=self.folder)

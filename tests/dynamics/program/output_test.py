@@ -69,7 +69,7 @@ class Results(DynamicsTestCase):
             )
             process = run_program([PROGRAM, "run", "tiny.toml", "--quiet"], cwd=self.folder)
             self.assertEqual(process.returncode, 0, process.stderr)
-            self.assertEqual("larger unit" in process.stderr, is_warned, process.stderr)
+            self.assertEqual("smaller units" in process.stderr, is_warned, process.stderr)
 
     def test_blocked_by_a_plain_file(self):
         (self.folder / "blocked").write_text("not a folder", encoding="utf-8")
