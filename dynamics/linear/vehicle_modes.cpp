@@ -87,8 +87,8 @@ std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
     const std::complex<double> square = u.cwiseProduct(u).sum();
     modes.push_back({std::abs(complex_modes.eigenvalues[i]), u * std::polar(1.0, -0.5 * std::arg(square))});
   }
-  // Two free modes that Coriolis forces couple have one pair of eigenvalues here, since positions of free modes
-  // are no states. The mode that is then missing is free.
+  // Two free modes that Coriolis forces couple have one pair of eigenvalues here, since positions of free
+  // modes are no states. The mode that is then missing is free.
   while (static_cast<Eigen::Index>(modes.size()) < form.V.rows()) {
     modes.push_back({0.0, Eigen::VectorXcd::Unit(form.V.rows(), 0)});
   }

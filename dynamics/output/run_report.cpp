@@ -114,7 +114,7 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
       if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
         warning = fmt::format(
-            "\nwarning: modes are missing: {}, which was left out, would have contributed {} of the points "
+            "\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
             "asked for (at t = {:.3g} s); take more modes{}\n",
             name, shares, worst.time, is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
       }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a run leaves behind: whole files, the same bytes again, or a readable partial file."""
+"""The files that a run leaves: complete ones, equal bytes for equal input, or a readable partial file."""
 
 import json
 import resource
