@@ -3,10 +3,10 @@ suspension travel and bump-stop hits, dynamic tyre loads, time off the ground an
 moment of each flexible body.
 
 The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose in
-m/s^1.75. Travel is from static balance, compression is positive. Loads are those of all parallel members together. A
-tyre is also without load where it reaches the road but rises faster than it springs back. A moment is positive where it
-stretches the side of -y. With --superelements the tool also computes the bending moment of bodies that a run took as
-rigid, from the forces on them."""
+m/s^1.75. Travel is from static equilibrium, compression is positive. Loads are those of all parallel members together.
+A tyre is also without load where it reaches the road but rises faster than it springs back. A moment is positive where
+it stretches the side of -y. With --superelements the tool also computes the bending moment of bodies that a run took
+as rigid, from the forces on them."""
 
 import os
 from collections.abc import Iterator, Sequence

@@ -2,12 +2,12 @@
 
     with open_results("bump_2modes.h5") as results:
         time = results.time                                              # [n] s
-        height, unit = results.series("bodies/chassis/displacement.y")   # [n] m, from static balance
+        height, unit = results.series("bodies/chassis/displacement.y")   # [n] m, from static equilibrium
 
 A *quantity* is written as the file names it (dynamics/output/results.md), with a component:
 `bodies/chassis/position.angle`, `bodies/chassis/center_of_mass/acceleration.y`, `points/chassis.seat/velocity.x`,
 `bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
-value per sample have none. `displacement` is position less its value in static balance.
+value per sample have none. `displacement` is position less its value in static equilibrium.
 
 A fault of a file, or a name that it does not hold, is an InputError whose text is `path: error: …`.
 """
@@ -77,7 +77,7 @@ class ResultsFile:
 
     @property
     def is_from_balance(self) -> bool:
-        """Whether the run starts from static balance; displacements are counted from there."""
+        """Whether the run starts from static equilibrium; displacements are counted from there."""
         group = "model/equilibrium"
         return self.file.has_group(group) and self.file.attribute(group, "is_static_equilibrium", int, 0) == 1
 
@@ -164,7 +164,7 @@ class ResultsFile:
 
     def _static_value(self, dataset: str, column: int) -> float:
         if not self.is_from_balance:
-            raise InputError(f"{self.path}: error: no displacement in '{dataset}': static balance was not sought")
+            raise InputError(f"{self.path}: error: no displacement in '{dataset}': static equilibrium was not sought")
         # The equilibrium holds bodies' frames and points, and a centre of mass as a point:
         # bodies/A/center_of_mass → points/A.center_of_mass.
         group, name, *rest = dataset.split("/")[:-1]

@@ -58,7 +58,7 @@ class RunNumbers:
         return self.results.series(quantity)[0][self.inside]
 
     def displacement(self, point: str) -> Floats:
-        """A point's vertical displacement from static balance over the window [m]."""
+        """A point's vertical displacement from static equilibrium over the window [m]."""
         return self.series(f"{point}/displacement.y")
 
     def acceleration(self, point: str) -> Floats:

@@ -69,7 +69,7 @@ def make_speed_table(numbers: Numbers) -> Table:
 
 
 def calc_wheelbase(results: ResultsFile) -> float:
-    """The distance from the front to the rear axle in static balance [m]."""
+    """The distance from the front to the rear axle in static equilibrium [m]."""
     places = [f"model/equilibrium/bodies/{axle}_axle" for axle in ("front", "rear")]
     front, rear = (read_numbers(results.file, place)[0] for place in places)
     return float(abs(rear[0] - front[0]))

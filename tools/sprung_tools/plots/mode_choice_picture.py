@@ -120,7 +120,7 @@ def make_choice_figure(choice: Choice, title: str = "") -> Figure:
     points = choice.points()
     caption = (
         f"{np.count_nonzero(choice.is_kept)} of {len(choice.is_kept)} modes kept (filled); speed "
-        f"{read_real(choice.file, 'model', 'speed'):g} m/s; linearised about static balance"
+        f"{read_real(choice.file, 'model', 'speed'):g} m/s; linearised about static equilibrium"
     )
     title = title or read_text(choice.file, "", "title")
     figure, panels = make_figure([PANEL_HEIGHT] * (3 if points else 2), title, caption)

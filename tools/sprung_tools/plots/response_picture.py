@@ -87,7 +87,7 @@ def make_response_figure(
     """Draws a panel for each output. title: the heading, the vehicle's name if empty."""
     speeds = sorted({read_real(response.file, "", "speed") for response in responses})
     what = "spectral density on a random road" if is_spectrum else "response to the road"
-    caption = f"{what}, linearised about static balance; speed {', '.join(f'{speed:g}' for speed in speeds)} m/s"
+    caption = f"{what}, linearised about static equilibrium; speed {', '.join(f'{speed:g}' for speed in speeds)} m/s"
     title = title or read_text(responses[0].file, "", "title")
     figure, panels = make_figure([PANEL_HEIGHT] * len(outputs), title, caption)
     for axes, shown in zip(panels, outputs):

@@ -125,7 +125,7 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
     facts.append(("integrator", describe_integrator(settings["integrator"])))
     changed = read_texts(results.file, "model/overrides") if results.file.has_dataset("model/overrides") else []
     facts.append(("changed by --set", ", ".join(changed) or "nothing"))
-    facts.append(("starts from", "static balance" if results.is_from_balance else "the positions given"))
+    facts.append(("starts from", "static equilibrium" if results.is_from_balance else "the positions given"))
     for name in results.names("model/superelements"):
         version, content = (
             read_text(results.file, f"model/superelements/{name}", attribute)

@@ -123,7 +123,7 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
 
 
 def calc_static(results: ResultsFile, values: Floats, inside: Flags) -> float:
-    """A quantity's value in static balance: its first value if the run starts from balance, else its mean over the
+    """A quantity's value in static equilibrium: its first value if the run starts from balance, else its mean over the
     span."""
     if results.is_from_balance:
         return float(values[0])
