@@ -9,10 +9,10 @@
 
 namespace sprung::benchmark {
 
-/// What the toolchain is measured against: the plain dense evaluator under adaptive Dormand–Prince 5(4), with
-/// one partition for the whole run, the same error scales, and nothing located: the step control finds kinks
-/// and jumps. Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd
-/// ed., Springer, 1993, §§II.4–6: DOPRI5 with its continuous extension
+/// The baseline of the benchmark: the plain dense evaluator under adaptive Dormand–Prince 5(4), with one
+/// partition for the whole run and the same error scales. Switches are not located; the step-size control
+/// finds kinks and jumps. Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential
+/// Equations I, 2nd ed., Springer, 1993, §§II.4–6: DOPRI5 with its continuous extension
 class DenseBaseline {
  public:
   /// A row of outputs: motion of all coordinates.

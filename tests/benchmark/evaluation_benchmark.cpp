@@ -17,7 +17,8 @@ namespace {
 
 using namespace sprung;
 
-// The truck at rest on flat ground, and a motion of its independents around there that keeps Newton at work.
+// The truck at rest on flat ground, and a small motion of its independent coordinates, so that Newton's
+// method iterates.
 struct Truck {
   explicit Truck(int num_modes) : at_rest(num_modes), fast(at_rest.model), plain(at_rest.model) {
     fast.choose_partition_at(0.0, at_rest.equilibrium.q);
@@ -36,7 +37,7 @@ struct Truck {
     q = fast.q();
     v = fast.v();
   }
-  // As far as an integrator moves in a step.
+  // The change of a coordinate in a typical step.
   void move() {
     ++step;
     for (std::size_t k = 0; k < q_i.size(); ++k)

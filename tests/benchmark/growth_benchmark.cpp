@@ -1,6 +1,5 @@
 // Cost of one evaluation and of one step against the number of bodies: an open chain of pendulums, and a
-// chain closed round like a track. Prints a line of JSON for each model; tools/benchmark makes a table of
-// them.
+// closed chain like a track. Prints a line of JSON for each model; tools/benchmark makes a table of them.
 //
 //   growth_benchmark 10 100 1000
 

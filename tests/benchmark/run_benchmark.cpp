@@ -1,5 +1,5 @@
-// Whole runs of the truck at several tolerances: what they cost and what they give. tools/benchmark compares
-// the series with those of a converged run, and prints the costs.
+// Whole runs of the truck at several tolerances: their costs and their results. tools/benchmark compares the
+// series with those of a converged run, and prints the costs.
 //
 //   run_benchmark RUN.toml SUPERELEMENTS --modes 2 --method adams --tolerance 1e-5 1e-6 --repetitions 5
 //   --series FILE
@@ -51,7 +51,7 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// What the series hold, from the coordinates and their accelerations.
+// The values of the series, from the coordinates and their accelerations.
 class Chassis {
  public:
   explicit Chassis(const dynamics::Model& model) {
@@ -70,7 +70,7 @@ class Chassis {
   Eigen::RowVectorXd front_end_;
 };
 
-// One run. @param series  gets the samples; null: for its cost, without outputs on the way
+// Makes one run. @param series  receives the samples; null to measure the cost, without outputs
 Cost run_once(const dynamics::PreparedRun& prepared, const Request& request, double tolerance,
               std::vector<Row>* series) {
   const Chassis chassis(prepared.model);

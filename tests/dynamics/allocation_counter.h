@@ -2,8 +2,8 @@
 
 namespace sprung::test {
 
-/// Number of times any part of the program has asked for heap memory so far: malloc and its relatives, which
-/// `new` and Eigen both end in.
+/// Number of heap allocations by any part of the program so far: calls of malloc and related functions, which
+/// `new` and Eigen use.
 long num_allocations();
 
 }  // namespace sprung::test

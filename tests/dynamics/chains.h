@@ -11,7 +11,7 @@ struct Chain {
   dynamics::State state;
 };
 
-/// Pendulums one below the other, from the ground, in a crooked line at rest: as many freedoms as bodies.
+/// A chain of pendulums that hangs from the ground, in a crooked line at rest: as many freedoms as bodies.
 /// @param num_links  > 0
 Chain make_open_chain(int num_links);
 

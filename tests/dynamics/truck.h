@@ -30,7 +30,7 @@ void mirror_model(dynamics::Model& model);
 /// Coordinates or velocities of the mirrored model.
 Eigen::VectorXd mirror_coordinates(const dynamics::Model& model, const Eigen::VectorXd& q);
 
-/// Static balance of the truck on flat ground.
+/// Static equilibrium of the truck on flat ground.
 struct TruckAtRest {
   explicit TruckAtRest(int num_chassis_modes, double shift = 0.0, bool mirrored = false);
   dynamics::Vehicle vehicle;
@@ -49,7 +49,7 @@ struct BumpRun {
   dynamics::SteppingMethod method = dynamics::SteppingMethod::kExponential;
 };
 struct BumpResult {
-  /// Chassis frame at each output (1 ms): distance along the heading and height from static balance [m],
+  /// Chassis frame at each output (1 ms): distance along the heading and height from static equilibrium [m],
   /// angle [rad], mirrored back where the truck was mirrored; 3×outputs.
   Eigen::Matrix3Xd chassis;
   double lowest = 0.0, highest = 0.0;  ///< of the height
@@ -69,7 +69,8 @@ struct BumpStart {
   dynamics::State state;
 };
 
-/// What the energy book leaves open, as a share of the largest sum of the absolute changes of what is stored.
+/// The imbalance of the energy book, relative to the largest sum of the absolute changes of the stored
+/// energies.
 class EnergyClosure {
  public:
   void add(const dynamics::EnergyBook& book);

@@ -34,7 +34,7 @@ void check_frequency(double found, double expected, double unit) {
 
 }  // namespace
 
-TEST_CASE("The truck balances within 1 mm of the printed height", "[truck]") {
+TEST_CASE("The truck's equilibrium is within 1 mm of the printed height", "[truck]") {
   // [Kim, Shabana & Haug 1983], Table 2: chassis at 0.975 m, axles at 0.575 m, front and rear alike
   for (const int num_modes : {0, 2, 4}) {
     const test::TruckAtRest truck(num_modes);
@@ -46,7 +46,7 @@ TEST_CASE("The truck balances within 1 mm of the printed height", "[truck]") {
   }
 }
 
-TEST_CASE("At balance the tyres carry the whole weight, half of it each axle", "[truck]") {
+TEST_CASE("In equilibrium the tyres carry the whole weight, half of it each axle", "[truck]") {
   const test::TruckAtRest truck(2);
   double mass = 0.0;
   for (const dynamics::Body& body : truck.model.bodies) mass += body.mass;
@@ -59,13 +59,13 @@ TEST_CASE("At balance the tyres carry the whole weight, half of it each axle", "
   }
 }
 
-TEST_CASE("Nothing holds the truck along x, and its freedoms are 5, 7 and 9", "[truck]") {
+TEST_CASE("The truck is neutral along x, and its freedoms are 5, 7 and 9", "[truck]") {
   for (const int num_modes : {0, 2, 4}) {
     const test::TruckAtRest truck(num_modes);
     CHECK(truck.model.num_freedoms() == 5 + num_modes);
     REQUIRE(truck.equilibrium.neutral.size() == 1);
     CHECK(truck.equilibrium.neutral[0].description == "all bodies along x");
-    // There it stays, whatever the forces on the way to the balance.
+    // It keeps its value there, for any forces on the way to the equilibrium.
     const Eigen::VectorXd start = test::assemble_truck(truck.model, truck.vehicle);
     const int chassis =
         truck.model.bodies[static_cast<std::size_t>(truck.model.find_body("chassis"))].first_coordinate;
@@ -138,7 +138,7 @@ TEST_CASE("The suspension's damper counts with the mean of its two slopes", "[tr
   for (const dynamics::VehicleMode& mode : modes) CHECK((mode.is_rigid_body || mode.damping_ratio > 0.05));
 }
 
-TEST_CASE("A truck put down displaced by a centimetre here and there is assembled, and balances as before",
+TEST_CASE("A truck whose bodies are displaced by a centimetre is assembled, and has the same equilibrium",
           "[truck]") {
   const test::TruckAtRest truck(2);
   test::RandomNumbers random(4);
@@ -154,7 +154,7 @@ TEST_CASE("A truck put down displaced by a centimetre here and there is assemble
   CHECK(chassis_height(truck.model, rest.q) == Approx(truck.chassis()[1]).margin(1e-9));
 }
 
-TEST_CASE("A truck let down from 0.3 m above the ground comes to rest on its wheels", "[truck]") {
+TEST_CASE("From 0.3 m above the ground the search finds the truck at rest on its wheels", "[truck]") {
   for (const int num_modes : {0, 4}) {
     const test::TruckAtRest truck(num_modes);
     Eigen::VectorXd q = test::assemble_truck(truck.model, truck.vehicle);
@@ -165,7 +165,7 @@ TEST_CASE("A truck let down from 0.3 m above the ground comes to rest on its whe
   }
 }
 
-TEST_CASE("A truck hung upside down over nothing has no equilibrium", "[truck]") {
+TEST_CASE("A truck under upward gravity has no equilibrium", "[truck]") {
   const dynamics::Vehicle vehicle = test::read_truck({"gravity=[0.0, 9.8]"});
   const test::TruckAtRest truck(0);
   const dynamics::Model model = test::make_truck(

@@ -20,14 +20,14 @@ TEST_CASE("The rigid truck over the bump", "[truck]") {
   CHECK(run.closure < 1e-6);
   REQUIRE(run.chassis.cols() == 5001);
 
-  SECTION("is converged: a hundredth of the tolerance moves no peak by a tenth of what is asked") {
+  SECTION("is converged: with a hundredth of the tolerance no peak changes by a tenth of the margin") {
     const test::BumpResult fine = test::drive_over_bump({.num_chassis_modes = 0, .relative_tolerance = 1e-8});
     CHECK(std::abs(fine.lowest - run.lowest) < 1e-4);
     CHECK(std::abs(fine.highest - run.highest) < 1e-4);
     CHECK((fine.chassis - run.chassis).cwiseAbs().maxCoeff() < 1e-4);
     CHECK(fine.closure < 0.1 * run.closure);
   }
-  SECTION("leaves the ground, comes down again, and says so") {
+  SECTION("leaves the ground and touches it again, and reports both events") {
     int leaves = 0, touches = 0;
     for (const dynamics::Event& event : run.events) {
       leaves += event.text.ends_with("leaves the ground") ? 1 : 0;
@@ -94,7 +94,7 @@ TEST_CASE("Generalized-α without a partition takes the truck over the bump alik
   }
 }
 
-TEST_CASE("Stiff modes cost few evaluations more: steps follow what excites them", "[truck]") {
+TEST_CASE("Stiff modes cost few additional evaluations: steps follow their excitation", "[truck]") {
   const auto evaluations = [](int num_modes) {
     const test::BumpResult run =
         test::drive_over_bump({.num_chassis_modes = num_modes, .relative_tolerance = 1e-3});

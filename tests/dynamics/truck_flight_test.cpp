@@ -1,4 +1,4 @@
-// The flexible truck in the air: what mechanics conserves, whatever the vehicle.
+// The flexible truck in the air: conserved quantities of any vehicle.
 #include <Eigen/Core>
 #include <cmath>
 

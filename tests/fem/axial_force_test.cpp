@@ -41,9 +41,10 @@ TEST_CASE("The inertia load of a frame is minus its mass times the acceleration 
   CHECK(test::calc_difference(load, expected) < 1e-13);
 }
 
-TEST_CASE("A clamped beam that turns about its root and falls has the force of what is beyond") {
-  // By hand: N(s) = ρA [ω² (L² − s²)/2 − a_t (L − s)] + m [ω² L − a_t] with a point mass m at the end,
-  // whatever the number of elements; across the axis nothing.
+TEST_CASE(
+    "The axial force in a clamped beam that rotates about its root and falls is that of the mass beyond") {
+  // By hand: N(s) = ρA [ω² (L² − s²)/2 − a_t (L − s)] + m [ω² L − a_t] with a point mass m at the end, for
+  // any number of elements; none across the axis.
   const BeamProperties properties = test::make_thick_properties();
   const Eigen::Vector2d root(0.3, -0.2), end(1.9, 1.0), axis(0.8, 0.6);
   const double L = 2.0, m = 7.3, omega_squared = 5.0;
@@ -85,7 +86,7 @@ TEST_CASE("Axial forces of a bent frame under loads at its end, by hand") {
   CHECK(forces[1].quadratic == 0.0);
 }
 
-TEST_CASE("A displacement of another size is refused") {
+TEST_CASE("A displacement vector of wrong size is refused") {
   const std::string message = test::message_of<std::invalid_argument>([] {
     calc_axial_forces(test::make_general_frame(), Eigen::VectorXd::Zero(12), {}, Eigen::Vector2d::Zero());
   });

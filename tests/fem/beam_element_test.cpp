@@ -205,7 +205,7 @@ TEST_CASE("Resultants do not depend on rigid motion, and change sign as stated w
   CHECK(test::calc_difference(calc_resultants(swapped) * q_swapped, expected) < kRounding);
 }
 
-TEST_CASE("A patch of unequal elements passes constant strain, curvature and shear through at any angle") {
+TEST_CASE("A patch of unequal elements reproduces constant strain, curvature and shear at any angle") {
   BeamModel model = test::make_straight_beam({0.3, -0.2}, {2.1, 1.4}, 3, test::make_thick_properties());
   const Eigen::Vector2d from(0.3, -0.2), along = Eigen::Vector2d(1.8, 1.6).normalized();
   const double L = std::hypot(1.8, 1.6);
@@ -261,7 +261,7 @@ TEST_CASE("Stiff in shear, the element tends to the Euler-Bernoulli element") {
                               calc_local_stiffness(kLength, test::make_thin_properties())) < 1e-9);
 }
 
-TEST_CASE("Arguments out of range are refused by name and value") {
+TEST_CASE("Arguments out of range are refused with name and value") {
   const BeamProperties good = test::make_thick_properties();
   const auto message = [&](double BeamProperties::*member, double value) {
     BeamProperties properties = good;

@@ -38,11 +38,11 @@ std::string message(Spoil&& spoil) {
 
 }  // namespace
 
-TEST_CASE("A sound line frame passes") {
+TEST_CASE("A correct line frame is accepted") {
   CHECK_NOTHROW(check_frame_geometry(make_geometry()));
 }
 
-TEST_CASE("What a line frame can have wrong is refused at its place") {
+TEST_CASE("Each fault of a line frame is refused at its location") {
   CHECK(message([](FrameGeometry& g) { g.lines.clear(); }) == "error: the frame has no lines");
   CHECK(message([](FrameGeometry& g) { g.points[2].name = "left"; }) ==
         "a.toml:5:1: error: two points are named 'left'");

@@ -43,12 +43,12 @@ Eigen::MatrixXd remove_node(const Eigen::MatrixXd& matrix, int node);
 /// Largest absolute entry of a − b, relative to the largest of b.
 double calc_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// The file of that name beside the tests.
+/// The file of that name in the folder of the tests.
 std::filesystem::path get_data(std::string_view name);
 std::string read_file(const std::filesystem::path& path);
 /// Writes a file into the test's working directory. @return its path
 std::filesystem::path write_file(std::string_view name, std::string_view text);
-/// `text` with the first `from` replaced; the test fails where there is none.
+/// `text` with the first `from` replaced; the test fails if there is none.
 std::string replace(std::string text, std::string_view from, std::string_view to);
 
 /// The message of the InputError that `call` throws; the test fails if it throws none.

@@ -79,7 +79,7 @@ TEST_CASE("Geometric stiffness is the integral of N w'² for forces that change 
   }
 }
 
-TEST_CASE("A stressed element that is turned needs its end forces turned, and nothing when moved") {
+TEST_CASE("The end forces of a stressed element turn with it, and do not change when it is moved") {
   // Turning by δ turns the tension N at the ends into N δ across; moments need none.
   const double N = -430.0;
   for (const BeamProperties& properties : {test::make_thick_properties(), test::make_thin_properties()}) {
@@ -110,7 +110,7 @@ TEST_CASE("A clamped column buckles at Euler's load, from above and with the ele
   CHECK(std::log2(coarse / fine) == Approx(4.0).margin(0.1));
 }
 
-TEST_CASE("Shear lowers the buckling load as Engesser has it") {
+TEST_CASE("Shear lowers the buckling load by Engesser's formula") {
   // 1/P = 1/P_Euler + 1/κGA.
   BeamProperties properties = test::make_thick_properties();
   const double euler = std::numbers::pi * std::numbers::pi * properties.bending_rigidity / 16.0;

@@ -55,7 +55,7 @@ TEST_CASE("Nodes, elements, sections and names are in the order of the file's nu
   CHECK(find_node(mesh, "foot") == 3);
 }
 
-TEST_CASE("Two groups of one name are one section, and names without a point are passed over") {
+TEST_CASE("Two groups of one name are one section, and names without a point are ignored") {
   GmshContents contents = make_contents();
   contents.groups[0].name = "post";
   contents.groups.push_back({.dimension = 0, .tag = 77, .name = "nowhere"});
@@ -65,7 +65,7 @@ TEST_CASE("Two groups of one name are one section, and names without a point are
   CHECK(mesh.named_nodes.size() == 2);
 }
 
-TEST_CASE("Contents that make no frame are refused, saying why") {
+TEST_CASE("Contents that are no frame are refused with the reason") {
   CHECK(message([](GmshContents& c) { c.lines.clear(); }) == "l.msh: error: the mesh has no line elements");
   CHECK(message([](GmshContents& c) { c.lines[2].groups.clear(); }) ==
         "l.msh: error: line element 20 of curve 1, from node 7 to node 4, is in no physical curve, which "

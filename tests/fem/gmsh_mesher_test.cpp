@@ -133,7 +133,7 @@ TEST_CASE("Lines that cross without a common point stay apart") {
       "at (2.3, 0.1), node 4 'd' at (0.2, 1.4)");
 }
 
-TEST_CASE("A line frame in error is refused before it is meshed") {
+TEST_CASE("A faulty line frame is refused before it is meshed") {
   FrameGeometry geometry = make_geometry();
   geometry.lines[2].to = "fot";
   test::check_contains(test::message_of<support::InputError>([&] { mesh_lines(geometry); }),
@@ -177,7 +177,7 @@ TEST_CASE("Both mesh formats, text and binary, give the mesh of the .geo file") 
   }
 }
 
-TEST_CASE("Reading is repeatable, whatever was read before") {
+TEST_CASE("Reading is repeatable, independent of earlier files") {
   const Mesh before = read_gmsh_file(test::get_data("portal.geo"));
   const std::string script =
       "Point(1) = {0.1, 0.2, 0}; Point(2) = {L, 0.9, 0}; Line(1) = {1, 2}; Transfinite Curve {1} = 2;"
@@ -221,7 +221,7 @@ TEST_CASE("gmsh leaves the locale as it was") {
   std::setlocale(LC_ALL, before.c_str());
 }
 
-TEST_CASE("Files that cannot be meshed are refused by path, saying why") {
+TEST_CASE("Files that cannot be meshed are refused with path and reason") {
   test::check_contains(message("no_such_file.msh"), "no_such_file.msh: error: ");
   test::check_contains(message("no_such_file.geo"), "no_such_file.geo: error: ");
   CHECK(message_of_text("empty.msh", "") == "empty.msh: error: the file is empty");
@@ -235,7 +235,7 @@ TEST_CASE("Files that cannot be meshed are refused by path, saying why") {
                        "unknown.geo: error: gmsh: ");
 }
 
-TEST_CASE("A truncated mesh is refused wherever it ends") {
+TEST_CASE("A mesh that is truncated anywhere is refused") {
   for (const char* name :
        {"portal_22.msh", "portal_22_binary.msh", "portal_41.msh", "portal_41_binary.msh"}) {
     const std::string whole = test::read_file(test::get_data(name));
@@ -248,7 +248,7 @@ TEST_CASE("A truncated mesh is refused wherever it ends") {
   }
 }
 
-TEST_CASE("A mesh of which gmsh reads less than it declares is refused") {
+TEST_CASE("A mesh that declares more than gmsh reads is refused") {
   const std::string text = test::read_file(test::get_data("portal_22.msh"));
   const auto short_message = [&](std::string_view from, std::string_view to) {
     return message_of_text("short.msh", test::replace(text, from, to));
@@ -257,7 +257,7 @@ TEST_CASE("A mesh of which gmsh reads less than it declares is refused") {
         "short.msh: error: gmsh: Error loading 'short.msh'");
   CHECK(short_message("6 1 2 2 2 2 6\n", "") == "short.msh: error: gmsh: Error loading 'short.msh'");
   CHECK(short_message("\n4 0.76666", "\n5 0.76666") == "short.msh: error: gmsh: Wrong node index 4");
-  // these two gmsh passes over in silence
+  // gmsh ignores these two without a message
   CHECK(message_of_text("short.msh", test::replace(test::replace(text, "$Nodes\n9\n", "$Nodes\n10\n"),
                                                    "$EndNodes", "12 5.1 2.2 0.7\n$EndNodes")) ==
         "short.msh: error: the file declares 10 nodes, but 9 could be read: it is truncated, or some belong "
@@ -303,7 +303,7 @@ TEST_CASE("Physical groups decide the section of each element") {
       "centre.geo: error: no line passes through physical point 'foot'");
 }
 
-TEST_CASE("Whatever is no plane frame of two-node lines is refused") {
+TEST_CASE("A mesh that is no plane frame of two-node lines is refused") {
   const std::string script = test::read_file(test::get_data("portal.geo"));
   CHECK(message_of_text("quadratic.geo", script + "Mesh.ElementOrder = 2;\n") ==
         "quadratic.geo: error: element 3 is a Line 3, expected straight two-node lines only");

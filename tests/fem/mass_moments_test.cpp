@@ -45,7 +45,7 @@ double integrate_power(int n) {
 
 }  // namespace
 
-TEST_CASE("A tilted beam has the mass moments calculated by hand, however it is divided") {
+TEST_CASE("A tilted beam has the mass moments calculated by hand, for any division into elements") {
   const Eigen::Vector2d origin(-0.2, 0.5);
   const double x0 = 0.6, y0 = -0.8;  // of the beam's beginning about the origin
   const double m = kMassPerLength * kLength, I1 = kMassPerLength * integrate_power(1),
@@ -64,7 +64,7 @@ TEST_CASE("A tilted beam has the mass moments calculated by hand, however it is 
   }
 }
 
-TEST_CASE("A displacement that the elements hold exactly has its analytic integrals") {
+TEST_CASE("A displacement that the shape functions represent exactly has its analytic integrals") {
   // u = a s, w = b s² + c s³ about the beginning of the beam, so that x = s cos, y = s sin
   const double a = 0.31, b = -0.17, c = 0.23;
   for (const int num_elements : {1, 3}) {
@@ -151,7 +151,7 @@ TEST_CASE("An L frame's moments agree with quadrature of displaced material poin
   CHECK(moments.rotary_N.dot(q) == Approx(psi_sum).epsilon(1e-12));
 }
 
-TEST_CASE("Of rigid motions, the moments with shape functions are the moments without") {
+TEST_CASE("For rigid motions, the moments with shape functions equal those without") {
   const BeamModel model = test::make_general_frame();
   const Eigen::Vector2d origin(0.3, -1.1);
   const MassMoments moments = calc_mass_moments(model, origin);

@@ -9,7 +9,7 @@ namespace sprung::fem {
 
 namespace {
 
-// The message of check_mesh for the general frame after it has been spoilt.
+// The message of check_mesh for the general frame with a fault.
 template <class Spoil>
 std::string message(Spoil&& spoil) {
   Mesh mesh = test::make_general_frame().mesh;
@@ -25,14 +25,14 @@ void add_node(Mesh& mesh, double x, double y) {
 
 }  // namespace
 
-TEST_CASE("A sound frame passes, and beams may cross without a joint") {
+TEST_CASE("A correct frame is accepted, and beams may cross without a joint") {
   Mesh mesh = test::make_general_frame().mesh;
   CHECK_NOTHROW(check_mesh(mesh, {}));
   mesh.elements.push_back({0, 3, 1});  // crosses the beam from node 1 to node 2
   CHECK_NOTHROW(check_mesh(mesh, {}));
 }
 
-TEST_CASE("Nodes are found by name, and called by number, name and place") {
+TEST_CASE("Nodes are found by name, and described by number, name and position") {
   const Mesh mesh = test::make_general_frame().mesh;
   CHECK(find_node(mesh, "tip") == 4);
   CHECK(find_node(mesh, "heel") == -1);
@@ -88,7 +88,7 @@ TEST_CASE("Two elements between the same nodes are refused, whatever their direc
                        "two elements join node 4 'corner' at (1.73, 0.11) and node 11 at (2.61, 1.02)");
 }
 
-TEST_CASE("Two nodes at one place are refused, unless they are merely near") {
+TEST_CASE("Two nodes at the same position are refused, near ones are not") {
   const auto add_branch = [](double x, double y) {
     return message([=](Mesh& mesh) {
       add_node(mesh, x, y);

@@ -41,7 +41,7 @@ TEST_CASE("Lines may end as on Windows") {
   CHECK(declaration.element_groups.at(9) == 2);
 }
 
-TEST_CASE("What is no whole gmsh mesh is refused") {
+TEST_CASE("A file that is no complete gmsh mesh is refused") {
   const std::string text = test::read_file(test::get_data("portal_22.msh"));
   const std::string binary = test::read_file(test::get_data("portal_22_binary.msh"));
   CHECK(message("") == "declaration.msh: error: the file is empty");

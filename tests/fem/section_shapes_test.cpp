@@ -116,7 +116,7 @@ TEST_CASE(
         Approx(calc_energy_coefficient(0.106, 0.186, 0.004, 0.008)).epsilon(1e-8));
 }
 
-TEST_CASE("Impossible dimensions are refused by name and value") {
+TEST_CASE("Impossible dimensions are refused with name and value") {
   const auto message = [](const auto& section, double nu = 0.3) {
     return test::message_of<std::invalid_argument>([&] { calc_section_geometry(section, nu); });
   };

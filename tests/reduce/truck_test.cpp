@@ -82,7 +82,7 @@ TEST_CASE("equal designs give equal superelements, hash and all") {
   CHECK(a.resultants == b.resultants);
 }
 
-TEST_CASE("the truck's chassis is the same body for every numbering, start vector and method") {
+TEST_CASE("the truck's chassis has the same modes for every numbering, start vector and method") {
   Design design = read_design(testing::source_path("meshes/truck/chassis.toml"));
   const Superelement all = make_superelement(design);
   const fem::BeamModel model = design.model;

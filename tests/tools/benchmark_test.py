@@ -1,4 +1,4 @@
-"""tools/benchmark: what it judges runs by, and that all of it runs. Nothing about times, which are for people."""
+"""tools/benchmark: how it judges runs, and that all of it runs. Times are not tested."""
 
 import csv
 import os
@@ -133,7 +133,7 @@ class Tool(ToolTestCase):
             rows = list(csv.DictReader(file))
         self.assertEqual({row["method"] for row in rows}, {*METHODS, BASELINE})
         for row in rows:
-            # The converged run is by one method alone: that the others come to it says that all four agree.
+            # The converged run is by one method; the others agree with it, so all four agree.
             if float(row["tolerance"]) <= 1e-6:
                 self.assertLess(float(row["height_error_m"]), 1e-4, row)
         self.assertEqual((self.folder / "out/work_precision.png").read_bytes()[:4], b"\x89PNG")

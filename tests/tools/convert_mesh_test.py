@@ -1,5 +1,5 @@
-"""tools/convert_mesh: that frames come through from every format with the same modes, that nothing is dropped in
-silence, and that what cannot be used is refused. Needs sprung-reduce, which SPRUNG_REDUCE names."""
+"""tools/convert_mesh: frames from every format have the same modes, everything that is dropped is listed, and files
+that cannot be used are refused. Needs sprung-reduce, which SPRUNG_REDUCE names."""
 
 import os
 import shutil
@@ -182,7 +182,7 @@ class Portal(ConvertCase):
 
 
 class Refusing(ToolTestCase):
-    """What cannot be used gets its error and leaves no file."""
+    """A file that cannot be used gives its error, and no file is written."""
 
     def assert_refused(self, name, content, *fragments, arguments=()):
         path = self.folder / name

@@ -1,4 +1,4 @@
-"""The examples in every tool's --help: that each runs as it stands there, in a folder that holds the files it names.
+"""The examples in every tool's --help: each runs as it stands there, in a folder that holds the files it names.
 Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS); run-truck's example is in run_truck_test.py."""
 
 import os

@@ -19,7 +19,7 @@ def make_anchor(heading):
 
 
 def find_broken_links(root):
-    """Every link to a file or section that there is not, as `file: target`. Links to the web are left out."""
+    """Every link to a missing file or section, as `file: target`. Links to the web are left out."""
     broken = []
     for file in find_files(root):
         if not file.endswith(".md"):

@@ -17,7 +17,7 @@ def parse_markdown(text):
 
 
 def read_part(text, name):
-    """What stands between a name's markers."""
+    """The text between a name's markers."""
     start, end = find_part(text, name)
     return text[start:end]
 

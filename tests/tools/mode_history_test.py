@@ -1,4 +1,4 @@
-"""tools/mode_history.py: who was active, when that changed, and what was left out, of a small run with known
+"""runs/mode_history.py: which modes were active, when that changed, and what was left out, of a small run with known
 answers."""
 
 import unittest

@@ -1,4 +1,4 @@
-"""The truck's report dynamics/models/truck/README.md: its cheap rows are made anew and must be those it shows.
+"""The truck's report dynamics/models/truck/README.md: its cheap rows are made again and must agree with it.
 
 Needs the built programs: SPRUNG_REDUCE and SPRUNG_DYNAMICS.
 """
@@ -234,7 +234,7 @@ class Report(unittest.TestCase):
             elastic, _ = read_numbers(flexible.file, "recovery/chassis/moment")
             places, _ = read_numbers(flexible.file, "recovery/chassis/station")
         np.testing.assert_allclose(stations, places, atol=1e-12)
-        # The bent chassis stands a little otherwise on its springs.
+        # The bent chassis stands slightly differently on its springs.
         np.testing.assert_allclose(moments[0], elastic[0], atol=1e-3 * np.max(np.abs(elastic[0])))
 
     def test_a_rigid_chassis_in_balance_carries_its_overhang(self):

@@ -1,5 +1,5 @@
-"""tools/plot_modes: that modes, curves and shares are in the picture, what modes did over time in that of --over-time,
-and that what holds neither is refused."""
+"""tools/plot_modes: modes, curves and shares are in the picture, the history of modes is in that of --over-time, and
+files without them are refused."""
 
 import re
 import unittest

@@ -1,4 +1,4 @@
-"""tools/plot_response: that what it should draw is in the picture, and that what is not there is refused."""
+"""tools/plot_response: the picture holds what was asked for, and missing outputs are refused."""
 
 import re
 import unittest

@@ -1,4 +1,4 @@
-"""tools/plot_results: that what it should draw is in the picture, and that nothing else is left behind."""
+"""tools/plot_results: the picture holds what was asked for, and no other file is left."""
 
 import os
 import re

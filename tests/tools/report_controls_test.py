@@ -1,5 +1,5 @@
 """Every control of the report's page in headless Chromium: each menu, button, slider and key, and another colour scheme
-while the page is open; what each did, and that nothing was logged as an error. A control without a case here fails the
+while the page is open; the effect of each, and that no error was logged. A control without a case here fails the
 test. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
 import unittest
@@ -20,7 +20,7 @@ class Controls(PageTestCase):
         return set(page.evaluate(f"{ALL_CONTROLS}.map((one) => {NAME})"))
 
     def check_alive(self, page):
-        """That diagrams zoom and time runs, whatever was done before."""
+        """Checks that diagrams zoom and time runs."""
         page.click("[data-zoom=all]")
         page.click("[data-zoom=in]")
         spans = page.evaluate(SPANS)

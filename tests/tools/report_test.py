@@ -1,5 +1,5 @@
-"""tools/report without a browser: what stands on the page against the results, and what is refused. What the page draws
-is looked at in report_page_test.py. One case is of a whole run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
+"""tools/report without a browser: the data of the page against the results, and the errors. report_page_test.py tests
+what the page draws. One case is of a whole run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
 
 import base64
 import json

@@ -1,4 +1,4 @@
-"""files/results_file.py: what it reads, and each of its errors."""
+"""files/results_file.py: the values that it reads, and each of its errors."""
 
 import unittest
 
@@ -167,7 +167,7 @@ class Refusing(ToolTestCase):
 
     def test_displacement_where_no_static_balance_was_sought(self):
         path = self.changed(lambda file: file["model/equilibrium"].attrs.modify("is_static_equilibrium", 0))
-        expected = "no displacement in 'bodies/chassis/position': static balance was not sought"
+        expected = "no displacement in 'bodies/chassis/position': static equilibrium was not sought"
         self.assert_error(path, expected, "bodies/chassis/displacement.y")
 
     def test_a_damaged_dataset(self):

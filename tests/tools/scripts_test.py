@@ -56,7 +56,7 @@ class Scripts(ToolTestCase):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_module_that_is_missing_is_named_with_its_package(self):
-        # Python takes a module of this folder before the system's; that of matplotlib needs another one, as modules do.
+        # A module in this folder comes before the system's one; a stand-in for matplotlib needs a second one.
         (self.folder / "frame.vtk").touch()
         for module, needed, tool, arguments in (
             ("h5py", "h5py", "report_peaks", ("--help",)),

@@ -1,4 +1,4 @@
-"""signals/spectra.py: known signals."""
+"""signals/spectra.py on signals of known spectrum."""
 
 import unittest
 

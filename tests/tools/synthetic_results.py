@@ -57,7 +57,7 @@ def write_results(
 ):
     """A truck whose chassis heaves as scale · HEAVE · sin(CIRCULAR t) about its static height. Returns the path.
 
-    num_modes: of the chassis, 0 = rigid; start_offset: m, how far above balance the whole motion lies;
+    num_modes: of the chassis, 0 = rigid; start_offset: m, offset of the whole motion above equilibrium;
     overrides: what the file says of --set; settings, integrator, adaptivity: of the resolved model, as dicts.
     """
     time = np.linspace(0.0, 1.0, NUM_SAMPLES)

@@ -1,4 +1,4 @@
-"""No include crosses a wall between the rooms, and sprung-dynamics is free of gmsh."""
+"""No include crosses a wall between the rooms, and sprung-dynamics is not linked with gmsh."""
 
 import os
 import unittest

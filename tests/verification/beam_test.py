@@ -91,9 +91,9 @@ class AssembledBeams(VerificationCase):
             self.assertLess(errors[-1], errors[0] / 30.0)
 
     def test_all_modes_wherever_clamped_are_one_beam(self):
-        # With all modes of its mesh the body is the mesh, whatever its modes are of: welded at its end it is a
-        # cantilever, on a slide across its axis guided–free. Eight elements: (βL/8)⁴/720 off the theory, 2e-3 for the
-        # second mode.
+        # With all modes of its mesh the body behaves as the mesh, independent of where it was clamped: fixed at its
+        # end it is a cantilever, on a slide across its axis it is guided–free. Eight elements: (βL/8)⁴/720 off the
+        # theory, 2e-3 for the second mode.
         joint = '[[joints]]\nname = "end"\ntype = "{}"\na = "ground.end"\nb = "beam.left"\n'
         cases = {
             "fixed": (joint.format("fixed"), CLAMPED_FREE, 0),
@@ -158,7 +158,7 @@ class RotatingBeam(VerificationCase):
             self.assert_close(omega[0] / UNIT, expected, relative=1e-3)
 
     def test_many_stiffened_modes_come_to_rest(self):
-        # High modes leave the balance to rounding.
+        # With high modes rounding limits the equilibrium.
         omega, _ = self.modes(
             MODELS / "rotating_beam_run.toml", "--set", "stiffening.beam=true", "--set", "modes.beam=20",
             "--set", f"vehicle.motions.speed.function.polynomial=[0.3, {UNIT * 10.0}]",
@@ -204,7 +204,7 @@ axis = [1.0, 0.0]
 
 
 class Column(VerificationCase):
-    """Buckling under a load at the end: ω² falls to zero at Euler's load, and rises as much under tension."""
+    """Buckling under a load at the end: ω² decreases to zero at Euler's load, and increases as much under tension."""
 
     def omega_squared(self, joints, load):
         (self.folder / "vehicle.toml").write_text(COLUMN.format(joints=joints, load=load), encoding="utf-8")
@@ -241,7 +241,8 @@ class Column(VerificationCase):
 
 class SoftPendulum(VerificationCase):
     def test_falls_as_the_exact_beam_does(self):
-        # Geometrically exact reference with shear deformation and rotary inertia; it takes both, and stiffening.
+        # The reference is geometrically exact, with shear deformation and rotary inertia; the model needs both, and
+        # stiffening.
         results = self.run_to_results(MODELS / "soft_pendulum_run.toml")
         tip = results["points/beam.tip/position"]
         deflection = results["points/beam.tip/deflection"][:, 1]  # from the tangent at the root
@@ -307,7 +308,7 @@ class SpinUp(VerificationCase):
         return np.where(time < 15.0, ramp, 6.0 * time - 45.0)
 
     def vehicle(self):
-        times = np.arange(0.0, 30.0, 0.1)  # on beyond the end of the run: a table stands still at its end
+        times = np.arange(0.0, 30.0, 0.1)  # beyond the end of the run, where a table is constant
         return SPIN_UP.format(table=[[float(t), float(a)] for t, a in zip(times, self.angle(times))])
 
     def test_lags_behind_and_comes_back(self):
@@ -324,7 +325,7 @@ class SpinUp(VerificationCase):
             self.assert_close(across[row], lag, relative=0.01)
             self.assert_close(along[row], shortening, relative=0.02)
         self.assert_close(np.min(across), -0.75052, relative=0.01)
-        # Afterwards it stands out straight but for what little it still swings, one to two hundredths of the lag.
+        # Afterwards it is straight except for a remaining vibration of one to two hundredths of the lag.
         self.assertLess(np.max(np.abs(across[results.time > 16.0])), 0.015)
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
@@ -339,7 +340,7 @@ class SpinUp(VerificationCase):
 
 
 class LoadedBeam(VerificationCase):
-    """A cantilever with a load at its tip, all its modes in."""
+    """A cantilever with a load at its tip and all its modes."""
 
     VEHICLE = """
 name = "loaded"
@@ -360,7 +361,7 @@ force = [0.0, -50.0]
 """
 
     def test_it_rests_and_its_energies_close(self):
-        # Nothing moves: what is left of the energies is rounding, and no reason not to trust the run.
+        # Nothing moves: the changes of the energies are rounding, and the run must not be rejected.
         for method in ("exponential", "adams", "generalized-alpha"):
             run = f'duration = 0.05\n[modes]\nbeam = 8\n[integrator]\nmethod = "{method}"\n'
             results = self.run_text(self.VEHICLE, run)
@@ -369,7 +370,7 @@ force = [0.0, -50.0]
 
 class UntrustedRun(VerificationCase):
     def test_a_run_whose_energies_do_not_close_ends_with_exit_code_1_and_its_results(self):
-        # The pendulum with twenty times too long a step.
+        # The pendulum with a step that is twenty times too long.
         process = subprocess.run(
             [os.environ["SPRUNG_DYNAMICS"], "run", str(EXAMPLES / "pendulum_run.toml"), "--quiet", "-o", "results.h5",
              "--set", 'integrator.method="generalized-alpha"', "--set", "integrator.fixed_step=0.05"],

@@ -59,7 +59,7 @@ class FourBar(VerificationCase):
         unit = span / length[:, None]
         joint = end + along[:, None] * unit + across[:, None] * np.column_stack([-unit[:, 1], unit[:, 0]])
         self.assert_close(results["points/coupler.far/position"], joint, absolute=1e-9)
-        # All freedom is driven: what the motor gives is what the stored energy takes.
+        # All freedoms are driven: the work of the motor is the change of the stored energy.
         power = results["joints/motor/drive"] * 10.0
         self.assert_close(results["joints/motor/rate"], 10.0, relative=1e-12)
         step = results.time[1] - results.time[0]
@@ -100,7 +100,7 @@ class SliderCrank(VerificationCase):
         gas = np.column_stack([results["forces/gas/force_x"], results["forces/gas/force_y"]])
         weight = np.array([0.0, -0.3 * 9.81])
         self.assert_close(0.3 * results["bodies/piston/acceleration"][:, :2], pin + wall + gas + weight, absolute=1e-7)
-        self.assert_close(wall[:, 0], 0.0, absolute=1e-9)  # a slide holds across its axis alone
+        self.assert_close(wall[:, 0], 0.0, absolute=1e-9)  # a slide has a reaction across its axis only
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
@@ -184,7 +184,7 @@ b = "bar.eye"
 """
 
     def test_the_energy_of_what_turns_steadily_closes(self):
-        """No term of the energy changes but by errors, which are small beside the kinetic energy."""
+        """The terms of the energy change only by errors, which are small against the kinetic energy."""
         results = self.run_text(self.VEHICLE, """
 start = "as-given"
 duration = 10.0
@@ -198,8 +198,7 @@ velocity = [0.0, 30.0]
 
 
 class GeneralizedAlpha(VerificationCase):
-    """The second integrator has neither coordinates nor formulas in common with the first, which serves as
-    reference."""
+    """The second integrator shares neither coordinates nor formulas with the first, which is the reference."""
 
     def compare(self, run_file, tolerance, *, position, reaction, arguments=()):
         """Positions of all bodies to `position` [m, rad], reactions to `reaction` of the largest."""

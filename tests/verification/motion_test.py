@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prescribed motion: that it is followed, what it takes, and its place in the energy book."""
+"""Prescribed motion: that it is followed, the force that it needs, and its work in the energy book."""
 
 import os
 import unittest
@@ -99,13 +99,13 @@ class Sled(VerificationCase):
         torque = lever[:, 0] * force[:, 1] - lever[:, 1] * force[:, 0]
         self.assert_close(0.1 * results["bodies/load/acceleration"][:, 2], results["joints/drive/drive"] + torque,
                           absolute=1e-8)
-        # The motor's stator is the world, so momentum along x is kept by nothing else than the rail, which is free.
+        # The motor's stator is fixed to the world, and the rail is free along x, so momentum along x is conserved.
         momentum = 3.0 * results["bodies/sled/velocity"][:, 0] + 2.0 * results["bodies/load/velocity"][:, 0]
         self.assert_close(momentum, momentum[0], absolute=1e-6)
         self.assertLess(results.summary["energy_closure"], 1e-7)
 
     def test_balance_before_the_start_holds_still(self):
-        # At t = 0 the rail moves at 0.3 m/s; the balance is that of rest, and the run begins with the motion.
+        # At t = 0 the rail moves at 0.3 m/s. The equilibrium is that at rest, and the run begins with the motion.
         results = self.run_text(
             SLED.format(f'joint = "rail"\nfunction = {FUNCTIONS["polynomial"][0]}'), "duration = 0.1\n"
         )
@@ -115,7 +115,7 @@ class Sled(VerificationCase):
 
 class Shaft(VerificationCase):
     def test_steady_motion_of_bodies_that_are_carried_round_is_refused(self):
-        # Their places are no coordinates in which a turning shaft stands still.
+        # The load's frame does not move like one rigid body with the rest, so there is no steady motion.
         (self.folder / "vehicle.toml").write_text(
             SLED.format('point = "load.origin"\ncoordinate = "angle"\nfunction = { polynomial = [0.0, 5.0] }'),
             encoding="utf-8")

@@ -134,10 +134,10 @@ spring = { polynomial = [0.0, 1.0e5] }
 
 
 class Limits(ResponseCase):
-    """What a linear response cannot say is said."""
+    """Cases without a valid linear response are reported."""
 
     def test_a_kink_in_the_spring_at_rest_is_named(self):
-        # The suspension stands at 0.14715 m: softer to one side of it than to the other.
+        # The suspension's equilibrium is at 0.14715 m, where the stiffness is smaller on one side.
         text = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
         spring = "spring = { polynomial = [0.0, 2.0e4] }"
         self.assertIn(spring, text)

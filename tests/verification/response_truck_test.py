@@ -86,7 +86,7 @@ class Truck(ResponseCase):
                 self.assertLess(abs(found / expected - 1.0), 0.01, f"{found} {expected}")
 
     def test_run_over_a_low_random_road(self):
-        # Class A at a fiftieth of its height: the springs all but linear.
+        # Class A at a fiftieth of its height, so that the springs are almost linear.
         road = self.make_road("--iso-class", "A", "--length", "450", "--spacing", "0.05", "--ease", "3", "--seed", "2",
                               "--band", "0.055", "3.3")
         s, height = np.loadtxt(road, unpack=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Modes chosen from the forcing: the truck against its full basis, and what the program says of its choice."""
+"""Modes chosen from the forcing: the truck against its full basis, and the report of the choice."""
 
 import json
 import os
@@ -110,7 +110,7 @@ class Truck(VerificationCase):
 
     @staticmethod
     def largest_values(results):
-        """Of all that the choice looks at: size of points' acceleration, reactions and forces."""
+        """Largest values of all watched quantities: points' accelerations, reactions and forces."""
         values = {f"points/{point}": results[f"points/{point}/acceleration"] for point in results.file["points"]}
         for joint in results.file["joints"]:
             values[f"joints/{joint}"] = results[f"joints/{joint}/reaction"][:, :2]
@@ -125,7 +125,7 @@ class Truck(VerificationCase):
         )
         self.assertEqual(self.kept(short), self.kept(long))
         self.assertEqual(short["neglected"], long["neglected"])
-        # Its wheels fly, and that is said.
+        # Its wheels leave the ground, which is reported.
         for report in (short, long):
             self.assertEqual(len(report["remarks"]), 1)
             self.assertRegex(report["remarks"][0], "'front_tyre' by .* times its static force.*leave the ground")
@@ -134,7 +134,7 @@ class Truck(VerificationCase):
 
     def test_without_motion_the_weight_alone_decides(self):
         report = self.select("terrain", *overrides(speed=0))
-        remark = "neither road nor forces in time move the vehicle: modes are judged by what they do under"
+        remark = "neither road nor forces in time move the vehicle: modes are judged by their effect under"
         self.assertEqual(report["remarks"], [f"{remark} the weight alone"])
         self.assertGreater(len(self.kept(report)), 1)
         for mode in report["modes"]:
@@ -178,7 +178,8 @@ class Truck(VerificationCase):
             for name, share in mode["share"].items():
                 self.assert_close(other_mode["share"][name], share, relative=1e-4, absolute=1e-9)
         self.assertGreater(runs[0][0].sum(axis=1).max(), 2)
-        # The same modes are called. When one of them leaves again may hang on rounding, where it comes to a threshold.
+        # The same modes join. The time at which one leaves again may depend on rounding, where its share is at a
+        # threshold.
         np.testing.assert_array_equal(runs[1][0].any(axis=0), runs[0][0].any(axis=0))
         self.assertLess(np.mean(runs[1][0] != runs[0][0]), 0.01)
         self.assert_close(runs[1][1], runs[0][1], absolute=0.01 * np.max(np.abs(runs[0][1])))
@@ -223,7 +224,7 @@ class Truck(VerificationCase):
     def test_refusals(self):
         for arguments, fragment in (
             ((), 'has no body with modes "auto", so there is nothing to choose'),
-            ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: exists and is no file of chosen modes, so it is not overwritten"),
+            ((*AUTO, "-o", "foreign.h5"), "foreign.h5: error: exists and is no file of chosen modes"),
         ):
             (self.folder / "foreign.h5").write_text("mine", encoding="utf-8")
             command = [os.environ["SPRUNG_DYNAMICS"], "select-modes", TRUCK / "bump.toml"]

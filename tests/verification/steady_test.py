@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Modes about steady motion of a whole system: what turns with a shaft, and what is carried along a way."""
+"""Modes about steady motion of a whole system: on a rotating shaft, and on a carriage."""
 
 import math
 import os
@@ -92,7 +92,7 @@ class Steady(VerificationCase):
             self.assert_close(omega, sorted([abs(20.0 - speed), 20.0 + speed]), relative=1e-6)
 
     def test_internal_damping_makes_a_fast_shaft_unstable(self):
-        # Damping that turns with the shaft drives the whirl above its critical speed.
+        # Damping that rotates with the shaft makes the whirl unstable above its critical speed.
         spring = "spring = { polynomial = [0.0, 500.0] }"
         self.assertIn(spring, ROTOR)
         damped = ROTOR.replace(spring, spring + "\ndamper = { coefficient = 3.0 }")
@@ -101,7 +101,7 @@ class Steady(VerificationCase):
         self.assert_fails(3, "unstable")
 
     def test_reports_say_steady_and_a_stretched_bar_is_not_all_deflection(self):
-        # Two bending modes, which a turning bar leaves straight; its stretch, of 0.1 µm, is in modes left out.
+        # Two bending modes, which rotation does not excite; the elongation of 0.1 µm is in modes left out.
         (self.folder / "vehicle.toml").write_text(
             'name = "turning arm"\ngravity = [0.0, 0.0]\n'
             '[bodies.arm]\nsuperelement = "long_arm"\nposition = [0.0, 0.0]\n'

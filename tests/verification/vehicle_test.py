@@ -75,13 +75,13 @@ class Truck(VerificationCase):
         height = np.max(point["points/chassis.origin/position"][:, 1])
         distributed = self.results("--set", "duration=2.0", *DISTRIBUTED)
         self.assert_close(distributed["forces/front_tyre/force"][0], force[0], relative=1e-9)
-        # A wheel of 0.6 m radius does not go to the foot of a bump 0.4 m long: it begins earlier, and softer.
+        # A wheel of 0.6 m radius does not reach the foot of a bump 0.4 m long: it meets it earlier, and more softly.
         self.assertLess(np.max(distributed["forces/front_tyre/force"]), 0.6 * np.max(force))
         self.assertLess(np.max(distributed["points/chassis.origin/position"][:, 1]), height)
         begin = [np.argmax(np.abs(f - f[0]) > 1e-3 * f[0])
                  for f in (distributed["forces/front_tyre/force"], force)]
         self.assertLess(begin[0], begin[1])
-        # The bump holds the truck back: an edge has a face. The road puts nothing in, as it stands still.
+        # The bump slows the truck down by the force on its edge. The road does no work, because it is at rest.
         self.assertLess(abs(distributed["bodies/chassis/velocity"][-1, 0]), 2.9)
         self.assert_close(distributed["energy/input"], 0.0, absolute=1e-9)
         self.assertLess(distributed.summary["energy_closure"], 1e-5)

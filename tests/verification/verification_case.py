@@ -1,4 +1,4 @@
-"""What the verification tests share: running the programs as a user does, and reading what they leave."""
+"""What the verification tests share: running the programs as a user does, and reading their files."""
 
 import json
 import math
@@ -46,7 +46,7 @@ class VerificationCase(ProgramTestCase):
         return self.run_to_results(self.folder / "run.toml", *arguments)
 
     def modes(self, run_file, *arguments, **options):
-        """Undamped angular frequencies [rad/s] of what is no rigid-body mode, and the number of rigid-body modes."""
+        """Undamped angular frequencies [rad/s] without rigid-body modes, and the number of rigid-body modes."""
         modes = self.program("modes", run_file, *arguments, **options)["modes"]
         elastic = [2.0 * math.pi * mode["undamped_frequency"] for mode in modes if not mode["rigid_body"]]
         return np.array(elastic), sum(mode["rigid_body"] for mode in modes)

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// What a point that moves along x with the first coordinate is left with after a release over T: the largest
-// acceleration in ten of its slowest periods, by small steps from rest under the force.
+// Acceleration of a point that moves along x with the first coordinate, after a force has faded out over T:
+// the largest value in ten of the slowest periods, by small time steps from rest under the force.
 double release(const dynamics::SmallMotion& motion, const VectorXd& force, double time, double slowest_hz) {
   const Eigen::LLT<MatrixXd> mass(motion.mass), stiffness(motion.stiffness);
   VectorXd q = stiffness.solve(force), v = VectorXd::Zero(force.size());
@@ -35,8 +35,8 @@ double release(const dynamics::SmallMotion& motion, const VectorXd& force, doubl
   return largest;
 }
 
-// Two springs in a row, the second far stiffer: seen from the light mass between them everything is fast, and
-// yet what is slow has a part of it.
+// Two springs in series, the second far stiffer. The light mass between them moves mostly with the fast mode,
+// but also with the slow one.
 dynamics::SmallMotion make_chain() {
   MatrixXd M(2, 2), K(2, 2);
   M << 1.0, 0.9, 0.9, 1.0;
@@ -46,7 +46,7 @@ dynamics::SmallMotion make_chain() {
 
 }  // namespace
 
-TEST_CASE("An oscillator is let go over the time that its closed form asks for", "[adaptivity]") {
+TEST_CASE("An oscillator is released over the time that its closed form requires", "[adaptivity]") {
   const double m = 2.0, k = 800.0, F = 3.0, reference = 5.0;  // ω = 20 rad/s; at once: 0.3 of the reference
   const dynamics::Ringing ringing(
       {MatrixXd::Constant(1, 1, m), MatrixXd::Zero(1, 1), MatrixXd::Constant(1, 1, k)},
@@ -61,12 +61,12 @@ TEST_CASE("An oscillator is let go over the time that its closed form asks for",
   CHECK(ringing.calc_release_time(force, 0.01, 0.5) == 0.5);
 }
 
-TEST_CASE("What no point shows is let go as slowly as may be", "[adaptivity]") {
+TEST_CASE("A mode that moves no point is released over the longest time allowed", "[adaptivity]") {
   const dynamics::Ringing ringing(make_chain(), {});
   CHECK(ringing.calc_release_time(Eigen::Vector2d(1.0, 0.0), 0.01, 0.05) == 0.05);
 }
 
-TEST_CASE("Nothing rings by more than it was to after a release, also where vibrations are far apart",
+TEST_CASE("After a release no point rings by more than was allowed, also for frequencies that are far apart",
           "[adaptivity]") {
   const dynamics::SmallMotion chain = make_chain();
   const double slowest = 31.2;  // Hz; the other one is at 374 Hz
@@ -77,7 +77,7 @@ TEST_CASE("Nothing rings by more than it was to after a release, also where vibr
     const double time = ringing.calc_release_time(force, share, 10.0);
     INFO("force " << force.transpose() << ", released over " << time << " s");
     CHECK(release(chain, force, time, slowest) < 1.42 * share);  // both vibrations at their largest at once
-    // Where nothing rings it could be as short as that: cos(ωT/2) may be anything.
+    // Without ringing the time could be as short as that: cos(ωT/2) may have any value.
     double worst = 0.0;
     for (const double less : {0.3, 0.35, 0.4, 0.45, 0.5}) {
       worst = std::max(worst, release(chain, force, less * time, slowest));

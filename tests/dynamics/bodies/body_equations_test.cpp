@@ -1,5 +1,5 @@
 // Mass matrix, quadratic velocity forces, weight and momentum of a flexible body against sums over the points
-// of its mass, which know nothing of invariants; the body is a crooked frame, so that none of them vanishes.
+// of its mass, which do not use the invariants. The body is a crooked frame, so that no invariant vanishes.
 #include "dynamics/bodies/body_equations.h"
 
 #include <Eigen/Core>
@@ -176,7 +176,7 @@ TEST_CASE("Rotary inertia of a point turns with frame and mode and gives no cent
   CHECK(with_disc.quadratic_velocity_forces() == plain.quadratic_velocity_forces());
 }
 
-TEST_CASE("Turning by a quarter and back", "[bodies]") {
+TEST_CASE("A quarter turn and back", "[bodies]") {
   const FrameRotation rotation = FrameRotation::from_angle(0.7);
   const Vector2d p(1.3, -0.4);
   CHECK((rotation * p -

@@ -106,7 +106,7 @@ TEST_CASE("Gradients of a marker's position and angle by angle and modes", "[bod
   }
 }
 
-TEST_CASE("The deflection of a marker is where it is in its body, less where it was", "[bodies]") {
+TEST_CASE("The deflection of a marker is its position in the body less the undeformed one", "[bodies]") {
   for (const bool second_order : {false, true}) {
     const Case general(second_order);
     const MarkerState now = general.state_at(0.0);

@@ -1,4 +1,4 @@
-// What axial forces do to bending, against d'Alembert's loads of the body as it moves and against
+// The effect of axial forces on bending, against d'Alembert's loads of the moving body and against
 // differences.
 #include "dynamics/bodies/stiffening.h"
 
@@ -24,7 +24,7 @@ namespace {
 constexpr int kNumModes = 4;
 constexpr double kRounding = 1e-12;  // relative, of sums of a few dozen terms
 
-// A crooked frame with any geometric stiffness at all: what is tested must not depend on where it comes from.
+// A crooked frame with arbitrary geometric stiffness: the tested relations hold for any.
 struct Case {
   test::RandomNumbers random{21};
   reduce::Superelement superelement =
@@ -84,7 +84,8 @@ TEST_CASE("In quasi-static motion a body stiffens as under its loads and d'Alemb
   CHECK((found - expected).norm() < kRounding * expected.norm());
 }
 
-TEST_CASE("A point beside a node goes round it: second order of the offset by finite rotation", "[bodies]") {
+TEST_CASE("An offset point moves on a circle about its node: second order of the offset by finite rotation",
+          "[bodies]") {
   Case general;
   const Vector2d offset(0.3, -0.2);
   const dynamics::SecondOrder node = dynamics::calc_second_order(general.superelement, general.columns,
@@ -123,7 +124,7 @@ TEST_CASE("The mean rotation is that of the angular momentum about the centre of
         Approx(about_center / central).epsilon(kRounding));
 }
 
-TEST_CASE("Stiffening by turning does no work, and at steady rotation is −ω² K_ω η", "[bodies]") {
+TEST_CASE("Centrifugal stiffening does no work, and at steady rotation is −ω² K_ω η", "[bodies]") {
   Case general;
   const VectorXd eta = general.random.vector(3, 1.0), eta_dot = general.random.vector(3, 4.0);
   VectorXd Q = VectorXd::Zero(6), v = VectorXd::Zero(6);

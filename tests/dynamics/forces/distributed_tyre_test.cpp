@@ -56,7 +56,7 @@ Acting act(const dynamics::ForceElement& tyre, const Wheel& wheel) {
 
 }  // namespace
 
-TEST_CASE("On level ground distributed and point contact are one tyre", "[forces]") {
+TEST_CASE("On level ground distributed and point contact give the same forces", "[forces]") {
   const dynamics::FlatRoad road;
   const DistributedTyre distributed = make_tyre(road);
   const dynamics::PointContactTyre point(
@@ -75,7 +75,7 @@ TEST_CASE("On level ground distributed and point contact are one tyre", "[forces
   }
 }
 
-TEST_CASE("Over an obstacle the tyre's energy is kept but for what its damper takes", "[forces]") {
+TEST_CASE("Over an obstacle the tyre loses energy only by its damper", "[forces]") {
   const dynamics::BumpRoad road(
       {.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
   constexpr double h = 1e-6;  // s
@@ -97,7 +97,7 @@ TEST_CASE("Over an obstacle the tyre's energy is kept but for what its damper ta
   }
 }
 
-TEST_CASE("An edge ahead holds the wheel back and lifts it less than it would a point", "[forces]") {
+TEST_CASE("An edge ahead pushes the wheel back, and lifts it less than with point contact", "[forces]") {
   const dynamics::BumpRoad road(
       {.shape = dynamics::BumpShape::kRamp, .start = 5.2, .length = 1e-6, .height = 0.05});
   const DistributedTyre tyre = make_tyre(road);
@@ -115,7 +115,7 @@ TEST_CASE("An edge ahead holds the wheel back and lifts it less than it would a 
   CHECK(acting.force.x() == Approx(-2.0 * pressure * (0.05 - bottom)).epsilon(1e-6));
 }
 
-TEST_CASE("The integrator is stopped where the wheel's front reaches what comes", "[forces]") {
+TEST_CASE("The integrator stops where the wheel's front edge reaches the next segment", "[forces]") {
   const dynamics::BumpRoad road(
       {.shape = dynamics::BumpShape::kHalfSine, .start = 5.0, .length = 0.4, .height = 0.1});
   const DistributedTyre tyre = make_tyre(road);

@@ -31,7 +31,7 @@ inline double calc_power(const MarkerPair& pair, const std::vector<dynamics::Wre
   return power;
 }
 
-/// What the energy book of a force element leaves open, as a share of what passes through it: d stored/dt +
+/// The imbalance of a force element's energy, relative to the power that passes through it: d stored/dt +
 /// dissipated − input + power on its markers, with d/dt of the stored energy by differences of fourth order.
 inline double calc_energy_leak(const dynamics::ForceElement& element, const MarkerPair& pair,
                                const std::vector<int>& branches) {

@@ -190,7 +190,7 @@ TEST_CASE("Where penetration is zero, the tyre takes the contact it moves into",
   CHECK(choose(tyre, place(0.0, 0.6, 3.0, 1.0), kPressed)[0] == kInAir);
 }
 
-TEST_CASE("The tyre tells when it leaves and touches the ground, and only then", "[forces]") {
+TEST_CASE("The tyre reports an event when it leaves or touches the ground, and only then", "[forces]") {
   const PointContactTyre tyre = make_tyre({&bump, 1.0, 0.0});
   const auto change = [&](std::array<int, 2> before, std::array<int, 2> after) {
     return tyre.describe_change(before, after);

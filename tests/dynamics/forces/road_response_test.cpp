@@ -1,4 +1,4 @@
-// What tyres say of low waves of the road, against differences of their full laws on such roads.
+// The response of tyres to low waves of the road, against differences of their full laws on such roads.
 #include "dynamics/forces/road_response.h"
 
 #include <array>
@@ -139,7 +139,7 @@ TEST_CASE("Tyres' response to low waves of the road is the slope of their laws",
   }
 }
 
-TEST_CASE("Long waves act alike on both kinds of contact", "[forces]") {
+TEST_CASE("Long waves have the same effect with both kinds of contact", "[forces]") {
   const double wavenumber = 2.0 * pi / 2000.0;
   const Eigen::VectorXcd point = calc_gain(&make_point_contact, wavenumber, 1.0);
   const Eigen::VectorXcd distributed = calc_gain(&make_distributed, wavenumber, 1.0);
@@ -149,7 +149,7 @@ TEST_CASE("Long waves act alike on both kinds of contact", "[forces]") {
   CHECK(std::abs(distributed[0] / std::complex<double>(0.0, -standing * wavenumber) - 1.0) < 1e-6);
 }
 
-TEST_CASE("A wheel in the air is not pressed to the road, and a spring has no place on it", "[forces]") {
+TEST_CASE("A wheel in the air is not on the road, and a spring has no position on it", "[forces]") {
   const dynamics::FlatRoad road;
   std::vector<MarkerState> markers(2);
   markers[0].r = {2.0, kRadius + 0.01};

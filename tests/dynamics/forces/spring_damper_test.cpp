@@ -129,7 +129,7 @@ TEST_CASE("A spring-damper's switches are where its pieces end", "[forces]") {
   CHECK(switches(place(0.4, 0.5, 1.0), {0, 1})[2] < 0.0);
 }
 
-TEST_CASE("What has no ends has no switches", "[forces]") {
+TEST_CASE("A law of one piece has no switches", "[forces]") {
   // A damper with a kink beside a spring of one piece: the kink's switches are the first, and alone.
   const auto make = [](PiecewisePolynomial damper) {
     return SpringDamper("linear", {.marker_a = 0,
@@ -147,7 +147,7 @@ TEST_CASE("What has no ends has no switches", "[forces]") {
   CHECK(values[1] < 0.0);
 }
 
-TEST_CASE("Two points in one place get no force and no NaN", "[forces]") {
+TEST_CASE("Two coinciding points get no force and no NaN", "[forces]") {
   const SpringDamper suspension = make_suspension();
   const test::MarkerPair pair = place(0.0, 0.0, 1.0);
   std::vector<Wrench> wrenches(2);

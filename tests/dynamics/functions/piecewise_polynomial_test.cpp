@@ -87,7 +87,7 @@ TEST_CASE("Value, slope and integral of many pieces fit together", "[forces]") {
   CHECK(law.integral(0.0) == Approx(0.0).margin(1e-16));
 }
 
-TEST_CASE("Straight lines through points go on beyond the ends", "[forces]") {
+TEST_CASE("Straight lines through points continue beyond the ends", "[forces]") {
   // The truck's damper: 17575 N·s/m in rebound, 5480 N·s/m in compression
   const PiecewisePolynomial damper =
       PiecewisePolynomial::through_points(std::array{-1.0, 0.0, 1.0}, std::array{-17575.0, 0.0, 5480.0});
@@ -98,7 +98,7 @@ TEST_CASE("Straight lines through points go on beyond the ends", "[forces]") {
   CHECK(damper.integral(-2.0) == Approx(0.5 * 17575.0 * 4.0).epsilon(1e-14));
 }
 
-TEST_CASE("A law is cut off where it is zero, and nowhere else", "[forces]") {
+TEST_CASE("A law is clipped where it is zero, and nowhere else", "[forces]") {
   PiecewisePolynomial f(std::vector<double>{0.0, 2.0, 1.0});
   CHECK_THROWS_WITH(f.cut_off_below(0.5), Contains("must be 0 at 0.5, got 1.25"));
   f.cut_off_below(0.0);
@@ -189,7 +189,7 @@ TEST_CASE("Points must be at least two and ascend", "[forces]") {
   }
 }
 
-TEST_CASE("A piece stays in use a little beyond its ends", "[forces]") {
+TEST_CASE("A piece is used slightly beyond its ends", "[forces]") {
   const PiecewisePolynomial spring = suspension();
   constexpr double kBand = 1e-3;
   // Its own formula beyond the break
@@ -199,7 +199,7 @@ TEST_CASE("A piece stays in use a little beyond its ends", "[forces]") {
   CHECK(spring.choose_piece(0, 0.1506, kBand) == 1);
   CHECK(spring.choose_piece(1, 0.1496, kBand) == 1);
   CHECK(spring.choose_piece(1, 0.1494, kBand) == 0);
-  // A switch passes zero a whole band beyond: where the new piece is chosen without doubt
+  // A switch function is zero a whole band beyond the break, where the new piece is certainly chosen
   std::array<double, 2> values{};
   spring.calc_piece_switches(0, 0.1509, kBand, values);
   CHECK(values[0] > 0.0);

@@ -54,7 +54,7 @@ TEST_CASE("Functions of time have the values they are given", "[forces]") {
   CHECK(step.value(0.9) == Approx(0.5).epsilon(1e-14));  // half way, by symmetry
 }
 
-TEST_CASE("Tables and steps are level outside; splines and steps set out and arrive with no velocity",
+TEST_CASE("Tables and steps are constant outside; splines and steps start and end with zero velocity",
           "[forces]") {
   const TimeFunction lines = TimeFunction::lines(kTimes, kValues),
                      spline = TimeFunction::spline(kTimes, kValues);
@@ -77,7 +77,8 @@ TEST_CASE("Tables and steps are level outside; splines and steps set out and arr
   CHECK(step.value(4.0) == 2.0);
 }
 
-TEST_CASE("Breaks are where derivatives jump; at a break holds what follows", "[forces]") {
+TEST_CASE("Derivatives jump at breaks; at a break the function has the derivatives of the following piece",
+          "[forces]") {
   const TimeFunction lines = TimeFunction::lines(kTimes, kValues);
   CHECK(std::vector<double>(lines.breaks().begin(), lines.breaks().end()) ==
         std::vector<double>(kTimes.begin(), kTimes.end()));
@@ -90,7 +91,7 @@ TEST_CASE("Breaks are where derivatives jump; at a break holds what follows", "[
   CHECK(TimeFunction::harmonic({.amplitude = 1.0, .frequency_hz = 4.0}).resolution() == 0.125 / 4.0);
 }
 
-TEST_CASE("Functions of time that cannot be are refused", "[forces]") {
+TEST_CASE("Impossible functions of time are refused", "[forces]") {
   CHECK_THROWS_WITH(TimeFunction::smooth_step({.before = 0.0, .after = 1.0, .start = 2.0, .end = 2.0}),
                     "TimeFunction::smooth_step: end must come after start, got 2 s and 2 s");
   CHECK_THROWS_WITH(TimeFunction::harmonic({.amplitude = 1.0}),

@@ -78,7 +78,7 @@ TEST_CASE("A spring's law is a polynomial or a table, times its multiplicity") {
   CHECK(force_of(table, -0.2, 0.0) == Approx(-40.0).epsilon(kRounding));
 }
 
-TEST_CASE("Stops go on straight from the spring's force where they begin") {
+TEST_CASE("Stops continue linearly from the spring's force where they begin") {
   const std::string laws =
       "spring = { polynomial = [0.0, 100.0, 50.0] }\n"
       "compression_stop = { deflection = 0.4, rate = 5000.0 }\nrebound_stop = { deflection = -0.2, rate = "
@@ -126,7 +126,7 @@ TEST_CASE("A spring of negative stiffness is refused") {
         "coefficient 2 is -56490000, must be ≥ 0");
 }
 
-TEST_CASE("A damper that puts energy in is refused") {
+TEST_CASE("A damper that generates energy is refused") {
   CHECK(error_of(spring_damper("damper = { coefficient = -1.0 }")) ==
         "f.toml:7:26: error: 'forces.0.damper.coefficient' must be ≥ 0 N·s/m, got -1");
   CHECK(error_of(spring_damper("damper = { compression = 1.0, rebound = -1.0 }")) ==
@@ -187,7 +187,7 @@ TEST_CASE("A rebound stop lies below the compression stop") {
         "got 0.1 m");
 }
 
-TEST_CASE("A tyre begins to push where it touches") {
+TEST_CASE("A tyre has no force at penetration 0, and pushes at a penetration of its radius") {
   CHECK(error_of(tyre("spring = { polynomial = [3.0, 5.0] }")) ==
         "f.toml:6:10: error: 'forces.0.spring' of a tyre must give no force at penetration 0, got 3 N");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0] }")) ==

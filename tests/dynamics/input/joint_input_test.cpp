@@ -53,14 +53,14 @@ TEST_CASE("An axis may be of any length") {
   }
 }
 
-TEST_CASE("A driven length moves, or stands still for a balance") {
+TEST_CASE("A driven length varies, or keeps its initial value for an equilibrium") {
   const std::string actuator = "type = \"distance\"\nlength = { polynomial = [4.0, 0.5] }";
   CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {}, 2.0)[0] == Approx(0.0).margin(1e-15));
   CHECK(residual_of(actuator, marker(3.0, 4.0, 0.0), {.motions = dynamics::MotionUse::kHeld}, 2.0)[0] ==
         Approx(1.0));
 }
 
-TEST_CASE("Joints that cannot be are refused at their place") {
+TEST_CASE("Impossible joints are refused at their location") {
   CHECK(error_of("type = \"revolut\"") ==
         "j.toml:5:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
         "\"distance\", "

@@ -9,8 +9,7 @@
 
 namespace sprung::test {
 
-/// A body of point masses, for which every integral of a superelement is a sum that can be written down at
-/// once.
+/// A body of point masses, for which every integral of a superelement is a simple sum.
 struct LumpedBody {
   struct Node {
     std::string name;  ///< empty: not named

@@ -132,7 +132,7 @@ TEST_CASE("The leading position is the foremost wheel's along the heading, or th
   CHECK(leading() == 3.5);
 }
 
-TEST_CASE("A model is refused for modes, damping or a road that the caller should have known better") {
+TEST_CASE("A model is refused for wrong modes, damping or road, as the caller's mistake") {
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   CHECK_THROWS_WITH(dynamics::make_model(cart, {{"frome", {1}}}, kRoad),
                     "make_model: modes selected of 'frome', which is no body");

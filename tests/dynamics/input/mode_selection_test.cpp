@@ -35,13 +35,14 @@ TEST_CASE("Modes are selected by a count, by numbers or all of them") {
   CHECK(select("frame = 3").at("frame") == Numbers{1, 2, 3});
   CHECK(select("frame = [2, 4]").at("frame") == Numbers{2, 4});
   CHECK(select("frame = \"all\"").at("frame") == Numbers{1, 2, 3, 4});
-  CHECK(select("frame = \"auto\"").at("frame") == Numbers{1, 2, 3, 4});  // what there is to choose from
+  CHECK(select("frame = \"auto\"").at("frame") ==
+        Numbers{1, 2, 3, 4});  // all modes, as candidates for the choice
   CHECK(select("frame = 0").empty());
   CHECK(select("frame = []").empty());
   CHECK(select("").empty());
 }
 
-TEST_CASE("A count does not part modes of equal frequency, numbers may") {
+TEST_CASE("A count does not separate modes of equal frequency, numbers may") {
   CHECK(error_of("frame = 1") ==
         "run.toml:2:9: error: 'modes.frame' is 1, which separates modes 1 to 2 of one frequency, 5 Hz; take "
         "0 or "
@@ -49,7 +50,7 @@ TEST_CASE("A count does not part modes of equal frequency, numbers may") {
   CHECK(select("frame = [1]").at("frame") == std::vector<int>{1});
 }
 
-TEST_CASE("Modes that are not there are refused") {
+TEST_CASE("Modes that the superelement lacks are refused") {
   CHECK(error_of("frame = 5") ==
         "run.toml:2:9: error: 'modes.frame' asks for 5 modes, but superelement 'frame' has 4 modes");
   CHECK(error_of("frame = [1, 9]") ==
@@ -64,7 +65,7 @@ TEST_CASE("Modes that are not there are refused") {
         "run.toml:2:9: error: 'modes.frame' must be an integer from 0 to 2147483647, got 5000000000");
 }
 
-TEST_CASE("Selections that mean nothing are refused") {
+TEST_CASE("Selections of wrong type, or of unknown or rigid bodies, are refused") {
   CHECK(error_of("frame = \"some\"") ==
         "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\" or "
         "\"auto\", got \"some\"");

@@ -46,7 +46,7 @@ TEST_CASE("A table of a motion is smooth") {
   CHECK(cart.motions[0].value.rate(0.0) == Approx(0.0).margin(1e-14));
 }
 
-TEST_CASE("Motions that cannot be are refused") {
+TEST_CASE("Impossible motions are refused") {
   CHECK(error_of("name = \"m\"\njoint = \"hing\"\nfunction = 0.0") ==
         "error: 'motions.0.joint' names no joint of the vehicle, 'hing' (did you mean 'hinge'?)");
   CHECK(error_of("name = \"m\"\njoint = \"weld\"\nfunction = 0.0") ==
@@ -67,7 +67,7 @@ TEST_CASE("Motions that cannot be are refused") {
         "error: 'motions.0.function' must be a number [rad] or a function of time");
 }
 
-TEST_CASE("Functions of time that cannot be are refused") {
+TEST_CASE("Impossible functions of time are refused") {
   const auto error = [](const std::string& function) {
     return error_of("name = \"m\"\njoint = \"hinge\"\nfunction = " + function);
   };

@@ -48,7 +48,7 @@ TEST_CASE("Roads by class, by density, by points, cut to a band", "[input]") {
   CHECK(request.road->density(0.4) == 0.0);
 }
 
-TEST_CASE("What does not fit in a response table is refused at its place", "[input]") {
+TEST_CASE("Wrong keys and values of a response table are refused at their location", "[input]") {
   CHECK_THAT(error_of("[response]\nfrom = 0\n"), Contains("run.toml:2:8: error: ") && Contains("Hz"));
   CHECK_THAT(error_of("[response]\nfrom = 60.0\n"), Contains("got from 60 Hz to 50 Hz"));
   CHECK_THAT(error_of("[response]\nnumber = 1\n"), Contains("run.toml:2:10: error: 'response.number'"));

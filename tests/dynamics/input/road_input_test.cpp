@@ -63,7 +63,7 @@ TEST_CASE("A road table is read with comments, blanks and commas, and begins at 
   CHECK(road->height(9.0) == Approx(0.01).epsilon(1e-12));
 }
 
-TEST_CASE("Keys of a road that are missing, unknown or unfit are refused") {
+TEST_CASE("Keys of a road that are missing, unknown or have a bad value are refused") {
   CHECK(error_of("start = 1.0") == "run.toml:1:1: error: missing key 'shape' in 'road'");
   CHECK(error_of("shape = \"half-sin\"") ==
         "run.toml:2:9: error: 'road.shape' must be one of \"flat\", \"half-sine\", \"haversine\", "
@@ -102,7 +102,7 @@ TEST_CASE("A fault in a road table is found at its line and column") {
   CHECK(error_of_table("0 0\n") == "roads/field.txt: error: a road needs at least 2 points, got 1");
 }
 
-TEST_CASE("A road table that is not there is named") {
+TEST_CASE("A missing road table is named") {
   const dynamics::RoadDescription road = read("shape = \"table\"\nstart = 2.0\nfile = \"nowhere.txt\"");
   CHECK(input_error_of([&] { dynamics::make_road(road); }) ==
         "run.toml:4:8: error: there is no road file roads/nowhere.txt");

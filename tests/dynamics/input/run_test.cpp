@@ -114,7 +114,7 @@ TEST_CASE("The start of a run is the speed along the heading and what is given f
   }
 }
 
-TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
+TEST_CASE("Initial motion of missing bodies or modes is refused") {
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   const dynamics::FlatRoad flat;
   const dynamics::Model rigid = dynamics::make_model(cart, {}, {.road = &flat});
@@ -132,7 +132,7 @@ TEST_CASE("Initial motion of bodies or modes that are not there is refused") {
       "runs/first.toml:31:1: error: 'initial.frome' is about no body of the vehicle (did you mean 'frame'?)");
 }
 
-TEST_CASE("Modes to join of a body that is not there are refused, also where none may join") {
+TEST_CASE("Available modes of a missing body are refused, also without adaptivity") {
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   const std::string text = test::with_change(kText, "[modes]", "[adaptivity.available]\nframo = 1\n[modes]");
   for (const char* enabled : {"", "[adaptivity]\nenabled = true\n"}) {
@@ -176,7 +176,7 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
         "runs/first.toml:29:1: error: unknown key 'point' in 'output' (did you mean 'points'?)");
 }
 
-TEST_CASE("Times that do not fit together are refused") {
+TEST_CASE("Inconsistent times are refused") {
   CHECK(error_of("duration = 5.0", "duration = -5.0") ==
         "runs/first.toml:3:12: error: 'duration' must be > 0 s, got -5");
   CHECK(error_of("duration = 5.0", "duration = inf") ==

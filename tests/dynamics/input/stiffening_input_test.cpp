@@ -43,7 +43,7 @@ TEST_CASE("Bodies with active modes stiffen where the run file says so") {
   CHECK(resolve("", selection, cart).empty());
 }
 
-TEST_CASE("Stiffening that cannot be is refused") {
+TEST_CASE("Impossible stiffening is refused") {
   const dynamics::ModeSelection selection{{"frame", {1, 2, 4}}};
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_cart()); }) ==
         "run.toml:2:9: error: 'stiffening.frame' needs the geometric stiffness of superelement 'frame', "
@@ -57,11 +57,11 @@ TEST_CASE("Stiffening that cannot be is refused") {
         "run.toml:2:7: error: 'stiffening.arm' is about the modes of body 'arm', which has no superelement");
   CHECK(input_error_of([&] { resolve("frame = 1", selection, read_cart()); }).find("run.toml:2:9: error:") ==
         0);
-  // Off, an old file serves as ever.
+  // With stiffening off, an old file can be used.
   CHECK(resolve("frame = false", selection, read_cart()).empty());
 }
 
-TEST_CASE("Every point of a stiffening body moves by second order, its centre of mass excepted") {
+TEST_CASE("Every point of a stiffened body has a second-order displacement, except its centre of mass") {
   const dynamics::Vehicle cart = read_stiffening_cart(4);
   const dynamics::FlatRoad flat;
   const auto make = [&](const dynamics::StiffenedBodies& stiffened) {

@@ -47,7 +47,7 @@ TEST_CASE("A vehicle file is read as it is written") {
   CHECK(cart.monitor[1].name == "arm.tip");
 }
 
-TEST_CASE("Left out, gravity is the standard one and every body's origin is monitored") {
+TEST_CASE("By default gravity is the standard one, and every body's origin is monitored") {
   std::string text = with_change(cart_text(), "gravity = [0.5, -9.0]\n", "");
   text = with_change(text, "monitor = [\"frame.seat\", \"arm.tip\"]\n", "");
   const dynamics::Vehicle cart = read_cart(text);
@@ -101,7 +101,7 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
         "cart.toml:14:8: error: 'bodies.arm.mass' must be a finite number [kg], got nan");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 0.0") ==
         "cart.toml:15:11: error: 'bodies.arm.inertia' must be > 0 kg·m², got 0");
-  // Beyond all arithmetic, alone or beside the other body's 5 kg.
+  // Outside of the allowed range, or too far from the other body's 5 kg.
   CHECK(error_of_cart("mass = 4.0", "mass = 1e308") ==
         "cart.toml:14:8: error: 'bodies.arm.mass' must be ≥ 1e-30 and ≤ 1e+30 kg, got 1e+308");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 1e-320") ==
@@ -162,7 +162,7 @@ TEST_CASE("Names are bare words, unique, and not those that exist already") {
         "cart.toml:31:8: error: there is a joint 'hinge' already, in line 25");
 }
 
-TEST_CASE("References to points that are not there name the nearest one") {
+TEST_CASE("A reference to a missing point gets the nearest name") {
   CHECK(error_of_cart("a = \"frame.right\"", "a = \"frane.right\"") ==
         "cart.toml:27:5: error: 'frane.right' names no body of the vehicle: there is no 'frane' (did you "
         "mean 'frame'?)");
@@ -213,7 +213,7 @@ TEST_CASE("A force along a line of no length is refused") {
         "are at one place (4.1 m, 0.8 m)");
 }
 
-TEST_CASE("A superelement that is not there is missed where the vehicle file names it") {
+TEST_CASE("A missing superelement is reported where the vehicle file names it") {
   CHECK(error_of_cart("superelement = \"frame\"", "superelement = \"frome\"") ==
         "cart.toml:7:16: error: body 'frame' names superelement 'frome', but there is no file "
         "superelements/frome.h5 (did you mean 'frame'?); build it with `sprung-reduce build` or give its "

@@ -1,4 +1,4 @@
-// Switch functions that become negative and positive again within a step, unseen at its points.
+// Switch functions that become negative and positive again within a step, between its points.
 #include "dynamics/integration/hidden_switches.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class StoppedSwing {
 
 }  // namespace
 
-TEST_CASE("A dip between the points of a step is seen, and nothing else taken for one", "[analysis]") {
+TEST_CASE("A dip between the points of a step is found, without false alarms", "[analysis]") {
   const auto dip_of = [](const std::function<double(double)>& function) {
     return make_course(function).dip();
   };
@@ -70,7 +70,7 @@ TEST_CASE("A dip between the points of a step is seen, and nothing else taken fo
   CHECK(dip_of([](double x) { return (x - 0.85) * (x - 0.9) * (x + 1.0); }) == Approx(0.8753).epsilon(1e-3));
 }
 
-TEST_CASE("What swings faster than the points show may hide a switch", "[analysis]") {
+TEST_CASE("An oscillation that the points do not resolve may hide a switch", "[analysis]") {
   const auto may_hide = [](double omega, double level) {
     const auto swing = [=](double x) { return level - std::cos(omega * x + 1.0); };
     const SwitchCourse course = make_course(swing);
@@ -83,7 +83,7 @@ TEST_CASE("What swings faster than the points show may hide a switch", "[analysi
   CHECK_FALSE(may_hide(2.0, 1.2));
 }
 
-TEST_CASE("A stop that is just touched by a free swing is not stepped over", "[analysis]") {
+TEST_CASE("A stop that is just touched by a free oscillation is not stepped over", "[analysis]") {
   // A body of 1 kg on a spring of 1 N/m: without the stop one step of the exponential method could be any
   // length.
   using dynamics::PiecewisePolynomial;

@@ -1,5 +1,5 @@
-// What every integrator has to do: on ẍ = −x + ε x³, whose linear part alone the exponential one knows
-// beforehand.
+// Requirements on every integrator, on ẍ = −x + ε x³, of which the exponential one is given the linear part
+// alone.
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -95,7 +95,7 @@ TEST_CASE("The methods agree on an oscillator that is not linear", "[analysis]")
   }
 }
 
-TEST_CASE("Steps keep to the longest that is allowed, and the solution is known within them", "[analysis]") {
+TEST_CASE("Steps are at most the longest allowed, and the solution is available within them", "[analysis]") {
   for (const Method method : {Method::kAdams, Method::kExponential}) {
     Oscillator oscillator;
     oscillator.known_stiffness = 0.8;
@@ -166,7 +166,7 @@ TEST_CASE("Where the equations cannot be evaluated the run stops with the time a
   }
 }
 
-TEST_CASE("A tolerance beyond rounding is told as such", "[analysis]") {
+TEST_CASE("A tolerance below rounding is reported as such", "[analysis]") {
   Oscillator oscillator;
   const auto integrator =
       make_integrator(oscillator, {.method = Method::kAdams, .relative_tolerance = 1e-18});
@@ -179,8 +179,8 @@ TEST_CASE("A tolerance beyond rounding is told as such", "[analysis]") {
 }
 
 TEST_CASE("Vibration costs the exponential method as much far from the origin as at it", "[analysis]") {
-  // A body that moves freely along x carries two oscillators whose masses it feels. What is known beforehand
-  // is not exact, as the stiffness is that weight gives to an angle.
+  // A body that moves freely along x carries two oscillators that are coupled to it by inertia. The linear
+  // part that is given is not exact, because the stiffness is that of a pendulum under its weight.
   class Carrier final : public dynamics::OdeSystem {
    public:
     const Eigen::Matrix3d mass{{1.0, 0.3, 0.27}, {0.3, 1.0, 0.13}, {0.27, 0.13, 1.0}};
@@ -229,7 +229,7 @@ TEST_CASE("Vibration costs the exponential method as much far from the origin as
   CHECK(5 * far < 6 * at_origin);
 }
 
-TEST_CASE("The exponential method takes motion that it knows beforehand in a few steps", "[analysis]") {
+TEST_CASE("The exponential method needs few steps for motion of the given linear part", "[analysis]") {
   // 10 000 rad/s for 10 s: 16 000 periods.
   class Stiff final : public dynamics::OdeSystem {
    public:

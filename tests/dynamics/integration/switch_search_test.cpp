@@ -46,7 +46,7 @@ const std::vector<double> kFour = {0.0, 0.28, 0.72, 1.0};
 
 }  // namespace
 
-TEST_CASE("A place just behind the zero is found, whatever the function's shape", "[analysis]") {
+TEST_CASE("A point just behind the zero is found, for any shape of the function", "[analysis]") {
   struct Case {
     Function function;
     double zero;
@@ -83,7 +83,7 @@ TEST_CASE("Of several functions the first zero counts", "[analysis]") {
   CHECK(search.place <= 0.60999 + 10.0 * kTolerance);
 }
 
-TEST_CASE("A function that starts at zero and comes back is found where it comes back", "[analysis]") {
+TEST_CASE("A function that starts at zero is found at its next zero", "[analysis]") {
   const Search search = locate({[](double x) { return x * (0.1 - x); }}, kFour, 1);
   CHECK(search.place >= 0.1 - 1e-15);
   CHECK(search.place <= 0.1 + 10.0 * kTolerance);
@@ -94,7 +94,7 @@ TEST_CASE("A function that is never positive ends at once", "[analysis]") {
   CHECK(search.place <= 10.0 * kTolerance);
 }
 
-TEST_CASE("Only what becomes negative crosses", "[analysis]") {
+TEST_CASE("Only a function that becomes negative has a crossing", "[analysis]") {
   using dynamics::SwitchSearch;
   const Eigen::Vector2d before(0.0, 1.0);
   CHECK_FALSE(SwitchSearch::any_crosses(before, Eigen::Vector2d(1.0, 0.0)));

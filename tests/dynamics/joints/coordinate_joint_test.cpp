@@ -41,7 +41,7 @@ constexpr double kRounding = 1e-14;
 
 }  // namespace
 
-TEST_CASE("Each kind of joint holds what it says and leaves the rest", "[joints]") {
+TEST_CASE("Each kind of joint holds its constraints and leaves the rest free", "[joints]") {
   const CoordinateJoint translational = make(dynamics::make_translational_joint({3.0, 4.0}, 0.2));
   REQUIRE(translational.num_constraints() == 2);
   CHECK(residual(translational, Pair(5.0, 0.0, 0.2).a, Pair(5.0, 0.0, 0.2).b).norm() < kRounding);

@@ -36,7 +36,7 @@ TEST_CASE("A revolute joint holds two points together and lets them turn", "[joi
   joint.calc_residual(a, b, 0.0, phi);
   CHECK((phi - Vector2d(0.3, -0.5)).norm() < 1e-15);
 
-  // φ̇ = Ga (v_a, ω_a) + Gb (v_b, ω_b) is the points' relative velocity, whatever they turn.
+  // φ̇ = Ga (v_a, ω_a) + Gb (v_b, ω_b) is the points' relative velocity, for any angular velocities.
   JointJacobian Ga, Gb;
   joint.calc_jacobian(a, b, Ga, Gb);
   REQUIRE(Ga.rows() == 2);

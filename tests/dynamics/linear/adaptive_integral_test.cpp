@@ -35,7 +35,7 @@ TEST_CASE("An integral that does not exist is reported with its place", "[analys
   CHECK(integral.worst == Approx(0.6).margin(1e-6));
 }
 
-TEST_CASE("What is below the floor is not chased", "[analysis]") {
+TEST_CASE("Errors below the floor cause no refinement", "[analysis]") {
   int evaluations = 0;
   const auto noisy = [&](double x) {
     ++evaluations;

@@ -53,7 +53,7 @@ double largest_residual(const Model& model, const VectorXd& q) {
 
 }  // namespace
 
-TEST_CASE("A mechanism put down roughly is closed, and the report says how far it moved", "[analysis]") {
+TEST_CASE("A mechanism at rough positions is closed, and the report says how far it moved", "[analysis]") {
   const Model model = make_four_bar(1.0);
   VectorXd q = rough_four_bar();
   const VectorXd rough = q;
@@ -127,7 +127,7 @@ TEST_CASE("Redundant joints are an input error that names them", "[analysis]") {
 }
 
 TEST_CASE("A flexible body with too few modes for its pins is told to take more of them", "[analysis]") {
-  // A beam pinned in three places: two of its three ways to follow need it to bend and to stretch.
+  // A beam pinned at three points: two of the constraints require it to bend and to stretch.
   const test::BeamSuperelement beam = test::make_beam_superelement(
       test::make_straight_beam("beam", {0.0, 0.5, 1.0, 1.5, 2.0}, 1e7, 2e3, 6.0), 12);
   const auto assemble = [&](const std::vector<int>& modes, const std::vector<int>& nodes) {
@@ -153,7 +153,7 @@ TEST_CASE("A flexible body with too few modes for its pins is told to take more 
              Contains("redundant joints"));
 }
 
-TEST_CASE("Velocities are made to fit the joints with the least change in the mass metric", "[analysis]") {
+TEST_CASE("Velocities are projected on the joints with the least change in the mass metric", "[analysis]") {
   const Model model = make_four_bar(1.0);
   VectorXd q = rough_four_bar();
   dynamics::assemble_positions(model, q);
@@ -179,7 +179,7 @@ TEST_CASE("Velocities are made to fit the joints with the least change in the ma
   }
   const VectorXd allowed = terms.jacobian().dense().fullPivLu().kernel().col(0);
   CHECK(std::abs(allowed.dot(mass_change)) < 1e-11 * allowed.norm() * mass_change.norm());
-  // One that fits already stays
+  // A velocity that satisfies the joints stays
   VectorXd again = v;
   CHECK(dynamics::project_velocities(model, 0.0, q, again).largest_change < 1e-12);
   CHECK((again - v).norm() < 1e-13 * v.norm());

@@ -41,7 +41,7 @@ Model make_block_on_springs(double damping) {
 
 }  // namespace
 
-TEST_CASE("A pendulum let go anywhere comes to rest below its pivot", "[analysis]") {
+TEST_CASE("From any start a pendulum's equilibrium is below its pivot", "[analysis]") {
   const Model model = test::make_pendulum(3.0, 0.6, 1.0, 9.81);
   for (const double angle : {0.0, 1.2, -2.5}) {
     const dynamics::Equilibrium rest = dynamics::find_equilibrium(model, test::place_pendulum(0.6, angle));
@@ -61,12 +61,12 @@ TEST_CASE("A block on springs sinks by its weight over their stiffness", "[analy
   CHECK(rest.q[1] == Approx(1.0 - 20.0 * 9.81 / 8000.0).epsilon(1e-12));
   CHECK(rest.q[0] == Approx(0.0).margin(1e-12));
   CHECK(rest.q[2] == Approx(0.0).margin(1e-12));
-  // Standing on compressed springs it would rather fall over: sideways stiffness −F/length
+  // On compressed springs it is unstable sideways: stiffness −F/length
   CHECK_FALSE(rest.stable);
   CHECK_THROWS_WITH(dynamics::calc_vehicle_modes(model, rest), Contains("unstable"));
 }
 
-TEST_CASE("A bent beam hangs under its own weight as beam theory has it", "[analysis]") {
+TEST_CASE("The deflection of a beam under its own weight is that of beam theory", "[analysis]") {
   // Tip of a cantilever under its weight: q L⁴/(8 EI) [Gere & Goodno 2009, table H-1]; its first mode alone
   // gives 2 · 0.782992/1.875104⁴ of q L⁴/EI, a little more [Blevins 1979, table 8-1].
   const double EI = 2e4, length = 2.0, weight = 12.0;  // N·m², m, N/m
@@ -127,7 +127,7 @@ Model make_pushed_beam(int num_modes, int fixed, int pushed, double force) {
 
 }  // namespace
 
-TEST_CASE("A beam held at the far end of its frame comes to rest, as well as rounding allows", "[analysis]") {
+TEST_CASE("A beam held at the far end of its frame finds its equilibrium to rounding", "[analysis]") {
   // Modes of a cantilever from its root, fixed at the tip: three of the stiff ones follow from the others.
   for (const int num_modes : {8, 16, 22, 24}) {
     const Model model = make_pushed_beam(num_modes, 8, 0, -100.0);
@@ -141,7 +141,7 @@ TEST_CASE("A beam held at the far end of its frame comes to rest, as well as rou
   }
 }
 
-TEST_CASE("Loads of any size settle where the structure is linear", "[analysis]") {
+TEST_CASE("A linear structure finds its equilibrium under loads of any size", "[analysis]") {
   for (const double force : {-1e2, -1e6, -1e9}) {
     const Model model = make_pushed_beam(24, 0, 8, force);
     const dynamics::Equilibrium rest =
@@ -164,7 +164,7 @@ TEST_CASE("A body that nothing holds has no equilibrium, and is named", "[analys
   CHECK_THAT(message, Contains("no static equilibrium"));
   CHECK_THAT(message, Contains("what keeps moving: all bodies along y"));
 
-  // Beside a body that is held, it is named by its coordinate.
+  // If another body is held, the free one is named by its coordinate.
   Model both = test::make_pendulum(3.0, 0.6, 1.0, 9.81);
   test::add_body(both, dynamics::make_rigid_body("stone", 2.0, 0.3));
   dynamics::number_model(both);

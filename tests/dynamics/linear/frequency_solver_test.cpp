@@ -37,7 +37,7 @@ TEST_CASE("Frequency response agrees with a dense solution at each frequency", "
   const Eigen::Index f = 9;
   const MatrixXd root = make_random(random, f, f), elastic = make_random(random, f, f);
   const MatrixXd M = root * root.transpose() + MatrixXd::Identity(f, f);
-  // Neither symmetric nor of the form that parts into modes; over six decades of stiffness.
+  // The matrices are not symmetric and are not diagonal in the undamped modes; stiffness over six decades.
   const Eigen::VectorXd spread =
       Eigen::VectorXd::LinSpaced(f, 0.0, 6.0).unaryExpr([](double e) { return std::pow(10.0, e); });
   const MatrixXd K = elastic * spread.asDiagonal() * elastic.transpose() + 0.3 * make_random(random, f, f);
@@ -50,8 +50,7 @@ TEST_CASE("Frequency response agrees with a dense solution at each frequency", "
   }
 }
 
-TEST_CASE("Critical damping, where eigenvectors are missing, and free masses are no exception",
-          "[analysis]") {
+TEST_CASE("Critical damping, where eigenvectors are missing, and free masses are handled", "[analysis]") {
   // Two oscillators damped critically, coupled one way so that s = −3 is fourfold, and a mass that nothing
   // holds.
   MatrixXd M = MatrixXd::Identity(3, 3), C = MatrixXd::Zero(3, 3), K = MatrixXd::Zero(3, 3);
@@ -71,7 +70,7 @@ TEST_CASE("Critical damping, where eigenvectors are missing, and free masses are
   }
 }
 
-TEST_CASE("Soft modes keep their digits beside stiff ones", "[analysis]") {
+TEST_CASE("Soft modes beside stiff ones keep their accuracy", "[analysis]") {
   // 1 Hz beside 100 kHz, damped together: the soft one's static displacement to 1e-12.
   MatrixXd M = MatrixXd::Identity(2, 2), C(2, 2), K = MatrixXd::Zero(2, 2);
   C << 0.4, 0.1, 0.1, 900.0;

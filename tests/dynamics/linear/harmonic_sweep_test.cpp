@@ -59,14 +59,14 @@ DrivenSystem make_two_masses(double k_ground, double c_ground, double k, double 
 
 }  // namespace
 
-TEST_CASE("Many frequencies at once are the equations solved at each", "[choice]") {
+TEST_CASE("A sweep agrees with a solution of the equations at each frequency", "[choice]") {
   SECTION("two oscillations") {
     check_against_solution(make_two_masses(300.0, 1.0, 800.0, 4.0), true);
   }
-  SECTION("one that creeps home") {
+  SECTION("one that is overdamped") {
     check_against_solution(make_two_masses(300.0, 90.0, 800.0, 4.0), true);
   }
-  SECTION("free of the ground") {
+  SECTION("not connected to the ground") {
     check_against_solution(make_two_masses(0.0, 0.0, 800.0, 4.0), true);
   }
   SECTION("free, but braked") {
@@ -80,7 +80,7 @@ TEST_CASE("Many frequencies at once are the equations solved at each", "[choice]
   }
 }
 
-TEST_CASE("A vehicle with modes held is the whole one under their holding forces", "[choice]") {
+TEST_CASE("A vehicle with held modes moves as the whole one under the holding forces", "[choice]") {
   test::BeamSuperelement frame = test::make_beam_superelement(test::make_crooked_frame(), 5);
   dynamics::Model model;
   const int body =
@@ -91,7 +91,7 @@ TEST_CASE("A vehicle with modes held is the whole one under their holding forces
       test::add_node_marker(model, body, frame.superelement, reduce::find_point(frame.superelement, "foot"));
   test::add_spring(model, "a", tip, test::add_marker(model, dynamics::kGround, {1.3, -1.1}), 1.0, 7e3, 90.0);
   test::add_spring(model, "b", tip, test::add_marker(model, dynamics::kGround, {2.3, 0.4}), 1.0, 7e3, 90.0);
-  // A joint: its reaction feels the holding forces directly.
+  // The reaction of a joint depends on the holding forces directly.
   test::add_pin(
       model, "pin", foot,
       test::add_marker(model, dynamics::kGround, model.markers[static_cast<std::size_t>(foot)].p_BP));
@@ -118,7 +118,7 @@ TEST_CASE("A vehicle with modes held is the whole one under their holding forces
   }
 }
 
-TEST_CASE("Thinned lines have all lines around them", "[choice]") {
+TEST_CASE("The intervals of thinned lines cover all lines", "[choice]") {
   const MatrixXcd amplitudes = MatrixXcd::Random(2, 500);
   const dynamics::ThinnedLines thinned = dynamics::thin_lines(amplitudes, 0.05);
   CHECK(thinned.size() < 150);

@@ -158,7 +158,7 @@ TEST_CASE("A flexible frame on two wheels", "[analysis]") {
     CHECK(std::abs(delays[1 - first] - std::polar(1.0, -wave.frequency * std::abs(ahead) / 9.0)) < 1e-12);
   }
 
-  SECTION("the frame's rigid motion and its modes' shares make up the motion of a point") {
+  SECTION("the frame's rigid motion and the contributions of its modes add up to the motion of a point") {
     LinearOutputs outputs = dynamics::make_point_outputs(vehicle, frame.tip);
     const LinearOutputs shares = dynamics::make_mode_share_outputs(vehicle, frame.tip);
     REQUIRE(shares.size() == 6 * 4);
@@ -184,15 +184,15 @@ TEST_CASE("A flexible frame on two wheels", "[analysis]") {
     }
   }
 
-  SECTION("joint and spring move the arm: Newton's law for what is read off") {
+  SECTION("joint and spring move the arm: the outputs satisfy Newton's law") {
     LinearOutputs outputs = dynamics::make_reaction_outputs(vehicle);
     outputs.append(dynamics::make_force_outputs(vehicle));
     outputs.append(dynamics::make_point_outputs(vehicle, frame.model.find_marker("arm.middle")));
     const MatrixXcd y = dynamics::calc_transfer(vehicle, outputs, wave);
     const MatrixXcd q =
         vehicle.system().directions * vehicle.calc_motion(wave.frequency, vehicle.calc_road_action(wave));
-    // The strut's force turns with the strut: its change along x has F₀ in it; along the strut's own
-    // direction u it is F alone, and across it F₀ times the turn.
+    // The strut's force rotates with the strut, so its change along x contains F₀: along the strut's
+    // direction u the change is that of F alone, and across it F₀ times the rotation.
     const auto markers = vehicle.equations().terms().markers();
     const auto& strut = dynamic_cast<const dynamics::SpringDamper&>(*frame.model.forces[0]);
     const auto a = static_cast<std::size_t>(strut.markers()[0]),

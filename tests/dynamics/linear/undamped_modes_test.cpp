@@ -24,7 +24,7 @@ TEST_CASE("A soft mode beside one of 100 kHz keeps all its digits", "[analysis]"
   CHECK((modes.vectors.transpose() * M * modes.vectors - MatrixXd::Identity(2, 2)).norm() < 1e-14);
 }
 
-TEST_CASE("Directions that a stiff spring leaves free are found by its rounding", "[analysis]") {
+TEST_CASE("Directions without stiffness beside a stiff spring are recognised by rounding", "[analysis]") {
   // K = S v vᵀ holds one direction of three.
   const Eigen::Vector3d v(1.0, -0.7, 0.2);
   const MatrixXd K = 4e14 * v * v.transpose(), M = Eigen::Vector3d(3.0, 0.2, 5.0).asDiagonal();
@@ -36,7 +36,7 @@ TEST_CASE("Directions that a stiff spring leaves free are found by its rounding"
         Approx(4e14 * (1.0 / 3.0 + 0.49 / 0.2 + 0.04 / 5.0)).epsilon(1e-12));
 }
 
-TEST_CASE("A motion grows where a real part is more than rounding", "[analysis]") {
+TEST_CASE("A system is unstable if a real part is above rounding", "[analysis]") {
   Eigen::VectorXcd s(2);
   s << std::complex<double>(-1.0, 1e5), std::complex<double>(1e-6, 2.0);
   CHECK_FALSE(dynamics::has_growth(s));

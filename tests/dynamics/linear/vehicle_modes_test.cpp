@@ -105,7 +105,7 @@ TEST_CASE("A hanging pendulum swings with the frequency of the equivalent length
 
 TEST_CASE("A double pendulum of equal bobs", "[analysis]") {
   // ω² = (2 ± √2) g/l for two points of equal mass on massless rods of l; bars swinging like points are not
-  // such, so: two point-like bodies (inertia 1e-9 kg·m²) on their rods.
+  // not such points; hence two point-like bodies (inertia 1e-9 kg·m²) on their rods.
   Model model;
   model.gravity = {0.0, -9.81};
   for (const char* name : {"upper", "lower"})

@@ -1,5 +1,4 @@
-// The sparse factors against Eigen's dense ones, on patterns with no order in them, and what they cost on
-// chains.
+// The sparse factors against Eigen's dense ones, on random patterns, and their cost on chains.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -139,13 +138,13 @@ TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
   }
 }
 
-TEST_CASE("Of a matrix without rows no columns are taken", "[system]") {
+TEST_CASE("No columns are chosen from a matrix without rows", "[system]") {
   const dynamics::ColumnPivots found = dynamics::choose_columns(Eigen::SparseMatrix<double>(0, 4));
   CHECK(found.columns.empty());
   CHECK(found.sizes.empty());
 }
 
-TEST_CASE("Of many rows regular columns are taken that make the others by factors that are not large",
+TEST_CASE("From many rows regular columns are chosen, with moderate factors for the other columns",
           "[system]") {
   // Rows of four entries at random; sizes from 0.1 to 1, so that none is much less than its row's largest.
   constexpr int kNumRows = 170, kNumColumns = 260;

@@ -115,7 +115,7 @@ int add_point_at_rest(HeldBeam& beam, int mode) {
 
 }  // namespace
 
-TEST_CASE("A mode that the load stands at the node of is left out, its excited neighbours kept", "[choice]") {
+TEST_CASE("A mode with a node at the load is left out, its excited neighbours are kept", "[choice]") {
   HeldBeam beam(kOneSided);
   const double second = beam.frequency(2);
   // Shaken at the second mode's own frequency, where it would resonate; it moves the tip, which is asked for.
@@ -159,7 +159,7 @@ TEST_CASE("At tolerance 0 all modes are kept, those without any share too", "[ch
   CHECK(choice.neglected_of.empty());
 }
 
-TEST_CASE("Modes of one frequency stay together, whichever way their basis is turned", "[choice]") {
+TEST_CASE("Modes of one frequency stay together, for any rotation of their basis", "[choice]") {
   // Two equal cantilevers, back to back: pairs. Only the right one is pushed.
   const auto choose = [](double turn) {
     HeldBeam beam(kTwoSided);
@@ -203,7 +203,7 @@ TEST_CASE("Modes of one frequency stay together, whichever way their basis is tu
   }
 }
 
-TEST_CASE("What bends under the weight alone is kept where nothing else moves", "[choice]") {
+TEST_CASE("Without other forcing, modes that bend under the weight are kept", "[choice]") {
   HeldBeam beam(kOneSided, 9.81);
   dynamics::number_model(beam.model);
   VectorXd q = VectorXd::Zero(beam.model.num_coordinates);
@@ -224,7 +224,7 @@ TEST_CASE("What bends under the weight alone is kept where nothing else moves", 
   CHECK_THAT(choice.verdicts[0].reason, Contains("of the static "));
 }
 
-TEST_CASE("What is beyond the lines of a very long run is kept", "[choice]") {
+TEST_CASE("Modes above the lines of a very long run are kept", "[choice]") {
   // Shaken above the third mode for so long that the lines end below.
   HeldBeam beam(kOneSided);
   beam.shake(beam.tip, beam.frequency(3));
@@ -263,7 +263,7 @@ TEST_CASE("Modes measured in thinned lines have the shares of all lines", "[choi
   }
 }
 
-TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]") {
+TEST_CASE("Holding modes has the effect of leaving them out of the equations", "[choice]") {
   // Not fixed to the ground but on springs, where the modes are coupled through the frame's motion.
   test::BeamSuperelement frame = test::make_beam_superelement(test::make_crooked_frame(), 5);
   Model model;
@@ -312,8 +312,7 @@ TEST_CASE("Holding modes still is leaving them out of the equations", "[choice]"
   }
 }
 
-TEST_CASE("The forcing's lines are the closed transform of a bump, and add up to the road again",
-          "[choice]") {
+TEST_CASE("The forcing's lines are the closed transform of a bump, and their sum is the road", "[choice]") {
   HeldBeam beam(kOneSided);
   dynamics::number_model(beam.model);
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
@@ -342,7 +341,7 @@ TEST_CASE("The forcing's lines are the closed transform of a bump, and add up to
   CHECK(worst < 0.02 * 0.2);  // what is above 60 Hz: the kinks are rounded
 }
 
-TEST_CASE("What makes no forcing or tolerance is the caller's mistake", "[choice]") {
+TEST_CASE("A wrong forcing or tolerance is the caller's mistake", "[choice]") {
   HeldBeam beam(kOneSided);
   CHECK_THROWS_WITH(beam.choose(1.0), Contains("choose_basis: tolerance must be from 0 to below 1, got 1"));
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));

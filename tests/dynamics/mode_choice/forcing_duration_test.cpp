@@ -1,4 +1,4 @@
-// How long a road does anything to the truck.
+// The time until a road ceases to act on the truck.
 #include <cmath>
 
 #include "dynamics/mode_choice/forcing_spectrum.h"
@@ -25,6 +25,7 @@ TEST_CASE("The forcing lasts until the last wheel has left the road's last featu
   CHECK(calc_duration(bump, 1.0) == 1.0);  // the run is over before
   const BumpRoad ramp({.shape = BumpShape::kRamp, .start = 1.0, .length = 0.4, .height = 0.2});
   CHECK(calc_duration(ramp, 9.0) ==
-        Approx((1.4 + behind) / 4.0 + 0.5));  // stands higher behind: time to come to rest
+        Approx((1.4 + behind) / 4.0 +
+               0.5));  // the road ends higher than it began: the vehicle needs time to come to rest
   CHECK(calc_duration(dynamics::FlatRoad(), 9.0) == Approx(behind / 4.0));
 }

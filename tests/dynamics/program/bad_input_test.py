@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Input that cannot be used: a located message, exit code 2, an earlier result whole, nothing half-written."""
+"""Input that cannot be used gives a located message and exit code 2. An earlier result stays, and no partial file is
+left."""
 
 import shutil
 import unittest

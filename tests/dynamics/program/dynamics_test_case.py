@@ -1,4 +1,5 @@
-"""What the tests of sprung-dynamics share: the truck's files in a folder of their own, to be spoilt one at a time."""
+"""What the tests of sprung-dynamics share: the truck's files in a folder of their own, in which a test makes one
+fault."""
 
 import os
 import shutil

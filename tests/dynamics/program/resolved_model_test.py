@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""/model/resolved against the histories of the same file: what the run did follows from what it says it was made
-with."""
+"""/model/resolved against the histories of the same file: the histories follow from the parameters that it holds."""
 
 import shutil
 import subprocess
@@ -60,7 +59,8 @@ class Resolved(DynamicsTestCase):
         )
 
     def assert_springs(self, file, resolved, kind, exerted):
-        """Spring and damper elements exert what their functions give for their deflections. Returns how many."""
+        """The forces of spring and damper elements are those of their functions at their deflections. Returns how
+        many."""
         count = 0
         for name, element in resolved["forces"].items():
             if text_of(element.attrs["kind"]) != kind:
@@ -96,7 +96,8 @@ class Resolved(DynamicsTestCase):
         return count
 
     def assert_newton(self, file, resolved):
-        """Mass, inertia, gravity and what joints and forces do to each rigid body make its acceleration."""
+        """The acceleration of each rigid body follows from mass, inertia, gravity, and the forces of joints and force
+        elements."""
         bodies = {}
         for name, body in resolved["bodies"].items():
             gravity = body.attrs["mass"] * resolved["gravity"][:]

@@ -31,7 +31,7 @@ TEST_CASE("A power law at all wavenumbers, until it is cut to a band", "[road]")
   CHECK(road.breaks() == std::vector<double>{0.02, 3.0});
 }
 
-TEST_CASE("Between points straight lines in logarithms, beyond them nothing", "[road]") {
+TEST_CASE("Between points a spectrum is linear in logarithms, beyond them it is zero", "[road]") {
   RoadSpectrum road = RoadSpectrum::through_points(std::array{0.01, 0.1, 10.0}, std::array{1e-3, 1e-4, 1e-8});
   CHECK(road.density(0.1) == Approx(1e-4).epsilon(1e-12));
   CHECK(road.density(1.0) == Approx(1e-6).epsilon(1e-12));  // half way down a slope of −2
@@ -44,7 +44,7 @@ TEST_CASE("Between points straight lines in logarithms, beyond them nothing", "[
   CHECK(road.breaks().front() == 0.05);
 }
 
-TEST_CASE("A road spectrum refuses what is none", "[road]") {
+TEST_CASE("An impossible road spectrum is refused", "[road]") {
   CHECK_THROWS_WITH(RoadSpectrum::power_law(0.0, 2.0), Contains("density must be > 0 m³"));
   CHECK_THROWS_WITH(RoadSpectrum::through_points(std::array{0.1}, std::array{1.0}),
                     Contains("2 points or more"));

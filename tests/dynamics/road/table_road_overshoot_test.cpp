@@ -67,7 +67,7 @@ TEST_CASE("A table road through a smooth road's points has no kink and no jump o
   }
 }
 
-TEST_CASE("A table road does not swing past a kerb, up or down", "[road]") {
+TEST_CASE("A table road does not overshoot at a kerb, up or down", "[road]") {
   for (const double rise : {0.15, -0.15}) {
     const std::vector<double> s{0.0, 1.0, 2.0, 3.0, 3.02, 4.0, 5.0, 6.0};
     const std::vector<double> height{0.0, 0.0, 0.0, 0.0, rise, rise, rise, rise};
@@ -99,7 +99,7 @@ TEST_CASE("Limiting a kerb leaves a smooth stretch of the same road as it was", 
     CHECK(road.height(at) == Approx(smooth.height(at)).margin(1e-5));
 }
 
-TEST_CASE("A table road of any heights leaves those of a monotone stretch by a hundredth at most", "[road]") {
+TEST_CASE("On a monotone stretch a table road of any heights overshoots by a hundredth at most", "[road]") {
   std::mt19937 generator(7);  // NOLINT: the same points every time
   std::uniform_real_distribution<double> height(-0.1, 0.1), step(0.01, 1.0);
   Points points{{0.0}, {0.0}};

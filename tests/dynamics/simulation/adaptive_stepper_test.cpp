@@ -1,5 +1,5 @@
-// Modes that join and leave on models small enough to know what each mode does: beams held at their root,
-// where modes of small motion do not feel each other.
+// Modes that join and leave on small models with a known motion of each mode: beams held at their root, whose
+// modes are not coupled in small motion.
 #include "dynamics/simulation/adaptive_stepper.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using dynamics::TimeFunction;
 
 namespace {
 
-// Swings in its first mode from the start on, and late comes a force that the second one answers.
+// It vibrates in its first mode from the start; a late force excites the second one.
 Model make_late(double amplitude, std::vector<int>& nodes) {
   Model model;
   nodes = add_cantilever(model, "beam", {0.3, -0.2});
@@ -38,7 +38,7 @@ TEST_CASE("A mode that is excited only late joins then, by its resonance, and in
   const Model model = make_late(6.0, nodes);
   const Run full = drive(model, {.watched = nodes[5], .active = kAll});
   const Run adaptive = drive(model, {.watched = nodes[5], .active = {0}});
-  // The first push may call it for a while; when the burst begins it is not there.
+  // The first push may make it join for a while; when the burst begins it is not active.
   long before = 0;
   std::vector<double> joinings;
   for (const Change& change : adaptive.changes) {
@@ -49,8 +49,8 @@ TEST_CASE("A mode that is excited only late joins then, by its resonance, and in
   CHECK(before == 0);
   REQUIRE(joinings.size() == 1);
   CHECK(joinings[0] < 1.4);
-  // What mode 2 does to the tip's acceleration is more than what mode 1 does: the force alone, without
-  // resonance, does a fiftieth of that, 1/(2ζ).
+  // Mode 2 contributes more to the tip's acceleration than mode 1; the force alone, without resonance, would
+  // cause a fiftieth of that, 1/(2ζ).
   const Run one = drive(model, {.watched = nodes[5], .active = {0}, .changes = false});
   CHECK(largest_difference(one.tip_acceleration, full.tip_acceleration) >
         0.4 * largest(full.tip_acceleration));
@@ -60,9 +60,9 @@ TEST_CASE("A mode that is excited only late joins then, by its resonance, and in
   CHECK(one.statistics.worst_neglect.share.acceleration > 0.3);
 }
 
-TEST_CASE("A mode that hovers at the threshold joins at most once, and is not missed beyond it",
+TEST_CASE("A mode whose share stays near the threshold joins at most once, and no larger share is left out",
           "[adaptivity]") {
-  // The second mode is called again and again by forces ever closer to where it just joins.
+  // The second mode is excited in each run by a force closer to the one at which it just joins.
   double below = 1e-3, above = 6.0;
   for (int i = 0; i < 12; ++i) {
     const double amplitude = i == 0 ? below : i == 1 ? above : std::sqrt(below * above);
@@ -90,7 +90,7 @@ TEST_CASE("A mode that hovers at the threshold joins at most once, and is not mi
   CHECK(above < 1.02 * below);
 }
 
-TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does not come back",
+TEST_CASE("A mode whose share stays near the drop threshold leaves at most once and does not come back",
           "[adaptivity]") {
   double stays = 6.0, leaves = 1e-3;
   for (int i = 0; i < 14; ++i) {
@@ -112,7 +112,7 @@ TEST_CASE("A mode that hovers at the drop threshold leaves at most once and does
   }
 }
 
-TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[adaptivity]") {
+TEST_CASE("A load at a mode's node makes its neighbours join and not the mode", "[adaptivity]") {
   // Right there: a point rigidly offset from a node by o along the beam moves by φ_y + o ψ in a mode, ψ its
   // rotation.
   const reduce::Superelement superelement = make_cantilever().superelement;
@@ -135,8 +135,7 @@ TEST_CASE("A load at a mode's node calls its neighbours and not the mode", "[ada
         kRecall * largest(full.tip_acceleration));
 }
 
-TEST_CASE("A load that is there at once sets modes off that join then as if they had been there",
-          "[adaptivity]") {
+TEST_CASE("After a sudden load modes join as if they had been active before", "[adaptivity]") {
   Model model;
   const std::vector<int> nodes = add_cantilever(model, "beam", {0.3, 0.0});
   push(model, nodes[5], TimeFunction(1.0));
@@ -154,7 +153,7 @@ TEST_CASE("A load that is there at once sets modes off that join then as if they
   CHECK(largest_difference(adaptive.tip, full.tip) < 0.02 * largest(full.tip));
 }
 
-TEST_CASE("What an impact sets off joins with its vibration", "[adaptivity]") {
+TEST_CASE("Modes that an impact excites join with their vibration", "[adaptivity]") {
   // The tip swings onto a damper, whose force is there at once.
   const dynamics::FlatRoad ground;
   Model model;
@@ -177,7 +176,7 @@ TEST_CASE("What an impact sets off joins with its vibration", "[adaptivity]") {
   CHECK(largest_difference(adaptive.tip_acceleration, full.tip_acceleration) < 0.02 * size);
 }
 
-TEST_CASE("Of two like bodies only the one that is excited calls its modes, whichever comes first",
+TEST_CASE("Of two equal bodies only the modes of the excited one join, in either order of the bodies",
           "[adaptivity]") {
   for (const bool loaded_first : {true, false}) {
     Model model;
@@ -193,7 +192,7 @@ TEST_CASE("Of two like bodies only the one that is excited calls its modes, whic
   }
 }
 
-TEST_CASE("What leaving modes take with them is told and booked", "[adaptivity]") {
+TEST_CASE("The energy that leaving modes take with them is reported and booked", "[adaptivity]") {
   // Two beams that ring down a little out of step, so that one is at rest where the other is not, and leave
   // together at a threshold so high that what is lost can be seen.
   Model model;

@@ -1,4 +1,4 @@
-// Modes that join and leave on the truck: what is missed, what comes of it.
+// Modes that join and leave on the truck: the shares left out, and the results.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -89,11 +89,11 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
   CHECK(adaptive.statistics.stepper.evaluations < full.statistics.stepper.evaluations);
   CHECK(adaptive.closure < 1e-5);
   CHECK(adaptive.changes.size() > 20);
-  // Steps in which more was missed were taken back.
+  // Steps with a larger share left out were repeated.
   CHECK(adaptive.statistics.worst_neglect.share.worst() > 0.0);
   CHECK(adaptive.statistics.worst_neglect.share.worst() <= 8e-2 * (1.0 + 1e-9));
 
-  SECTION("and comes closer with a smaller threshold") {
+  SECTION("and its error decreases with a smaller threshold") {
     const AdaptiveRun closer = drive(36, 2, 1e-2, duration);
     const double scale = peak(full.deflection);
     CHECK((closer.deflection - full.deflection).cwiseAbs().maxCoeff() < 0.01 * scale);
@@ -101,19 +101,18 @@ TEST_CASE("Over the bump modes join in time: the adaptive run has the full set's
     CHECK((closer.origin - full.origin).norm() < 0.5 * (adaptive.origin - full.origin).norm());
     CHECK(closer.statistics.worst_neglect.share.worst() <= 1e-2 * (1.0 + 1e-9));
   }
-  SECTION(
-      "what is left out for good is told as it was then, not as it would be with what is active at the end") {
+  SECTION("the share of modes left out is reported as of its time, not with the modes active at the end") {
     const AdaptiveRun whole = drive(36, 2, 2e-2, 5.0);
     CHECK(whole.statistics.worst_neglect.share.worst() <= 2e-2 * (1.0 + 1e-9));
   }
-  SECTION("the same each time") {
+  SECTION("the result is the same each time") {
     const AdaptiveRun again = drive(36, 2, 8e-2, duration);
     CHECK(again.origin == adaptive.origin);
     CHECK(again.changes.size() == adaptive.changes.size());
   }
 }
 
-TEST_CASE("Of a pair of equal frequency only the member joins that the load excites", "[truck]") {
+TEST_CASE("Of a pair of equal frequency only the member that the load excites joins", "[truck]") {
   const dynamics::Vehicle vehicle = test::read_truck();
   const auto chassis =
       std::find_if(vehicle.bodies.begin(), vehicle.bodies.end(),
@@ -183,14 +182,14 @@ TEST_CASE("Of a pair of equal frequency only the member joins that the load exci
   }
 }
 
-TEST_CASE("At rest no mode joins, and none is said to be missed", "[truck]") {
+TEST_CASE("At rest no mode joins, and none is reported as left out", "[truck]") {
   const AdaptiveRun rest = drive(12, 2, 8e-2, 0.3);  // before the bump
   for (const dynamics::Event& change : rest.changes) CHECK_FALSE(change.text.starts_with("joins"));
   CHECK(rest.statistics.mean_active_modes <= 2.0);  // idle ones may leave
   CHECK(rest.statistics.worst_neglect.share.worst() < 1e-3);
 }
 
-TEST_CASE("Modes do not chatter: none joins and leaves more often than its residence allows", "[truck]") {
+TEST_CASE("No mode joins and leaves more often than its residence allows", "[truck]") {
   const AdaptiveRun run = drive(36, 2, 8e-2, 3.0);
   for (std::size_t i = 0; i < run.changes.size(); ++i) {
     if (!run.changes[i].text.starts_with("leaves")) continue;

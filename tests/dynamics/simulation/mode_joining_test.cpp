@@ -1,5 +1,5 @@
-// How modes join and leave among others that feel it: bending modes of a beam on a pin, held at that end, are
-// coupled by its turning.
+// How modes join and leave if they are coupled to others: bending modes of a beam on a pin, whose frame is at
+// the pin, are coupled by its rotation.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ struct Run {
   std::vector<int> num_active;  // modes of both, at each output
 };
 
-// The beam turns; another one, bent at once, says what is a large deflection.
+// The beam rotates; another one, bent from the start, sets the size of a large deflection.
 struct Turning {
   Model model;
   Beam beam, other;
@@ -124,10 +124,9 @@ double largest_difference(const Run& a, const Run& b, double since) {
 
 }  // namespace
 
-TEST_CASE("A mode lower than those that are active joins without ringing, by itself and with others",
-          "[adaptivity]") {
-  // With everything else giving way by its inertia the first mode seems to vibrate far faster than what its
-  // joining adds.
+TEST_CASE("A mode below the active ones joins without ringing, alone and with others", "[adaptivity]") {
+  // Because all else moves by its inertia, the first mode seems to vibrate far faster than the motion that
+  // its joining adds.
   const std::vector<std::vector<int>> cases{{0}, {0, 1}, {0, 3}};
   for (const std::vector<int>& joining : cases) {
     std::vector<bool> left_out(kNumModes, false);
@@ -139,14 +138,14 @@ TEST_CASE("A mode lower than those that are active joins without ringing, by its
     const Run full = turning.drive(false), adaptive = turning.drive(true);
     REQUIRE(!adaptive.joinings.empty());
     CHECK(adaptive.joinings.front() > 0.2);
-    // A tenth of the threshold, and what a push that slow has set off by then; let go too fast it was three
-    // to ten times as much.
+    // A tenth of the threshold, and the vibration that such a slow force excites by then. A release that is
+    // too fast gave three to ten times as much.
     const double largest = kSpin * kSpin * 1.0;  // acceleration of the tip, 1 m from the pin
     CHECK(largest_difference(full, adaptive, 0.0) < 1.3 * 0.1 * 0.08 * largest);
   }
 }
 
-TEST_CASE("How many modes are active at an output is what the events have told until then", "[adaptivity]") {
+TEST_CASE("The number of active modes at an output is that of the events until then", "[adaptivity]") {
   Turning turning(std::vector<bool>(kNumModes, false));
   turning.drop = 0.02;
   push(turning.model, turning.beam.tip, 5.0, 0.1, 0.3);
@@ -162,11 +161,12 @@ TEST_CASE("How many modes are active at an output is what the events have told u
         2 * kNumModes + count(run.joinings, run.time[i] - 1e-9) - count(run.leavings, run.time[i] - 1e-9);
     const int after =
         2 * kNumModes + count(run.joinings, run.time[i] + 1e-9) - count(run.leavings, run.time[i] + 1e-9);
-    if (before == after) REQUIRE(run.num_active[i] == after);  // at the very instant either is right
+    if (before == after)
+      REQUIRE(run.num_active[i] == after);  // at the instant of an event both numbers are right
   }
 }
 
-TEST_CASE("What is let go 2 ms later does not touch what is being let go", "[adaptivity]") {
+TEST_CASE("A force released 2 ms later does not affect one that is being released", "[adaptivity]") {
   Turning turning(std::vector<bool>(kNumModes, false));
   dynamics::number_model(turning.model);
   const dynamics::Body& body = turning.model.bodies[static_cast<std::size_t>(turning.beam.body)];
@@ -189,7 +189,7 @@ TEST_CASE("What is let go 2 ms later does not touch what is being let go", "[ada
   CHECK(motion.hold(active, 0.1065).model.bodies[0].fading.size() == 1);
 }
 
-TEST_CASE("Modes are stopped together only where the impulse leaves little ringing, as much as was foretold",
+TEST_CASE("Modes are stopped together only where the impulse leaves little ringing, as much as was predicted",
           "[adaptivity]") {
   Turning turning(std::vector<bool>(kNumModes, false));
   dynamics::number_model(turning.model);

@@ -1,5 +1,5 @@
-// Mechanisms that turn right round in absolute coordinates: no partition serves them all the way, so the
-// solver has to change it without a jump. Exact answers are known.
+// Mechanisms that make full turns in absolute coordinates. No single partition is regular all the way, so the
+// solver must change it without a jump. Exact solutions are known.
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
@@ -95,7 +95,7 @@ TEST_CASE("The pendulum's period is the exact one", "[analysis]") {
   CHECK(motion.q[4][2] == Approx(-pi).margin(1e-8));
 }
 
-TEST_CASE("A pendulum going round keeps its period while its partition changes on the way", "[analysis]") {
+TEST_CASE("A pendulum that makes full turns keeps its period while its partition changes", "[analysis]") {
   const Model model = test::make_pendulum(1.0, kArm, kLength, kGravity);
   const double bottom_rate = 8.0;  // above 2√(g/l) = 6.26 rad/s: it goes over the top
   // [Landau & Lifshitz 1976], §11: T = 2 k K(k)/√(g/l) for one turn, k = 2√(g/l)/rate
@@ -118,7 +118,7 @@ TEST_CASE("A pendulum going round keeps its period while its partition changes o
   }
 }
 
-TEST_CASE("The energy book goes on through changes of partition", "[analysis]") {
+TEST_CASE("The energy book continues through changes of partition", "[analysis]") {
   // A damper from the bob to a point beside the circle slows the pendulum while it goes round.
   Model model = test::make_pendulum(1.0, kArm, kLength, kGravity);
   test::add_spring(model, "damper", model.find_marker("bar.bob"),
@@ -229,7 +229,7 @@ TEST_CASE("A closed chain turning fully takes the time that its energy and inert
   }
 }
 
-TEST_CASE("Mechanisms move the same where they have turned often or stand far away", "[analysis]") {
+TEST_CASE("Mechanisms move alike after many turns, or far from the origin", "[analysis]") {
   // Coordinates are rounded more coarsely there, and joints can be closed no better. The angle becomes a
   // dependent one on the way.
   const Model model = test::make_pendulum(1.0, kArm, kLength, kGravity);

@@ -144,7 +144,7 @@ TEST_CASE("A damped wheel's energy book closes through bounces and over a bump",
   CHECK(largest_error < 1e-3);  // J, of some 100 J that pass
 }
 
-TEST_CASE("A step never passes over a bump, however loose the tolerance", "[analysis]") {
+TEST_CASE("A step never passes over a bump, at any tolerance", "[analysis]") {
   // At rest on smooth ground the step would grow without bound: a low, short bump 60 m ahead has to be met.
   const dynamics::BumpRoad road(
       {.shape = dynamics::BumpShape::kHaversine, .start = 60.0, .length = 0.3, .height = 0.05});

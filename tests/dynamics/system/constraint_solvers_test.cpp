@@ -50,7 +50,7 @@ struct Assembly {
 
 }  // namespace
 
-TEST_CASE("Multipliers are those of the dense matrix, whatever the joints", "[system]") {
+TEST_CASE("Multipliers are those of the dense matrix, for all kinds of joints", "[system]") {
   const Assembly assembly;
   const dynamics::Model& model = assembly.model;
   REQUIRE(model.num_constraints == 9);
@@ -77,7 +77,7 @@ TEST_CASE("Multipliers are those of the dense matrix, whatever the joints", "[sy
   }
 }
 
-TEST_CASE("A constraint of nothing that moves makes the multipliers' matrix singular", "[system]") {
+TEST_CASE("A constraint between points of the ground makes the multipliers' matrix singular", "[system]") {
   Assembly assembly;
   test::add_pin(assembly.model, "in the ground",
                 test::add_marker(assembly.model, dynamics::kGround, {0.3, 0.2}),
@@ -138,7 +138,7 @@ TEST_CASE("Dependents and products with independents are those of the dense Jaco
   CHECK((Phi_d * x_d - r).norm() < 1e-13 * Phi_d.norm() * x_d.norm());
 }
 
-TEST_CASE("Dependents that no constraint can tell apart have no solution", "[system]") {
+TEST_CASE("Dependents with a singular Jacobian have no solution", "[system]") {
   // Both rows are of the first coordinate alone; the second stands in the pattern, but is always zero.
   dynamics::BlockJacobian jacobian(2, 3);
   const std::size_t block =

@@ -1,5 +1,5 @@
-// Models of the truck with held modes against the full one: motion, forces, what leaving modes take with
-// them.
+// Models of the truck with held modes against the full one: motion, forces, momentum and energy of leaving
+// modes.
 #include <Eigen/Core>
 #include <Eigen/QR>
 #include <vector>
@@ -15,7 +15,7 @@
 
 using namespace sprung;
 
-TEST_CASE("A model with held modes moves as the full one whose modes stand still", "[truck]") {
+TEST_CASE("A model with held modes moves as the full one with these modes at rest", "[truck]") {
   const test::TruckAtRest rest(6);
   const dynamics::Model& full = rest.model;
   Eigen::VectorXd q = rest.equilibrium.q;
@@ -78,7 +78,7 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   CHECK((known->motion.damping - expected.damping).norm() < 1e-6 * expected.damping.norm());
   CHECK((known->motion.stiffness - expected.stiffness).norm() < 1e-6 * expected.stiffness.norm());
 
-  // A linearisation that is known already is taken as it is.
+  // A linearisation that is given is used as it is.
   dynamics::LinearisedSystem other = rest.equilibrium.linearised;
   other.stiffness *= 2.0;
   const dynamics::ModeIndicator informed(full, 0.0, rest.equilibrium.q, {}, &other);
@@ -161,7 +161,7 @@ TEST_CASE("The unbalanced force on held modes is that of the full model's equati
   }
 }
 
-TEST_CASE("Modes that leave take only their own momentum with them, and the energy that is told", "[truck]") {
+TEST_CASE("Modes that leave take only their own momentum with them, and the reported energy", "[truck]") {
   const MovingTruck truck({1, 3, 4});
   dynamics::FullMotion motion(*truck.full, {.time = 0.0, .q = truck.q, .v = truck.v, .branches = {}});
   dynamics::SystemTerms terms(*truck.full);
@@ -182,7 +182,8 @@ TEST_CASE("Modes that leave take only their own momentum with them, and the ener
   terms.jacobian().add_product(motion.v(), opening);
   CHECK(opening.norm() < 1e-10 * momentum.norm());
 
-  // What changed the momentum of the others is an impulse of the joints: in the range of φ_qᵀ on their rows.
+  // The change of the others' momentum is an impulse of the joints: it lies in the range of φ_qᵀ on their
+  // rows.
   const Eigen::VectorXd change =
       select_active(held, momentum - multiply_mass(*truck.full, terms, motion.v()));
   Eigen::MatrixXd joints(change.size(), truck.full->num_constraints);

@@ -56,7 +56,8 @@ ConstrainedMotion any_motion(const Model& model) {
 
 }  // namespace
 
-TEST_CASE("Newton's equations give back the change that was made, dense and sparse", "[system]") {
+TEST_CASE("Newton's equations return the change from which the residual was made, dense and sparse",
+          "[system]") {
   for (const int num_links : {3, 20}) {  // 21 and 188 unknowns: both ways of factorising
     const Chain chain(num_links);
     const Model& model = chain.model;
@@ -86,7 +87,8 @@ TEST_CASE("Newton's equations give back the change that was made, dense and spar
   }
 }
 
-TEST_CASE("Differences for Newton's equations do not multiply with the length of a chain", "[system]") {
+TEST_CASE("The number of differences for Newton's equations does not grow with the length of a chain",
+          "[system]") {
   const auto num_differences = [](int num_links) {
     const Chain chain(num_links);
     Index3Residual residual(chain.model);

@@ -57,8 +57,9 @@ VectorXd place_parallelogram(const Model& model, double angle) {
 
 }  // namespace
 
-TEST_CASE("Independent and dependent coordinates part all of them, and the dependents' Jacobian is regular",
-          "[system]") {
+TEST_CASE(
+    "Independent and dependent coordinates are all coordinates, and the dependents' Jacobian is regular",
+    "[system]") {
   const Model model = make_parallelogram(false);
   for (const double angle : {-1.3, -0.4, 0.2, 1.1, 2.0}) {
     const dynamics::SystemTerms terms = terms_at(model, place_parallelogram(model, angle));
@@ -75,7 +76,7 @@ TEST_CASE("Independent and dependent coordinates part all of them, and the depen
   }
 }
 
-TEST_CASE("Light bodies follow heavy ones", "[system]") {
+TEST_CASE("Coordinates of light bodies are the dependent ones", "[system]") {
   // Two bodies pinned together: what is free of the pair are the heavy one's coordinates and one angle of the
   // light.
   Model model;
@@ -107,7 +108,7 @@ TEST_CASE("The dependents of a long chain follow the independents as closely as 
 }
 
 TEST_CASE("The positions of a long open chain follow its angles", "[system]") {
-  // Which is what classical mechanics describes it by.
+  // These are the coordinates of classical mechanics.
   const test::Chain chain = test::make_open_chain(120);
   const dynamics::Partition partition = dynamics::choose_partition(terms_at(chain.model, chain.state.q));
   REQUIRE(partition.independent.size() == 120);

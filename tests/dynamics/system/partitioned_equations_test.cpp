@@ -176,7 +176,7 @@ TEST_CASE("Positions that cannot be reached are reported, and the next evaluatio
   CHECK((equations.q() - start).norm() < 1e-12);
 }
 
-TEST_CASE("A search for positions that ends in what is no number leaves no trace", "[system]") {
+TEST_CASE("A search for positions that ends in NaN leaves the equations usable", "[system]") {
   const Chain chain;
   PartitionedEquations equations(chain.model);
   VectorXd q = VectorXd::Zero(chain.model.num_coordinates);
@@ -195,14 +195,14 @@ TEST_CASE("A search for positions that ends in what is no number leaves no trace
   std::vector<int> branches(static_cast<std::size_t>(chain.model.num_branches));
   equations.terms().choose_branches(branches);
   CHECK(equations.update_accelerations(branches) == PartitionedEquations::Outcome::kGood);
-  // Nor do accelerations that are no numbers.
+  // Nor do accelerations that are NaN.
   equations.update_velocities(std::vector<double>(start.size(), 1e200));
   CHECK(equations.update_accelerations(branches) == PartitionedEquations::Outcome::kNotFinite);
   REQUIRE(equations.update_positions(1e-3, start) == PartitionedEquations::Outcome::kGood);
   CHECK(equations.q().allFinite());
 }
 
-TEST_CASE("A partition decays towards the position where it fails", "[system]") {
+TEST_CASE("The quality of a partition decreases towards the position where it is singular", "[system]") {
   const Model model = test::make_pendulum(1.0, 0.8, 1.0, 9.81);
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, test::place_pendulum(0.8, -0.8));

@@ -53,7 +53,7 @@ struct Comparison {
 
 Comparison compare_on_truck(int num_modes, int num_states, std::uint64_t seed) {
   const dynamics::Vehicle vehicle = test::read_truck();
-  // A road that is nowhere level under the truck.
+  // A road that is level nowhere under the truck.
   const dynamics::BumpRoad road(
       {.shape = dynamics::BumpShape::kHalfSine, .start = -30.0, .length = 40.0, .height = 0.05});
   const dynamics::Model model = test::make_truck(vehicle, num_modes, {&road, -1.0, 1.0});

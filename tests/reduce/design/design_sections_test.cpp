@@ -37,7 +37,7 @@ void check_geometry(const std::string& text, double area, double second_moment) 
   CHECK(section.rotary_inertia == 0.0);
 }
 
-TEST_CASE("sections by shape have the area and second moment of the drawing board") {
+TEST_CASE("sections by shape have the area and second moment calculated by hand") {
   check_geometry("shape = \"rectangle\"\nwidth = 0.05\nheight = 0.12", 6.0e-3,
                  0.05 * 0.12 * 0.12 * 0.12 / 12.0);
   // 100 × 200 × 10: 20000 − 80·180 mm², (100·200³ − 80·180³)/12 mm⁴
@@ -78,7 +78,7 @@ TEST_CASE("mass per length replaces that of the density, and the shear coefficie
   CHECK(section.shear_rigidity == Approx(0.5 * 8.0e10 * 2.0e-3));
 }
 
-TEST_CASE("what a section or material lacks or has too much is named") {
+TEST_CASE("a missing or superfluous key of a section or material is named") {
   const std::string general = "area = 2.0e-3\nsecond_moment = 1.0e-6\n";
   const BeamTheory timoshenko{.shear_deformation = true};
   CHECK_THAT(fault("area = 2.0e-3"), Contains("missing key 'second_moment' in 'sections.s'"));
@@ -110,7 +110,7 @@ TEST_CASE("what a section or material lacks or has too much is named") {
              Contains("needs 'shear_coefficient' for the Timoshenko theory, or a 'shape'"));
 }
 
-TEST_CASE("a section's material has to be there") {
+TEST_CASE("a section's material must exist") {
   const support::TomlDocument document = support::TomlDocument::parse(
       "[materials.steel]\nyoungs_modulus = 1.0\n[sections.s]\nmaterial = \"stele\"\narea = "
       "1.0\nsecond_moment = 1.0",

@@ -229,7 +229,7 @@ TEST_CASE("a frame in two parts is refused, naming the nodes of one") {
   CHECK_THAT(message_of<InputError>([&] { read(text); }), Contains("far"));
 }
 
-TEST_CASE("lines that are given twice over or not at all are refused") {
+TEST_CASE("lines given in two ways or not at all are refused") {
   CHECK_THAT(fault("from = \"right\"", "from = \"right\"\nthrough = [\"right\", \"end\"]"),
              Contains("has 'through' beside 'from' or 'to'"));
   CHECK_THAT(fault("through = [\"foot\", \"left\", \"right\"]", "through = [\"foot\"]"),
@@ -309,7 +309,7 @@ TEST_CASE("faults between a design and its gmsh file are named") {
   CHECK_THAT(message_of<InputError>([] { read(kMeshDesign); }), Contains("bar.geo: error: cannot be read"));
 }
 
-TEST_CASE("a mesh refined until rounding spoils the lowest mode is refused with the number") {
+TEST_CASE("a mesh so fine that rounding errors dominate the lowest mode is refused with the number") {
   const std::string text = change("elements = [3, 4]", "elements = [6000, 8000]");
   CHECK_THAT(message_of<support::NumericalError>([&] { make_superelement(read(text)); }),
              Contains("rounding spoils the lowest mode") || Contains("not positive definite to rounding"));

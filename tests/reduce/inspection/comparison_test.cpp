@@ -95,7 +95,7 @@ TEST_CASE("modes without a counterpart are listed alone") {
   CHECK(std::isnan(comparison.matches[2].mac));
 }
 
-TEST_CASE("bodies without common places are compared by frequency only, and the table says so") {
+TEST_CASE("bodies without nodes at common positions are compared by frequency only, and the table says so") {
   const Comparison comparison = compare_modes(reduce_star(5, 0.3), reduce_star(5, 1.1));
   CHECK_FALSE(comparison.comparable);
   REQUIRE(comparison.matches.size() == 3);

@@ -66,8 +66,8 @@ std::vector<Body> make_bodies() {
   return bodies;
 }
 
-// How much of the difference the frequencies' own nearness excuses: vectors of modes a gap g apart are
-// determined to the rounding of K over g only. 1 for bodies whose frequencies are equal or well apart.
+// The factor by which close frequencies enlarge the difference: vectors of modes with a gap g are determined
+// only to the rounding of K divided by g. 1 for bodies whose frequencies are equal or well separated.
 double calc_separation(const Superelement& s) {
   double nearest = 1.0;
   for (Eigen::Index i = 1; i < s.num_modes(); ++i) {
@@ -134,7 +134,7 @@ TEST_CASE("in a pair the first mode has all the heave and the second all the pit
   CHECK(s.inertia.c(1) > 0.5 * std::sqrt(s.inertia.second_moment));
 }
 
-TEST_CASE("a quadruple takes up heave, surge and pitch one after the other") {
+TEST_CASE("in a quadruple the modes carry heave, surge and pitch one after the other") {
   const Superelement s = make_superelement(make_design(testing::make_star(4, 0.37), {0.0, 0.0}, {}));
   REQUIRE(s.cluster(3) == s.cluster(0));
   const double noise = 1e-12 * std::sqrt(s.inertia.mass);
@@ -191,7 +191,7 @@ TEST_CASE("modes of different clusters are not mixed") {
   CHECK(rotation == expected);
 }
 
-TEST_CASE("the largest displacement is found by place, not by number") {
+TEST_CASE("the largest displacement is found by position, not by node number") {
   Eigen::Matrix2Xd positions(2, 3);
   positions << -1.0, 1.0, 1.0, 0.0, 0.5, -0.5;
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(9, 2);

@@ -151,7 +151,7 @@ TEST_CASE("the count agrees with the solver between all modes of a frame") {
   }
 }
 
-TEST_CASE("a count at a mode's own frequency is refused or right on either side") {
+TEST_CASE("a count at a mode's own frequency is refused, or correct for one side") {
   const ModalProblem problem = make_diagonal_problem(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0));
   CHECK_THAT(message_of<NumericalError>([&] { count_modes_below(problem, 2.0); }),
              Contains("could not be factored"));
@@ -191,7 +191,7 @@ TEST_CASE("a mode apart from its neighbour by hardly more than a cluster's gap i
   CHECK(modes.num_below == 1);
 }
 
-TEST_CASE("all modes of a frame can be had") {
+TEST_CASE("all modes of a frame can be computed") {
   const ModalProblem problem = make_cantilever(4);
   const ClampedModes modes = calc_clamped_modes(problem, 12);
   CHECK(modes.pairs.omega_squared.size() == 12);

@@ -1,4 +1,4 @@
-// Superelement files that are damaged, incomplete or something else.
+// Superelement files that are damaged, incomplete or of another format.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -66,14 +66,14 @@ TEST_CASE("a dataset of a version after that of the file is named with both vers
       "is of version 1");
 }
 
-TEST_CASE("a file with more in it than the specification has is read as without") {
+TEST_CASE("contents that the specification does not name are ignored") {
   const std::string hash = write_superelement(make_two_armed_body(), "more.h5");
   testing::Hdf5Tampering("more.h5").add("/modes/phase", {2}, {0.0, 1.0});
   testing::Hdf5Tampering("more.h5").set_unit("/modes/phase", "rad");
   CHECK(read_superelement("more.h5").content_hash == hash);
 }
 
-TEST_CASE("values that cannot be are named with their dataset") {
+TEST_CASE("impossible values are named with their dataset") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto fault = [](const std::string& name, std::size_t index, double value) {
     return read_tampered([&](auto& file) { file.set(name, index, value); });
@@ -93,12 +93,12 @@ TEST_CASE("values that cannot be are named with their dataset") {
   CHECK_THAT(fault("/inertia/B", 1, 1.0), Contains("dataset '/inertia/B' is not skew"));
 }
 
-TEST_CASE("a value changed within its range is betrayed by the hash") {
+TEST_CASE("a value changed within its range is detected by the hash") {
   CHECK_THAT(read_tampered([](auto& file) { file.set("/inertia/P", 3, 0.25); }),
              Contains("attribute 'content_hash' is") && Contains("was changed after it was written"));
 }
 
-TEST_CASE("a file of a newer version says so and how to go on") {
+TEST_CASE("a file of a newer version is refused with advice") {
   const std::string message = read_tampered([](auto& file) { file.set_attribute("version", 3); });
   CHECK_THAT(
       message,
@@ -110,7 +110,7 @@ TEST_CASE("a file of a newer version says so and how to go on") {
   CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("version"); }), Contains("version"));
 }
 
-TEST_CASE("files that are no superelement say what they are") {
+TEST_CASE("files that are no superelement are refused with what they are") {
   CHECK_THAT(read_tampered([](auto& file) { file.remove_attribute("format"); }),
              Contains("not a superelement"));
   CHECK_THAT(message_of<InputError>([] { read_superelement("absent.h5"); }), Contains("absent.h5: error:"));

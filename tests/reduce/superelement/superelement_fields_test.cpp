@@ -52,7 +52,7 @@ std::string type_name(FieldType type) {
   return type == FieldType::kIntegers ? "integer" : "real";
 }
 
-TEST_CASE("the specification has the datasets of the field table, each as it is there") {
+TEST_CASE("the specification has the datasets of the field table, with the same properties") {
   std::vector<Row> rows;
   for (const SuperelementField& field : superelement_fields()) {
     rows.push_back({std::string(field.path), type_name(field.type), std::string(field.shape),
@@ -84,7 +84,7 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(find_version(body) == 1);
 }
 
-TEST_CASE("the extents of a shape are products of its numbers and counts, unless a count is not known") {
+TEST_CASE("the extents of a shape are products of its numbers and counts, if all counts are known") {
   const SuperelementField field{"/x", FieldType::kMatrices, "3p×2×m", "", {}};
   FieldCounts counts = {{'1', 1}, {'p', 4}};
   CHECK(calc_extents(field, counts) == std::vector<std::int64_t>{12, 2, -1});
@@ -113,7 +113,7 @@ TEST_CASE("NaN in any real field is a fault, in each of its matrices") {
   }
 }
 
-TEST_CASE("a value against the rule of its field is a fault") {
+TEST_CASE("a value that violates the rule of its field is a fault") {
   const Superelement body = testing::make_two_armed_body();
   int num_rules = 0;
   for (const SuperelementField& field : superelement_fields()) {

@@ -40,7 +40,7 @@ TEST_CASE("a superelement is read as it was written") {
     CHECK(read.texts == written.texts);
     CHECK_FALSE((read.reals.empty() && read.integers.empty() && read.texts.empty()));
   }
-  // That a field is the member it should be, for one of each kind; by hand, not by the field table.
+  // The member of a field, for one field of each kind, written by hand and not by the field table.
   CHECK(b.node_ids == a.node_ids);
   CHECK(b.node_positions == a.node_positions);
   REQUIRE(b.points.size() == 2);
@@ -155,7 +155,7 @@ TEST_CASE("every single value of a field enters the hash") {
   CHECK(num_values > 1000);
 }
 
-TEST_CASE("what does not fit together is not written") {
+TEST_CASE("an inconsistent superelement is not written") {
   const Superelement body = make_two_armed_body();
   const auto fault = [&](const std::function<void(Superelement&)>& change) {
     Superelement changed = body;

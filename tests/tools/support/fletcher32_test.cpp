@@ -38,7 +38,7 @@ TEST_CASE("The checksum is that of its definition, word by word", "[hdf5]") {
   }
 }
 
-TEST_CASE("Sums of zeros and of words that come to nothing in ones' complement are kept apart", "[hdf5]") {
+TEST_CASE("Zero words and words that add up to zero in ones' complement give different sums", "[hdf5]") {
   CHECK(support::calc_fletcher32(std::vector<double>(1000, 0.0)) == 0);
   const std::uint64_t ones = ~std::uint64_t{0};
   std::vector<double> values(513);

@@ -30,6 +30,6 @@ TEST_CASE("A file is foreign when it is neither ours, nor empty, nor damaged HDF
   CHECK_FALSE(support::is_foreign_file(folder / "ours.h5", "sprung-results"));
   write_format(folder / "other.h5", "sprung-superelement");
   CHECK(support::is_foreign_file(folder / "other.h5", "sprung-results"));
-  std::filesystem::resize_file(folder / "other.h5", 60);  // its signature is left, nothing else
+  std::filesystem::resize_file(folder / "other.h5", 60);  // only its signature is left
   CHECK_FALSE(support::is_foreign_file(folder / "other.h5", "sprung-results"));
 }

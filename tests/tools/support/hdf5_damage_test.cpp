@@ -48,7 +48,7 @@ Content read_all(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("a file that is none is refused with what it is") {
+TEST_CASE("a file that is no HDF5 file is refused with what it is") {
   const TemporaryFolder folder;
   const std::string place = folder.path().string();
   const auto error = [&](const std::string& name) {
@@ -101,7 +101,7 @@ TEST_CASE("a damaged value is refused with the dataset's name") {
             ": error: dataset 'modes/shape' cannot be read: its checksum does not fit, the data is damaged");
 }
 
-TEST_CASE("no damaged byte anywhere changes what is read: it is refused, or it did not matter") {
+TEST_CASE("no damaged byte changes what is read: the file is refused, or the values are the same") {
   const TemporaryFolder folder;
   const std::string bytes = make_file(folder);
   const Content expected = read_all(folder / "a.h5");
@@ -120,7 +120,7 @@ TEST_CASE("no damaged byte anywhere changes what is read: it is refused, or it d
     }
   }
   CHECK(num_changed == 0);
-  // What is not refused lies in free space between the structures, of which there is little.
+  // Bytes that may change lie in free space between the structures, of which there is little.
   INFO(num_refused << " of " << bytes.size());
   CHECK(num_refused > bytes.size() * 9 / 10);
 }

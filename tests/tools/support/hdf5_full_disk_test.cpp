@@ -16,9 +16,8 @@
 #include "tools/support/errors/input_error.h"
 #include "tools/support/hdf5/hdf5_file.h"
 
-// A limit on the size of files (RLIMIT_FSIZE) stands for the full disk: both fail in the middle of a write.
-// Each case runs in a process of its own, to its very end, because HDF5 cleans up in its destructor and at
-// exit.
+// A limit on the size of files (RLIMIT_FSIZE) simulates the full disk: both fail in the middle of a write.
+// Each case runs in a process of its own to its end, because HDF5 cleans up in its destructor and at exit.
 
 using namespace sprung::support;
 
@@ -48,7 +47,7 @@ void lift_limit() {
   ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-// Descriptors this process has open: a file that is removed but open still fills the disk.
+// The number of open descriptors of this process: a removed file that is still open fills the disk.
 std::ptrdiff_t num_descriptors() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
                        std::filesystem::directory_iterator());
@@ -79,7 +78,7 @@ void write_flushing(Hdf5Writer& writer) {
   writer.commit();
 }
 
-// Catches the error and goes on to keep what there is, as an interrupted run would: that fails as well.
+// Catches the error and tries to keep the partial file, as an interrupted run does: that fails as well.
 void write_and_keep(Hdf5Writer& writer) {
   try {
     write_growing(writer);
@@ -145,7 +144,9 @@ TEST_CASE("a write that fails leaves an earlier file whole") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
 }
 
-TEST_CASE("a writer given up before it has written its data leaves nothing, though the data would not fit") {
+TEST_CASE(
+    "a writer that is abandoned before it has written its data leaves nothing, although the data would not "
+    "fit") {
   const TemporaryFolder folder;
   const ChildResult result = run_in_child([&] {
     limit_file_size(5000);

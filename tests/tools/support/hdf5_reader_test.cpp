@@ -74,7 +74,7 @@ void make_foreign_dataset(hid_t file, hid_t type, std::vector<hsize_t> shape,
 
 }  // namespace
 
-TEST_CASE("a dataset that is missing or something else is refused") {
+TEST_CASE("a dataset that is missing or of another type is refused") {
   const SmallFile file;
   CHECK(file.error([](const Hdf5Reader& r) {
     r.reals("modes/mass", {1, 1});
@@ -118,7 +118,7 @@ TEST_CASE("a dataset of another type is refused with both types") {
         "dataset 'ids' must hold strings, holds integers");
 }
 
-TEST_CASE("a number that is not finite is refused with its place") {
+TEST_CASE("a number that is not finite is refused with its position") {
   const SmallFile file;
   CHECK(file.error([](const Hdf5Reader& r) {
     r.reals("bad", {2, 2});
@@ -170,7 +170,7 @@ TEST_CASE("sizes whose product overflows are refused") {
              Contains("declares 2147483648×2147483648 values, but holds only 0 bytes"));
 }
 
-TEST_CASE("what this project's files never have is refused") {
+TEST_CASE("features that this project's files never use are refused") {
   const auto read_strings = [](const Hdf5Reader& r) { r.strings("x", {-1}); };
   const auto variable_strings = [](hid_t file) {
     const hid_t type = H5Tcopy(H5T_C_S1);
@@ -224,7 +224,7 @@ TEST_CASE("a link into another file is refused, direct or by a group") {
   CHECK(Hdf5Reader(path).reals("inside", {2}) == std::vector{1.0, 2.0});
 }
 
-TEST_CASE("a narrower number of another program is taken for what it is") {
+TEST_CASE("a narrower number type of another program is read correctly") {
   const TemporaryFolder folder;
   const std::string path = (folder / "f.h5").string();
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);

@@ -115,7 +115,7 @@ TEST_CASE("attributes come back, the last value of each") {
   CHECK_FALSE(reader.has_attribute("y", "unit"));
 }
 
-TEST_CASE("a file tells what is in it") {
+TEST_CASE("a file lists its contents") {
   const TemporaryFolder folder;
   {
     Hdf5Writer writer(folder / "a.h5");
@@ -168,7 +168,7 @@ TEST_CASE("a dataset of several chunks comes back whole") {
   CHECK(Hdf5Reader(folder / "a.h5").reals("matrix", {300, 1000}) == row_major(matrix));
 }
 
-TEST_CASE("a growing dataset holds all rows in the order of their coming") {
+TEST_CASE("a growing dataset holds all rows in the order in which they were added") {
   const TemporaryFolder folder;
   const std::size_t num_rows = GENERATE(1, 1023, 1024, 1025, 5001);
   const std::size_t rows_at_once = GENERATE(1, 7, 3000);

@@ -70,7 +70,7 @@ TEST_CASE("every dataset is chunked, has a checksum and no time stamp") {
   H5Fclose(file);
 }
 
-TEST_CASE("the target appears when the file is whole, and not before") {
+TEST_CASE("the target appears when the file is complete, and not before") {
   const TemporaryFolder folder;
   Hdf5Writer writer(folder / "a.h5");
   CHECK(writer.temporary() == folder / "a.h5.tmp");
@@ -82,7 +82,7 @@ TEST_CASE("the target appears when the file is whole, and not before") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
 }
 
-TEST_CASE("what is not committed leaves nothing behind, and the old file whole") {
+TEST_CASE("a file that is not committed leaves nothing behind, and the old file as it was") {
   const TemporaryFolder folder;
   write_file(folder / "a.h5");
   const std::string before = read_bytes(folder / "a.h5");
@@ -106,14 +106,14 @@ TEST_CASE("a temporary file that is kept can be read") {
   CHECK(Hdf5Reader(folder / "run.partial.h5").reals("t", {3})[2] == 3.5);
 }
 
-TEST_CASE("a file left over from a crash is written over") {
+TEST_CASE("a file left over from a crash is overwritten") {
   const TemporaryFolder folder;
   write_bytes(folder / "a.h5.tmp", "half a file");
   write_file(folder / "a.h5");
   CHECK(Hdf5Reader(folder / "a.h5").reals("/a/values", {3})[0] == 1.5);
 }
 
-TEST_CASE("two writers do not write one file") {
+TEST_CASE("two writers cannot write the same file") {
   const TemporaryFolder folder;
   const std::string target = (folder / "a.h5").string();
   Hdf5Writer first(target);
@@ -125,7 +125,7 @@ TEST_CASE("two writers do not write one file") {
   CHECK(Hdf5Reader(target).reals("x", {3})[0] == 1.5);
 }
 
-TEST_CASE("a target that cannot be written is refused before anything is") {
+TEST_CASE("a target that cannot be written is refused before anything is written") {
   const TemporaryFolder folder;
   const std::string place = folder.path().string();
   const auto error = [&](const std::string& name) {
@@ -159,7 +159,7 @@ TEST_CASE("a target that has become a folder leaves no temporary file") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
 }
 
-TEST_CASE("a caller's mistake is told from a bad file") {
+TEST_CASE("a caller's mistake is distinguished from a bad file") {
   const TemporaryFolder folder;
   Hdf5Writer writer(folder / "a.h5");
   writer.write("x", kValues, "m");

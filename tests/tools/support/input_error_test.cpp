@@ -8,7 +8,7 @@
 using sprung::support::InputError;
 using sprung::support::nearest_name_hint;
 
-TEST_CASE("an input error names its place as far as it is known") {
+TEST_CASE("an input error gives its location as far as it is known") {
   CHECK(std::string(InputError({"a.toml", 12, 8}, "must be > 0 kg").what()) ==
         "a.toml:12:8: error: must be > 0 kg");
   CHECK(std::string(InputError({"a.toml", 12}, "is wrong").what()) == "a.toml:12: error: is wrong");

@@ -65,7 +65,7 @@ TEST_CASE("the message comes after what was printed before") {
   CHECK(result.output == "step 1\nsprung-test: error: stuck\n");
 }
 
-TEST_CASE("the first interrupt is asked for politely") {
+TEST_CASE("the first interrupt sets a flag and does not end the program") {
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   const ChildResult result = run([signal]() -> int {
     if (interrupt_requested()) return 50;
@@ -87,7 +87,7 @@ TEST_CASE("the second interrupt ends the program at once") {
   CHECK(result.exit_code == -1);
 }
 
-TEST_CASE("a program under nohup goes on when its terminal is closed") {
+TEST_CASE("a program under nohup continues when its terminal is closed") {
   std::signal(SIGHUP, SIG_IGN);
   const ChildResult result = run([]() -> int {
     std::raise(SIGHUP);
@@ -106,7 +106,7 @@ TEST_CASE("a file-size limit and a closed pipe are errors of the write, not sign
   CHECK(result.exit_code == 7);
 }
 
-TEST_CASE("output that does not reach the disk is no success") {
+TEST_CASE("output that does not reach the disk is an error") {
   const ChildResult result = run([] {
     const int full = ::open("/dev/full", O_WRONLY);
     ::dup2(full, STDOUT_FILENO);
@@ -117,7 +117,7 @@ TEST_CASE("output that does not reach the disk is no success") {
   CHECK(result.output == "sprung-test: error: standard output cannot be written: No space left on device\n");
 }
 
-TEST_CASE("a reader that goes away is no failure") {
+TEST_CASE("a reader that closes the pipe is no error") {
   const ChildResult result = run([] {
     int ends[2] = {};
     if (::pipe(ends) != 0) return 50;

@@ -31,7 +31,7 @@ TEST_CASE("a column with one word in it is text, and so is one without cells") {
         "none\n");
 }
 
-TEST_CASE("zero has no minus, nor has what rounds to it") {
+TEST_CASE("zero has no minus sign, nor has a number that rounds to zero") {
   CHECK(sprung::support::format_fixed(-1e-9, 4) == "0.0000");
   CHECK(sprung::support::format_fixed(-0.0, 2) == "0.00");
   CHECK(sprung::support::format_fixed(-5.1e-5, 4) == "-0.0001");
@@ -39,7 +39,7 @@ TEST_CASE("zero has no minus, nor has what rounds to it") {
   CHECK(sprung::support::format_fixed(2.5, 3) == "2.500");
 }
 
-TEST_CASE("one is no plural") {
+TEST_CASE("one is singular") {
   CHECK(sprung::support::format_count(1, "mode") == "1 mode");
   CHECK(sprung::support::format_count(0, "mode") == "0 modes");
   CHECK(sprung::support::format_count(36, "available mode") == "36 available modes");

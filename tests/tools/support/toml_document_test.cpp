@@ -20,7 +20,7 @@ std::string place(const SourceLocation& location) {
 
 }  // namespace
 
-TEST_CASE("every value knows its place and full key") {
+TEST_CASE("every value knows its location and full key") {
   const TomlDocument document = TomlDocument::parse(
       "# truck\n"
       "speed = 3.0\n"
@@ -97,7 +97,7 @@ TEST_CASE("a file that cannot be read is named") {
         (folder / "none.toml").string() + ": error: cannot be read: No such file or directory");
 }
 
-TEST_CASE("a text that is not TOML is refused where the fault is") {
+TEST_CASE("a text that is not TOML is refused at the fault") {
   // The places are those of the offending characters; the words after them are the parsing library's.
   CHECK_THAT(parse_error("a = 1\nb = = 2\n"),
              Catch::Matchers::StartsWith("v.toml:2:5: error: is not TOML: "));

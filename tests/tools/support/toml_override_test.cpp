@@ -51,7 +51,7 @@ TEST_CASE("a bare word is a string") {
         "models/truck/vehicle.toml");
 }
 
-TEST_CASE("an override makes the tables on its way, and its key comes last") {
+TEST_CASE("an override creates the tables of its path, and its key comes last") {
   const TomlDocument document = overridden("modal_damping.\"front arm\".first=0.01");
   const TomlValue value = document.root().at("modal_damping").table().at("front arm").table().at("first");
   CHECK(value.number(any("")) == 0.01);
@@ -85,14 +85,14 @@ TEST_CASE("an override reaches into an array by position or name") {
             .numbers(any("m"), 2)[0] == 4.0);
 }
 
-TEST_CASE("what was not overridden stays as it was, and so does the text") {
+TEST_CASE("other values stay as they were, and so does the text") {
   const TomlDocument document = overridden("modes.chassis=4");
   CHECK(document.root().number("speed", any("m/s")) == 3.0);
   CHECK(document.root().at("speed").location().line == 1);
   CHECK(document.text() == make_document().text());
 }
 
-TEST_CASE("an overridden value that does not fit is refused by the override's name") {
+TEST_CASE("an override with a bad value is refused with the override's name") {
   const TomlDocument speed = overridden("speed=-1");
   CHECK(error_message<InputError>([&] { speed.root().number("speed", positive("m/s")); }) ==
         "--set 1: error: 'speed' must be > 0 m/s, got -1");
@@ -110,7 +110,7 @@ TEST_CASE("an overridden value that does not fit is refused by the override's na
         "--set 1: error: unknown key 'heigth' in 'road' (did you mean 'height'?)");
 }
 
-TEST_CASE("what is not an assignment is refused") {
+TEST_CASE("an override that is no assignment is refused") {
   const std::string text = GENERATE(as<std::string>{}, "speed", "=3", "speed=", ".speed=3",
                                     "road..shape=flat", "\"speed=3", "a\"b\"=3", "\"a\"b=3", "");
   CHECK(override_error(text) == "--set 1: error: '" + text + "' is not of the form key.path=value");

@@ -37,7 +37,7 @@ TEST_CASE("keys are found or take their default") {
   CHECK_FALSE(root.find_table("z").has_value());
 }
 
-TEST_CASE("a value that is there is checked, default or not") {
+TEST_CASE("a given value is checked, with or without a default") {
   const TomlDocument document = TomlDocument::parse("a = -1\n", "v.toml");
   const TomlTable root = document.root();
   CHECK(error_message<InputError>([&] { root.number_or("a", 9.0, positive("m")); }) ==
@@ -55,19 +55,19 @@ TEST_CASE("a missing key is named with its table") {
         "v.toml: error: missing key 'duration'");
 }
 
-TEST_CASE("a text with the character NUL is refused where it stands") {
+TEST_CASE("a text with the character NUL is refused at its location") {
   CHECK(error_message<InputError>([] { TomlDocument::parse("name = \"a\\u0000b\"\n", "v.toml"); }) ==
         "v.toml:1:8: error: 'name' contains the character NUL");
 }
 
-TEST_CASE("a missing key is looked for among the misspelt ones") {
+TEST_CASE("for a missing key the nearest misspelt one is named") {
   const TomlDocument document = TomlDocument::parse("mas = 3\nb = 1\n", "v.toml");
   CHECK(error_message<InputError>([&] { document.root().at("mass"); }) ==
         "v.toml: error: missing key 'mass'; is 'mas' meant to be it?");
   CHECK(error_message<InputError>([&] { document.root().at("a"); }) == "v.toml: error: missing key 'a'");
 }
 
-TEST_CASE("a key nobody asked for is refused, at the key, with the nearest that was") {
+TEST_CASE("an unknown key is refused at its location, with the nearest known one") {
   const TomlDocument document = TomlDocument::parse(kText, "v.toml");
   const TomlTable chassis = document.root().at("bodies").table().at("chassis").table();
   chassis.number_or("mass", 1.0, positive("kg"));
@@ -76,7 +76,7 @@ TEST_CASE("a key nobody asked for is refused, at the key, with the nearest that 
         "v.toml:3:1: error: unknown key 'masss' in 'bodies.chassis' (did you mean 'mass'?)");
 }
 
-TEST_CASE("a key like no other is refused with all that are known") {
+TEST_CASE("a key unlike all others is refused with all that are known") {
   const TomlDocument document = TomlDocument::parse(kText, "v.toml");
   const TomlTable root = document.root();
   root.at("speed");
@@ -87,7 +87,7 @@ TEST_CASE("a key like no other is refused with all that are known") {
         "v.toml:2:9: error: unknown key 'chassis' in 'bodies'");
 }
 
-TEST_CASE("a table whose keys were all asked for has no unknown one") {
+TEST_CASE("a table whose keys were all read has no unknown one") {
   const TomlDocument document = TomlDocument::parse("a = 1\nb = 2\n", "v.toml");
   const TomlTable root = document.root();
   root.has("a");

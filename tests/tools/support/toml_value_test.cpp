@@ -75,7 +75,7 @@ TEST_CASE("a number out of range is refused with the range and its unit") {
   CHECK(number_error("2", {.unit = "m", .above = 0.0, .at_most = 1.0}) == "must be > 0 and ≤ 1 m, got 2");
 }
 
-TEST_CASE("what is not a number is refused with the unit and what it is") {
+TEST_CASE("a value that is no number is refused with the unit and its type") {
   CHECK(number_error("\"heavy\"", positive("kg")) == "must be a number [kg], got a string \"heavy\"");
   CHECK(number_error("true", positive("")) == "must be a number, got a boolean true");
   CHECK(number_error("[1, 2]", any("m")) == "must be a number [m], got an array of 2");
@@ -84,13 +84,13 @@ TEST_CASE("what is not a number is refused with the unit and what it is") {
         "must be a number [m], got a string \"" + std::string(39, 'x') + "…\"");
 }
 
-TEST_CASE("numbers that are not finite are refused whatever the range") {
+TEST_CASE("numbers that are not finite are refused for any range") {
   CHECK(number_error("inf", positive("kg")) == "must be a finite number [kg], got inf");
   CHECK(number_error("-inf", any("")) == "must be a finite number, got -inf");
   CHECK(number_error("nan", any("m")) == "must be a finite number [m], got nan");
 }
 
-TEST_CASE("what is not an integer of the range is refused") {
+TEST_CASE("a value that is no integer of the range is refused") {
   const auto error = [](const std::string& text, std::int64_t minimum, std::int64_t maximum) {
     return conversion_error(text, [=](const TomlValue& value) { return value.integer(minimum, maximum); });
   };
@@ -101,7 +101,7 @@ TEST_CASE("what is not an integer of the range is refused") {
   CHECK(error("\"3\"", kLowest, kHighest) == "must be an integer, got a string \"3\"");
 }
 
-TEST_CASE("other types are refused by what was wanted") {
+TEST_CASE("values of other types are refused with the expected type") {
   CHECK(conversion_error("1", [](const TomlValue& v) { v.boolean(); }) ==
         "must be true or false, got an integer 1");
   CHECK(conversion_error("2.5", [](const TomlValue& v) { v.string(); }) ==
@@ -110,7 +110,7 @@ TEST_CASE("other types are refused by what was wanted") {
   CHECK(conversion_error("1", [](const TomlValue& v) { v.table(); }) == "must be a table, got an integer 1");
 }
 
-TEST_CASE("an array of numbers is refused as a whole or at its wrong element") {
+TEST_CASE("an array of numbers is refused as a whole or at the wrong element") {
   const auto numbers = [](const TomlValue& v) { v.numbers(any("m")); };
   const auto three = [](const TomlValue& v) { v.numbers(any("m"), 3); };
   CHECK(conversion_error("1", numbers) == "must be an array of numbers [m], got an integer 1");
@@ -120,7 +120,7 @@ TEST_CASE("an array of numbers is refused as a whole or at its wrong element") {
         "v.toml:1:9: error: 'p.1' must be a number [m], got a string \"two\"");
 }
 
-TEST_CASE("a word out of the list is refused with the list and the nearest") {
+TEST_CASE("a word that is not in the list is refused with the list and the nearest one") {
   const std::vector<std::string> words = {"flat", "half-sine"};
   const auto word = [&](const TomlValue& v) { v.one_of(words); };
   CHECK(conversion_error("\"halfsine\"", word) ==

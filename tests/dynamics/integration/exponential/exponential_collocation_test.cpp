@@ -1,4 +1,4 @@
-// The parts of the exponential integrator, each against what defines it.
+// The parts of the exponential integrator, each against its definition.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <array>
@@ -89,7 +89,7 @@ TEST_CASE("An oscillator's response under a constant force is the closed form", 
   CHECK(damper.forced[0] == Approx((0.7 - (1.0 - std::exp(-56.0)) / 80.0) / 80.0).epsilon(1e-13));
 }
 
-TEST_CASE("The vibration basis takes small motion apart into pairs", "[analysis]") {
+TEST_CASE("The vibration basis decouples small motion into pairs", "[analysis]") {
   std::mt19937 random(7);
   const Eigen::Index f = 6;
   dynamics::SmallMotion motion{random_positive(f, random), random_positive(f, random),
@@ -122,7 +122,7 @@ TEST_CASE("Where complex modes are defective the undamped ones are taken, with t
   CHECK(basis.inverse.norm() < 1e4);
 }
 
-TEST_CASE("A Lobatto step is exact for a drive of third degree, and knows what a fourth would do",
+TEST_CASE("A Lobatto step is exact for forces of third degree, and its error estimate for a fourth is exact",
           "[analysis]") {
   const dynamics::SmallMotion motion{Eigen::MatrixXd::Identity(1, 1), 0.6 * Eigen::MatrixXd::Identity(1, 1),
                                      50.0 * Eigen::MatrixXd::Identity(1, 1)};

@@ -165,7 +165,7 @@ TEST_CASE("The amplification of a mode of infinite frequency is the spectral rad
   CHECK_THROWS_AS(GeneralizedAlpha(std::nan("")), std::invalid_argument);
 }
 
-TEST_CASE("A step's errors are those that its coefficients tell", "[analysis]") {
+TEST_CASE("A step's errors are those that follow from its coefficients", "[analysis]") {
   // x = e^{iωt} in (integration/generalized_alpha, eqs. 1, 2) with what the auxiliary acceleration becomes in
   // the long run.
   using Complex = std::complex<double>;
@@ -195,7 +195,7 @@ TEST_CASE("A stiff oscillator loses its amplitude by the spectral radius in each
     const auto x_and_v = [&] {
       return Eigen::Vector2d(stepper.motion().q[0] - kFar, length * stepper.motion().v[0]);
     };
-    // The first step tells the auxiliary accelerations at its ends: from there the linear theory has to hold.
+    // The first step gives the auxiliary accelerations at its ends. From there the linear theory must hold.
     const Eigen::Vector2d before = x_and_v();
     stepper.step(kInfinity);
     const Eigen::Vector2d after = x_and_v();
@@ -306,7 +306,7 @@ TEST_CASE("The energy of a conservative mechanism changes with the second power 
   CHECK(fine < 1e-2);
 }
 
-TEST_CASE("Motion that leads nowhere is refused with the time and the reason", "[analysis]") {
+TEST_CASE("Motion to a position that does not exist is refused with the time and the reason", "[analysis]") {
   // Two bars of 1 m; the end of the second is drawn away from the pin of the first: at 2 m they are straight.
   Model model;
   const int first = test::add_body(model, dynamics::make_rigid_body("first", 1.0, 0.1));
