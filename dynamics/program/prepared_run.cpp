@@ -94,7 +94,7 @@ void read_files(const RunRequest& request, PreparedRun& prepared) {
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
 }
 
-// The modes of the flexible bodies of the models, with their damping and stiffening.
+// Damping and stiffening of the flexible bodies of the models.
 struct Flexibility {
   ModalDamping damping;
   StiffenedBodies stiffened;
