@@ -1,13 +1,19 @@
 """Reads the frame in another program's mesh file (Abaqus, Nastran, MED, VTK, gmsh and the other formats of meshio) and
 writes it as a gmsh 4.1 mesh: every line element, every set of elements as a physical curve, every set of nodes as
-physical points. The sections come from the design file, by the names of the curves."""
+physical points. Beside OUT.msh it writes a starter design OUT.toml with the sections, materials and masses that the
+source gives; an OUT.toml that is already there stays as it is."""
+
+import math
+import os
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.whole_file import check_output
+from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.mesh_import.gmsh_writer import write_msh
 from sprung_tools.mesh_import.line_mesh import LineMesh
 from sprung_tools.mesh_import.mesh_file import read_mesh
 from sprung_tools.mesh_import.plane_frame import PlaneFrame, make_plane_frame
+from sprung_tools.mesh_import.starter_design import find_doubts, format_design
+from sprung_tools.mesh_import.units import Units
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
@@ -31,12 +37,21 @@ def print_report(mesh: LineMesh, frame: PlaneFrame, plane: str, output: str) -> 
     print(format_table(("physical", "name", "holds"), rows))
     for heading, texts in (
         ("Not kept as it was", frame.remarks),
-        ("In the source but not in the mesh: to be given in the design file", mesh.left_behind),
+        ("In the source, but neither in the mesh nor in the starter design", mesh.left_behind),
     ):
         if texts:
             print(f"\n{heading}")
             print("\n".join(f"  {text}" for text in texts))
     print(f"\nMesh: {output}")
+
+
+def write_design(text: str, path: str) -> None:
+    """Writes the starter design, unless there is a file of its name: somebody may have completed it."""
+    if os.path.exists(path):
+        print(f"Design: {path} is there already and stays as it is; remove it to get a starter design")
+        return
+    write_whole(path, text)
+    print(f"Starter design: {path}")
 
 
 def main() -> int:
@@ -56,14 +71,26 @@ def main() -> int:
     parser.add_argument(
         "--scale", metavar="M", type=float, default=1.0, help="length of the source's unit in metres (mm: 1e-3)"
     )
+    parser.add_argument(
+        "--force", metavar="N", type=float, default=1.0,
+        help="the source's unit of force in newtons, for moduli and densities (pound: 4.4482216)",
+    )  # fmt: skip
     arguments = parser.parse_args()
     if not arguments.output.endswith(".msh"):
         raise InputError(f"{arguments.output}: error: the output's name must end in .msh")
-    if not 0.0 < arguments.scale < float("inf"):
-        raise InputError(f"--scale: error: {arguments.scale:g}, expected a length > 0 m")
+    for name, value, expected in (
+        ("--scale", arguments.scale, "a length > 0 m"), ("--force", arguments.force, "a force > 0 N"),
+    ):  # fmt: skip
+        if not 0.0 < value < math.inf:
+            raise InputError(f"{name}: error: {value:g}, expected {expected}")
     mesh = read_mesh(arguments.input)
     check_output(arguments.output, [arguments.input])
     frame = make_plane_frame(mesh, arguments.plane, arguments.sections, arguments.scale)
     write_msh(frame, arguments.output)
+    units = Units(arguments.scale, arguments.force)
+    design = format_design(mesh, frame, arguments.plane, units, os.path.basename(arguments.output))
     print_report(mesh, frame, arguments.plane, arguments.output)
+    write_design(design, arguments.output.removesuffix(".msh") + ".toml")
+    for doubt in find_doubts(mesh, frame, units):
+        print(f"Remark: {doubt}")
     return 0

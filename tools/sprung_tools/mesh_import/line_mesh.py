@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section
 
 LARGEST_NUMBER = 2**31 - 1  # of a node or an element
 MOST_MEMBERS = 10_000_000  # of a set that is written as a range
@@ -25,6 +26,22 @@ class LineMesh:
     node_sets: dict[str, Integers] = field(default_factory=dict)
     section_sets: tuple[str, ...] = ()  # names of the element sets to which the source gives sections
     left_behind: list[str] = field(default_factory=list)  # what the source holds and the mesh does not, a text each
+    sections: list[Section] = field(default_factory=list)
+    section_of: Integers = field(default_factory=lambda: np.zeros(0, dtype=int))  # [E] places in sections, -1: none
+    heights: Floats = field(default_factory=lambda: np.zeros((0, 3)))  # [E×3] along the section's height; NaN: unknown
+    materials: dict[str, Material] = field(default_factory=dict)
+    point_masses: list[PointMass] = field(default_factory=list)
+    counts: Integers = field(default_factory=lambda: np.zeros(0, dtype=int))  # [E] parallel members of each line
+
+    def __post_init__(self) -> None:
+        """Fills what a reader has not given: lines without a section, single members."""
+        size = len(self.lines)
+        if len(self.section_of) != size:
+            self.section_of = np.full(size, -1)
+        if len(self.heights) != size:
+            self.heights = np.full((size, 3), np.nan)
+        if len(self.counts) != size:
+            self.counts = np.ones(size, dtype=int)
 
 
 def shorten(items: Iterable[object], most: int = 8) -> str:

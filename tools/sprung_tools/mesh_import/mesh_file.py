@@ -5,9 +5,11 @@ import os
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
 from sprung_tools.mesh_import.line_mesh import LineMesh
-from sprung_tools.mesh_import.nastran_deck import is_nastran, read_nastran
+from sprung_tools.mesh_import.nastran_cards import is_nastran
+from sprung_tools.mesh_import.nastran_deck import read_nastran
 
 DECKS = {".inp": read_abaqus, ".bdf": read_nastran, ".nas": read_nastran, ".fem": read_nastran}
+MAYBE_NASTRAN = (".dat", ".pch", ".txt")
 
 
 def read_mesh(path: str) -> LineMesh:
@@ -17,7 +19,7 @@ def read_mesh(path: str) -> LineMesh:
     ending = os.path.splitext(path)[1].lower()
     if ending in DECKS:
         return DECKS[ending](path)
-    if ending == ".dat" and is_nastran(path):
+    if ending in MAYBE_NASTRAN and is_nastran(path):
         return read_nastran(path)
     from sprung_tools.mesh_import.meshio_reader import read_with_meshio  # here because meshio takes long to load
 

@@ -1,0 +1,185 @@
+"""The starter design of tools/convert_mesh: that it gives what a design written by hand gives, and says what it lacks.
+
+Needs sprung-reduce, which SPRUNG_REDUCE names.
+"""
+
+import os
+import tomllib
+import unittest
+
+import h5py
+import numpy as np
+from small_decks import NASTRAN
+from tool_test_case import ROOT, ToolTestCase, run_program
+
+from sprung_tools.mesh_import.frame_properties import Shape
+from sprung_tools.mesh_import.plane_section import calc_in_plane
+
+DATA = ROOT / "tests/tools/data"
+SAME = 1e-10  # relative, frequencies and mass
+
+# The portal of data/, written by hand: its height lies in the plane.
+POINTS = {
+    "left_foot": (0.0, 0.0), "left": (0.1, 1.25), "left_top": (0.2, 2.5), "right_foot": (3.2, 0.1),
+    "right": (3.1, 1.3), "right_top": (3.0, 2.6), "crown": (1.1, 2.7), "ridge": (2.0, 2.75),
+}  # fmt: skip
+LINES = {
+    "post": (("left_foot", "left", "left_top"), ("right_foot", "right", "right_top")),
+    "beam": (("left_top", "crown", "ridge", "right_top"),),
+    "brace": (("left", "crown"),),
+}
+ROD = 4e-4  # m², a rod bends as a round bar of its area: A² / 4π
+
+
+def write_portal(sections, crown_mass=0.0):
+    """A portal's design. sections: name → keys of its table; crown_mass: kg."""
+    points = "".join(f"{name} = [{x}, {y}]\n" for name, (x, y) in POINTS.items())
+    tables = "".join(f'[sections.{name}]\nmaterial = "steel"\n{keys}\n' for name, keys in sections.items())
+    lines = "".join(
+        f'[[lines]]\nthrough = {list(row)}\nsection = "{name}"\nelements = 1\n'.replace("'", '"')
+        for name, rows in LINES.items()
+        for row in rows
+    )
+    mass = f'[[point_masses]]\npoint = "crown"\nmass = {crown_mass}\n' if crown_mass else ""
+    steel = "[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\npoissons_ratio = 0.3\n"
+    return (
+        f"{steel}{tables}[points]\n{points}"
+        f'{lines}{mass}[reference]\npoint = "crown"\n[modes]\nall = true\ndamping_ratio = 0.01\n'
+    )
+
+
+class StarterCase(ToolTestCase):
+    """Converting decks, and building designs."""
+
+    def convert(self, source, *arguments):
+        """Runs the tool, which must succeed. Returns (what it printed, the starter design's text)."""
+        process = self.run_tool("convert_mesh", source, "frame.msh", *arguments)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return process.stdout, (self.folder / "frame.toml").read_text(encoding="utf-8")
+
+    def convert_text(self, name, text, *arguments):
+        """The same for a deck's text."""
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return self.convert(name, *arguments)
+
+    def build(self, name, text=None):
+        """Builds a design of self.folder, which has the text if one is given. Returns the open file."""
+        if text is not None:
+            (self.folder / f"{name}.toml").write_text(text, encoding="utf-8")
+        command = [os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", "out", "--quiet"]
+        process = run_program(command, cwd=self.folder)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        file = h5py.File(self.folder / f"out/{name}.h5")
+        self.addCleanup(file.close)
+        return file
+
+    def assert_same_body(self, found, expected):
+        """Frequencies, mass and moment of inertia agree to SAME."""
+        for name in ("modes/frequency", "inertia/mass", "inertia/second_moment", "inertia/first_moment"):
+            scale = np.max(np.abs(expected[name][()]))
+            np.testing.assert_allclose(found[name][()], expected[name][()], rtol=SAME, atol=SAME * scale, err_msg=name)
+
+
+class OfThePortal(StarterCase):
+    """The starter design, built without a change, against the design written by hand."""
+
+    def test_nastran_in_the_plane_of_x_and_z(self):
+        self.convert(DATA / "portal.bdf", "--plane", "xz")
+        hand = {  # bars with y of their elements normal to the plane: the width of PBARL lies in it
+            "post": 'shape = "box"\nwidth = 0.12\nheight = 0.1\nwall = 0.005',
+            "beam": 'shape = "rectangle"\nwidth = 0.1\nheight = 0.08',
+            "brace": f"area = {ROD}\nsecond_moment = {ROD**2 / (4 * np.pi)!r}",
+        }
+        self.assert_same_body(self.build("frame"), self.build("hand", write_portal(hand, crown_mass=12.5)))
+
+
+class OfDecks(StarterCase):
+    """Small decks: what is taken, what is said."""
+
+    def read(self, text):
+        return tomllib.loads(text)
+
+    def test_units_of_millimetres_and_newtons_become_those_of_metres(self):
+        deck = NASTRAN.replace("GRID,2,,1.", "GRID,2,,1000.").replace(
+            "ENDDATA",
+            "PBAR,1,1,100.,800.,900.,,1.-6\nMAT1,1,2.1+5,,.3,7.85-9\nCONM2,9,2,,.5,,,,\n,1.,,2.,,,3.\nENDDATA",
+        )
+        told, text = self.convert_text("a.bdf", deck, "--scale", "1e-3")
+        design = self.read(text)
+        self.assertNotIn("Remark", told)
+        expected = {"youngs_modulus": 2.1e11, "density": 7850.0, "poissons_ratio": 0.3}
+        for key, value in expected.items():
+            self.assertAlmostEqual(design["materials"]["material_1"][key] / value, 1.0, places=12)
+        section = design["sections"]["property_1"]
+        # 1e-6 t/mm is 1 kg/m; the bar's plane 1 is that of x and y, so that I1 counts.
+        for key, value in {"area": 1e-4, "second_moment": 8e-10, "mass_per_length": 7850e-4 + 1.0}.items():
+            self.assertAlmostEqual(section[key] / value, 1.0, places=12)
+        (mass,) = design["point_masses"]
+        self.assertAlmostEqual(mass["mass"], 500.0)
+        self.assertAlmostEqual(mass["inertia"], 3.0 * 1e3 * 1e-6)  # about z, t mm²
+
+    def test_a_size_or_a_modulus_of_other_units_is_remarked(self):
+        told, _ = self.convert_text("a.bdf", NASTRAN.replace("GRID,2,,1.", "GRID,2,,1000."))
+        self.assertIn("Remark: the frame is 1000 m long: if its unit is the millimetre, give --scale 1e-3", told)
+        (self.folder / "frame.toml").unlink()
+        told, _ = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", "PBAR,1,1,.1,.1,.1\nMAT1,1,2.1+5\nENDDATA"))
+        self.assertIn("Remark: Young's modulus of '1' is 2.1e+05 Pa", told)
+
+    def test_what_the_source_does_not_say_is_left_open_and_the_design_refused(self):
+        _, text = self.convert_text("a.bdf", NASTRAN)
+        self.assertIn("# area =   # m²: the source does not say", text)
+        self.assertIn("# of section 'property_1': the source gives it none that is understood", text)
+        process = run_program([os.environ["SPRUNG_REDUCE"], "build", "frame.toml"], cwd=self.folder)
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("materials.unknown", process.stderr)
+
+    def test_a_design_that_is_there_stays_as_it_is(self):
+        (self.folder / "frame.toml").write_text("mine", encoding="utf-8")
+        told, text = self.convert_text("a.bdf", NASTRAN)
+        self.assertEqual(text, "mine")
+        self.assertIn("Design: frame.toml is there already and stays as it is", told)
+
+    def test_masses_that_cannot_be_taken_are_listed(self):
+        masses = "CONM2,8,2,,5.,.1,,,\nCONM2,9,1,,7.\nENDDATA"
+        _, text = self.convert_text("a.bdf", NASTRAN.replace("ENDDATA", masses))
+        self.assertIn("# CONM2 8, 5 at node 2: it is away from its node by 0.1, 0, 0", text)
+        self.assertEqual([one["mass"] for one in self.read(text)["point_masses"]], [7.0])
+
+    def test_a_taper_and_a_shape_that_is_not_known_are_listed(self):
+        beam = NASTRAN.replace("CBAR", "CBEAM")
+        taper = "PBEAM,1,1,.1,.2,.3,0.,.4,\n,,,,,,,,\n,NO,1.,.2,.2,.3\nMAT1,1,2.1+11\nENDDATA"
+        _, text = self.convert_text("a.bdf", beam.replace("ENDDATA", taper))
+        self.assertIn("# of section 'property_1': its taper: the section at end A is taken", text)
+        self.assertEqual(self.read(text)["sections"]["property_1"]["second_moment"], 0.2)
+        (self.folder / "frame.toml").unlink()
+        _, text = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", "PBARL,1,1,,HAT1\n,1.,1.,1.,1.,1.\nENDDATA"))
+        self.assertIn("# of section 'property_1': the shape HAT1", text)
+
+
+class Turning(unittest.TestCase):
+    """The second moment in the plane of a section that is turned about its axis."""
+
+    def test_a_flat_bar_is_stiff_upright_weak_lying_and_between_at_an_angle(self):
+        bar = Shape(area=2.0, hh=8.0, ww=2.0)
+        along = np.array([[1.0, 0.0, 0.0]] * 3)
+        heights = np.array([[0.0, 3.0, 0.0], [0.0, 0.0, 1.0], [0.5, 1.0, 1.0]])
+        moments, products = calc_in_plane(bar, along, heights, "xy")
+        np.testing.assert_allclose(moments, [8.0, 2.0, 5.0], rtol=1e-15)
+        np.testing.assert_allclose(products, [0.0, 0.0, 3.0], atol=1e-15)  # (8 − 2) sin 45° cos 45°
+
+    def test_an_angle_bar_turned_to_its_main_axes_has_its_main_moments(self):
+        # About its main axes at 45° its moments are 5 ± 3: Mohr's circle.
+        angle = Shape(area=1.0, hh=5.0, ww=5.0, hw=3.0)
+        for height, expected in (((0.0, 1.0, 1.0), 8.0), ((0.0, 1.0, -1.0), 2.0)):
+            moments, products = calc_in_plane(angle, np.array([[1.0, 0.0, 0.0]]), np.array([height]), "xy")
+            np.testing.assert_allclose(moments, [expected], rtol=1e-14)
+            np.testing.assert_allclose(products, [0.0], atol=1e-14)
+
+    def test_a_height_along_the_line_or_unknown_gives_nothing(self):
+        bar, along = Shape(area=2.0, hh=8.0, ww=2.0), np.array([[1.0, 0.0, 0.0]])
+        for height in ((2.0, 0.0, 0.0), (np.nan,) * 3):
+            self.assertIsNone(calc_in_plane(bar, along, np.array([height]), "xy"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,44 @@
+"""What a source knows of a frame beside its mesh: materials, sections and point masses, in the source's units."""
+
+from typing import NamedTuple
+
+from sprung_tools.files.array_types import Floats
+
+
+class Material(NamedTuple):
+    """An isotropic linear elastic material; None for what the source does not say."""
+
+    name: str
+    youngs_modulus: float | None
+    poissons_ratio: float | None = None
+    density: float | None = None
+
+
+class Shape(NamedTuple):
+    """Integrals over a section about its centroid. h is the coordinate along its height, w along its width."""
+
+    area: float
+    hh: float  # ∫h² dA
+    ww: float  # ∫w² dA
+    hw: float = 0.0  # ∫h w dA
+
+
+class Section(NamedTuple):
+    """A section of a line."""
+
+    text: str  # what the source says, for people
+    material: str  # name, empty if the source gives none
+    shape: Shape | None  # None where the source gives none that is understood
+    bends: bool = True  # False: a rod, which carries axial force alone; its shape has an area alone
+    extra_mass: float = 0.0  # per length, beside area times density
+    left_out: tuple[str, ...] = ()  # what of the section is not taken, a text each
+
+
+class PointMass(NamedTuple):
+    """A mass at a node."""
+
+    text: str  # what the source says, for people
+    node: int  # 0-based
+    mass: float
+    inertia: Floats | None = None  # [3×3] about the node; None for none
+    left_out: str = ""  # why it cannot be taken; empty if it can

@@ -1,0 +1,151 @@
+"""Sections, materials and masses of Nastran decks: PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE, CONROD; MAT1; CONM2.
+
+The height of a section lies along y of its element, in plane 1: hh is Nastran's I1, and ww its I2.
+Source: MSC Nastran, Quick Reference Guide, "Bulk Data Entries".
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape
+from sprung_tools.mesh_import.nastran_cards import Card
+from sprung_tools.mesh_import.section_shapes import (
+    Rectangle,
+    combine,
+    make_box,
+    make_channel,
+    make_i,
+    make_rectangle,
+    make_tube,
+    turn,
+)
+
+# Type of PBARL and PBEAML → number of its dimensions, and the shape that they make.
+SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
+    "ROD": (1, make_tube),
+    "TUBE": (2, make_tube),
+    "TUBE2": (2, lambda radius, wall: make_tube(radius, radius - wall)),
+    "BAR": (2, make_rectangle),
+    "BOX": (4, lambda width, height, flange, web: make_box(width, height, web, web, flange, flange)),
+    "BOX1": (6, lambda width, height, top, bottom, left, right: make_box(width, height, left, right, top, bottom)),
+    "I": (6, lambda height, bottom, top, web, under, over: make_i(height, bottom, top, web, under, over)),
+    "I1": (4, lambda out, web, inner, height: make_i(height, out + web, out + web, web, *2 * ((height - inner) / 2,))),
+    "T": (4, lambda width, height, flange, web: make_i(height, 0.0, width, web, 0.0, flange)),
+    "T2": (4, lambda width, height, flange, web: make_i(height, width, 0.0, web, flange, 0.0)),
+    "T1": (4, lambda width, height, flange, web: turn(make_i(height + flange, width, 0.0, web, flange, 0.0))),
+    "H": (4, lambda inner, legs, height, bar: combine([
+        Rectangle(inner, bar), Rectangle(legs / 2, height, -(inner + legs / 2) / 2),
+        Rectangle(legs / 2, height, (inner + legs / 2) / 2),
+    ])),
+    "CHAN": (4, make_channel),
+    "CHAN1": (4, lambda out, web, inner, height: make_channel(out + web, height, web, (height - inner) / 2)),
+    "CHAN2": (4, lambda leg, plate, height, width: turn(make_channel(height, width, plate, leg))),
+    "CROSS": (4, lambda out, upright, height, bar: combine([Rectangle(upright, height), Rectangle(out, bar)])),
+}  # fmt: skip
+SECTION_CARDS = {"PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE"}
+MATERIAL_CARDS = {"MAT1"}
+MASS_CARDS = {"CONM2"}
+
+
+def read_section(card: Card) -> Section:
+    """Reads a property of bars, beams, rods or tubes. InputError if a number is none."""
+    text = f"{card.name} {card.field(0)}"
+    material = card.field(1)
+    if card.name == "PBAR":
+        moments = [card.real(place, "second moment") for place in (3, 4, 18)]
+        shape = make_general(card.real(2, "area"), moments)
+        left_out = ["shear flexibility (K1, K2)"] if any(card.field(place) for place in (16, 17)) else []
+        return Section(text, material, shape, True, card.real(6, "mass per length"), tuple(left_out))
+    if card.name == "PBEAM":
+        return read_beam_section(card, text, material)
+    if card.name in ("PBARL", "PBEAML"):
+        return read_shaped_section(card, text, material)
+    if card.name == "PTUBE":
+        diameter, wall = card.real(2, "diameter"), card.real(3, "wall")
+        shape = make_shape(card, make_tube, [diameter / 2.0, max(diameter / 2.0 - wall, 0.0) if wall else 0.0])
+        return Section(text, material, shape, False, card.real(4, "mass per length"))
+    shape = make_general(card.real(2, "area"), [0.0, 0.0, 0.0])
+    return Section(text, material, shape, False, card.real(5, "mass per length"))
+
+
+def read_rod_section(card: Card) -> Section:
+    """Reads the section that a CONROD has itself."""
+    shape = make_general(card.real(4, "area"), [0.0, 0.0, 0.0])
+    return Section(f"CONROD {card.field(0)}", card.field(3), shape, False, card.real(7, "mass per length"))
+
+
+def make_general(area: float, moments: Sequence[float]) -> Shape | None:
+    """A shape from its numbers: area; I1, I2, I12 with z to the other side than w. None without an area."""
+    first, second, product = moments
+    return Shape(area, first, second, -product) if area > 0.0 else None
+
+
+def make_shape(card: Card, make: Callable[..., Shape], dimensions: Sequence[float]) -> Shape | None:
+    """A shape from its dimensions; None where these make none."""
+    try:
+        return make(*dimensions)
+    except ValueError:
+        return None
+
+
+def read_shaped_section(card: Card, text: str, material: str) -> Section:
+    """Reads a PBARL, or a PBEAML at its end A."""
+    kind = card.field(3).upper() or card.field(2).upper()
+    count, make = SHAPES.get(kind, (0, None))
+    dimensions = [card.real(place, "dimension") for place in range(8, 8 + count)]
+    text = f"{text}, {kind} {' × '.join(f'{one:g}' for one in dimensions)}".strip()
+    if make is None:
+        return Section(text, material, None, left_out=(f"the shape {kind}",))
+    shape = make_shape(card, make, dimensions)
+    rest = [one for one in card.fields[8 + count + 1 :] if one]
+    left_out = ("its further stations: the section at end A is taken",) if card.name == "PBEAML" and rest else ()
+    if kind in ("T", "T1", "T2", "CHAN", "CHAN1", "CHAN2"):
+        left_out += ("the way from its shear centre, where Nastran has the axis, to its centroid",)
+    return Section(text, material, shape, True, card.real(8 + count, "mass per length"), left_out)
+
+
+def read_beam_section(card: Card, text: str, material: str) -> Section:
+    """Reads a PBEAM at its end A."""
+    moments = [card.real(place, "second moment") for place in (3, 4, 5)]
+    first = card.fields[2:6]
+    left_out: list[str] = []
+    # Further stations begin with whether there are stresses: then follow their place and the same numbers again.
+    for start in range(8, len(card.fields), 8):
+        there = card.fields[start + 2 : start + 6]
+        has_station = card.field(start).upper() in ("YES", "YESA", "NO")
+        if has_station and any(one and one != other for one, other in zip(there, first)):
+            left_out.append("its taper: the section at end A is taken")
+            break
+    return Section(
+        text, material, make_general(card.real(2, "area"), moments), True, card.real(7, "mass per length"),
+        (*left_out, "shear flexibility (K1, K2 are 1 unless given)"),
+    )  # fmt: skip
+
+
+def read_material(card: Card) -> Material:
+    """Reads a MAT1. Without E it follows from G and ν; without ν it follows from E and G."""
+    modulus, shear, ratio, density = (card.real(place, "number") for place in (1, 2, 3, 4))
+    given_ratio = ratio if card.field(3) else None
+    if not modulus and shear and given_ratio is not None:
+        modulus = 2.0 * shear * (1.0 + given_ratio)
+    if given_ratio is None and modulus and shear:
+        given_ratio = modulus / (2.0 * shear) - 1.0
+    return Material(card.field(0), modulus or None, given_ratio, density or None)
+
+
+def read_mass(card: Card, number: Mapping[int, int]) -> PointMass:
+    """Reads a CONM2. number: id of a node → its 0-based number. InputError if the node is not there."""
+    node = card.integer(1, "node")
+    if node not in number:
+        card.fail(f"names node {node}, which is not there: truncated?")
+    offset = [card.real(place, "offset") for place in (4, 5, 6)]
+    i11, i21, i22, i31, i32, i33 = (card.real(place, "moment of inertia") for place in range(8, 14))
+    inertia = np.array([[i11, -i21, -i31], [-i21, i22, -i32], [-i31, -i32, i33]])
+    reason = ""
+    if any(offset):
+        reason = f"it is away from its node by {', '.join(f'{one:g}' for one in offset)}"
+    elif card.integer(2, "coordinate system", 0) != 0 and np.any(inertia):
+        reason = f"its moments of inertia are in coordinate system {card.field(2)}"
+    mass = card.real(3, "mass")
+    return PointMass(f"CONM2 {card.field(0)}, {mass:g} at node {node}", number[node], mass, inertia, reason)

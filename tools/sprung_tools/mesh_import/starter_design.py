@@ -1,0 +1,191 @@
+"""A starter design for a converted mesh: what the source says of materials, sections and masses, for people to
+complete.
+
+What the source does not say, or what a planar frame cannot hold, stands in it as a comment. Numbers that are not known
+are left out, so that sprung-reduce refuses the design until somebody gives them.
+"""
+
+import json
+import os
+from collections.abc import Iterable
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.mesh_import.frame_properties import Material
+from sprung_tools.mesh_import.line_mesh import LineMesh
+from sprung_tools.mesh_import.plane_frame import PlaneFrame
+from sprung_tools.mesh_import.plane_section import PlaneSection, choose_section
+from sprung_tools.mesh_import.units import Units
+
+ALL_MODES = 300  # freedoms up to which the starter design asks for all modes
+FEW_MODES = 12  # that it asks for beyond
+UNKNOWN = "unknown"  # name of the material of sections whose material the source does not say
+WIDTH = 118  # of a comment's lines
+
+
+def format_design(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units, mesh_name: str) -> str:
+    """The text of the design. mesh_name: the mesh's file beside it."""
+    name = os.path.splitext(mesh_name)[0]
+    sections = {curve: choose_section(mesh, lines, plane) for curve, lines in frame.curves.items()}
+    left_out = [*frame.remarks, *mesh.left_behind]
+    points, masses, mass_remarks = list_masses(mesh, frame, plane, units)
+    left_out += mass_remarks
+    for curve, section in sections.items():
+        left_out += [f"of section '{curve}': {text}" for text in section.left_out]
+    reference = name_reference(frame, points)
+    parts = [
+        make_comment(f"Starter design of {os.path.basename(mesh.path)} ({mesh.format}), written by tools/convert_mesh: "
+                     f"complete it, then run sprung-reduce build. {units.describe()}"),
+        [f"name = {quote(name)}", f"mesh = {quote(mesh_name)}", 'theory = "euler-bernoulli"  # or "timoshenko"'],
+        *(format_material(material, units) for material in list_materials(mesh, sections.values())),
+        *(format_section(curve, section, mesh, units) for curve, section in sections.items()),
+        ["[points]", *points] if points else [],
+        *masses,
+        [
+            "[reference]", f"point = {quote(reference)}  # the node nearest to the middle of all lines",
+            'condition = "clamped"',
+        ],
+        ["[modes]", choose_modes(frame), "damping_ratio = 0.01  # chosen"],
+        [line for text in ("Not taken from the source:", *left_out) for line in make_comment(text)] if left_out else [],
+    ]  # fmt: skip
+    return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
+
+
+def quote(text: str) -> str:
+    """A text as TOML's basic string."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def make_comment(text: str) -> list[str]:
+    """A text as comment lines."""
+    lines = [""]
+    for word in text.split():
+        if lines[-1] and len(lines[-1]) + len(word) > WIDTH:
+            lines.append("  ")
+        lines[-1] += word if lines[-1] in ("", "  ") else f" {word}"
+    return [f"# {line}" for line in lines]
+
+
+def choose_modes(frame: PlaneFrame) -> str:
+    """All modes of a small frame; a few of a large one."""
+    return "all = true" if 3 * (len(frame.node_ids) - 1) <= ALL_MODES else f"count = {FEW_MODES}"
+
+
+def list_materials(mesh: LineMesh, sections: Iterable[PlaneSection]) -> list[Material]:
+    """The materials of the sections, each once."""
+    unknown = Material(UNKNOWN, None)
+    found = (mesh.materials.get(section.material, unknown) for section in sections)
+    return list({material.name: material for material in found}.values())
+
+
+def name_material(name: str) -> str:
+    """A material's name in the design: a Nastran number gets a word before it."""
+    return f"material_{name}" if name.isdecimal() else name
+
+
+def format_number(key: str, value: float | None, unit: str) -> str:
+    """A key with its number; as a comment where it is not known."""
+    if value is None:
+        return f"# {key} =   # {unit}: the source does not say"
+    return f"{key} = {float(value)!r}"
+
+
+def format_material(material: Material, units: Units) -> list[str]:
+    """A material's table."""
+    modulus = None if material.youngs_modulus is None else units.stress * material.youngs_modulus
+    density = None if material.density is None else units.density * material.density
+    lines = [f"[materials.{quote(name_material(material.name))}]", format_number("youngs_modulus", modulus, "Pa")]
+    lines.append(format_number("density", density, "kg/m³"))
+    if material.poissons_ratio is not None:
+        lines.append(format_number("poissons_ratio", material.poissons_ratio, ""))
+    return lines
+
+
+def format_section(curve: str, section: PlaneSection, mesh: LineMesh, units: Units) -> list[str]:
+    """A section's table."""
+    lines = make_comment(section.text) if section.text else []
+    lines.append(f"[sections.{quote(curve)}]")
+    known = section.material in mesh.materials
+    lines.append(f"material = {quote(name_material(section.material) if known else UNKNOWN)}")
+    area = None if section.area is None else units.length**2 * section.area
+    moment = None if section.second_moment is None else units.length**4 * section.second_moment
+    lines += [format_number("area", area, "m²"), format_number("second_moment", moment, "m⁴, for bending in the plane")]
+    density = mesh.materials[section.material].density if known else None
+    if section.extra_mass and area is not None and density is not None:
+        whole = units.density * density * area + units.mass_per_length * section.extra_mass
+        lines.append(format_number("mass_per_length", whole, "kg/m"))
+    if section.members != 1:
+        lines.append(f"count = {section.members}")
+    return lines
+
+
+def list_masses(
+    mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units
+) -> tuple[list[str], list[list[str]], list[str]]:
+    """Returns (lines of [points], tables of the masses, remarks on those that are not taken)."""
+    names = {node: name for name, node in reversed(frame.points.items())}
+    number = {int(node): place for place, node in enumerate(frame.node_ids)}
+    normal = ({0, 1, 2} - {"xyz".index(axis) for axis in plane}).pop()
+    points: list[str] = []
+    tables: list[list[str]] = []
+    remarks: list[str] = []
+    for one in mesh.point_masses:
+        place = number.get(int(mesh.node_ids[one.node]))
+        if one.left_out or place is None or one.mass < 0.0:
+            remarks.append(f"{one.text}: {one.left_out or ('its node has no line' if place is None else 'it is < 0')}")
+            continue
+        if place not in names:
+            names[place] = make_name(f"node_{frame.node_ids[place]}", frame)
+            points.append(format_point(names[place], frame.positions[place]))
+        inertia = 0.0 if one.inertia is None else units.inertia * float(one.inertia[normal, normal])
+        tables.append([
+            *make_comment(one.text), "[[point_masses]]", f"point = {quote(names[place])}",
+            f"mass = {float(units.mass * one.mass)!r}", f"inertia = {inertia!r}",
+        ])  # fmt: skip
+    return points, tables, remarks
+
+
+def make_name(wanted: str, frame: PlaneFrame) -> str:
+    """A name that no point of the mesh has."""
+    while wanted in frame.points:
+        wanted += "_"
+    return wanted
+
+
+def format_point(name: str, position: Floats) -> str:
+    """A line of [points]."""
+    return f"{quote(name)} = [{float(position[0])!r}, {float(position[1])!r}]"
+
+
+def name_reference(frame: PlaneFrame, points: list[str]) -> str:
+    """The name of the node nearest to the middle of all lines. Adds it to the lines of [points] if it has none yet."""
+    ends = frame.positions[frame.lines]
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    middle = lengths @ ends.mean(axis=1) / lengths.sum()
+    node = int(np.argmin(np.linalg.norm(frame.positions - middle, axis=1)))
+    for name, place in frame.points.items():
+        if place == node:
+            return name
+    name = make_name("reference", frame)
+    points.append(format_point(name, frame.positions[node]))
+    return name
+
+
+def find_doubts(mesh: LineMesh, frame: PlaneFrame, units: Units) -> list[str]:
+    """What makes it doubtful that the source's units were given right: sizes and moduli that no vehicle's frame has."""
+    doubts = []
+    extent = float(np.max(np.ptp(frame.positions, axis=0)))
+    if extent > 100.0:
+        doubts.append(f"the frame is {extent:g} m long: if its unit is the millimetre, give --scale 1e-3")
+    elif extent < 1e-2:
+        doubts.append(f"the frame is {extent:g} m long: see --scale")
+    used = {mesh.sections[k].material for k in np.unique(mesh.section_of) if k >= 0}
+    for name in sorted(used & set(mesh.materials)):
+        modulus = mesh.materials[name].youngs_modulus
+        if modulus is not None and not 1e8 <= units.stress * modulus <= 2e12:
+            doubts.append(
+                f"Young's modulus of '{name}' is {units.stress * modulus:.3g} Pa: are length and force in metres and "
+                "newtons? See --scale and --force"
+            )
+    return doubts
