@@ -18,14 +18,17 @@ struct BeamTheory {
 using Materials = std::map<std::string, fem::Material>;
 using Sections = std::map<std::string, fem::BeamProperties>;
 
-/// `theory` and `rotary_inertia` of a design. @throws support::InputError
+/// Reads `theory` and `rotary_inertia` of a design.
+/// @throws support::InputError for a bad value
 BeamTheory read_beam_theory(const support::TomlTable& root);
 
-/// `[materials.NAME]` of a design. @throws support::InputError
+/// Reads `[materials.NAME]` of a design.
+/// @throws support::InputError for a key that is missing, unknown or has a bad value
 Materials read_materials(const support::TomlTable& root);
 
-/// `[sections.NAME]` of a design: by shape or by area and second moment, times `count`. @throws
-/// support::InputError Checked by tests/reduce/design/design_sections_test.cpp
+/// Reads `[sections.NAME]` of a design: by shape or by area and second moment, times `count`.
+/// @throws support::InputError for a key that is missing, unknown or has a bad value
+/// Checked by tests/reduce/design/design_sections_test.cpp
 Sections read_sections(const support::TomlTable& root, const Materials& materials, const BeamTheory& theory);
 
 }  // namespace sprung::reduce

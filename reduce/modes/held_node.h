@@ -6,7 +6,8 @@
 namespace sprung::reduce {
 
 /// Rows and columns of a matrix of a free frame without the three of a node.
-/// @param matrix  3N×3N   @param node  0-based
+/// @param matrix  3N×3N
+/// @param node    0-based
 /// @return (3N−3)×(3N−3)
 Eigen::SparseMatrix<double> remove_node(const Eigen::SparseMatrix<double>& matrix, int node);
 /// Rows without the three of a node. @return (3N−3)×n

@@ -9,14 +9,13 @@ namespace sprung::reduce {
 /// Largest estimated relative rounding error of the lowest ω² that is accepted.
 inline constexpr double kMaxRoundingError = 1e-4;
 
-/// How far rounding of the stiffness matrix moves the ω² of a mode, relative: bending stiffness grows with
-/// the cube of the number of elements and the mode's energy does not, so that finer and finer meshes end in
-/// garbage.
+/// Estimated relative error of a mode's ω² by rounding of the stiffness matrix. Bending stiffness grows with
+/// the cube of the number of elements and the mode's energy does not, so very fine meshes give wrong results.
 ///
 ///     4 ε √(Σᵢⱼ (φᵢ Kᵢⱼ φⱼ)²) / ω²                                       (reduce, eq. 7)
 ///
-/// The root of the sum takes the roundings of the entries as independent. On cantilevers of up to 3000
-/// elements it is never below the error that really occurs, and several times nearer to it than the bound
+/// The root of the sum assumes independent rounding errors of the entries. On cantilevers of up to 3000
+/// elements the estimate is never below the actual error, and several times nearer to it than the bound
 /// ε‖K‖‖φ‖²/ω² (table in reduce, "Modes").
 ///
 /// @param shape  n, M-normalised

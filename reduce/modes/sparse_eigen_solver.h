@@ -9,8 +9,8 @@ namespace sprung::reduce {
 /// The lowest solutions of K φ = ω² M φ by Lanczos iteration with the inverse of K (shift 0), polished by one
 /// step of subspace iteration.
 ///
-/// What comes back are good solutions, but *not surely the lowest ones*: of repeated frequencies the
-/// iteration can miss members without a sign of it. Count them (eigenvalue_count.h).
+/// The solutions are accurate, but *not necessarily the lowest ones*: the iteration can miss members of
+/// repeated frequencies without an error. Count them (eigenvalue_count.h).
 ///
 /// @param num_pairs  1 … n−1
 /// @param seed       of the random start vector
