@@ -134,9 +134,8 @@ class Portal(ConvertCase):
         text = portal_by_mesh(names, "").replace('"crown"', '"CROWN"')
         self.assert_same_body(self.reduce(text, "converted"), self.expected)
         for fragment in (
-            "beam kind B31 of 7 elements (shear-flexible in Abaqus)", "orientation nodes of 2 elements",
-            "*BEAM SECTION, SECTION=BOX, ELSET=post, MATERIAL=STEEL", "*MATERIAL, NAME=STEEL", "*ELASTIC",
-            "*SOLID SECTION, ELSET=brace", "element set 'EVERYTHING' (8 lines): overlaps", "no line uses: 99",
+            "beam kind B31 of 7 elements (shear-flexible in Abaqus)", "Starter design: mesh.toml",
+            "element set 'EVERYTHING' (8 lines): overlaps", "no line uses: 99",
             "node set 'FEET' has 2 nodes: one point for each, 'FEET_1' to 'FEET_2'",
         ):  # fmt: skip
             self.assertIn(fragment, told)
@@ -238,11 +237,17 @@ class Refusing(ToolTestCase):
         self.assert_refused("a.med", med[: len(med) // 2], "meshio", "cannot read it")
 
     def test_what_would_misplace_nodes_or_lose_elements(self):
-        self.assert_refused("a.inp", ABAQUS + "*ELGEN\n1, 5\n", "a.inp:8: ", "*ELGEN: is not followed")
+        self.assert_refused("a.inp", ABAQUS + "*NCOPY\n1, 5\n", "a.inp:8: ", "*NCOPY: is not followed")
+        self.assert_refused("a.inp", ABAQUS + "*ELGEN\n7, 5\n", "a.inp:9: ", "names element 7, which is not there")
+        curved = ABAQUS + "*NGEN, LINE=C\n1, 3, 1\n"
+        self.assert_refused("a.inp", curved, "a.inp:8: ", "*NGEN: along a curve is not followed")
+        self.assert_refused("a.inp", ABAQUS + "*NGEN\n1, 3, 4\n", "a.inp:9: ", "cannot go from node 1 to node 3")
         self.assert_refused("a.inp", ABAQUS.replace("*NODE", "*NODE, SYSTEM=C"), "not in rectangular coordinates")
-        self.assert_refused("a.inp", ABAQUS.replace("B21", "B22"), "B22 is a line with a middle node")
-        moved = "*INSTANCE, NAME=I, PART=P\n1., 0., 0.\n*END INSTANCE\n"
-        self.assert_refused("a.inp", ABAQUS + moved, "*INSTANCE: moves its part")
+        self.assert_refused("a.inp", ABAQUS.replace("B21", "B22"), "a B22 has 2 nodes, expected 3")
+        lost = "*INSTANCE, NAME=I, PART=P\n1., 0., 0.\n*END INSTANCE\n"
+        self.assert_refused("a.inp", ABAQUS + lost, "a.inp:8: ", "names the part 'P', which is not there")
+        turned = "*PART, NAME=P\n" + ABAQUS + "*END PART\n*INSTANCE, NAME=I, PART=P\n0.,\n1., 2.\n*END INSTANCE\n"
+        self.assert_refused("a.inp", turned, "a.inp:12: ", "which are seven numbers")
         repeated = NASTRAN.replace("CBAR", "=,*1,*1,==\nCBAR")
         self.assert_refused("a.bdf", repeated, "a.bdf:4: ", "repeats the card before")
         self.assert_refused("a.bdf", NASTRAN.replace("GRID,2,,", "GRID,2,5,"), "a.bdf:3: ", "names coordinate system 5")
@@ -280,8 +285,8 @@ class Refusing(ToolTestCase):
         source = (FEM_DATA / "portal_41.msh").read_bytes()
         (self.folder / "a.msh").write_bytes(source)
         self.assert_refuses(self.run_tool("convert_mesh", "a.msh", "a.msh"), "a.msh: error: is one of the input files")
-        (self.folder / "bad.inp").write_text(ABAQUS + "*ELGEN\n1, 5\n", encoding="utf-8")
-        self.assert_refuses(self.run_tool("convert_mesh", "bad.inp", "a.msh"), "*ELGEN")
+        (self.folder / "bad.inp").write_text(ABAQUS + "*NCOPY\n1, 5\n", encoding="utf-8")
+        self.assert_refuses(self.run_tool("convert_mesh", "bad.inp", "a.msh"), "*NCOPY")
         self.assertEqual((self.folder / "a.msh").read_bytes(), source)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.msh", "bad.inp"])
 

@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 import numpy as np
-from small_decks import NASTRAN
+from small_decks import ABAQUS, NASTRAN
 from tool_test_case import ROOT, ToolTestCase, run_program
 
 from sprung_tools.mesh_import.frame_properties import Shape
@@ -92,6 +92,55 @@ class OfThePortal(StarterCase):
         }
         self.assert_same_body(self.build("frame"), self.build("hand", write_portal(hand, crown_mass=12.5)))
 
+    def test_abaqus_with_its_1_direction_normal_to_the_plane(self):
+        deck = (DATA / "portal.inp").read_text(encoding="utf-8")
+        _, text = self.convert_text("turned.inp", deck)  # two of the posts' lines have an orientation node in the plane
+        self.assertRegex(text, "# of section 'POST': its second moment, from .* as its lines are turned: divide it")
+        (self.folder / "frame.toml").unlink()
+        self.convert_text("a.inp", deck.replace("11, 99", "11").replace("10, 99", "10"))
+        hand = {  # the second number of BOX and RECT lies along the 2-direction, in the plane
+            "post": 'shape = "box"\nwidth = 0.1\nheight = 0.12\nwall = 0.005',
+            "beam": 'shape = "rectangle"\nwidth = 0.08\nheight = 0.1',
+            "brace": f"area = {ROD}\nsecond_moment = {ROD**2 / (4 * np.pi)!r}",
+        }
+        self.assert_same_body(self.build("frame"), self.build("hand", write_portal(hand)))
+
+    def test_two_instances_one_moved_and_turned(self):
+        # A leg of 2 m along x from the origin; the second one goes up at the first one's end: turned by 90° about z.
+        part = (
+            "*PART, NAME=LEG\n*NODE\n1, 0., 0., 0.\n5, 2., 0., 0.\n*NGEN\n1, 5, 1\n*ELEMENT, TYPE=B23\n1, 1, 2\n"
+            "*ELGEN, ELSET=ALL\n1, 4, 1, 1\n*BEAM SECTION, SECTION=I, ELSET=ALL, MATERIAL=Steel\n"
+            "0.1, 0.2, 0.12, 0.12, 0.01, 0.01, 0.006\n0., 0., -1.\n*END PART\n"
+        )
+        assembly = (
+            "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=LEG\n*END INSTANCE\n*INSTANCE, NAME=L-2, PART=LEG\n"
+            "2.5, 0., 0.\n2.5, 0., 0., 2.5, 0., 1., 90.\n*END INSTANCE\n*NODE\n5001, 2.5, 2.5\n"
+            "*ELEMENT, TYPE=B23, ELSET=TOP\n5001, 1005, 5001\n*ELEMENT, TYPE=B23, ELSET=FOOT\n5002, 5, 1001\n"
+            "*ELEMENT, TYPE=MASS, ELSET=LUMP\n6001, 5001\n*MASS, ELSET=LUMP\n25.\n*ELSET, ELSET=REST\nTOP, FOOT\n"
+            "*BEAM GENERAL SECTION, ELSET=REST, DENSITY=7850.\n0.002, 1e-6, 0., 3e-6, 1e-6\n0., 0., -1.\n2.1e11, 8e10\n"
+            "*END ASSEMBLY\n*MATERIAL, NAME=STEEL\n*DENSITY\n7850.\n*ELASTIC\n2.1e11, 0.3\n"
+        )
+        self.convert_text("a.inp", part + assembly)
+        keys = 'shape = "i_section"\nheight = 0.2\nflange_width = 0.12\nflange_thickness = 0.01\nweb_thickness = 0.006'
+        points = {"a": (0.0, 0.0), "b": (2.0, 0.0), "c": (2.5, 0.0), "d": (2.5, 2.0), "e": (2.5, 2.5)}
+        reference = tomllib.loads((self.folder / "frame.toml").read_text(encoding="utf-8"))
+        x, y = reference["points"][reference["reference"]["point"]]
+        points["held"] = (x, y)
+        lines = (("a", "b", "leg", 4), ("b", "c", "rest", 1), ("c", "d", "leg", 4), ("d", "e", "rest", 1))
+        hand = (
+            "[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\n"
+            f'[sections.leg]\nmaterial = "steel"\n{keys}\n'
+            '[sections.rest]\nmaterial = "steel"\narea = 0.002\nsecond_moment = 1e-6\n[points]\n'
+            + "".join(f"{name} = [{px}, {py}]\n" for name, (px, py) in points.items())
+            + "".join(
+                f'[[lines]]\nfrom = "{a}"\nto = "{b}"\nsection = "{section}"\nelements = {count}\n'
+                for a, b, section, count in lines
+            )
+            + '[[point_masses]]\npoint = "e"\nmass = 25.0\n'
+            + '[reference]\npoint = "held"\n[modes]\nall = true\ndamping_ratio = 0.01\n'
+        )
+        self.assert_same_body(self.build("frame"), self.build("hand", hand))
+
 
 class OfDecks(StarterCase):
     """Small decks: what is taken, what is said."""
@@ -117,6 +166,25 @@ class OfDecks(StarterCase):
         (mass,) = design["point_masses"]
         self.assertAlmostEqual(mass["mass"], 500.0)
         self.assertAlmostEqual(mass["inertia"], 3.0 * 1e3 * 1e-6)  # about z, t mm²
+
+    def test_a_line_with_a_middle_node_becomes_two_and_keeps_its_bend(self):
+        deck = "*NODE\n1, 0., 0.\n2, 1., 0.2\n3, 2., 0.\n4, 3., 0.\n5, 4., 0.\n"
+        deck += "*ELEMENT, TYPE=B32R, ELSET=A\n1, 1, 2, 3\n"
+        section = "*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION=CIRC\n0.1, 0.1\n0., 0., 1.\n*MATERIAL, NAME=M\n"
+        told, text = self.convert_text("a.inp", deck + "2, 3, 4, 5\n" + section)
+        self.assertIn("middle nodes of 2 lines: each line has become two, straight ones", told)
+        self.assertRegex(told, r"curve +A +4 elements")
+        # Two numbers are CalculiX's axes of an ellipse: A = π d²/4, I = π d⁴/64.
+        self.assertAlmostEqual(self.read(text)["sections"]["A"]["area"], np.pi * 0.01 / 4, places=15)
+        self.assertAlmostEqual(self.read(text)["sections"]["A"]["second_moment"], np.pi * 1e-4 / 64, places=18)
+
+    def test_nodes_are_filled_in_between_two_sets(self):
+        fill = "*NODE\n101, 4., 2.\n103, 5., 1.\n*NSET, NSET=P\n1, 3\n*NSET, NSET=Q\n101, 103\n"
+        fill += "*NFILL, NSET=R\nP, Q, 4, 25\n"
+        deck = ABAQUS[: ABAQUS.index("*ELEMENT")] + fill + ABAQUS[ABAQUS.index("*ELEMENT") :] + "3, 3, 28\n"
+        told, _ = self.convert_text("a.inp", deck)
+        self.assertIn("no line uses: 26, 51, 53, 76, 78, 101, 103", told)
+        self.assertRegex(told, r"curve +A +3 elements")
 
     def test_a_size_or_a_modulus_of_other_units_is_remarked(self):
         told, _ = self.convert_text("a.bdf", NASTRAN.replace("GRID,2,,1.", "GRID,2,,1000."))

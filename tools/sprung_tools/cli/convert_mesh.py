@@ -9,6 +9,7 @@ import os
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.mesh_import.gmsh_writer import write_msh
+from sprung_tools.mesh_import.ladder_frame import unite_rails
 from sprung_tools.mesh_import.line_mesh import LineMesh
 from sprung_tools.mesh_import.mesh_file import read_mesh
 from sprung_tools.mesh_import.plane_frame import PlaneFrame, make_plane_frame
@@ -65,6 +66,10 @@ def main() -> int:
         "--plane", choices=PLANES, default="xy", help="the source's axes that become x and y (default: xy)"
     )
     parser.add_argument(
+        "--unite-rails", action="store_true",
+        help="unite a frame of two equal rails, which is symmetric about the middle plane, into that plane",
+    )  # fmt: skip
+    parser.add_argument(
         "--sections", metavar="SET", nargs="+", default=(),
         help="the element sets that become curves, where sets overlap; the others are left out",
     )  # fmt: skip
@@ -85,6 +90,8 @@ def main() -> int:
             raise InputError(f"{name}: error: {value:g}, expected {expected}")
     mesh = read_mesh(arguments.input)
     check_output(arguments.output, [arguments.input])
+    if arguments.unite_rails:
+        mesh = unite_rails(mesh, arguments.plane)
     frame = make_plane_frame(mesh, arguments.plane, arguments.sections, arguments.scale)
     write_msh(frame, arguments.output)
     units = Units(arguments.scale, arguments.force)

@@ -109,9 +109,9 @@ def read_real(block: Block, line: int, text: str) -> float:
     return value
 
 
-def join_rows(block: Block) -> list[tuple[int, list[int]]]:
+def join_rows(block: Block, least: int | None) -> list[tuple[int, list[int]]]:
     """The elements of a block as (line number, numbers). An element continues in the next line after a comma at the
-    end."""
+    end; one that has `least` numbers does not."""
     rows: list[tuple[int, list[int]]] = []
     continues = False
     for line, fields in block.data:
@@ -120,5 +120,5 @@ def join_rows(block: Block) -> list[tuple[int, list[int]]]:
             rows[-1][1].extend(numbers)
         else:
             rows.append((line, numbers))
-        continues = fields[-1] == "" and len(rows[-1][1]) != 3
+        continues = fields[-1] == "" and (least is None or len(rows[-1][1]) < least)
     return [row for row in rows if row[1]]

@@ -93,7 +93,7 @@ def project(mesh: LineMesh, plane: str) -> Floats:
             f"{mesh.path}: error: the lines do not lie in a plane parallel to {plane[0]}–{plane[1]}: "
             f"node {mesh.node_ids[low]} is at {axis} = {depth[low]:.9g}, node {mesh.node_ids[high]} at "
             f"{depth[high]:.9g}, {np.ptp(depth):.3g} apart; expected {SAME_PLACE * extent:.1g} at most, "
-            f"or --plane {' or '.join(others)}"
+            f"or --plane {' or '.join(others)}; --unite-rails for two equal rails"
         )
     return mesh.positions[:, kept]
 

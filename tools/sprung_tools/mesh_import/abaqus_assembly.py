@@ -1,0 +1,132 @@
+"""The instances of an Abaqus deck's parts, moved to their places, with numbers and sets of their own."""
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.mesh_import.abaqus_blocks import Block, read_integer, read_real
+from sprung_tools.mesh_import.abaqus_part import Part, SetTable
+from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
+
+IN_ASSEMBLY = "Assembly."  # prefix of the name of an assembly's set where the part has a set of that name
+
+
+class Instance(NamedTuple):
+    """A part in its place: x → rotation x + translation. Its numbers are the part's plus an offset."""
+
+    name: str
+    part: Part
+    rotation: Floats  # 3×3
+    translation: Floats  # 3
+    nodes: int  # offset of the nodes' numbers
+    elements: int  # offset of the elements' numbers
+
+
+def read_placement(block: Block) -> tuple[Floats, Floats]:
+    """The rotation and the translation that an *INSTANCE gives: a translation, then a turn about the line through two
+    points by an angle in degrees."""
+    rows = [[read_real(block, line, text) for text in fields if text] for line, fields in block.data]
+    translation = np.array((rows[0] + [0.0] * 3)[:3]) if rows else np.zeros(3)
+    if len(rows) < 2:
+        return np.eye(3), translation
+    if len(rows[1]) < 7:
+        block.fail("turns its part by two points and an angle, which are seven numbers", block.data[1][0])
+    begin, end, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), math.radians(rows[1][6])
+    length = np.linalg.norm(end - begin)
+    if not length > 0.0:
+        block.fail("turns its part about a line through one point", block.data[1][0])
+    x, y, z = (end - begin) / length
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    rotation = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+    return rotation, rotation @ (translation - begin) + begin
+
+
+class Assembly(Part):
+    """The assembly: its own nodes, elements and sets (those of a deck without parts), and the instances."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.instances: dict[str, Instance] = {}  # name in capitals → instance
+
+    def place(self, block: Block, part: Part) -> None:
+        """Adds an instance of a part."""
+        name = block.parameters.get("NAME", "") or part.name
+        if name.upper() in self.instances:
+            block.fail(f"a second instance of the name '{name}'")
+        nodes = find_offset(block, self.nodes, part.nodes)
+        elements = find_offset(block, self.elements, part.elements)
+        one = Instance(name, part, *read_placement(block), nodes, elements)
+        self.instances[name.upper()] = one
+        is_moved = bool(block.data)
+        for node, position in part.nodes.items():
+            if is_moved:
+                x, y, z = (one.rotation @ position + one.translation).tolist()
+                position = (x, y, z)
+            self.nodes[node + one.nodes] = position
+        for number, element in part.elements.items():
+            self.elements[number + one.elements] = element._replace(
+                nodes=[node + one.nodes for node in element.nodes],
+                orientation=None if element.orientation is None else element.orientation + one.nodes,
+            )
+
+    def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
+        """The number of a node or an element in the assembly: INSTANCE.27, or 27 where the block names the instance."""
+        name, _, number = text.rpartition(".")
+        one = self.find_instance(block, name or block.parameters.get("INSTANCE", ""), line)
+        offset = 0 if one is None else one.nodes if kind == "N" else one.elements
+        return read_integer(block, line, number) + offset
+
+    def find_instance(self, block: Block, name: str, line: int | None) -> Instance | None:
+        """The instance of a name; None for an empty one. InputError if it is not there."""
+        if not name:
+            return None
+        if name.upper() not in self.instances:
+            block.fail(f"names the instance '{name}', which is not there", line)
+        return self.instances[name.upper()]
+
+    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
+        """The members of a set: the assembly's if it has one, else an instance's, named by INSTANCE.SET; of a single
+        instance by SET alone."""
+        found = sets.find(name)
+        instance, _, rest = name.rpartition(".")
+        one = self.instances.get((instance or block.parameters.get("INSTANCE", "")).upper())
+        if one is None and len(self.instances) == 1:
+            (one,), rest = self.instances.values(), name
+        if found is None and one is not None:
+            own = one.part.node_sets if kind == "N" else one.part.element_sets
+            members = own.find(rest)
+            if members is not None:
+                found = [member + (one.nodes if kind == "N" else one.elements) for member in members]
+        if found is None:
+            block.fail(f"names the set '{name}', which is not there", line)
+        return list(found)
+
+    def name_sets(self, kind: str) -> dict[str, list[int]]:
+        """All sets by the names that they get: those of instances (INSTANCE.SET if there are several), then the
+        assembly's."""
+        named: dict[str, list[int]] = {}
+        taken: set[str] = set()
+        for one in self.instances.values():
+            own, offset = (
+                (one.part.node_sets, one.nodes) if kind == "N" else (one.part.element_sets, one.elements)
+            )
+            for name, members in own.items():
+                full = name if len(self.instances) == 1 else f"{one.name}.{name}"
+                named[full] = [member + offset for member in members]
+                taken.add(full.upper())
+        for name, members in (self.node_sets if kind == "N" else self.element_sets).items():
+            named[IN_ASSEMBLY + name if name.upper() in taken else name] = list(members)
+        return named
+
+
+def find_offset(block: Block, there: Iterable[int], new: Iterable[int]) -> int:
+    """An offset that keeps an instance's numbers apart from those that are there: a multiple of a power of ten."""
+    largest, own = max(there, default=0), max(new, default=0)
+    step = 10 ** max(3, len(str(own)))
+    offset = math.ceil(largest / step) * step
+    if offset + own > LARGEST_NUMBER:
+        block.fail(f"its numbers would end beyond {LARGEST_NUMBER}")
+    return offset

@@ -1,0 +1,257 @@
+"""A part of an Abaqus deck: its nodes, elements and sets, and what gives sections and masses to its sets.
+
+A deck without parts is one part; the assembly is one, too, in which the instances of the others stand.
+"""
+
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.mesh_import.abaqus_blocks import Block, join_rows, read_integer, read_real
+from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS
+
+TWO_NODES = re.compile(r"(B2[13]H?|B3[13](R|H|OS|OSH)?|T[23]D2[HTE]*|PIPE[23]1H?|FRAME[23]D|U1)$")
+THREE_NODES = re.compile(r"(B[23]2(R|H|OS|OSH)?|T[23]D3[HTE]*|PIPE[23]2H?)$")
+GENERATING = {"NCOPY", "NMAP", "ELCOPY", "SYSTEM"}
+GENERATORS = {"NGEN", "NFILL", "ELGEN"}
+MESHING = {"NODE", "ELEMENT", "NSET", "ELSET"} | GENERATORS
+KEYS = {"NSET": "NSET", "ELSET": "ELSET"}
+
+
+class Element(NamedTuple):
+    """An element; of lines two or three nodes from end to end, and the orientation node."""
+
+    kind: str
+    nodes: list[int]
+    orientation: int | None
+    block: Block
+    line: int
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line."""
+        return is_line_kind(self.kind)
+
+
+def is_line_kind(kind: str) -> bool:
+    """Whether elements of a type are lines."""
+    return bool(TWO_NODES.match(kind) or THREE_NODES.match(kind))
+
+
+class SetTable:
+    """Sets by their names; in Abaqus, capitals and small letters are the same."""
+
+    def __init__(self) -> None:
+        self._sets: dict[str, tuple[str, list[int]]] = {}
+
+    def add(self, name: str, members: Iterable[int]) -> None:
+        """Adds members to a set, which is new or not."""
+        self._sets.setdefault(name.upper(), (name, []))[1].extend(members)
+
+    def find(self, name: str) -> list[int] | None:
+        """The members of a set; None if there is no such set."""
+        found = self._sets.get(name.upper())
+        return found[1] if found else None
+
+    def items(self) -> Iterable[tuple[str, list[int]]]:
+        """(name as first written, members) of all sets."""
+        return self._sets.values()
+
+
+class Part:
+    """A part as far as it has been read."""
+
+    def __init__(self, name: str = "") -> None:
+        self.name = name
+        self.nodes: dict[int, tuple[float, float, float]] = {}
+        self.elements: dict[int, Element] = {}
+        self.node_sets = SetTable()
+        self.element_sets = SetTable()
+        self.used: list[tuple[Block, str]] = []  # blocks that give something to an element set, and its name
+
+    def read(self, block: Block) -> None:
+        """Takes in a block of MESHING."""
+        if "INPUT" in block.parameters:
+            block.fail("has its data in another file (INPUT=…), which is not followed; take it in by *INCLUDE")
+        readers = {
+            "NODE": self.read_nodes, "ELEMENT": self.read_elements, "NSET": self.read_node_set,
+            "ELSET": self.read_element_set, "NGEN": self.generate_nodes, "NFILL": self.fill_nodes,
+            "ELGEN": self.generate_elements,
+        }  # fmt: skip
+        readers[block.keyword](block)
+
+    def add_node(self, block: Block, line: int, node: int, place: tuple[float, float, float]) -> None:
+        """Adds a node. InputError if there is another one of its number."""
+        if self.nodes.setdefault(node, place) != place or node < 1:
+            block.fail(f"node {node} is defined twice" if node > 0 else "numbers begin at 1", line)
+
+    def read_nodes(self, block: Block) -> None:
+        if block.parameters.get("SYSTEM", "R").upper() != "R":
+            block.fail("is not in rectangular coordinates")
+        ids: list[int] = []
+        for line, fields in block.data:
+            node = read_integer(block, line, fields[0])
+            place = [read_real(block, line, text) for text in fields[1:4] if text]
+            if len(place) < 2:
+                block.fail(f"node {node} has {len(place)} coordinates, expected 2 or 3: truncated?", line)
+            if node in ids[-1:]:
+                block.fail(f"node {node} is defined twice", line)
+            x, y, z = (*place, 0.0)[:3]
+            self.add_node(block, line, node, (x, y, z))
+            ids.append(node)
+        if block.parameters.get("NSET"):
+            self.node_sets.add(block.parameters["NSET"], ids)
+
+    def read_elements(self, block: Block) -> None:
+        kind = block.parameters.get("TYPE", "").upper()
+        count = 3 if THREE_NODES.match(kind) else 2
+        is_line = is_line_kind(kind)
+        rows = join_rows(block, least=count + 1 if is_line else None)
+        for line, (element, *nodes) in rows:
+            if is_line and len(nodes) not in (count, count + 1):
+                found = f"a {kind} has {len(nodes)} nodes, expected {count} (and an orientation node)"
+                block.fail(f"{found}: truncated?", line)
+            if is_line:
+                orientation = nodes[count] if len(nodes) > count else None
+                self.add_element(element, Element(kind, nodes[:count], orientation, block, line))
+            else:
+                self.elements.setdefault(element, Element(kind, nodes, None, block, line))
+        if block.parameters.get("ELSET"):
+            self.element_sets.add(block.parameters["ELSET"], [row[0] for _, row in rows])
+
+    def add_element(self, number: int, element: Element) -> None:
+        """Adds a line. InputError if there is an element of its number."""
+        if number in self.elements or number < 1:
+            element.block.fail(
+                f"element {number} is defined twice" if number > 0 else "numbers begin at 1", element.line
+            )
+        self.elements[number] = element
+
+    def read_node_set(self, block: Block) -> None:
+        members = self.read_members(block, self.node_sets, "N")
+        name = block.parameters.get("ELSET")
+        if name:
+            elements = self.find_members(block, self.element_sets, "E", name)
+            members += [node for one in elements if one in self.elements for node in self.elements[one].nodes]
+        self.node_sets.add(self.name_set(block), members)
+
+    def read_element_set(self, block: Block) -> None:
+        members = self.read_members(block, self.element_sets, "E")
+        self.element_sets.add(self.name_set(block), members)
+
+    def name_set(self, block: Block) -> str:
+        """The name of the set that a block defines."""
+        name = block.parameters.get(block.keyword, "")
+        if not name:
+            block.fail(f"has no name ({block.keyword}=…)")
+        return name
+
+    def read_members(self, block: Block, sets: SetTable, kind: str) -> list[int]:
+        """The members that the data lines of a set name: numbers, ranges, other sets."""
+        members: list[int] = []
+        for line, fields in block.data:
+            fields = [text for text in fields if text]
+            if "GENERATE" in block.parameters:
+                row = [self.find_number(block, line, text, kind) for text in fields[:2]]
+                row += [read_integer(block, line, text) for text in fields[2:3]]
+                if len(row) not in (2, 3) or row[1] < row[0] or (len(row) == 3 and row[2] < 1):
+                    block.fail("GENERATE expects first, last and an increment > 0", line)
+                generated = range(row[0], row[1] + 1, row[2] if len(row) == 3 else 1)
+                if len(members) + len(generated) > MOST_MEMBERS:
+                    block.fail(f"generates more than {MOST_MEMBERS} members", line)
+                members += generated
+                continue
+            for text in fields:
+                is_number = text.rpartition(".")[2].lstrip("+-").isdecimal()
+                if is_number:
+                    members.append(self.find_number(block, line, text, kind))
+                else:
+                    members += self.find_members(block, sets, kind, text, line)
+        return members
+
+    def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
+        """The number that a text names. kind: N, E."""
+        return read_integer(block, line, text.rpartition(".")[2] if not self.nodes else text)
+
+    def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
+        """The members of the set that a text names. InputError if it is not there."""
+        found = sets.find(name)
+        if found is None:
+            block.fail(f"names the set '{name}', which is not there", line)
+        return list(found)
+
+    def generate_nodes(self, block: Block) -> None:
+        """*NGEN on a straight line: first node, last node, increment of the numbers."""
+        if block.parameters.get("LINE") or block.parameters.get("SYSTEM"):
+            block.fail("along a curve is not followed; write the nodes out")
+        ids: list[int] = []
+        for line, fields in block.data:
+            row = [read_integer(block, line, text) for text in fields[:3] if text]
+            first, last, step = (*row, 1)[:3] if len(row) >= 2 else (0, 0, 0)
+            ids += self.fill_between(block, line, first, last, step)
+        if block.parameters.get("NSET"):
+            self.node_sets.add(block.parameters["NSET"], ids)
+
+    def fill_between(self, block: Block, line: int, first: int, last: int, step: int) -> list[int]:
+        """Adds equally spaced nodes between two. Returns the numbers of all, the ends included."""
+        for end in (first, last):
+            if end not in self.nodes:
+                block.fail(f"names node {end}, which is not there", line)
+        if step == 0 or (last - first) % step or not 0 < (last - first) // step <= MOST_MEMBERS:
+            block.fail(f"cannot go from node {first} to node {last} in steps of {step}", line)
+        here, there = np.array(self.nodes[first]), np.array(self.nodes[last])
+        numbers = list(range(first, last + (1 if step > 0 else -1), step))
+        for place, node in enumerate(numbers[1:-1], start=1):
+            share = place / (len(numbers) - 1)
+            x, y, z = ((1.0 - share) * here + share * there).tolist()
+            self.nodes[node] = (x, y, z)
+        return numbers
+
+    def fill_nodes(self, block: Block) -> None:
+        """*NFILL without bias: two node sets, number of intervals between them, increment of the numbers."""
+        if any(key in block.parameters for key in ("BIAS", "SINGULAR", "TWO STEP")):
+            block.fail("with unequal intervals is not followed; write the nodes out")
+        ids: list[int] = []
+        for line, fields in block.data:
+            if len(fields) < 4:
+                block.fail("expects two node sets, a number of intervals and an increment", line)
+            firsts, lasts = (self.find_members(block, self.node_sets, "N", name, line) for name in fields[:2])
+            intervals, step = (read_integer(block, line, text) for text in fields[2:4])
+            for first, last in zip(firsts, lasts):
+                if first + intervals * step != last:
+                    block.fail(f"node {last} is not {intervals} times {step} after node {first}", line)
+                ids += self.fill_between(block, line, first, last, step)
+        if block.parameters.get("NSET"):
+            self.node_sets.add(block.parameters["NSET"], ids)
+
+    def generate_elements(self, block: Block) -> None:
+        """*ELGEN: master element, then up to three times number, increment of nodes, increment of elements."""
+        ids: list[int] = []
+        for line, fields in block.data:
+            master, *rest = (read_integer(block, line, text) for text in fields if text)
+            if master not in self.elements:
+                block.fail(f"names element {master}, which is not there", line)
+            made = {master: self.elements[master]}
+            for place in range(0, len(rest), 3):
+                number, nodes, elements = (*rest[place : place + 3], 1, 1)[:3]
+                if not 1 <= number * len(made) <= MOST_MEMBERS:
+                    block.fail(f"generates {number} elements in a row", line)
+                row = made
+                made = {
+                    one + k * elements: shift(element, k * nodes)
+                    for k in range(number)
+                    for one, element in row.items()
+                }
+            for one, element in made.items():
+                if one != master:
+                    self.add_element(one, element)
+            ids += made
+        if block.parameters.get("ELSET"):
+            self.element_sets.add(block.parameters["ELSET"], ids)
+
+
+def shift(element: Element, step: int) -> Element:
+    """An element whose nodes' numbers are larger by a step."""
+    return element._replace(nodes=[node + step for node in element.nodes])

@@ -1,0 +1,161 @@
+"""Sections, materials and masses of Abaqus and CalculiX decks: *BEAM SECTION, *BEAM GENERAL SECTION, *SOLID SECTION of
+trusses; *MATERIAL with *ELASTIC and *DENSITY; *MASS, *ROTARY INERTIA.
+
+The height of a section lies along its 2-direction, the width along its 1-direction: hh is Abaqus' I11, and ww its I22.
+Source: Abaqus 2016, Keywords Reference Guide; Analysis User's Guide, "Beam cross-section library".
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.mesh_import.abaqus_blocks import Block, read_real
+from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
+from sprung_tools.mesh_import.section_shapes import make_box, make_ellipse, make_i, make_rectangle, make_tube
+
+SECTION_BLOCKS = {"BEAM SECTION", "BEAM GENERAL SECTION", "SOLID SECTION"}
+MATERIAL_BLOCKS = {"MATERIAL", "ELASTIC", "DENSITY"}
+MASS_BLOCKS = {"MASS", "ROTARY INERTIA"}
+DEFAULT_WIDTH = (0.0, 0.0, -1.0)  # the 1-direction of a section that gives none
+
+# Type of section → number of its dimensions, and the shape that they make.
+SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
+    "RECT": (2, make_rectangle),
+    "BOX": (6, lambda a, b, right, top, left, bottom: make_box(a, b, left, right, top, bottom)),
+    "CIRC": (1, make_tube),
+    "PIPE": (2, lambda radius, wall: make_tube(radius, radius - wall)),
+    "THICK PIPE": (2, lambda radius, wall: make_tube(radius, radius - wall)),
+    "I": (7, lambda _, height, bottom, top, under, over, web: make_i(height, bottom, top, web, under, over)),
+}
+
+
+def read_row(block: Block, place: int) -> list[float]:
+    """The numbers of a data line, blank ones as 0; none if there is no such line."""
+    if place >= len(block.data):
+        return []
+    line, fields = block.data[place]
+    return [read_real(block, line, text) if text else 0.0 for text in fields]
+
+
+def read_section(block: Block) -> tuple[Section, Floats, Material | None]:
+    """Reads a section. Returns (section, its 1-direction [3], the material if the section gives one itself)."""
+    if block.keyword == "SOLID SECTION":
+        area = (read_row(block, 0) or [0.0])[0]
+        shape = Shape(area, 0.0, 0.0) if area > 0.0 else None
+        section = Section(describe(block), block.parameters.get("MATERIAL", "").upper(), shape, False)
+        return section, np.array(DEFAULT_WIDTH), None
+    kind = block.parameters.get("SECTION", "GENERAL").upper()
+    dimensions = read_row(block, 0)
+    shape, remark = make_shape(kind, dimensions)
+    left_out = [remark] if remark else []
+    left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if is_offset(block, key)]
+    left_out += ["its TAPER"] if "TAPER" in block.parameters else []
+    width = read_row(block, 1)
+    direction = np.array((width + [0.0] * 3)[:3]) if any(width) else np.array(DEFAULT_WIDTH)
+    text = f"{describe(block)}: {' × '.join(f'{one:g}' for one in dimensions)}"
+    material = read_own_material(block) if block.keyword == "BEAM GENERAL SECTION" else None
+    name = material.name if material else block.parameters.get("MATERIAL", "").upper()
+    return Section(text, name, shape, True, 0.0, tuple(left_out)), direction, material
+
+
+def is_offset(block: Block, key: str) -> bool:
+    """Whether a section has an offset that is not 0."""
+    text = block.parameters.get(key, "0")
+    try:
+        return float(text) != 0.0
+    except ValueError:
+        return True
+
+
+def describe(block: Block) -> str:
+    """A section for people: `*BEAM SECTION (line 12), RECT`."""
+    return f"*{block.keyword} (line {block.line}) {block.parameters.get('SECTION', '')}".rstrip()
+
+
+def make_shape(kind: str, numbers: Sequence[float]) -> tuple[Shape | None, str]:
+    """Returns (the shape or None, what is left out or assumed). numbers: of the section's first data line."""
+    try:
+        if kind in ("GENERAL", "LINEAR") and len(numbers) >= 4:
+            area, i11, i12, i22 = numbers[:4]
+            return (Shape(area, i11, i22, i12), "") if area > 0.0 else (None, "its area, which is not positive")
+        if kind == "CIRC" and len([one for one in numbers if one]) == 2:
+            return make_ellipse(numbers[0], numbers[1]), ""  # CalculiX: the lengths of both axes
+        count, make = SHAPES.get(kind, (0, None))
+        if make is None:
+            return None, f"the shape {kind}"
+        if kind == "BOX" and len(numbers) == 3:
+            numbers = [*numbers, *[numbers[2]] * 3]
+        if len(numbers) < count:
+            return None, f"the shape {kind}, which has {len(numbers)} numbers, expected {count}"
+        remark = "that CalculiX takes the number of a CIRC for a diameter: here it is a radius, as in Abaqus"
+        return make(*numbers[:count]), remark if kind == "CIRC" else ""
+    except ValueError as error:
+        return None, f"the shape {kind}, which {error}"
+
+
+def read_own_material(block: Block) -> Material:
+    """The material that a *BEAM GENERAL SECTION gives itself: E, G in the third data line, DENSITY, POISSON."""
+    row = read_row(block, 2)
+    modulus = row[0] if row and row[0] > 0.0 else None
+    ratio = read_parameter(block, "POISSON")
+    if ratio is None and modulus and len(row) > 1 and row[1] > 0.0:
+        ratio = modulus / (2.0 * row[1]) - 1.0
+    return Material(f"SECTION OF {block.parameters.get('ELSET', '').upper()}", modulus, ratio,
+                    read_parameter(block, "DENSITY"))  # fmt: skip
+
+
+def read_parameter(block: Block, key: str) -> float | None:
+    """A parameter's number; None if it is not there."""
+    text = block.parameters.get(key)
+    return read_real(block, block.line, text) if text else None
+
+
+class Materials:
+    """The materials of a deck, as their blocks come one after the other."""
+
+    def __init__(self) -> None:
+        self.found: dict[str, Material] = {}  # name in capitals → material
+        self.left_behind: list[str] = []
+        self._current = ""
+
+    def read(self, block: Block) -> None:
+        """Takes in a block of MATERIAL_BLOCKS."""
+        if block.keyword == "MATERIAL":
+            self._current = block.parameters.get("NAME", "").upper()
+            self.found[self._current] = Material(self._current, None)
+            return
+        row = read_row(block, 0)
+        kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
+        if self._current not in self.found or not row or (block.keyword == "ELASTIC" and not kind.startswith("ISO")):
+            self.left_behind.append(block.describe())
+            return
+        material = self.found[self._current]
+        if block.keyword == "ELASTIC":
+            material = material._replace(youngs_modulus=row[0] or None, poissons_ratio=row[1] if row[1:] else None)
+        else:
+            material = material._replace(density=row[0] or None)
+        self.found[self._current] = material
+        if len(block.data) > 1:
+            self.left_behind.append(f"{block.describe()}: its first line alone is taken")
+
+    def end(self) -> None:
+        """Ends the material that is being read: what follows does not belong to it."""
+        self._current = ""
+
+
+def read_mass(block: Block) -> tuple[float, Floats | None]:
+    """Reads a *MASS or a *ROTARY INERTIA. Returns (mass, moments of inertia [3×3] or None)."""
+    row = (read_row(block, 0) + [0.0] * 6)[:6]
+    if block.keyword == "MASS":
+        return row[0], None
+    i11, i22, i33, i12, i13, i23 = row
+    return 0.0, np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])
+
+
+def calc_height(tangent: Floats, width: Floats) -> Floats:
+    """The 2-direction [3] of a line along `tangent` with its 1-direction near `width`: t × n₁; NaN along the line."""
+    height = np.cross(tangent, width)
+    size = float(np.linalg.norm(height))
+    return height / size if math.isfinite(size) and size > 0.0 else np.full(3, np.nan)
