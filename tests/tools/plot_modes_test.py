@@ -81,7 +81,7 @@ class PlotModes(ToolTestCase):
                 "fixed.h5",
                 'no modes were chosen in this run: its [modes] has none "auto"; what they did over time: --over-time',
             ),
-            ("blind.h5", "the forcing was not looked at: all modes are kept, as nobody knows"),
+            ("blind.h5", "the modes were not judged: all modes are kept, as nobody knows"),
             ("foreign.h5", "format is 'something'"),
             ("missing.h5", "missing.h5: error: no such file"),
         ):

@@ -1,1 +1,1 @@
-"""What evaluations and whole runs cost."""
+"""Measurement of the cost of evaluations and whole runs."""

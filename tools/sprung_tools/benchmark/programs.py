@@ -1,4 +1,4 @@
-"""Running the benchmark programs: single evaluations, and growth with the number of bodies."""
+"""Running the benchmark programs: single evaluations, and the growth of the cost with the number of bodies."""
 
 import json
 import subprocess

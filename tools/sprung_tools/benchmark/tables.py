@@ -1,4 +1,4 @@
-"""Tables of what evaluations and runs cost."""
+"""Tables of the cost of evaluations and runs."""
 
 from collections.abc import Sequence
 from typing import Any

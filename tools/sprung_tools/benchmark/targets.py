@@ -1,4 +1,4 @@
-"""The project's targets for what evaluations and runs cost, and whether the measurements meet them."""
+"""The project's targets for the cost of evaluations and runs, and whether the measurements meet them."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -1,4 +1,4 @@
-"""Whole runs: the loosest tolerance at which each method is good enough, and what a run at it costs."""
+"""Whole runs: the loosest tolerance at which each method is accurate enough, and the cost of a run with it."""
 
 import itertools
 import json
@@ -165,7 +165,7 @@ class Case:
         self, method: str, repetitions: int, ladder: Sequence[float] = LADDER, whole: bool = False
     ) -> tuple[list[Rung], Rung | None, Rung | None]:
         """Measures rungs from the loosest tolerance to the first that is good enough together with the next finer ones,
-        so that it is not good by chance. A run that takes too long ends the climb.
+        so that it is not good by chance. A run that takes too long ends the measurement.
 
         whole: measure all rungs of the ladder. Returns (rungs, good, first): all rungs; that good one, None if there is
         none; the first that is good enough by itself, None if there is none.

@@ -1,4 +1,4 @@
-"""Measures what evaluations and runs cost, against a plain dense program in the same session."""
+"""Measures the cost of evaluations and runs, against a plain dense program in the same session."""
 
 import argparse
 import os

@@ -1,4 +1,4 @@
-"""Prints the lowest clamped frequencies of a superelement beside known ones, with the differences."""
+"""Compares the lowest clamped frequencies of a superelement with known ones."""
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text
@@ -14,7 +14,8 @@ def num_decimals(text: str) -> int:
 
 
 def parse_frequency(number: int, text: str) -> float:
-    """Reads a known frequency [Hz]. number: its place on the command line, from 1. InputError if it is not positive."""
+    """Reads a known frequency [Hz]. number: its position on the command line, from 1. InputError if it is not
+    positive."""
     try:
         value = float(text)
     except ValueError:

@@ -97,7 +97,7 @@ def describe_command(arguments: Sequence[str]) -> str:
 
 
 def format_report(path: str, recipe: Recipe, density: float) -> str:
-    """What the file holds: r.m.s., steepest slope between points, the spectrum in octaves and the wanted one."""
+    """The report on the file: r.m.s., steepest slope between points, the spectrum in octaves and the wanted one."""
     distance, height = read_profile(path)
     octaves = estimate_octaves(distance, height, recipe, density)
     rows = [

@@ -1,4 +1,4 @@
-"""Compares the truck with the paper from which it comes: builds the programs, makes all runs anew, and puts the tables
+"""Compares the truck with the paper from which it comes: builds the programs, makes all runs again, and puts the tables
 and figures of the report into dynamics/models/truck/README.md and its folder figures/.
 
 The results files and the superelements go to --output-dir. Everything takes some minutes; --quick leaves out the runs

@@ -1,8 +1,8 @@
 """Draws how modes were chosen: the road's spectrum, the vehicle's transfer functions, the frequencies of the modes kept
 and left out, and below the share of each mode.
 
-With --over-time it draws the modes of a run over time: which took part, what those left out would have contributed, and
-below quantities of this run, and of other runs if they are given."""
+With --over-time it draws the modes of a run over time: which were active, the contribution of those left out, and below
+quantities of this run, and of other runs if they are given."""
 
 import argparse
 
@@ -26,7 +26,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument(
         "files", metavar="[LABEL=]FILE", nargs="+",
         help='file of select-modes, or results of a run with modes "auto"; with --over-time results of any run, and of '
-        "others to draw beside it",
+        "others to compare with it",
     )  # fmt: skip
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
     parser.add_argument("--over-time", action="store_true", help="draw the modes of a run over time")

@@ -1,4 +1,4 @@
-"""Prints what runs mean for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk),
+"""Prints measures of runs for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk),
 suspension travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending
 moment of each flexible body.
 

@@ -7,7 +7,7 @@
 A *quantity* is written as the file names it (dynamics/output/results.md), with a component:
 `bodies/chassis/position.angle`, `bodies/chassis/center_of_mass/acceleration.y`, `points/chassis.seat/velocity.x`,
 `bodies/chassis/modal/amplitude.2`. A component is x, y, angle or a column's number from 1; quantities with one
-value per sample have none. `displacement` is position less its value in static equilibrium.
+value per sample have none. `displacement` is the position relative to static equilibrium.
 
 A fault of a file, or a name that it does not hold, is an InputError whose text is `path: error: …`.
 """

@@ -1,1 +1,1 @@
-"""What was run, from the texts and the numbers that a results file keeps of its model."""
+"""The model that was run, from the values in a results file."""

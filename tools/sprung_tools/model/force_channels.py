@@ -1,4 +1,4 @@
-"""The channels of force elements by their roles (dynamics/output/results.md); their names do not matter."""
+"""The channels of force elements, found by their roles and not by their names (dynamics/output/results.md)."""
 
 from typing import NamedTuple
 

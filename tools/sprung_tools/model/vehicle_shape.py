@@ -1,4 +1,4 @@
-"""How a vehicle looks and moves, from its results file alone: what the animation and ParaView draw.
+"""The shape and motion of a vehicle, from its results file alone, for the animation and ParaView.
 
 A body is drawn by nodes and straight lines in its body frame. A body with a superelement has the superelement's nodes
 and elements; a named point away from all nodes is joined to the node with which it moves. A rigid body has its named
@@ -55,8 +55,8 @@ class Wheel(NamedTuple):
 
 
 class Link(NamedTuple):
-    """What is drawn between two points: a spring-damper, a rod that keeps their distance, or a joint, which is drawn at
-    its first point."""
+    """An element drawn between two points: a spring-damper, a rod that keeps their distance, or a joint, which is drawn
+    at its first point."""
 
     name: str
     kind: str  # spring, rod, joint

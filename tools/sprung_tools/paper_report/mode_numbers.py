@@ -1,4 +1,4 @@
-"""How a run with few, chosen or changing modes differs from the run with all modes, and what its modes did."""
+"""Differences of a run with few, chosen or changing modes from the run with all modes; the activity of its modes."""
 
 from functools import cached_property
 
@@ -61,7 +61,7 @@ class Comparison:
 
     @cached_property
     def active(self) -> Integers:
-        """How many modes took part at each sample [n]."""
+        """The number of active modes at each sample [n]."""
         return count_active(self.run.results)
 
     def changes(self) -> int:

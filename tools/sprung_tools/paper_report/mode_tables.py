@@ -167,7 +167,7 @@ def make_terrain_table(numbers: Numbers) -> Table:
 
 
 def make_neglect_table(numbers: Numbers) -> Table:
-    """What the program reported that fixed sets miss, and what they missed."""
+    """The effect of modes left out that the program reported for fixed sets, and their actual errors."""
     rows = []
     for road in ROADS:
         for count in FIXED_COUNTS:

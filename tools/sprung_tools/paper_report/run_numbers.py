@@ -98,7 +98,7 @@ class RunNumbers:
 
     @property
     def said(self) -> str:
-        """What the program printed at the end of the run. InputError if it was not kept."""
+        """The output of the program at the end of the run. InputError if it was not kept."""
         said = self.path.with_suffix(".txt")
         if not said.exists():
             raise InputError(f"{said}: error: no such file")

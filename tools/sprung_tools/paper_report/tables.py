@@ -178,7 +178,7 @@ def make_cost_table(numbers: Numbers) -> Table:
 
 
 def make_ride_table(numbers: Numbers) -> Table:
-    """What the ride means: a row for each measure, a column for each model and road."""
+    """The measures of the ride: a row for each measure, a column for each model and road."""
     columns = [(road, count) for road in ROADS for count in MODELS if has_modes(numbers, road, count)]
     cells = [make_ride_column(numbers.modes(road, count).results, numbers.folder, count) for road, count in columns]
     rows = [(name, *(column[name] for column in cells)) for name in cells[0]]

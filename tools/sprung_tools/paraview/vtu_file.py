@@ -1,4 +1,4 @@
-"""What the VTU files of modes and runs share."""
+"""The common parts of the VTU files of modes and runs."""
 
 import numpy as np
 

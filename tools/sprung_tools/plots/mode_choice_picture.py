@@ -68,7 +68,7 @@ def open_choice(path: str | Path) -> Choice:
         )
     if not file.has_dataset(f"{GROUP}/frequency"):
         remarks = "; ".join(read_texts(file, f"{GROUP}/remarks"))
-        raise InputError(f"{path}: error: the forcing was not looked at: {remarks}")
+        raise InputError(f"{path}: error: the modes were not judged: {remarks}")
     return Choice(
         file,
         read_real(file, GROUP, "tolerance"),

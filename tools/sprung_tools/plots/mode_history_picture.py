@@ -1,4 +1,4 @@
-"""A picture of which modes took part over time, what those left out would have contributed, and what the run did."""
+"""A picture of the active modes over time, the contribution of those left out, and quantities of the run."""
 
 from collections.abc import Sequence
 

@@ -1,1 +1,1 @@
-"""What happened in runs: their names and captions, measures of the ride, the history of their modes."""
+"""Evaluation of runs: their names and captions, measures of the ride, the history of their modes."""

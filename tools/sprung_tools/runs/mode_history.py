@@ -1,4 +1,4 @@
-"""A run's modes over time: which took part, when that changed, and how much the others would have contributed."""
+"""A run's modes over time: which were active, when that changed, and how much the others would have contributed."""
 
 from typing import NamedTuple
 
@@ -52,7 +52,7 @@ def read_mode_histories(results: ResultsFile) -> list[ModeHistory]:
 
 
 def count_active(results: ResultsFile) -> Integers:
-    """How many modes of all bodies take part at each sample [n]."""
+    """The number of active modes of all bodies at each sample [n]."""
     counts = [np.sum(history.is_active, axis=1) for history in read_mode_histories(results)]
     return np.sum(np.array(counts), axis=0)
 

@@ -1,4 +1,4 @@
-"""What a run means for the driver, the wheels and the frame: numbers from one results file over a span of time."""
+"""Measures of a run for the driver, the wheels and the frame, from one results file over a span of time."""
 
 from typing import NamedTuple
 
@@ -81,7 +81,7 @@ def sampling_step(results: ResultsFile) -> float:
 
 
 def calc_comfort(results: ResultsFile, point: str, window: Span) -> Comfort:
-    """How people feel a point's vertical acceleration. point: `points/chassis.seat` or
+    """Measures of a point's vertical acceleration as people feel it. point: `points/chassis.seat` or
     `bodies/chassis/center_of_mass`."""
     step = sampling_step(results)
     inside = samples_between(results, *window)

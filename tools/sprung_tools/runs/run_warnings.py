@@ -1,5 +1,5 @@
-"""What makes the numbers of a run doubtful, from its results file: what sprung-dynamics warns of at the end of a run,
-and where a comparison with the linear vehicle does not hold."""
+"""Warnings about the numbers of a run, from its results file: those of sprung-dynamics at the end of a run, and where
+the linear modes of the vehicle are not valid."""
 
 from typing import NamedTuple
 
@@ -47,8 +47,8 @@ def warn_of_energy(results: ResultsFile) -> list[RunWarning]:
 
 
 def warn_of_missing_modes(results: ResultsFile) -> list[RunWarning]:
-    """The warning of the mode left out that misses most, in the summary and at the modes; none where modes join as they
-    are needed."""
+    """The warning of the mode left out that would contribute most, in the summary and at the modes; none where modes
+    join as they are needed."""
     if read_settings(results)["adaptivity"].get("enabled"):
         return []
     judged = find_judged(results)

@@ -33,7 +33,7 @@ WHOLE = 1e-9  # a wavenumber this near a whole number of waves in the length cou
 
 
 class Recipe(NamedTuple):
-    """What a profile is made from. Lengths in m, wavenumbers in 1/m; either `rms` or `density` sets the heights."""
+    """The parameters of a profile. Lengths in m, wavenumbers in 1/m; either `rms` or `density` sets the heights."""
 
     length: float
     spacing: float

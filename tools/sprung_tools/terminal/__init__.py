@@ -1,1 +1,1 @@
-"""What a command prints: its help, tables, progress, and the line that says why it ended."""
+"""Output of a command: help, tables, progress, and the last line with the reason of an error."""

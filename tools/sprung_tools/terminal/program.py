@@ -1,4 +1,4 @@
-"""What all commands share: the form of their help, and how they end."""
+"""Common parts of all commands: the form of their help, and their exit codes."""
 
 import argparse
 import io

@@ -69,7 +69,7 @@ function findTop(prepared, at) {
   return top;
 }
 
-/** Where the view is and how large: world metres → pixels. A mechanism is seen whole from one place, a vehicle followed. */
+/** Position and scale of the view: world metres → pixels. The view shows a mechanism whole, and follows a vehicle. */
 function makeView(prepared, at, width, height) {
   const [x0, y0, x1, y1] = prepared.vehicle.box;
   if (!prepared.vehicle.wheels.length) {
@@ -181,7 +181,7 @@ function drawBlock(context, view, [x, y], half, colour) {
   context.fillRect(view.X(x - half), view.Y(y + half), 2 * half * view.scale, 2 * half * view.scale);
 }
 
-/** One vehicle. Returns what its tyres do, for the text below. */
+/** Draws one vehicle. Returns the states of its tyres, for the text below. */
 function drawVehicle(context, view, prepared, time, magnification, alpha) {
   const at = frameAt(prepared, time), colour = colourOf(prepared.index), vehicle = prepared.vehicle;
   const nodes = Object.fromEntries(vehicle.bodies.map((body) => [body.name, nodesOf(prepared, body, at, magnification)]));
@@ -298,7 +298,7 @@ function makePlayer() {
   const options = data.runs.map((run, index) => ({value: String(index), label: run.label}));
   fillSelect(byId("main-run"), options);
   fillSelect(byId("other-run"), [{value: "-1", label: "no other run"}, ...options]);
-  // The second run in front of the first: what differs from the first is what one wants to see.
+  // The second run is drawn in front of the first, so that differences from the first are visible.
   player.main = data.runs.length > 1 ? 1 : 0;
   player.other = data.runs.length > 1 ? 0 : -1;
   byId("main-run").value = String(player.main);

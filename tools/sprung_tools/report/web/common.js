@@ -19,7 +19,7 @@ const PALETTE = [["#111111", "#f2f2f2"], ["#0072b2", "#56b4e9"], ["#d98600", "#f
 const colourOf = (index) => PALETTE[index % PALETTE.length][dark.matches ? 1 : 0];
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-/** A unit as it is printed, and what a number is multiplied by, so that its size is readable. */
+/** A unit as it is printed, and the factor of its numbers that makes their size readable. */
 function readable(unit, peak) {
   if (unit === "m" && peak < 1) return {unit: "mm", factor: 1e3};
   if (["N", "N m", "J"].includes(unit) && peak >= 1e3) return {unit: `k${unit}`, factor: 1e-3};
@@ -63,7 +63,7 @@ function fillSelect(select, options) {
   }
 }
 
-/** The time that animation and diagrams point at [s]. */
+/** The time shown by the animation and the diagrams' cursor [s]. */
 const clock = {
   time: Math.min(...data.runs.map((run) => run.frames.first)),
   first: Math.min(...data.runs.map((run) => run.frames.first)),

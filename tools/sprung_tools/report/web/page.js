@@ -1,5 +1,5 @@
 "use strict";
-// Puts the page together, and offers what tests ask it.
+// Assembles the page, and answers the questions of its tests.
 
 function fillHead() {
   byId("title").textContent = data.title;

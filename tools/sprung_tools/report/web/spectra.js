@@ -1,7 +1,7 @@
 "use strict";
 // Spectra on logarithmic axes, with the vehicle's frequencies.
 
-const SPECTRUM_DEPTH = 1e-7;  // of the peak: what lies lower is not drawn
+const SPECTRUM_DEPTH = 1e-7;  // of the peak: lower values are not drawn
 let spectrum = null;  // the diagram
 
 /** Where a frequency is on the logarithmic axis of the spectra, px from the left of the diagram. */

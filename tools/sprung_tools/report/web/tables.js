@@ -1,7 +1,7 @@
 "use strict";
-// The tables: summary, frequencies, checks, what was run.
+// The tables: summary, frequencies, checks, the runs' settings.
 
-/** Rows of all runs by what they are of and their name: [{of, name, unit, values: [one a run, or null]}]. */
+/** Rows of all runs by their subject and their name: [{of, name, unit, values: [one a run, or null]}]. */
 function collectStatistics() {
   const rows = new Map();
   data.runs.forEach((run, index) => {
@@ -66,7 +66,7 @@ function fillWarnings() {
   }
 }
 
-/** What stands in the summary: the rest is under "All numbers". */
+/** The rows in the summary; the others are under "All numbers". */
 const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|axial/.test(row.name);
 
 function fillFrequencies(table) {
