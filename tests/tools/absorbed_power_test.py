@@ -9,8 +9,8 @@ from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_absorbed_po
 
 
 def calc_lee_and_pradko(frequency):
-    """The vertical absorbed power by frequency, W per (ft/s²)² r.m.s.: K₀ K₁ (F₁ F₄ − F₂ F₃) / (F₃² + ω² F₄²), SAE
-    paper 680091 (1968)."""
+    """The vertical absorbed power by frequency, W per (ft/s²)² r.m.s., SAE paper 680091 (1968):
+    K₀ K₁ (F₁ F₄ − F₂ F₃) / (F₃² + ω² F₄²)."""
     w = 2.0 * np.pi * frequency
     f1 = -0.10245e-9 * w**6 + 0.17583e-5 * w**4 - 0.44600e-2 * w**2 + 1.0
     f2 = 0.12882e-7 * w**4 - 0.93394e-4 * w**2 + 0.10543

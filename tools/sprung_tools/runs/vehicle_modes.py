@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.vehicle_shape import DrawnBody, read_wheels
@@ -37,6 +38,12 @@ def read_vehicle_modes(results: ResultsFile, bodies: Sequence[DrawnBody]) -> lis
     shapes = read_numbers(results.file, f"{WHERE}/shapes")[0] if has_shapes else np.zeros((0, frequency.size))
     coordinates = read_texts(results.file, f"{WHERE}/coordinates") if has_shapes else []
     rows = {body.name: [k for k, name in enumerate(coordinates) if name.startswith(f"{body.name}.")] for body in bodies}
+    for body in bodies if has_shapes else ():
+        if len(rows[body.name]) != 3 + body.shapes.shape[2]:
+            raise InputError(
+                f"{results.path}: error: '{WHERE}/coordinates' has {len(rows[body.name])} of '{body.name}', "
+                f"expected {3 + body.shapes.shape[2]}"
+            )
     drawn = {body.name: body for body in bodies}
     with_wheels = {wheel.body for wheel in read_wheels(results, bodies)}
     modes = []

@@ -21,7 +21,7 @@ LIMIT = 6.0  # W, which drivers bear for long
 def calc_response(frequency: Floats) -> ComplexNumbers:
     """H of (1) at frequencies [Hz], √W per ft/s²."""
     s = np.multiply(2j * np.pi, frequency)
-    return 14.5 * s * (s + 44.0) / ((s + 63.0) * (s**2 + 24.0 * s + 750.0))
+    return np.divide(14.5 * s * (s + 44.0), (s + 63.0) * (s**2 + 24.0 * s + 750.0))
 
 
 def calc_absorbed_power(acceleration: Floats, step: float) -> Floats:
