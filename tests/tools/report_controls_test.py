@@ -319,7 +319,7 @@ class Controls(PageTestCase):
 
     def use_mode_amplitude(self, page):
         self.choose(page, "vehicle-mode", "1 2")
-        still = "unpackVehicleModes(1).balance.chassis"
+        still = "unpackVehicleModes(1).equilibrium.chassis"
         for amplitude, moves in ((0, False), (2, True)):
             self.choose(page, "mode-amplitude", amplitude)
             apart = page.evaluate(

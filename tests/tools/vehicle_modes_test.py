@@ -59,8 +59,8 @@ class VehicleModes(ToolTestCase):
         shapes[2, 2] = 0.03
         results, bodies = self.write(shapes, ["chassis 100 %"] * 3)
         packed = pack_vehicle_modes(results, bodies)
-        balance = decode(packed["balance"]["chassis"]).reshape(-1, 2)
-        self.assertAlmostEqual(float(balance[1, 1]), STATIC_HEIGHT, places=6)
+        equilibrium = decode(packed["equilibrium"]["chassis"]).reshape(-1, 2)
+        self.assertAlmostEqual(float(equilibrium[1, 1]), STATIC_HEIGHT, places=6)
         up, turned = (decode(shape["chassis"]).reshape(-1, 2) for shape in packed["shapes"])
         np.testing.assert_allclose(up, np.tile([0.0, 1.0], (len(up), 1)), atol=1e-7)
         arm = bodies[0].places
@@ -71,7 +71,7 @@ class VehicleModes(ToolTestCase):
         write_results(self.folder / "b.h5")
         with open_results(self.folder / "b.h5") as results:
             found = pack_vehicle_modes(results, read_bodies(results))
-        self.assertEqual(found, {"table": [], "balance": {}, "shapes": []})
+        self.assertEqual(found, {"table": [], "equilibrium": {}, "shapes": []})
 
 
 class FrameLoads(ToolTestCase):

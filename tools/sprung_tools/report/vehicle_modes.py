@@ -1,4 +1,5 @@
-"""The vehicle's own modes on the page: the table, and the nodes of all bodies in balance and by how much they move."""
+"""The vehicle's own modes on the page: the table, the nodes of all bodies in equilibrium, and by how much they
+move."""
 
 from collections.abc import Sequence
 
@@ -15,19 +16,19 @@ MOST_DRAWN = 24
 
 
 def pack_vehicle_modes(results: ResultsFile, bodies: Sequence[DrawnBody]) -> Packed:
-    """The modes with their frequencies; with shapes, the nodes' places in balance [N×2] m, and for each mode and body
-    the displacements of the nodes [N×2], of which the largest of the mode is 1."""
+    """The modes with their frequencies; with shapes, the nodes' places in equilibrium [N×2] m, and for each mode and
+    body the displacements of the nodes [N×2], of which the largest of the mode is 1."""
     modes = read_vehicle_modes(results, bodies)
-    balance = {body.name: calc_balance(results, body) for body in bodies} if modes and modes[0].shape else {}
+    equilibrium = {body.name: calc_equilibrium(results, body) for body in bodies} if modes and modes[0].shape else {}
     return {
         "table": [{"f": mode.frequency, "damping": mode.damping, "who": mode.words} for mode in modes],
-        "balance": {name: encode(places) for name, (places, _) in balance.items()},
-        "shapes": [pack_shape(mode, bodies, balance) for mode in modes[:MOST_DRAWN] if balance],
+        "equilibrium": {name: encode(places) for name, (places, _) in equilibrium.items()},
+        "shapes": [pack_shape(mode, bodies, equilibrium) for mode in modes[:MOST_DRAWN] if equilibrium],
     }  # fmt: skip
 
 
-def calc_balance(results: ResultsFile, body: DrawnBody) -> tuple[Floats, Floats]:
-    """Where a body's nodes are in balance [N×2] m, with their static deflection, and its frame (x, y, angle)."""
+def calc_equilibrium(results: ResultsFile, body: DrawnBody) -> tuple[Floats, Floats]:
+    """Where a body's nodes are in equilibrium [N×2] m, with their static deflection, and its frame (x, y, angle)."""
     position, _ = read_numbers(results.file, f"model/equilibrium/bodies/{body.name}")
     local = body.places
     if body.shapes.shape[2] > 0:
@@ -42,12 +43,12 @@ def turn(angle: float) -> Floats:
 
 
 def pack_shape(
-    mode: VehicleMode, bodies: Sequence[DrawnBody], balance: dict[str, tuple[Floats, Floats]]
+    mode: VehicleMode, bodies: Sequence[DrawnBody], equilibrium: dict[str, tuple[Floats, Floats]]
 ) -> dict[str, str]:
-    """The displacements of all nodes in a mode, for small motion about the balance."""
+    """The displacements of all nodes in a mode, for small motion about the equilibrium."""
     moved = {}
     for body in bodies:
-        places, frame = balance[body.name]
+        places, frame = equilibrium[body.name]
         shape = mode.shape[body.name]
         arm = places - frame[:2]
         moved[body.name] = shape[:2] + shape[2] * np.stack([-arm[:, 1], arm[:, 0]], axis=-1)

@@ -1,4 +1,4 @@
-"""The vehicle's own modes about its balance, and who moves in each, in words: "chassis bending, 95 %"."""
+"""The vehicle's own modes about its equilibrium, and who moves in each, in words: "chassis bending, 95 %"."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ class VehicleMode(NamedTuple):
 
 
 def read_vehicle_modes(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[VehicleMode]:
-    """Reads the modes that oscillate, the lowest first; an empty list if the run did not start from balance."""
+    """Reads the modes that oscillate, the lowest first; an empty list if the run did not start from equilibrium."""
     if not results.has(f"{WHERE}/undamped_frequency"):
         return []
     frequency, _ = read_numbers(results.file, f"{WHERE}/undamped_frequency")

@@ -7,7 +7,7 @@ const MEASURES = [
   ["mtvv", "vertical, largest r.m.s. of 1 s (MTVV)", "m/s^2"], ["dose", "vertical, vibration dose value (VDV)", "m/s^1.75"],
   ["crest", "vertical, crest factor", "1"], ["power", "absorbed power (6 W is borne for long)", "W"]];
 const TRAVEL = [
-  ["compression", "compression from balance, largest", "m"], ["rebound", "rebound from balance, largest", "m"],
+  ["compression", "compression from equilibrium, largest", "m"], ["rebound", "rebound from equilibrium, largest", "m"],
   ["share", "compression over the way to the stop", "%"], ["hits", "stop struck", "times"], ["stopped", "on the stop", "s"]];
 const TYRE = [
   ["static", "static load", "N"], ["dynamic_rms", "load variation, r.m.s.", "N"], ["variation", "load variation over static load", "1"],
@@ -44,7 +44,7 @@ function fillRide() {
   const seats = data.runs.some((run) => run.ride && run.ride.points.some((one) => one.name.endsWith(".seat")));
   byId("ride-note").textContent = (seats ? "" : "No point is called seat: the points of the summary are judged. ") + `Over ${[...spans].join(" and ")}. ISO 2631-1 judges vibration by weighted accelerations, Wk, Wd and ` +
     "We. Above a crest factor of 9, with shocks, the r.m.s. values say too little: look at MTVV and VDV. The total adds the squares, " +
-    "the pitch with 0.4 m/rad. Travel counts from balance, of one member; loads are those of all members together.";
+    "the pitch with 0.4 m/rad. Travel counts from equilibrium, of one member; loads are those of all members together.";
 }
 
 /** The r.m.s. by third-octave bands, with the boundaries of reduced comfort. */

@@ -1,5 +1,5 @@
 "use strict";
-// The vehicle's own modes about its balance, drawn in motion.
+// The vehicle's own modes about its equilibrium, drawn in motion.
 
 const MODE_HEIGHT = 260;  // px
 const LARGEST = 0.08;  // of the vehicle's size: the largest displacement at full amplitude
@@ -7,7 +7,7 @@ const PERIOD = 2;  // s, in which a mode is shown to move once to and fro
 const modeShow = {run: 0, mode: 0, amplitude: 1, phase: Math.PI / 2, playing: false, before: 0};
 
 const unpackedModes = new Map();
-/** A run's nodes in balance and their displacements; kept. */
+/** A run's nodes in equilibrium and their displacements; kept. */
 function unpackVehicleModes(index) {
   if (!unpackedModes.has(index)) {
     const pairs = (text) => {
@@ -15,17 +15,17 @@ function unpackVehicleModes(index) {
       return Array.from({length: numbers.length / 2}, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
     };
     const map = (object) => Object.fromEntries(Object.entries(object).map(([name, text]) => [name, pairs(text)]));
-    const {balance, shapes} = data.runs[index].vehicleModes;
-    unpackedModes.set(index, {balance: map(balance), shapes: shapes.map(map)});
+    const {equilibrium, shapes} = data.runs[index].vehicleModes;
+    unpackedModes.set(index, {equilibrium: map(equilibrium), shapes: shapes.map(map)});
   }
   return unpackedModes.get(index);
 }
 
-/** The box of all nodes and wheels in balance, with room for the motion. */
-function boxOfBalance(vehicle, balance) {
-  const corners = Object.values(balance).flat();
+/** The box of all nodes and wheels in equilibrium, with room for the motion. */
+function boxOfEquilibrium(vehicle, equilibrium) {
+  const corners = Object.values(equilibrium).flat();
   for (const wheel of vehicle.wheels) {
-    const [x, y] = balance[wheel.body][wheel.node];
+    const [x, y] = equilibrium[wheel.body][wheel.node];
     corners.push([x - wheel.radius, y - wheel.radius], [x + wheel.radius, y + wheel.radius]);
   }
   const along = (axis) => corners.map((corner) => corner[axis]);
@@ -35,8 +35,8 @@ function boxOfBalance(vehicle, balance) {
 }
 
 function drawVehicleMode() {
-  const canvas = byId("mode-scene"), run = data.runs[modeShow.run], {balance, shapes} = unpackVehicleModes(modeShow.run);
-  const [x0, y0, x1, y1] = boxOfBalance(run.vehicle, balance);
+  const canvas = byId("mode-scene"), run = data.runs[modeShow.run], {equilibrium, shapes} = unpackVehicleModes(modeShow.run);
+  const [x0, y0, x1, y1] = boxOfEquilibrium(run.vehicle, equilibrium);
   const fitted = Math.min(MODE_HEIGHT, Math.max(140, canvas.clientWidth * (y1 - y0) / (x1 - x0)));
   const {context, width, height} = prepareCanvas(canvas, Math.round(fitted));
   const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
@@ -44,10 +44,10 @@ function drawVehicleMode() {
     scale, width, height, X: (x) => 0.5 * width + scale * (x - 0.5 * (x0 + x1)), Y: (y) => 0.5 * height - scale * (y - 0.5 * (y0 + y1)),
   };
   const size = LARGEST * Math.max(x1 - x0, y1 - y0) * modeShow.amplitude * Math.sin(modeShow.phase);
-  const nodes = Object.fromEntries(Object.entries(balance).map(([name, places]) =>
+  const nodes = Object.fromEntries(Object.entries(equilibrium).map(([name, places]) =>
     [name, places.map(([x, y], k) => [x + size * shapes[modeShow.mode][name][k][0], y + size * shapes[modeShow.mode][name][k][1]])]));
   context.globalAlpha = 0.25;
-  drawBodies(context, view, run.vehicle, balance, style("--soft"));
+  drawBodies(context, view, run.vehicle, equilibrium, style("--soft"));
   context.globalAlpha = 1;
   for (const wheel of run.vehicle.wheels) drawWheel(context, view, wheel, nodes[wheel.body][wheel.node], colourOf(modeShow.run), true);
   drawBodies(context, view, run.vehicle, nodes, colourOf(modeShow.run));
@@ -73,7 +73,7 @@ function playMode(playing) {
 function tellMode() {
   const found = data.runs[modeShow.run].vehicleModes.table[modeShow.mode];
   byId("mode-words").textContent = `${format(found.f)} Hz, damping ratio ${format(100 * found.damping, 3)} %: ${found.who}. ` +
-    `Shown once in ${PERIOD} s; pale: in balance.`;
+    `Shown once in ${PERIOD} s; pale: in equilibrium.`;
   byId("mode-scene").setAttribute("aria-label", `Mode ${modeShow.mode + 1} of the vehicle, ${found.who}`);
 }
 
