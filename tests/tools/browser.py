@@ -20,6 +20,7 @@ from pathlib import Path
 
 import matplotlib.image
 
+LOCAL = ("file:", "data:", "blob:")  # addresses without a network
 NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 FLAGS = (
     "--headless=new", "--remote-debugging-pipe", "--no-first-run", "--disable-gpu", "--disable-dev-shm-usage",
@@ -96,6 +97,10 @@ class Browser:
         """Takes events until this one has come, which may have been before."""
         while not any(one.get("method") == method and one.get("sessionId") == session for one in self.events):
             self.events.append(self._receive())
+
+    def save_downloads(self, folder):
+        """Has the browser save what pages offer for saving in a folder, without asking."""
+        self.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder), eventsEnabled=True)
 
     def _receive(self):
         while b"\0" not in self.received:
@@ -238,6 +243,18 @@ class Page:
             "else requestAnimationFrame(look); }; look(); })"
         )
 
+    def wait_for_download(self):
+        """Waits frame by frame until a file is saved. RuntimeError after a great many frames."""
+        for _ in range(10000):
+            for place, event in enumerate(self.browser.events):
+                if event.get("method") == "Browser.downloadProgress" and event["params"]["state"] != "inProgress":
+                    del self.browser.events[place]
+                    if event["params"]["state"] != "completed":
+                        raise RuntimeError("a file was not saved")
+                    return
+            self.settle()
+        raise RuntimeError("no file was saved")
+
     def prefer(self, dark):
         """Switches the system's colour scheme while the page is open."""
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
@@ -257,6 +274,6 @@ class Page:
                 found.append(" ".join(str(one.get("value", one.get("description"))) for one in what["args"]))
             elif method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning"):
                 found.append(what["entry"]["text"])
-            elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("file:", "data:")):
+            elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(LOCAL):
                 found.append(f"asked the network for {what['request']['url']}")
         return found

@@ -2,8 +2,11 @@
 while the page is open; the effect of each, and that no error was logged. A control without a case here fails the
 test. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
+import csv
+import io
 import unittest
 
+import matplotlib.image
 import numpy as np
 from report_page_case import PICTURES, PageTestCase
 
@@ -37,6 +40,7 @@ class Controls(PageTestCase):
 
     def test_every_control_does_what_it_says(self):
         page = self.open()
+        self.browser.save_downloads(self.folder)
         cases = self.list_cases()
         self.assertEqual(self.find_controls(page), set(cases))
         for name, use in cases.items():
@@ -50,7 +54,20 @@ class Controls(PageTestCase):
         cases = {f"history-{number}": self.choose_history(number) for number in (1, 2, 3, 4)}
         cases |= {f"zoom {action}": self.press_zoom(action) for action in ("in", "out", "left", "right", "all")}
         cases |= {f"#{section}": self.follow_link(section) for section in self.sections()}
+        for chart in (*(f"history-{k}" for k in (1, 2, 3, 4)), "bands-diagram", "loads-diagram", "spectrum",
+                      "mode-amplitudes"):  # fmt: skip
+            cases |= {f"{chart}-csv": self.save_csv(chart), f"{chart}-png": self.save_png(f"{chart}-png")}
+        cases |= {f"load-show-{number}": self.show_extreme(number) for number in (1, 2, 3, 4)}
+        cases |= {f"checks-of-{name}": self.unfold_checks(name) for name in ("chassis", "long_arm")}
         return cases | {
+            "labels": self.use_labels,
+            "scene-png": self.save_png("scene-png"),
+            "scene-webm": self.save_webm,
+            "bands-point": self.use_bands_point,
+            "load-body": self.use_load_body,
+            "vehicle-mode": self.use_vehicle_mode,
+            "mode-amplitude": self.use_mode_amplitude,
+            "mode-play": self.use_mode_play,
             "main-run": self.use_main_run,
             "other-run": self.use_other_run,
             "magnification": self.use_magnification,
@@ -63,7 +80,10 @@ class Controls(PageTestCase):
         }
 
     def sections(self):
-        return ("summary", "animation", "histories", "spectra", "modes", "checks", "facts")
+        return (
+            "summary", "animation", "histories", "ride", "loads", "spectra", "vehicle-modes", "modes", "checks",
+            "facts",
+        )  # fmt: skip
 
     def choose_history(self, number):
         """Another quantity: its name, its unit, its values; the zoom stays, the other diagrams stay."""
@@ -181,7 +201,7 @@ class Controls(PageTestCase):
         self.assertEqual(page.evaluate("[...document.getElementById('mode-body').options].length"), 1)
         self.choose(page, "mode-body", "1 0")
         self.assertIn("All of them take part", page.evaluate("document.getElementById('mode-note').textContent"))
-        self.assertEqual(page.evaluate("linked[4].graph.getLabels()"), ["time", "mode 1", "mode 2"])
+        self.assertEqual(page.evaluate("linked[4].graph.getLabels()"), ["time, s", "mode 1", "mode 2"])
 
     def use_all_numbers(self, page):
         page.click("#all-numbers")
@@ -189,8 +209,139 @@ class Controls(PageTestCase):
         page.click("#all-numbers")
         self.assertFalse(page.evaluate("document.querySelector('#summary details').open"))
 
+    def save(self, page, button, name):
+        """Presses a button that saves a file. Returns its content."""
+        (self.folder / name).unlink(missing_ok=True)
+        page.click(f"#{button}")
+        page.wait_for_download()
+        return (self.folder / name).read_bytes()
+
+    def save_csv(self, chart):
+        """A heading with units, and the numbers that are drawn."""
+
+        def use(page):
+            heading, *rows = self.save(page, f"{chart}-csv", f"{chart}.csv").decode().splitlines()
+            numbers = np.array([[float(cell or "nan") for cell in row.split(",")] for row in rows])
+            self.assertEqual(numbers.shape[1], len(next(csv.reader([heading]))))
+            self.assertGreater(numbers.shape[0], 20)
+            self.assertTrue(np.all(np.diff(numbers[:, 0]) >= 0.0))
+            if chart.startswith("history"):
+                drawn = page.evaluate(f"linked[{int(chart[-1]) - 1}].graph.rawData_.map((row) => row[0])")
+                np.testing.assert_allclose(numbers[:, 0], drawn, rtol=1e-8)
+                self.assertRegex(heading, r'^"time, s","rigid, \S+","2 modes, \S+"$')
+
+        return use
+
+    def save_png(self, button):
+        """A picture that is not of one colour, as wide as what is saved."""
+
+        def use(page):
+            data = self.save(page, button, f"{button.removesuffix('-png')}.png")
+            picture = matplotlib.image.imread(io.BytesIO(data))
+            self.assertGreater(picture.shape[1], 900)
+            self.assertGreater(np.ptp(picture[:, :, 0]), 0.5)
+
+        return use
+
+    def save_webm(self, page):
+        """The whole run, from its beginning to its end; WebM begins with the signature of EBML."""
+        self.choose(page, "speed", "2")
+        self.set_time(page, 3.0)
+        page.click("#scene-webm")
+        page.wait_until("!document.getElementById('scene-file').hidden")
+        data = self.save(page, "scene-file", "animation.webm")
+        self.assertEqual(data[:4], b"\x1a\x45\xdf\xa3")
+        self.assertGreater(len(data), 10000)
+        self.assertEqual(page.evaluate("[clock.time, player.playing]"), [5, False])
+        self.assertEqual(page.evaluate("document.getElementById('scene-webm').disabled"), False)
+        self.choose(page, "speed", "1")
+
+    def show_extreme(self, number):
+        """The time of the extreme, at which the line meets the envelope."""
+
+        def use(page):
+            self.set_time(page, 0.0)
+            page.click(f"#load-show-{number}")
+            quantity, extreme = divmod(number - 1, 2)
+            found = f"loads.shown.quantities[{quantity}]"
+            time, value = page.evaluate(f"[{found}.extremes[{extreme}].time, {found}.extremes[{extreme}].value]")
+            self.assertEqual(page.evaluate("clock.time"), time)
+            most = "Math.max" if extreme == 0 else "Math.min"
+            now = page.evaluate(f"{most}(...loadAt(loads.shown, {found}, clock.time))")
+            self.assertAlmostEqual(now / value, 1.0, delta=1e-5)
+
+        return use
+
+    def unfold_checks(self, name):
+        def use(page):
+            details = f"document.getElementById('checks-of-{name}')"
+            self.assertEqual(page.evaluate(f"{details}.textContent"), "✓ All 12 checks passed")
+            page.click(f"#checks-of-{name}")
+            self.assertTrue(page.evaluate(f"{details}.parentElement.open"))
+            self.assertEqual(page.evaluate(f"{details}.parentElement.querySelectorAll('td.good').length"), 12)
+            page.click(f"#checks-of-{name}")
+
+        return use
+
+    def use_labels(self, page):
+        self.set_time(page, 0.0)
+        before = page.picture(selector="#scene")
+        page.click("#labels")
+        drawn = page.evaluate("player.labelled")
+        self.assertLessEqual({"chassis", "chassis.seat", "front_tyre", "rear_tyre"}, set(drawn))
+        self.assert_changed(before, page.picture(selector="#scene"))
+        page.click("#labels")
+        self.assertEqual(page.evaluate("player.labelled"), [])
+
+    def use_bands_point(self, page):
+        self.assertEqual(page.evaluate("[...document.getElementById('bands-point').options].length"), 1)
+        self.choose(page, "bands-point", "chassis.seat")
+        self.assertIn("chassis.seat", page.evaluate("document.querySelector('#bands-chart .plot').ariaLabel"))
+
+    def use_load_body(self, page):
+        self.choose(page, "load-body", "0")
+        self.assertEqual(page.evaluate("loads.shown.label"), "chassis, 2 modes")
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", **dict(zip("xy", page.find("#load-1"))))
+        page.settle()
+        self.assertRegex(
+            page.evaluate("document.getElementById('load-value').textContent"),
+            r"^bending moment at \S+ m: \S+ kN m at \S+ s, \S+ to \S+ kN m over the run$",
+        )
+
+    def use_vehicle_mode(self, page):
+        options = page.evaluate("[...document.getElementById('vehicle-mode').options].map((one) => one.textContent)")
+        self.assertIn("9.67 Hz: chassis bending, 95 %", options)
+        before = page.picture(selector="#mode-scene")
+        self.choose(page, "vehicle-mode", "1 2")
+        self.assertIn("chassis bending, 95 %", page.evaluate("document.getElementById('mode-words').textContent"))
+        self.assertEqual(before.shape[1], page.picture(selector="#mode-scene").shape[1])
+        self.assertEqual(page.evaluate("[modeShow.run, modeShow.mode]"), [1, 2])
+
+    def use_mode_amplitude(self, page):
+        self.choose(page, "vehicle-mode", "1 2")
+        still = "unpackVehicleModes(1).equilibrium.chassis"
+        for amplitude, moves in ((0, False), (2, True)):
+            self.choose(page, "mode-amplitude", amplitude)
+            apart = page.evaluate(
+                "Math.max(...modeShow.nodes.chassis.map(([x, y], k) =>"
+                f" Math.hypot(x - {still}[k][0], y - {still}[k][1])))"
+            )
+            self.assertEqual(apart > 0.1, moves)
+        self.choose(page, "mode-amplitude", 1)
+
+    def use_mode_play(self, page):
+        before = page.evaluate("modeShow.phase")
+        page.click("#mode-play")
+        self.assertEqual(page.evaluate("document.getElementById('mode-play').textContent"), "Pause")
+        page.wait_until(f"modeShow.phase > {before} + 0.5")
+        page.click("#mode-play")
+        stopped = page.evaluate("modeShow.phase")
+        page.settle()
+        self.assertEqual(page.evaluate("modeShow.phase"), stopped)
+
     def assert_changed(self, before, after):
-        self.assertEqual(before.shape, after.shape)
+        rows = min(len(before), len(after))  # the scene is as high as the run needs
+        before, after = before[:rows], after[:rows]
         self.assertGreater(np.count_nonzero(np.any(np.abs(before - after) > 0.1, axis=2)), 100)
 
     def test_the_mouse_on_a_diagram_sets_the_time_zooms_moves_and_shows_the_whole_run(self):

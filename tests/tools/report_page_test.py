@@ -48,7 +48,7 @@ class ReportPage(PageTestCase):
         places = page.evaluate(
             "[...document.querySelectorAll('.plot')].map((one, k) => { one.id = `plot${k}`; return one.id; })"
         )
-        self.assertEqual(len(places), 6)  # four histories, the spectra, the modes
+        self.assertEqual(len(places), 7)  # four histories, the bands, the spectra, the modes
         for place in places:
             picture = page.picture(PICTURES / f"{place}.png", f"#{place}")
             counts = [np.count_nonzero(np.any(is_colour(picture, colour, 0.25), axis=0)) for colour in (BLACK, BLUE)]

@@ -47,7 +47,7 @@ class Report(ToolTestCase):
     def test_it_stands_alone(self):
         text, _ = self.report("rigid.h5")
         self.assertNotRegex(text, r'(?i)<(script|link|img|iframe)[^>]*\b(src|href)="(?!data:)')
-        self.assertNotRegex(text, r"(?i)@import|url\((?!['\"]?data:)")
+        self.assertNotRegex(text, r"(?i)@import|\burl\((?!['\"]?data:)")
         self.assertNotIn("sourceMappingURL", text)
 
     def test_histories_are_the_results_with_the_units_of_the_file(self):

@@ -35,7 +35,8 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
         write_series(file, "time", time, "s")
         seat = SEAT_AMPLITUDE * np.sin(2.0 * np.pi * SEAT_FREQUENCY * time)
         for name, factor in (("points/body.seat", 1.0), ("bodies/body/center_of_mass", 0.5)):
-            write_series(file, f"{name}/acceleration", (nothing, factor * seat), "m/s^2")
+            write_series(file, f"{name}/acceleration", (0.5 * factor * seat, factor * seat), "m/s^2")
+        write_series(file, "bodies/body/acceleration", (nothing, nothing, 3.0 * seat), "m/s^2, m/s^2, rad/s^2")
         for name in ("suspension", "link"):
             write_series(file, f"forces/{name}/deflection", STATIC_DEFLECTION + 0.1 * beat, "m")
             file[f"forces/{name}/deflection"].attrs["role"] = np.bytes_("deflection")

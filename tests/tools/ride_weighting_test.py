@@ -5,7 +5,16 @@ import unittest
 import numpy as np
 import tool_test_case  # noqa: F401  puts tools/ on the path
 
-from sprung_tools.signals.ride_weighting import calc_dose, calc_wk, weight_acceleration
+from sprung_tools.signals.ride_weighting import (
+    WD,
+    WE,
+    WK,
+    calc_dose,
+    calc_running_rms,
+    calc_weighting,
+    calc_wk,
+    weight_acceleration,
+)
 from sprung_tools.signals.spectra import calc_rms
 
 STEP = 1e-3
@@ -15,6 +24,11 @@ BY_FORMULA = (.419, .459, .477, .483, .485, .494, .531, .634, .807, .965, 1.039,
 # ISO 2631-1:1997, table 3, principal weighting Wk × 1000 at the nominal centres 0.5 … 80 Hz
 STANDARD = (418, 459, 477, 482, 484, 494, 531, 631, 804, 967, 1039, 1054, 1036, 988, 902, 768, 636, 513, 405, 314, 246,
             186, 132)  # fmt: skip
+# The same table, principal weighting Wd × 1000. At 10 Hz it has 212 where its own formula gives 202; see the test.
+STANDARD_WD = (853, 944, 992, 1011, 1008, 968, 890, 776, 642, 512, 409, 323, 253, 212, 161, 125, 100, 80.0, 63.2, 49.4,
+               38.8, 29.5, 21.1)  # fmt: skip
+# ISO 8041:2005, the weighting factors at the reference frequency of 100 rad/s
+AT_REFERENCE = {WK: 0.7718, WD: 0.1261, WE: 0.06287}
 
 
 class Weighting(unittest.TestCase):
@@ -25,6 +39,27 @@ class Weighting(unittest.TestCase):
     def test_the_formula_is_within_the_rounding_of_the_standards_table(self):
         frequency = 10.0 ** (np.arange(-3, 20) / 10.0)
         np.testing.assert_allclose(1e3 * np.abs(calc_wk(frequency)), STANDARD, rtol=0.015)
+
+    def test_the_weighting_fore_and_aft_is_within_the_rounding_of_the_standards_table(self):
+        number = np.arange(-3, 20)
+        found = 1e3 * np.abs(calc_weighting(WD, 10.0 ** (number / 10.0)))
+        regular = number != 10  # 10 Hz: the table's neighbours, 253 and 161, have 202 between them in proportion
+        np.testing.assert_allclose(found[regular], np.array(STANDARD_WD)[regular], rtol=0.015)
+        self.assertAlmostEqual(found[13], np.sqrt(STANDARD_WD[12] * STANDARD_WD[14]), delta=1.0)
+
+    def test_all_weightings_have_their_factors_at_the_reference_frequency(self):
+        for weighting, factor in AT_REFERENCE.items():
+            with self.subTest(weighting.name):
+                found = abs(calc_weighting(weighting, np.array([100.0 / (2.0 * np.pi)]))[0])
+                self.assertAlmostEqual(found / factor, 1.0, delta=5e-5 / factor)  # the last digit
+
+    def test_the_running_rms_is_that_of_the_second_before(self):
+        time = np.arange(0.0, 4.0 + 0.5 * STEP, STEP)
+        signal = np.where(time < 2.0, 3.0, 0.0)
+        running = calc_running_rms(signal, STEP)
+        # √(9 · share of the last second that is filled)
+        for at, share in ((0.25, 0.25), (1.0, 1.0), (1.9, 1.0), (2.5, 0.5), (3.5, 0.0)):
+            self.assertAlmostEqual(running[round(at / STEP)], 3.0 * np.sqrt(share), delta=2e-3)
 
     def test_sampled_sines_are_weighted_as_the_formula_says_up_to_80_hz(self):
         for step in (1e-3, 2.5e-3):

@@ -57,7 +57,7 @@ class RunWarnings(ToolTestCase):
             self.assertEqual(len(self.list(self.folder / "a.h5")), count)
         self.assertIn("the energy balance does not close (relative 1.2e-03)", self.list(self.folder / "a.h5")[0].text)
 
-    def test_the_modes_about_the_balance_do_not_hold_for_a_wheel_in_the_air(self):
+    def test_the_modes_about_the_equilibrium_do_not_hold_for_a_wheel_in_the_air(self):
         self.write_neglected(self.folder / "a.h5")
         with h5py.File(self.folder / "a.h5", "a") as file:
             write_series(file, "model/modes/undamped_frequency", np.array([2.0]), "Hz")
@@ -66,7 +66,7 @@ class RunWarnings(ToolTestCase):
         with h5py.File(self.folder / "a.h5", "a") as file:
             file["forces/front_tyre/contact"][3] = 0.0
         (found,) = self.list(self.folder / "a.h5")
-        self.assertEqual((found.section, found.of), ("balance", ("front_tyre",)))
+        self.assertEqual((found.section, found.of), ("equilibrium", ("front_tyre",)))
         self.assertIn("front_tyre left the ground", found.text)
 
 

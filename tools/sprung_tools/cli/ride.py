@@ -1,12 +1,14 @@
-"""Prints measures of runs for driver, wheels and frame: vibration as people feel it (ISO 2631-1, weighting Wk),
+"""Prints measures of runs for driver, wheels and frame: vibration as people feel it (ISO 2631-1), absorbed power,
 suspension travel and bump-stop hits, dynamic tyre loads, time off the ground and without load, the largest bending
 moment of each flexible body.
 
-The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose in
-m/s^1.75. Travel is from static equilibrium, compression is positive. Loads are those of all parallel members together.
-A tyre is also without load where it reaches the road but rises faster than it springs back. A moment is positive where
-it stretches the side of -y. With --superelements the tool also computes the bending moment of bodies that a run took
-as rigid, from the forces on them."""
+The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose
+(VDV) in m/s^1.75; MTVV is the largest running r.m.s. of Wk over 1 s. Beside it stand the weighted r.m.s. fore and aft
+(Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Travel is from
+static equilibrium, compression is positive. Loads are those of all parallel members together. A tyre is also without
+load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
+of -y. With --superelements the tool also computes the bending moment of bodies that a run took as rigid, from the
+forces on them."""
 
 import os
 from collections.abc import Iterator, Sequence
@@ -14,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.runs.labelled_runs import Run, open_runs
+from sprung_tools.runs.ride_assessment import calc_assessment
 from sprung_tools.runs.ride_measures import (
     Bending,
     calc_bending,
@@ -22,13 +25,15 @@ from sprung_tools.runs.ride_measures import (
     calc_travel,
     find_forces,
     find_largest_moment,
+    list_seats,
     read_window,
 )
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
-COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV")
+COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
+           "total", "absorbed W")  # fmt: skip
 TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
@@ -41,7 +46,7 @@ def find_points(runs: Sequence[Run], wanted: Sequence[str]) -> list[str]:
     """
     results = runs[0].results
     if not wanted:
-        seats = [f"points/{name}" for name in results.names("points") if name.rpartition(".")[2] == "seat"]
+        seats = list_seats(results)
         bodies = sorted({seat.split("/")[1].partition(".")[0] for seat in seats}) or results.names("bodies")
         return seats + [f"bodies/{body}/center_of_mass" for body in bodies]
     points = []
@@ -63,7 +68,9 @@ def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Seque
     for point in points:
         for run, window in zip(runs, windows):
             one = calc_comfort(run.results, point, window)
-            numbers = (one.rms, one.peak, one.weighted_rms, one.dose)
+            more = calc_assessment(run.results, point, window)
+            numbers = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
+                       more.total, more.power)  # fmt: skip
             yield (point_name(point), run.label, *(f"{value:.4g}" for value in numbers))
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.files.hdf5_file import read_numbers, read_real
+from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     DEFLECTION,
@@ -17,7 +17,7 @@ from sprung_tools.model.force_channels import (
     describe_load,
     list_force_channels,
 )
-from sprung_tools.model.resolved_model import read_elements
+from sprung_tools.model.resolved_model import ROOT, read_elements
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.runs.labelled_runs import Shown
@@ -38,8 +38,11 @@ class Channel(NamedTuple):
 
 
 def list_monitored(results: ResultsFile) -> list[str]:
-    """The points in the run's summary; the origins of all bodies if it has none."""
-    points = results.names("summary/points")
+    """The points in the run's summary, in the order of the vehicle file; the origins of all bodies if it has none."""
+    found = results.names("summary/points")
+    listed = f"{ROOT}/settings/output_points"
+    order = read_texts(results.file, listed) if results.file.has_dataset(listed) else []
+    points = [point for point in order if point in found] + [point for point in found if point not in order]
     return points or [f"{body}.origin" for body in results.names("bodies")]
 
 

@@ -7,12 +7,15 @@ from collections.abc import Sequence
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.report.packing import Packed
+from sprung_tools.report.ride import pack_boundaries
 from sprung_tools.report.run_data import pack_run
 from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.terminal.progress_bar import Progress
 
 WEB = os.path.join(os.path.dirname(os.path.realpath(__file__)), "web")
-SCRIPTS = ("common.js", "tables.js", "charts.js", "spectra.js", "animation.js", "page.js")
+SCRIPTS = ("common.js", "save.js", "tables.js", "charts.js", "histories.js", "ride.js", "frame_loads.js", "spectra.js",
+           "motion.js", "scene_view.js", "vehicle_drawing.js", "player.js", "vehicle_modes.js", "mode_amplitudes.js",
+           "page.js")  # fmt: skip
 DYGRAPHS = ("/usr/share/javascript/dygraphs", "/usr/share/nodejs/dygraphs/dist")
 LARGEST = 15e6  # bytes of a page; a larger one is drawn with fewer samples
 THINNINGS = ((4000, 6000), (2000, 3000), (1000, 1500), (500, 750))  # samples of a history, instants of the animation
@@ -72,7 +75,8 @@ def make_small_page(
             for run in runs:
                 packed.append(pack_run(run, extra, most, frames))
                 progress.step()
-        page = make_page(title, {"title": title, "runs": packed, "superelements": checks, "most": most})
+        page = make_page(title, {"title": title, "runs": packed, "superelements": checks, "most": most,
+                                 "boundaries": pack_boundaries()})
         if len(page.encode()) < largest:
             break
     return page

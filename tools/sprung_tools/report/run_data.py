@@ -2,13 +2,20 @@
 
 from collections.abc import Sequence
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.model.vehicle_shape import read_bodies, read_wheels
+from sprung_tools.report.frame_loads import pack_frame_loads
 from sprung_tools.report.histories import calc_spectra, list_channels, pack_channel, pack_modes
 from sprung_tools.report.packing import Packed
+from sprung_tools.report.ride import calc_vibrations, list_ride_channels, pack_ride
 from sprung_tools.report.scene import pack_frames, pack_road, pack_vehicle
-from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts, list_frequencies
+from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts
+from sprung_tools.report.vehicle_modes import pack_vehicle_modes
 from sprung_tools.runs.labelled_runs import Run, Shown
+from sprung_tools.runs.ride_assessment import Vibration
 from sprung_tools.runs.run_warnings import list_warnings
+
+FRAMES_OF_LOADS = 6  # the animation's instants for each one at which the loads along a body are drawn
 
 
 def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed:
@@ -17,7 +24,14 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
     results = run.results
     bodies = read_bodies(results)
     wheels = read_wheels(results, bodies)
-    channels = list_channels(results, bodies, extra)
+    vibrations: dict[str, Vibration] = {}
+    problem = ""
+    try:
+        vibrations = calc_vibrations(results)
+    except InputError as error:  # too few samples, or unequally spaced ones; the rest of the page does not need them
+        problem = str(error)
+    ride = pack_ride(results, vibrations, problem)
+    channels = list_channels(results, bodies, extra) + (list_ride_channels(vibrations) if ride else [])
     return {
         "label": run.label,
         "facts": list_facts(results, bool(wheels), calc_hash(results.path)),
@@ -25,8 +39,10 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "balanced": results.is_from_balance,
         "warnings": [one._asdict() for one in list_warnings(results)],
         "statistics": calc_statistics(results, channels),
-        "frequencies": list_frequencies(results),
+        "vehicleModes": pack_vehicle_modes(results, bodies),
         "channels": [pack_channel(channel, results.time, most) for channel in channels],
+        "ride": ride,
+        "loads": pack_frame_loads(results, bodies, frames // FRAMES_OF_LOADS),
         "spectra": calc_spectra(results),
         "modes": pack_modes(results, bodies, most),
         "frames": pack_frames(results, bodies, wheels, frames),

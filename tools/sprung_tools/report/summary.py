@@ -20,7 +20,7 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.resolved_model import read_road_settings, read_settings
-from sprung_tools.report.histories import Channel
+from sprung_tools.report.histories import Channel, list_monitored
 from sprung_tools.report.packing import Packed
 from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
@@ -73,7 +73,8 @@ def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[P
 def list_point_rows(results: ResultsFile) -> list[Statistic]:
     """The statistics that sprung-dynamics itself computed, as (point, quantity, unit, value)."""
     rows: list[Statistic] = []
-    for point in results.names("summary/points"):
+    there_are = results.names("summary/points")
+    for point in (one for one in list_monitored(results) if one in there_are):
         group = f"summary/points/{point}"
         there = results.file.attributes(group)
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
@@ -141,20 +142,6 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
             facts.append((f"{name}, SHA-256", hashlib.sha256(text.encode()).hexdigest()))
     facts.append(("results file, SHA-256", sha256))
     return facts
-
-
-def list_frequencies(results: ResultsFile) -> list[Packed]:
-    """The vehicle's modes about its equilibrium: undamped frequency, damping ratio, participants."""
-    if not results.file.has_dataset("model/modes/undamped_frequency"):
-        return []
-    frequency, _ = read_numbers(results.file, "model/modes/undamped_frequency")
-    damping, _ = read_numbers(results.file, "model/modes/damping_ratio")
-    taking_part = read_texts(results.file, "model/modes/participants")
-    return [
-        {"f": float(f), "damping": float(d), "who": who}
-        for f, d, who in zip(frequency, damping, taking_part)
-        if f > 0.0
-    ]
 
 
 def read_checks(folder: str | None, runs: Sequence[Run]) -> list[Packed]:

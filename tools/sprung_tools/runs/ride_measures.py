@@ -99,6 +99,11 @@ def calc_comfort(results: ResultsFile, point: str, window: Span) -> Comfort:
     )
 
 
+def list_seats(results: ResultsFile) -> list[str]:
+    """Every point called seat, as `points/BODY.seat`."""
+    return [f"points/{name}" for name in results.names("points") if name.rpartition(".")[2] == "seat"]
+
+
 def find_forces(results: ResultsFile, drawing: str) -> list[str]:
     """The names of the force elements that are drawn as `spring` (suspensions) or as `wheel` (tyres)."""
     return [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]

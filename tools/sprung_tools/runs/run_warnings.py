@@ -16,12 +16,12 @@ TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration (dyn
 ALARMING_CLOSURE = 1e-3  # relative (dynamics/program/run_command.cpp)
 NEARLY = 0.9  # of the run's largest acceleration
 
-SUMMARY, MODES, BALANCE = "summary", "modes", "balance"  # which numbers a warning concerns
+SUMMARY, MODES, EQUILIBRIUM = "summary", "modes", "equilibrium"  # which numbers a warning concerns
 
 
 class RunWarning(NamedTuple):
-    """A warning: the numbers it concerns (SUMMARY, MODES, BALANCE), what these are of (bodies, points; empty: all), the
-    text."""
+    """A warning: the numbers it concerns (SUMMARY, MODES, EQUILIBRIUM), what these are of (bodies, points; empty: all),
+    the text."""
 
     section: str
     of: tuple[str, ...]
@@ -95,7 +95,7 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
     if not airborne:
         return []
     text = (
-        "the vehicle's modes and frequencies are those of small motion about the balance; here "
+        "the vehicle's modes and frequencies are those of small motion about the equilibrium; here "
         f"{' and '.join(airborne)} left the ground"
     )
-    return [RunWarning(BALANCE, tuple(airborne), text)]
+    return [RunWarning(EQUILIBRIUM, tuple(airborne), text)]

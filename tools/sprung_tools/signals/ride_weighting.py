@@ -1,16 +1,24 @@
-"""How standing or sitting people feel vertical vibration: the weighting Wk, its r.m.s., the vibration dose value.
+"""How sitting people feel vibration: the weightings Wk (vertical), Wd (fore-aft) and We (rotation), and what is made of
+the weighted acceleration a_w.
 
     H(s) = Hh Hl Ht Hs,   s = j 2π f                                                                   (1)
     Hh = s²/(s² + √2 ω₁ s + ω₁²),  Hl = ω₂²/(s² + √2 ω₂ s + ω₂²)            band limits, f₁ = 0.4, f₂ = 100 Hz
-    Ht = (1 + s/ω₃)/(1 + s/(Q₄ ω₄) + (s/ω₄)²)                               f₃ = f₄ = 12.5 Hz, Q₄ = 0.63
-    Hs = (1 + s/(Q₅ω₅) + (s/ω₅)²)/(1 + s/(Q₆ω₆) + (s/ω₆)²) (ω₅/ω₆)²         f₅ = 2.37, f₆ = 3.35 Hz, Q₅ = Q₆ = 0.91
-    a_w,rms = √(1/T ∫ a_w² dt)  [m/s²],   VDV = (∫ a_w⁴ dt)^¼  [m/s^1.75]                               (2)
+    Ht = (1 + s/ω₃)/(1 + s/(Q₄ ω₄) + (s/ω₄)²)                               f₃ = f₄, Q₄ = 0.63
+    Hs = (1 + s/(Q₅ω₅) + (s/ω₅)²)/(1 + s/(Q₆ω₆) + (s/ω₆)²) (ω₅/ω₆)²         of Wk, else 1
 
-[ISO 2631-1:1997, 6.3.1 and annex A, with the parameters of ISO 8041:2005, table 3]
+    f₃ = 12.5 Hz for Wk, 2 Hz for Wd, 1 Hz for We;   f₅ = 2.37, f₆ = 3.35 Hz, Q₅ = Q₆ = 0.91
+
+    a_w,rms = √(1/T ∫ a_w² dt)  [m/s²],   VDV = (∫ a_w⁴ dt)^¼  [m/s^1.75]                               (2)
+    a_w(t₀) = √(1/τ ∫ a_w² dt from t₀ − τ to t₀), τ = 1 s,   MTVV = max a_w(t₀)                         (3)
+
+[ISO 2631-1:1997, 6.1 to 6.3 and annex A, with the parameters of ISO 8041:2005, table 3]
 
 The Fourier transform of the samples is multiplied by the formula itself. A digital filter in its place would be warped
 towards half the sampling frequency.
 """
+
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,36 +27,70 @@ from sprung_tools.files.array_types import ComplexNumbers, Floats
 SETTLING = 20.0  # s of rest appended to a signal, so that the end of its response does not reach its start again
 HIGHEST = 80.0  # Hz, where the standard's table ends
 SAMPLES_PER_PERIOD = 4.0  # needed in a period of the highest frequency
+RUNNING = 1.0  # s, τ of (3)
+
+Response = Callable[[Floats], ComplexNumbers]  # frequencies [Hz] → complex response
 
 
-def calc_wk(frequency: Floats) -> ComplexNumbers:
+class Weighting(NamedTuple):
+    """The parameters of (1) in which the weightings differ [Hz]; step: whether Hs is there."""
+
+    name: str
+    transition: float
+    has_step: bool
+
+
+WK, WD, WE = Weighting("Wk", 12.5, True), Weighting("Wd", 2.0, False), Weighting("We", 1.0, False)
+
+
+def calc_weighting(weighting: Weighting, frequency: Floats) -> ComplexNumbers:
     """The complex response H of (1) at frequencies f ≥ 0 [Hz]."""
     s = 2j * np.pi * np.asarray(frequency, dtype=float)
-    w1, w2, w3, w4, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, 12.5, 12.5, 2.37, 3.35])
+    w1, w2, w3, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, weighting.transition, 2.37, 3.35])
     q4, q5, q6 = 0.63, 0.91, 0.91
     high_pass = s**2 / (s**2 + np.sqrt(2.0) * w1 * s + w1**2)
     low_pass = w2**2 / (s**2 + np.sqrt(2.0) * w2 * s + w2**2)
-    transition = (1.0 + s / w3) / (1.0 + s / (q4 * w4) + (s / w4) ** 2)
-    step = (1.0 + s / (q5 * w5) + (s / w5) ** 2) / (1.0 + s / (q6 * w6) + (s / w6) ** 2) * (w5 / w6) ** 2
-    return high_pass * low_pass * transition * step
+    response = high_pass * low_pass * (1.0 + s / w3) / (1.0 + s / (q4 * w3) + (s / w3) ** 2)
+    if weighting.has_step:
+        step = (1.0 + s / (q5 * w5) + (s / w5) ** 2) / (1.0 + s / (q6 * w6) + (s / w6) ** 2)
+        response = response * step * (w5 / w6) ** 2
+    return response
 
 
-def weight_acceleration(acceleration: Floats, step: float) -> Floats:
-    """The weighted acceleration a_w [n], m/s², of an acceleration [n] that was 0 before the record began.
+def calc_wk(frequency: Floats) -> ComplexNumbers:
+    """The complex response of Wk at frequencies f ≥ 0 [Hz]."""
+    return calc_weighting(WK, frequency)
+
+
+def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting = WK) -> Floats:
+    """The weighted acceleration a_w [n], m/s² or rad/s², of an acceleration [n] that was 0 before the record began.
 
     step: between samples [s]. ValueError if the samples are too far apart for the frequencies up to 80 Hz.
     """
     if not step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
         raise ValueError(
-            f"a sample every {1e3 * step:g} ms is too few: Wk goes to {HIGHEST:g} Hz and needs one "
+            f"a sample every {1e3 * step:g} ms is too few: {weighting.name} goes to {HIGHEST:g} Hz and needs one "
             f"every {1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms"
         )
-    size = acceleration.size + int(np.ceil(SETTLING / step))
-    transform = np.fft.rfft(acceleration, size) * calc_wk(np.fft.rfftfreq(size, step))
-    return np.fft.irfft(transform, size)[: acceleration.size]
+    return apply_response(acceleration, step, lambda frequency: calc_weighting(weighting, frequency))
+
+
+def apply_response(values: Floats, step: float, response: Response, settling: float = SETTLING) -> Floats:
+    """What a linear filter at rest makes of a signal [n]. settling: how long its response takes to fade [s]."""
+    size = values.size + int(np.ceil(settling / step))
+    transform = np.fft.rfft(values, size) * response(np.fft.rfftfreq(size, step))
+    return np.fft.irfft(transform, size)[: values.size]
 
 
 def calc_dose(weighted: Floats, step: float) -> float:
     """The vibration dose value of a weighted acceleration [n]: (∫ a_w⁴ dt)^¼ in m/s^1.75, by the trapezoidal rule."""
     fourth = np.square(np.square(weighted))
     return float((step * (fourth.sum() - 0.5 * (fourth[0] + fourth[-1]))) ** 0.25)
+
+
+def calc_running_rms(weighted: Floats, step: float) -> Floats:
+    """The running r.m.s. of (3) at each sample [n], by the trapezoidal rule; before the record the signal is 0."""
+    square = np.square(weighted)
+    integral = np.concatenate([[0.0], np.cumsum(0.5 * step * (square[1:] + square[:-1]))])
+    begin = np.maximum(0, np.arange(weighted.size) - round(RUNNING / step))
+    return np.sqrt((integral - integral[begin]) / RUNNING)

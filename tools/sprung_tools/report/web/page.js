@@ -26,20 +26,27 @@ window.addEventListener("error", (event) => errors.push(event.message));
 function drawAll() {
   fillHead();
   fillTables();
-  for (const draw of charts) draw();
-  drawScene();
+  for (const draw of redraws) draw();
 }
 
 fillHead();
 fillTables();
 makePlayer();
-makeCharts();
+makeHistories();
+makeBands();
+makeLoads();
+makeSpectra();
+makeVehicleModes();
+makeModeAmplitudes();
+makeZoom();
 dark.addEventListener("change", drawAll);
 let resizing = 0;
 window.addEventListener("resize", () => {
   cancelAnimationFrame(resizing);
   resizing = requestAnimationFrame(() => {
     drawScene();
+    drawLoads();
+    if (!byId("mode-player").hidden) drawVehicleMode();
     linked.forEach(placeCursor);
   });
 });

@@ -3,6 +3,7 @@
 
 const SPECTRUM_DEPTH = 1e-7;  // of the peak: lower values are not drawn
 let spectrum = null;  // the diagram
+let spectrumNamed = [];  // how many frequencies of each run are named
 
 /** Where a frequency is on the logarithmic axis of the spectra, px from the left of the diagram. */
 function placeFrequency(graph, frequency) {
@@ -25,37 +26,50 @@ function markDecades(digits, print) {
   };
 }
 
-/** Dashed lines at the vehicle's frequencies, named where there is room. */
+/** Dashed lines at the vehicle's frequencies. */
 function markFrequencies(context, area, graph) {
   context.save();
-  context.font = "11px system-ui, sans-serif";
-  context.textAlign = "left";
   data.runs.forEach((run, index) => {
-    let free = -Infinity;
     const [from, to] = graph.xAxisRange();
-    context.strokeStyle = context.fillStyle = colourOf(index);
+    context.strokeStyle = colourOf(index);
+    context.globalAlpha = 0.55;
     context.setLineDash([4, 3]);
-    for (const {f} of run.frequencies) {
+    for (const {f} of run.vehicleModes.table) {
       if (f < from || f > to) continue;
       const x = placeFrequency(graph, f);
-      context.globalAlpha = 0.55;
       context.beginPath();
-      context.moveTo(x, area.y + 13 * data.runs.length);
+      context.moveTo(x, area.y + 14 * data.runs.length + 2);
       context.lineTo(x, area.y + area.h);
       context.stroke();
-      context.globalAlpha = 1;
-      if (x < free) continue;
-      const text = format(f, 3);
-      context.fillText(text, x + 2, area.y + 10 + 13 * index);
-      free = x + context.measureText(text).width + 6;
     }
+  });
+  context.restore();
+}
+
+/** Names the frequencies above their lines, on the card's colour; where they crowd, only those with room. Returns how many
+ * are named for each run. */
+function nameFrequencies(graph) {
+  const context = graph.hidden_ctx_, area = graph.getArea(), [from, to] = graph.xAxisRange();
+  context.save();
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  spectrumNamed = data.runs.map((run, index) => {
+    let free = -Infinity, named = 0;
+    for (const {f} of run.vehicleModes.table) {
+      const x = placeFrequency(graph, f), text = format(f, 3);
+      if (f < from || f > to || x < free || x + context.measureText(text).width > area.x + area.w) continue;
+      free = x + drawPlate(context, text, x + 2, area.y + 8 + 14 * index, colourOf(index)) + 8;
+      ++named;
+    }
+    return named;
   });
   context.restore();
 }
 
 function makeSpectra() {
   const points = [...new Set(data.runs.flatMap((run) => run.spectra.map((one) => one.name)))];
-  const chart = makeFigure(byId("spectrum-chart"), true);
+  const chart = makeFigure(byId("spectrum-chart"), "spectrum", true);
   const select = byId("spectrum-point");
   if (!points.length) {
     byId("spectra").hidden = true;
@@ -73,10 +87,11 @@ function makeSpectra() {
     });
     const peak = Math.max(...series.map((one) => one.v.reduce((a, b) => Math.max(a, b), 0)));
     removeGraph(chart);
+    chart.unit = "(m/s²)²/Hz";
     chart.plot.setAttribute("aria-label", `Spectrum of the vertical acceleration of ${select.value}, ${labels.join(" and ")}`);
     chart.graph = spectrum = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
-      ...commonOptions(chart.legend), labels: ["frequency", ...labels], colors: colours, xlabel: "frequency, Hz",
-      ylabel: "(m/s²)²/Hz", underlayCallback: markFrequencies,
+      ...commonOptions(chart.legend, "(m/s²)²/Hz"), labels: ["frequency, Hz", ...labels], colors: colours, xlabel: "frequency, Hz",
+      ylabel: "(m/s²)²/Hz", underlayCallback: markFrequencies, drawCallback: nameFrequencies,
       axes: {
         x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, ticker: markDecades([1, 2, 5], formatTick)},
         y: {logscale: true, axisLabelWidth: 54, ticker: markDecades([1], powerOfTen), valueFormatter: (value) => format(value),
@@ -85,7 +100,7 @@ function makeSpectra() {
     });
   };
   select.addEventListener("change", draw);
-  charts.push(draw);
+  redraws.push(draw);
   draw();
 }
 

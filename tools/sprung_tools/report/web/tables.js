@@ -41,11 +41,12 @@ function fillStatistics(table, rows) {
       body.append(element("tr", {}, heading));
       table.append(body);
     }
-    const known = row.values.filter((value) => value !== null);
+    const known = row.values.filter((value) => typeof value === "number");
     const {unit, factor} = readable(row.unit, Math.max(...known.map(Math.abs)));
     const cells = row.values.map((value, index) => {
-      const cell = element("td", {class: "number"}, value === null ? "–" : format(factor * value));
-      if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" ? difference(value, row.values[0]) : ""));
+      const isText = typeof value === "string";
+      const cell = element("td", {class: isText ? "number words" : "number"}, value === null ? "–" : isText ? value : format(factor * value));
+      if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" && !isText ? difference(value, row.values[0]) : ""));
       return cell;
     });
     body.append(element("tr", {}, element("th", {scope: "row"}, row.name), element("td", {class: "unit"}, unit), ...cells));
@@ -70,9 +71,7 @@ function fillWarnings() {
 const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|axial/.test(row.name);
 
 function fillFrequencies(table) {
-  const most = Math.max(...data.runs.map((run) => run.frequencies.length));
-  const section = table.parentElement;
-  section.hidden = most === 0;
+  const most = Math.max(...data.runs.map((run) => run.vehicleModes.table.length));
   const head = element("tr", {}, element("th", {class: "number", scope: "col"}, "mode"));
   data.runs.forEach((run, index) => head.append(runHeadings()[index], element("th", {class: "number", scope: "col"}, "damping"),
     element("th", {scope: "col"}, "who moves")));
@@ -81,7 +80,7 @@ function fillFrequencies(table) {
   for (let mode = 0; mode < Math.min(most, 24); ++mode) {
     const row = element("tr", {}, element("td", {class: "number"}, String(mode + 1)));
     for (const run of data.runs) {
-      const found = run.frequencies[mode];
+      const found = run.vehicleModes.table[mode];
       row.append(element("td", {class: "number"}, found ? format(found.f) : ""),
         element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {class: "who"}, found ? found.who : ""));
     }
@@ -112,7 +111,11 @@ function fillChecks(place) {
         element("td", {class: "number"}, format(check.tolerance)), element("td", {class: passed ? "good" : "bad"}, passed ? "✓ passed" : "✗ failed")));
     }
     table.append(body);
-    place.append(element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Checks of ${found.name}`}, table));
+    const failed = found.checks.filter((check) => !(check.value <= check.tolerance)).length, count = found.checks.length;
+    const result = failed ? `✗ ${failed} of ${count} checks failed` : `✓ All ${count} checks passed`;
+    const details = element("details", failed ? {open: ""} : {}, element("summary", {id: `checks-of-${found.name}`, class: failed ? "bad" : "good"}, result),
+      element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `Checks of ${found.name}`}, table));
+    place.append(details);
   }
 }
 
@@ -139,6 +142,7 @@ function fillTables() {
   const rows = collectStatistics();
   fillStatistics(byId("summary-table"), rows.filter(inSummary));
   fillStatistics(byId("statistics-table"), rows);
+  fillRide();
   fillFrequencies(byId("frequency-table"));
   fillChecks(byId("check-tables"));
   fillFacts(byId("fact-table"));

@@ -1,0 +1,63 @@
+"""runs/ride_assessment.py: all measures of a seat whose vibration is a sine, and people's reaction in words."""
+
+import numpy as np
+from ride_results import SEAT_AMPLITUDE, SEAT_FREQUENCY, write_ride_results
+from tool_test_case import ToolTestCase
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, describe_comfort
+from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
+from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
+from sprung_tools.signals.third_octaves import NOMINAL
+
+WINDOW = (2.0, 4.0)  # the filters have settled
+
+
+class RideAssessment(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        self.results = open_results(write_ride_results(self.folder / "a.h5"))
+        self.addCleanup(self.results.file.close)
+
+    def test_the_measures_of_a_sine_are_those_of_its_weighted_amplitudes(self):
+        found = calc_assessment(self.results, "points/body.seat", WINDOW)
+
+        def rms(weighting, factor):
+            gain = abs(calc_weighting(weighting, np.array([SEAT_FREQUENCY]))[0])
+            return factor * SEAT_AMPLITUDE * gain / np.sqrt(2.0)
+
+        # The seat moves by 1 vertically, ½ fore and aft, and the body turns by 3.
+        fore_aft, vertical, pitch = rms(WD, 0.5), rms(WK, 1.0), rms(WE, 3.0)
+        for value, expected in ((found.fore_aft, fore_aft), (found.vertical, vertical), (found.pitch, pitch)):
+            self.assertAlmostEqual(value / expected, 1.0, delta=5e-3)
+        self.assertAlmostEqual(found.total / np.sqrt(fore_aft**2 + vertical**2 + (0.4 * pitch) ** 2), 1.0, delta=5e-3)
+        self.assertAlmostEqual(found.mtvv / vertical, 1.0, delta=5e-3)  # whole periods in every second
+        self.assertAlmostEqual(found.crest, np.sqrt(2.0), delta=0.02)
+        self.assertAlmostEqual(found.dose / (np.sqrt(2.0) * vertical * (0.375 * 2.0) ** 0.25), 1.0, delta=5e-3)
+        power = 0.5 * (SEAT_AMPLITUDE * FEET_PER_METRE * abs(calc_response(SEAT_FREQUENCY))) ** 2
+        self.assertAlmostEqual(found.power / power, 1.0, delta=5e-3)
+
+    def test_a_centre_of_mass_is_judged_as_a_seat_is(self):
+        found = calc_assessment(self.results, "bodies/body/center_of_mass", WINDOW)
+        seat = calc_assessment(self.results, "points/body.seat", WINDOW)
+        self.assertAlmostEqual(found.vertical, 0.5 * seat.vertical)
+        self.assertAlmostEqual(found.pitch, seat.pitch)
+
+    def test_the_sine_is_in_its_band(self):
+        bands = calc_bands(self.results, "points/body.seat", WINDOW)
+        self.assertEqual(NOMINAL[int(np.argmax(bands))], SEAT_FREQUENCY)
+        self.assertAlmostEqual(np.max(bands), SEAT_AMPLITUDE / np.sqrt(2.0), delta=0.01)
+
+    def test_the_words_are_those_of_the_standard_whose_ranges_overlap(self):
+        for total, words in (
+            (0.1, "not uncomfortable"), (0.4, "a little uncomfortable"),
+            (0.55, "a little uncomfortable to fairly uncomfortable"), (1.1, "uncomfortable"),
+            (1.4, "uncomfortable to very uncomfortable"), (3.0, "extremely uncomfortable"),
+        ):  # fmt: skip
+            self.assertEqual(describe_comfort(total), words)
+
+
+if __name__ == "__main__":
+    import unittest
+
+    unittest.main()

@@ -1,0 +1,113 @@
+"""runs/vehicle_modes.py, report/vehicle_modes.py and report/frame_loads.py: who moves in words, how far, and the loads
+along a body. The truck's modes are checked in the browser (report_controls_test.py)."""
+
+import base64
+import unittest
+
+import h5py
+import numpy as np
+from synthetic_results import STATIC_HEIGHT, write_results, write_series, write_texts
+from tool_test_case import ToolTestCase
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.model.vehicle_shape import read_bodies
+from sprung_tools.report.frame_loads import pack_frame_loads, place_stations
+from sprung_tools.report.vehicle_modes import pack_vehicle_modes
+from sprung_tools.runs.vehicle_modes import read_vehicle_modes
+
+
+def decode(text):
+    return np.frombuffer(base64.b64decode(text), dtype="<f4")
+
+
+class VehicleModes(ToolTestCase):
+    def write(self, shapes, participants):
+        """A run whose modes have these shapes [5×modes]: x, y, angle of the chassis, two modal amplitudes."""
+        write_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            count = len(participants)
+            write_series(file, "model/modes/undamped_frequency", np.arange(count, dtype=float), "Hz")
+            write_series(file, "model/modes/damping_ratio", np.full(count, 0.1), "1")
+            write_texts(file, "model/modes/participants", participants)
+            names = ["chassis.x", "chassis.y", "chassis.angle", "chassis.mode 1", "chassis.mode 2"]
+            write_texts(file, "model/modes/coordinates", names)
+            write_series(file, "model/modes/shapes", np.array(shapes, dtype=float), "mass-normalised")
+            body = file.require_group("model/resolved/bodies/chassis")
+            body.attrs.update({"mass": 1e4, "inertia": 5e4})
+            write_series(body, "center_of_mass", np.array([0.0, 0.01]), "m")
+            write_series(file, "model/equilibrium/modal/chassis", np.array([0.0, 0.0]), "kg^0.5 m")
+        results = open_results(self.folder / "a.h5")
+        self.addCleanup(results.file.close)
+        return results, read_bodies(results)
+
+    def test_who_moves_stands_in_words(self):
+        shapes = np.zeros((5, 5))
+        shapes[1, 1] = 0.01  # straight up
+        shapes[2, 2] = 0.01  # turning about its origin
+        shapes[1, 3] = shapes[2, 3] = 0.01  # 1 : 5 in energy: the chassis' inertia is 5 m² of its mass
+        shapes[3, 4] = 1.0
+        texts = ["chassis 100 %", "chassis 99 %", "chassis 98 %", "chassis 97 %, nobody 3 %", "chassis (mode 1) 95 %"]
+        results, bodies = self.write(shapes, texts)
+        words = [mode.words for mode in read_vehicle_modes(results, bodies)]  # the first has frequency 0
+        # The only tyre stands on the chassis itself.
+        self.assertEqual(words, ["chassis hop, 99 %", "chassis turning, 98 %", "chassis turning, 97 %; nobody 3 %",
+                                 "chassis bending, 95 %"])  # fmt: skip
+
+    def test_the_nodes_move_as_the_shape_says_and_the_farthest_by_one(self):
+        shapes = np.zeros((5, 3))
+        shapes[1, 1] = 0.02
+        shapes[2, 2] = 0.03
+        results, bodies = self.write(shapes, ["chassis 100 %"] * 3)
+        packed = pack_vehicle_modes(results, bodies)
+        equilibrium = decode(packed["equilibrium"]["chassis"]).reshape(-1, 2)
+        self.assertAlmostEqual(float(equilibrium[1, 1]), STATIC_HEIGHT, places=6)
+        up, turned = (decode(shape["chassis"]).reshape(-1, 2) for shape in packed["shapes"])
+        np.testing.assert_allclose(up, np.tile([0.0, 1.0], (len(up), 1)), atol=1e-7)
+        arm = bodies[0].places
+        expected = np.stack([-arm[:, 1], arm[:, 0]], axis=1) / np.max(np.linalg.norm(arm, axis=1))
+        np.testing.assert_allclose(turned, expected, atol=1e-6)
+
+    def test_a_run_without_modes_has_none(self):
+        write_results(self.folder / "b.h5")
+        with open_results(self.folder / "b.h5") as results:
+            found = pack_vehicle_modes(results, read_bodies(results))
+        self.assertEqual(found, {"table": [], "equilibrium": {}, "shapes": []})
+
+
+class FrameLoads(ToolTestCase):
+    def test_the_envelope_and_the_extremes_are_of_all_samples(self):
+        write_results(self.folder / "a.h5")
+        stations = np.array([(0.0, 0.0), (2.0, 0.0), (-2.0, 0.0), (0.0, 0.0)])  # the element on -x comes second
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            time = file["time"][:]
+            wave = np.sin(2.0 * np.pi * time)
+            for name, scale in (("moment", 1e3), ("shear", -50.0)):
+                values = scale * np.outer(wave, [3.0, 1.0, 2.0, 4.0])
+                write_series(file, f"recovery/chassis/{name}", values, "N m" if name == "moment" else "N")
+            write_series(file, "recovery/chassis/station", stations, "m")
+        with open_results(self.folder / "a.h5") as results:
+            (packed,) = pack_frame_loads(results, read_bodies(results), 7)
+        moment, shear = packed["quantities"]
+        self.assertEqual(packed["axis"], "x in the body frame, m")
+        np.testing.assert_allclose(decode(moment["s"]), [-2.0, 0.0, 0.0, 2.0])
+        np.testing.assert_allclose(decode(moment["high"]), [2e3, 4e3, 3e3, 1e3], rtol=1e-6)
+        np.testing.assert_allclose(decode(shear["low"]), [-100.0, -200.0, -150.0, -50.0], rtol=1e-6)
+        highest, lowest = moment["extremes"]
+        self.assertEqual((highest["what"], highest["value"], highest["place"], highest["time"]),
+                         ("highest", 4e3, 0.0, 0.25))  # fmt: skip
+        self.assertAlmostEqual(lowest["time"], 0.75)
+        times = decode(packed["t"])
+        self.assertIn(np.float32(0.25), times)  # an instant of an extreme is always drawn
+        values = decode(moment["v"]).reshape(times.size, 4)
+        np.testing.assert_allclose(values[times == np.float32(0.25)][0], [2e3, 4e3, 3e3, 1e3], rtol=1e-6)
+
+    def test_a_frame_that_is_not_slender_is_drawn_along_its_elements(self):
+        stations = np.array([(0.0, 0.0), (0.0, 3.0), (0.0, 3.0), (4.0, 3.0)])
+        order, along, name = place_stations(stations)
+        np.testing.assert_array_equal(order, [0, 1, 2, 3])
+        np.testing.assert_allclose(along, [0.0, 3.0, 3.0, 7.0])
+        self.assertEqual(name, "length along the elements in their order, m")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+"""Bending moment and shear along each flexible body: at each time of the animation, their envelope over the run, and
+where and when the extremes are."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.vehicle_shape import DrawnBody
+from sprung_tools.report.packing import Packed, encode
+
+QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
+MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
+SLENDER = 0.1  # height over length up to which the loads of a body are drawn over its x
+
+
+def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> list[Packed]:
+    """The loads along all bodies of which the file has them, at `most` times at most."""
+    even = np.linspace(0, results.time.size - 1, min(results.time.size, most)).round().astype(int)
+    packed = []
+    for body in bodies:
+        where = f"recovery/{body.name}"
+        if not (results.file.shape(f"{where}/moment") or (0, 0))[1]:
+            continue
+        stations, _ = read_numbers(results.file, f"{where}/station")
+        order, along, name = place_stations(stations)
+        read = [read_numbers(results.file, f"{where}/{dataset}") for dataset, _ in QUANTITIES]
+        samples = np.unique(np.concatenate([even, *(find_extremes(values)[:, 0] for values, _ in read)]))
+        quantities = [
+            pack_quantity(values[:, order], along, results.time, samples, label, unit)
+            for (values, unit), (_, label) in zip(read, QUANTITIES)
+        ]
+        packed.append({
+            "body": body.name, "axis": name, "t": encode(results.time[samples]), "quantities": quantities,
+        })  # fmt: skip
+    return packed
+
+
+def place_stations(stations: Floats) -> tuple[Integers, Floats, str]:
+    """Where the loads are drawn: the order of the stations, their places [m] and what these are. A slender body along
+    x has the x of its frame; another one the length along its elements, one after the other."""
+    ends = stations.reshape(-1, 2, 2)
+    height, length = np.ptp(stations[:, 1]), np.ptp(stations[:, 0])
+    if length > 0.0 and height <= SLENDER * length:
+        flipped = ends[:, 0, 0] > ends[:, 1, 0]
+        pairs = np.arange(len(stations)).reshape(-1, 2)
+        pairs[flipped] = pairs[flipped][:, ::-1]
+        order = pairs[np.argsort(np.mean(ends[:, :, 0], axis=1), kind="stable")].ravel()
+        return order, stations[order, 0], "x in the body frame, m"
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    begins = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    along = np.stack([begins, begins + lengths], axis=1).ravel()
+    return np.arange(len(stations)), along, "length along the elements in their order, m"
+
+
+def pack_quantity(values: Floats, along: Floats, time: Floats, samples: Integers, label: str, unit: str) -> Packed:
+    """A load along a body [n×stations]. The envelope and the extremes are of all samples and stations."""
+    places = find_extremes(values)
+    extremes = [
+        {"what": what, "value": float(values[row, column]), "place": float(along[column]), "time": float(time[row])}
+        for what, (row, column) in zip(("highest", "lowest"), places)
+    ]
+    kept = choose_stations(values.shape[1], places[:, 1])
+    return {
+        "name": label, "unit": unit, "s": encode(along[kept]), "v": encode(values[np.ix_(samples, kept)]),
+        "low": encode(np.min(values, axis=0)[kept]), "high": encode(np.max(values, axis=0)[kept]),
+        "extremes": extremes,
+    }  # fmt: skip
+
+
+def find_extremes(values: Floats) -> Integers:
+    """Where the highest and the lowest of values [n×stations] are: [2×2] row and column."""
+    return np.array([np.unravel_index(int(find(values)), values.shape) for find in (np.argmax, np.argmin)])
+
+
+def choose_stations(count: int, needed: Integers) -> Integers:
+    """The stations that are drawn: both ends of all elements, or of some, with the needed ones among them."""
+    elements = np.arange(count // 2)
+    every = max(1, int(np.ceil(count / MOST_STATIONS)))
+    chosen = np.unique(np.concatenate([elements[::every], elements[-1:], needed // 2]))
+    return np.stack([2 * chosen, 2 * chosen + 1], axis=1).ravel()

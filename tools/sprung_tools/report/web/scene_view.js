@@ -1,0 +1,122 @@
+"use strict";
+// What part of the world the scene shows, and the road in it.
+
+const ROOM = 1.3;  // width of the view in vehicle lengths, on a wide screen
+const EDGE = 12;    // between the view's edge and the vehicle, px
+const BELOW = 44;   // from the ground to the lower edge, px
+const LEAST_HEIGHT = 200, MOST_HEIGHT = 460;  // of the scene, px
+const MOST_RISE = 0.6;  // of the vehicle's height: room kept above it for its jumps
+
+/** The height of a vehicle's highest point, m. */
+function findTop(prepared, at) {
+  let top = -Infinity;
+  for (const body of prepared.vehicle.bodies) {
+    const nodes = nodesOf(prepared, body, at, 1);
+    for (const [, y] of nodes) top = Math.max(top, y);
+    for (const wheel of prepared.vehicle.wheels) if (wheel.body === body.name) top = Math.max(top, nodes[wheel.node][1] + wheel.radius);
+  }
+  return top;
+}
+
+/** How high the vehicle rises above its height at the start during the run, m, from some of the frames. */
+function findRise(prepared) {
+  const column = prepared.places[prepared.vehicle.main][1], every = Math.max(1, Math.floor(column.length / 500));
+  let rise = 0;
+  for (let k = 0; k < column.length; k += every) rise = Math.max(rise, column[k] - column[0]);
+  return rise;
+}
+
+/** The scene's height for its width, px, and how large a vehicle is drawn, px/m: as large as the width allows. */
+function fitScene(prepared, width) {
+  const [x0, y0, x1, y1] = prepared.vehicle.box, length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
+  if (!prepared.vehicle.wheels.length) {
+    const height = Math.min(Math.max(0.88 * width * tall / length + 30, LEAST_HEIGHT), MOST_HEIGHT);
+    return {height: Math.round(height), scale: 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6))};
+  }
+  const seen = tall + Math.min(findRise(prepared), MOST_RISE * tall);
+  const widest = width / ((width < 560 ? 1.12 : ROOM) * length);
+  const height = Math.min(Math.max(widest * seen + BELOW + 3 * EDGE, LEAST_HEIGHT), MOST_HEIGHT);
+  return {height: Math.round(height), scale: Math.min(widest, (height - BELOW - 3 * EDGE) / seen)};
+}
+
+/** World metres → pixels. A mechanism is seen whole from one place, a vehicle is followed. */
+function makeView(prepared, at, width, height, scale) {
+  const [x0, y0, x1, y1] = prepared.vehicle.box;
+  if (!prepared.vehicle.wheels.length) {
+    return {
+      scale, width, height, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
+      X: (wx) => 0.5 * width + scale * (wx - 0.5 * (x0 + x1)), Y: (wy) => 0.5 * height - scale * (wy - 0.5 * (y0 + y1)),
+    };
+  }
+  const length = Math.max(x1 - x0, 1e-3);
+  const bx = between(prepared.places[prepared.vehicle.main][0], at), startX = prepared.places[prepared.vehicle.main][0][0];
+  const x = bx + 0.5 * (x0 + x1) - startX;
+  let ground = 0;
+  for (let k = -4; k <= 4; ++k) ground += heightOfRoad(prepared.road, x + k * length / 4) / 9;
+  const top = height - BELOW - scale * (findTop(prepared, at) - ground);  // of the vehicle, px
+  const base = height - BELOW + Math.max(0, EDGE - top);  // a vehicle that flies high takes the view along
+  return {
+    scale, width, height, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
+    X: (wx) => 0.5 * width + scale * (wx - x), Y: (wy) => base - scale * (wy - ground),
+  };
+}
+
+function drawRoad(context, view, road) {
+  const points = [[view.left, heightOfRoad(road, view.left)]];
+  if (road) {
+    for (let k = 0; k < road.x.length; ++k) if (road.x[k] > view.left && road.x[k] < view.right) points.push([road.x[k], road.h[k]]);
+  }
+  points.push([view.right, heightOfRoad(road, view.right)]);
+  context.beginPath();
+  points.forEach(([x, y], k) => (k ? context.lineTo(view.X(x), view.Y(y)) : context.moveTo(view.X(x), view.Y(y))));
+  context.strokeStyle = style("--ground-line");
+  context.lineWidth = 2;
+  context.stroke();
+  context.lineTo(view.width + 2, view.height);
+  context.lineTo(-2, view.height);
+  context.closePath();
+  context.fillStyle = style("--ground");
+  context.fill();
+}
+
+/** Distances along the road, where the results tell its direction. */
+function drawDistances(context, view, road) {
+  if (!road || !road.direction) return;
+  const step = [0.5, 1, 2, 5, 10, 20, 50].find((one) => one * view.scale > 60) || 100;
+  const along = (x) => road.direction * x - road.origin;
+  const [from, to] = [along(view.left), along(view.right)].sort((a, b) => a - b);
+  context.fillStyle = context.strokeStyle = style("--soft");
+  context.lineWidth = 1;
+  context.font = "11px system-ui, sans-serif";
+  context.textAlign = "center";
+  for (let k = Math.ceil(from / step); k * step <= to; ++k) {
+    const x = view.X((k * step + road.origin) / road.direction);
+    if (x < 20 || x > view.width - 20) continue;
+    context.beginPath();
+    context.moveTo(x, view.height - 20);
+    context.lineTo(x, view.height - 15);
+    context.stroke();
+    context.fillText(`${formatTick(k * step)} m`, x, view.height - 4);
+  }
+}
+
+/** Which way the vehicle travels, and by how much deflections are magnified. */
+function drawCaptions(context, view, vehicle, magnification) {
+  context.save();
+  context.font = "12px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  context.fillStyle = context.strokeStyle = style("--soft");
+  if (vehicle.wheels.length) {
+    const forward = vehicle.heading === "+x", [from, to] = forward ? [12, 52] : [52, 12], back = forward ? -7 : 7;
+    context.lineWidth = 1.5;
+    drawStroke(context, [[from, 16], [to, 16]]);
+    drawStroke(context, [[to + back, 11], [to, 16], [to + back, 21]]);
+    context.fillText("travel", 60, 16);
+  }
+  if (player.flexible) {
+    context.textAlign = "right";
+    context.fillText(`deflections × ${magnification}`, view.width - 12, 16);
+  }
+  context.restore();
+}

@@ -1,0 +1,176 @@
+"use strict";
+// A vehicle on a canvas, from the places of its nodes.
+
+const COILS = 5;    // of a spring
+const COIL = 0.02;  // of the vehicle's size: half a coil's width at most
+const MASS = 7;     // radius of the sign for a body that is a point, px
+
+function drawWheel(context, view, wheel, centre, colour, contact) {
+  const [x, y] = [view.X(centre[0]), view.Y(centre[1])], radius = view.scale * wheel.radius;
+  context.beginPath();
+  context.arc(x, y, radius, 0, 2 * Math.PI);
+  context.fillStyle = contact ? colour + "22" : style("--bad") + "22";
+  context.fill();
+  context.strokeStyle = contact ? colour : style("--bad");
+  context.lineWidth = contact ? 3.5 : 2.5;
+  context.setLineDash(contact ? [] : [7, 5]);
+  context.stroke();
+  context.setLineDash([]);
+  context.beginPath();
+  context.arc(x, y, Math.max(3, 0.12 * radius), 0, 2 * Math.PI);
+  context.fillStyle = colour;
+  context.fill();
+}
+
+/** The bar below a tyre on the road, as long as its force. */
+function drawTyreForce(context, view, wheel, centre, share) {
+  const radius = view.scale * wheel.radius, half = Math.max(4, 0.16 * radius);
+  context.fillStyle = style("--good");
+  context.fillRect(view.X(centre[0]) - half, view.Y(centre[1]) + radius + 3, 2 * half, Math.max(2, 0.9 * radius * share));
+}
+
+function drawSpring(context, view, [ax, ay], [bx, by], size) {
+  const length = Math.hypot(bx - ax, by - ay) || 1, across = Math.min(COIL * size, 0.12 * length);
+  const nx = -(by - ay) / length * across, ny = (bx - ax) / length * across;
+  context.beginPath();
+  context.moveTo(view.X(ax), view.Y(ay));
+  for (let k = 0; k <= 2 * COILS; ++k) {
+    const s = 0.15 + 0.7 * k / (2 * COILS), side = k === 0 || k === 2 * COILS ? 0 : k % 2 ? 1 : -1;
+    context.lineTo(view.X(ax + s * (bx - ax) + side * nx), view.Y(ay + s * (by - ay) + side * ny));
+  }
+  context.lineTo(view.X(bx), view.Y(by));
+  context.stroke();
+}
+
+function drawLine(context, view, [ax, ay], [bx, by]) {
+  context.beginPath();
+  context.moveTo(view.X(ax), view.Y(ay));
+  context.lineTo(view.X(bx), view.Y(by));
+  context.stroke();
+}
+
+/** The sign of a mass: a circle, two quarters of which are filled. */
+function drawMass(context, view, [x, y], colour) {
+  const [px, py] = [view.X(x), view.Y(y)];
+  context.fillStyle = style("--card");
+  context.beginPath();
+  context.arc(px, py, MASS, 0, 2 * Math.PI);
+  context.fill();
+  context.fillStyle = colour;
+  for (const start of [0, Math.PI]) {
+    context.beginPath();
+    context.moveTo(px, py);
+    context.arc(px, py, MASS, start, start + 0.5 * Math.PI);
+    context.fill();
+  }
+  context.lineWidth = 1.5;
+  context.beginPath();
+  context.arc(px, py, MASS, 0, 2 * Math.PI);
+  context.stroke();
+}
+
+/** The corners of the convex hull of places [[x, y] …], as numbers of places. [Andrew's monotone chain] */
+function findHull(places) {
+  const order = places.map((_, k) => k).sort((a, b) => places[a][0] - places[b][0] || places[a][1] - places[b][1]);
+  const turn = (a, b, c) => (places[b][0] - places[a][0]) * (places[c][1] - places[a][1]) - (places[b][1] - places[a][1]) * (places[c][0] - places[a][0]);
+  const size = Math.max(...places.flat().map(Math.abs), 1e-9);
+  const half = (list) => {
+    const chain = [];
+    for (const k of list) {
+      while (chain.length > 1 && turn(chain[chain.length - 2], chain[chain.length - 1], k) <= 1e-9 * size * size) chain.pop();
+      chain.push(k);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(order), ...half(order.reverse())];
+}
+
+const hulls = new Map();
+/** A rigid body's hull; kept. */
+function hullOf(body) {
+  if (!hulls.has(body)) hulls.set(body, findHull(body.places));
+  return hulls.get(body);
+}
+
+/** A body that moves as a whole: its hull and its points, or the sign of a mass if all its points are one. */
+function drawRigid(context, view, body, nodes, colour) {
+  const hull = hullOf(body);
+  if (hull.length < 2) return drawMass(context, view, nodes[0], colour);
+  context.lineWidth = hull.length > 2 ? 2.5 : 4;
+  context.beginPath();
+  hull.forEach((node, k) => (k ? context.lineTo : context.moveTo).call(context, view.X(nodes[node][0]), view.Y(nodes[node][1])));
+  context.closePath();
+  if (hull.length > 2) {
+    context.fillStyle = colour + "33";
+    context.fill();
+  }
+  context.stroke();
+  context.fillStyle = colour;
+  for (const [x, y] of nodes) context.fillRect(view.X(x) - 2, view.Y(y) - 2, 4, 4);
+  return undefined;
+}
+
+/** Bodies, springs, rods, joints and monitored points of a vehicle whose nodes {body: [[x, y] …]} are known. */
+function drawBodies(context, view, vehicle, nodes, colour) {
+  const end = ([name, place]) => (name === null ? place : nodes[name][place]);
+  const [x0, y0, x1, y1] = vehicle.box, size = Math.max(x1 - x0, y1 - y0);
+  context.lineCap = context.lineJoin = "round";
+  context.strokeStyle = colour;
+  context.lineWidth = 1.5;
+  for (const link of vehicle.links) if (link.kind === "spring") drawSpring(context, view, end(link.ends[0]), end(link.ends[1]), size);
+  for (const body of vehicle.bodies) {
+    if (!body.elements) drawRigid(context, view, body, nodes[body.name], colour);
+    else body.lines.forEach(([a, b], number) => {
+      context.lineWidth = number >= body.elements ? 2 : 6;
+      drawLine(context, view, nodes[body.name][a], nodes[body.name][b]);
+    });
+  }
+  context.fillStyle = style("--card");
+  context.lineWidth = 1.5;
+  for (const link of vehicle.links) if (link.kind === "rod") drawLine(context, view, end(link.ends[0]), end(link.ends[1]));
+  for (const link of vehicle.links) {
+    if (link.kind !== "joint") continue;
+    const [x, y] = end(link.ends[0]);
+    context.beginPath();
+    context.arc(view.X(x), view.Y(y), 3.5, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
+  }
+  context.fillStyle = colour;
+  for (const mark of vehicle.marks) {
+    const [x, y] = nodes[mark.body][mark.node];
+    context.beginPath();
+    context.arc(view.X(x), view.Y(y), 6, 0, 2 * Math.PI);
+    context.fill();
+  }
+}
+
+/** Names of bodies, monitored points and tyres, where there is room for them. Returns those that are drawn. */
+function drawLabels(context, view, vehicle, nodes) {
+  const wanted = [
+    ...vehicle.marks.map((mark) => [mark.name, nodes[mark.body][mark.node]]),
+    ...vehicle.wheels.map((wheel) => [wheel.name, nodes[wheel.body][wheel.node]]),
+    ...vehicle.bodies.map((body) => [body.name, middleOf(nodes[body.name])]),
+  ];
+  const taken = [], drawn = [];
+  context.save();
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  for (const [name, [wx, wy]] of wanted) {
+    const width = context.measureText(name).width, x = Math.min(Math.max(view.X(wx) + 9, 4), view.width - width - 4);
+    const y = [-12, 12, -27, 27].map((step) => view.Y(wy) + step).find((one) => one > 30 && one < view.height - 26 &&
+      taken.every(([tx, ty, tw]) => Math.abs(ty - one) > 14 || tx > x + width + 6 || x > tx + tw + 6));
+    if (y === undefined) continue;
+    taken.push([x, y, width]);
+    drawPlate(context, name, x, y, style("--ink"));
+    drawn.push(name);
+  }
+  context.restore();
+  return drawn;
+}
+
+function middleOf(places) {
+  const mean = (axis) => places.reduce((sum, place) => sum + place[axis], 0) / places.length;
+  return [mean(0), mean(1)];
+}

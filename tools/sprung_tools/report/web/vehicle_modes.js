@@ -1,0 +1,105 @@
+"use strict";
+// The vehicle's own modes about its equilibrium, drawn in motion.
+
+const MODE_HEIGHT = 260;  // px
+const LARGEST = 0.08;  // of the vehicle's size: the largest displacement at full amplitude
+const PERIOD = 2;  // s, in which a mode is shown to move once to and fro
+const modeShow = {run: 0, mode: 0, amplitude: 1, phase: Math.PI / 2, playing: false, before: 0};
+
+const unpackedModes = new Map();
+/** A run's nodes in equilibrium and their displacements; kept. */
+function unpackVehicleModes(index) {
+  if (!unpackedModes.has(index)) {
+    const pairs = (text) => {
+      const numbers = decode(text);
+      return Array.from({length: numbers.length / 2}, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
+    };
+    const map = (object) => Object.fromEntries(Object.entries(object).map(([name, text]) => [name, pairs(text)]));
+    const {equilibrium, shapes} = data.runs[index].vehicleModes;
+    unpackedModes.set(index, {equilibrium: map(equilibrium), shapes: shapes.map(map)});
+  }
+  return unpackedModes.get(index);
+}
+
+/** The box of all nodes and wheels in equilibrium, with room for the motion. */
+function boxOfEquilibrium(vehicle, equilibrium) {
+  const corners = Object.values(equilibrium).flat();
+  for (const wheel of vehicle.wheels) {
+    const [x, y] = equilibrium[wheel.body][wheel.node];
+    corners.push([x - wheel.radius, y - wheel.radius], [x + wheel.radius, y + wheel.radius]);
+  }
+  const along = (axis) => corners.map((corner) => corner[axis]);
+  const [x0, x1, y0, y1] = [Math.min(...along(0)), Math.max(...along(0)), Math.min(...along(1)), Math.max(...along(1))];
+  const room = 1.1 * LARGEST * Math.max(x1 - x0, y1 - y0);
+  return [x0 - room, y0 - room, x1 + room, y1 + room];
+}
+
+function drawVehicleMode() {
+  const canvas = byId("mode-scene"), run = data.runs[modeShow.run], {equilibrium, shapes} = unpackVehicleModes(modeShow.run);
+  const [x0, y0, x1, y1] = boxOfEquilibrium(run.vehicle, equilibrium);
+  const fitted = Math.min(MODE_HEIGHT, Math.max(140, canvas.clientWidth * (y1 - y0) / (x1 - x0)));
+  const {context, width, height} = prepareCanvas(canvas, Math.round(fitted));
+  const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
+  const view = {
+    scale, width, height, X: (x) => 0.5 * width + scale * (x - 0.5 * (x0 + x1)), Y: (y) => 0.5 * height - scale * (y - 0.5 * (y0 + y1)),
+  };
+  const size = LARGEST * Math.max(x1 - x0, y1 - y0) * modeShow.amplitude * Math.sin(modeShow.phase);
+  const nodes = Object.fromEntries(Object.entries(equilibrium).map(([name, places]) =>
+    [name, places.map(([x, y], k) => [x + size * shapes[modeShow.mode][name][k][0], y + size * shapes[modeShow.mode][name][k][1]])]));
+  context.globalAlpha = 0.25;
+  drawBodies(context, view, run.vehicle, equilibrium, style("--soft"));
+  context.globalAlpha = 1;
+  for (const wheel of run.vehicle.wheels) drawWheel(context, view, wheel, nodes[wheel.body][wheel.node], colourOf(modeShow.run), true);
+  drawBodies(context, view, run.vehicle, nodes, colourOf(modeShow.run));
+  modeShow.nodes = nodes;
+}
+
+function advanceMode(now) {
+  if (!modeShow.playing) return;
+  modeShow.phase += 2 * Math.PI / PERIOD * Math.min(Math.max(now - modeShow.before, 0), 100) / 1e3;
+  modeShow.before = now;
+  drawVehicleMode();
+  requestAnimationFrame(advanceMode);
+}
+
+function playMode(playing) {
+  modeShow.playing = playing;
+  modeShow.before = performance.now();
+  byId("mode-play").textContent = playing ? "Pause" : "Play";
+  byId("mode-play").setAttribute("aria-pressed", String(playing));
+  if (playing) requestAnimationFrame(advanceMode);
+}
+
+function tellMode() {
+  const found = data.runs[modeShow.run].vehicleModes.table[modeShow.mode];
+  byId("mode-words").textContent = `${format(found.f)} Hz, damping ratio ${format(100 * found.damping, 3)} %: ${found.who}. ` +
+    `Shown once in ${PERIOD} s; pale: in equilibrium.`;
+  byId("mode-scene").setAttribute("aria-label", `Mode ${modeShow.mode + 1} of the vehicle, ${found.who}`);
+}
+
+function makeVehicleModes() {
+  const withModes = data.runs.map((run, index) => ({run, index})).filter(({run}) => run.vehicleModes.table.length);
+  byId("vehicle-modes").hidden = !withModes.length;
+  const drawn = withModes.filter(({run}) => run.vehicleModes.shapes.length);
+  byId("mode-player").hidden = !drawn.length;
+  if (!drawn.length) return;
+  const select = byId("vehicle-mode");
+  fillSelect(select, drawn.flatMap(({run, index}) => run.vehicleModes.shapes.map((_, mode) => {
+    const {f, who} = run.vehicleModes.table[mode];
+    return {value: `${index} ${mode}`, label: `${format(f, 3)} Hz: ${who.split("; ")[0]}`, group: run.label};
+  })));
+  const choose = () => {
+    [modeShow.run, modeShow.mode] = select.value.split(" ").map(Number);
+    tellMode();
+    drawVehicleMode();
+  };
+  select.value = `${drawn[drawn.length - 1].index} 0`;
+  select.addEventListener("change", choose);
+  byId("mode-amplitude").addEventListener("input", (event) => {
+    modeShow.amplitude = Number(event.target.value);
+    drawVehicleMode();
+  });
+  byId("mode-play").addEventListener("click", () => playMode(!modeShow.playing));
+  redraws.push(drawVehicleMode);
+  choose();
+}

@@ -1,0 +1,114 @@
+"""How a run's vibration is judged at a seat: all measures of ISO 2631-1, absorbed power, third-octave bands.
+
+The axes are the world's: fore-aft is along x, vertical along y. Pitch is the rotation of the body at the point. With
+the multiplying factors of 8.2.2.1 for the seat surface the total is
+
+    a_v = √(a_wx² + a_wz² + (0.4 m/rad · a_wry)²)                                                       (1)
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.resolved_model import read_point
+from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.ride_measures import sampling_step
+from sprung_tools.signals.absorbed_power import calc_absorbed_power
+from sprung_tools.signals.ride_weighting import (
+    WD,
+    WE,
+    WK,
+    Weighting,
+    calc_dose,
+    calc_running_rms,
+    weight_acceleration,
+)
+from sprung_tools.signals.spans import Span
+from sprung_tools.signals.spectra import calc_rms
+from sprung_tools.signals.third_octaves import calc_third_octaves
+
+PITCH = 0.4  # m/rad
+# Annex C, C.2.3: from, up to [m/s²], words. The ranges overlap.
+REACTIONS = (
+    (0.0, 0.315, "not uncomfortable"), (0.315, 0.63, "a little uncomfortable"), (0.5, 1.0, "fairly uncomfortable"),
+    (0.8, 1.6, "uncomfortable"), (1.25, 2.5, "very uncomfortable"), (2.0, np.inf, "extremely uncomfortable"),
+)  # fmt: skip
+
+
+class Vibration(NamedTuple):
+    """The weighted accelerations of a point over the whole run [n]."""
+
+    fore_aft: Floats  # Wd, m/s²
+    vertical: Floats  # Wk, m/s²
+    pitch: Floats  # We, rad/s²
+    running: Floats  # r.m.s. of the vertical one over the second before, m/s²
+
+
+class Assessment(NamedTuple):
+    """The measures of a point over a span of time: weighted r.m.s. values, their total by (1), and of the vertical one
+    the largest running r.m.s. (MTVV), vibration dose value and crest factor; absorbed power."""
+
+    fore_aft: float  # m/s²
+    vertical: float  # m/s²
+    pitch: float  # rad/s²
+    total: float  # m/s²
+    mtvv: float  # m/s²
+    dose: float  # m/s^1.75
+    crest: float
+    power: float  # W
+
+
+def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
+    """The angular acceleration [n], rad/s², of the body at a point. point: as calc_vibration() takes it."""
+    group, name, *_ = point.split("/")
+    body = name.partition(".")[0] if group == "points" else name
+    angular, _ = results.series(f"bodies/{body}/acceleration.angle")
+    if group == "points" and results.num_modes(body):
+        modal, _ = read_numbers(results.file, f"bodies/{body}/modal/acceleration")
+        angular = angular + modal @ read_point(results, name).shapes[2]
+    return angular
+
+
+def calc_vibration(results: ResultsFile, point: str) -> Vibration:
+    """The weighted accelerations of a point. point: `points/chassis.seat` or `bodies/chassis/center_of_mass`."""
+    step = sampling_step(results)
+
+    def weigh(values: Floats, weighting: Weighting) -> Floats:
+        try:
+            return weight_acceleration(values, step, weighting)
+        except ValueError as error:
+            raise InputError(f"{results.path}: error: {error}") from error
+
+    along, up = (results.series(f"{point}/acceleration.{axis}")[0] for axis in ("x", "y"))
+    vertical = weigh(up, WK)
+    pitch = weigh(read_pitch_acceleration(results, point), WE)
+    return Vibration(weigh(along, WD), vertical, pitch, calc_running_rms(vertical, step))
+
+
+def calc_assessment(results: ResultsFile, point: str, window: Span, vibration: Vibration | None = None) -> Assessment:
+    """All measures of a point over a span of time. vibration: of calc_vibration(), if it is known already."""
+    felt = vibration or calc_vibration(results, point)
+    inside = samples_between(results, *window)
+    step = sampling_step(results)
+    fore_aft, vertical, pitch = (calc_rms(one[inside]) for one in (felt.fore_aft, felt.vertical, felt.pitch))
+    power = calc_absorbed_power(results.series(f"{point}/acceleration.y")[0], step)[inside]
+    return Assessment(
+        fore_aft, vertical, pitch, float(np.sqrt(fore_aft**2 + vertical**2 + (PITCH * pitch) ** 2)),
+        float(np.max(felt.running[inside])), calc_dose(felt.vertical[inside], step),
+        float(np.max(np.abs(felt.vertical[inside]))) / vertical if vertical > 0.0 else 0.0, float(np.mean(power)),
+    )  # fmt: skip
+
+
+def calc_bands(results: ResultsFile, point: str, window: Span) -> Floats:
+    """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23]."""
+    acceleration, _ = results.series(f"{point}/acceleration.y")
+    return calc_third_octaves(acceleration, sampling_step(results), samples_between(results, *window))
+
+
+def describe_comfort(total: float) -> str:
+    """People's likely reaction in public transport to a total vibration [m/s²]: one or two of REACTIONS."""
+    return " to ".join(words for low, high, words in REACTIONS if low <= total < high)
