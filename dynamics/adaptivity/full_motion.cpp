@@ -1,7 +1,9 @@
 #include "dynamics/adaptivity/full_motion.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "dynamics/system/energy.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -44,28 +46,24 @@ double FullMotion::calc_held_strain(const std::vector<bool>& is_active) const {
   return strain;
 }
 
-HeldModes FullMotion::hold(const std::vector<bool>& is_active, double time) {
-  HeldModes held = hold_modes(*full_, is_active, q_);
-  std::erase_if(fading_, [&](const FadingForce& one) {
-    return time >= one.start + one.duration || !is_active[static_cast<std::size_t>(one.mode)];
-  });
-  for (FadingForce fading : fading_) {
-    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), fading.mode);
-    const int coordinate = static_cast<int>(place - held.coordinates.begin());
-    const auto body = std::find_if(held.model.bodies.begin(), held.model.bodies.end(), [&](const Body& one) {
-      return coordinate < one.first_coordinate + one.num_coordinates();
-    });
-    fading.mode = coordinate - body->first_coordinate - 3;
-    body->fading.push_back(fading);
-  }
-  return held;
+HeldModes FullMotion::hold(const std::vector<bool>& is_active) const {
+  return hold_modes(*full_, is_active, q_);
 }
 
 State FullMotion::state_for(const HeldModes& held, double time, const std::vector<int>& branches) const {
-  return {.time = time, .q = select_active(held, q_), .v = select_active(held, v_), .branches = branches};
+  State state{.time = time, .q = select_active(held, q_), .v = select_active(held, v_), .branches = branches};
+  for (FadingForce fading : fading_) {
+    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), fading.coordinate);
+    const bool is_held = place == held.coordinates.end() || *place != fading.coordinate;
+    if (is_held || fading.has_ended(time)) continue;
+    fading.coordinate = static_cast<int>(place - held.coordinates.begin());
+    state.fading.push_back(fading);
+  }
+  return state;
 }
 
-void FullMotion::let_go(int coordinate, double force, double time, double duration) {
+void FullMotion::release(int coordinate, double force, double time, double duration) {
+  std::erase_if(fading_, [&](const FadingForce& one) { return one.has_ended(time); });
   fading_.push_back({coordinate, force, time, duration});
 }
 

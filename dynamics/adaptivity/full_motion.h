@@ -27,15 +27,16 @@ class FullMotion {
   /// Strain energy of the modes that are not active [J]; the others add theirs, as no stiffness couples them.
   double calc_held_strain(const std::vector<bool>& is_active) const;
 
-  /// A model in which all modes but the active ones are held where they are now; forces being let go act on
-  /// it.
+  /// A model in which all modes but the active ones are held where they are now.
   /// @param is_active  for each coordinate of the full model
-  HeldModes hold(const std::vector<bool>& is_active, double time);
-  /// The state here for a model made by `hold`.
+  HeldModes hold(const std::vector<bool>& is_active) const;
+  /// The state here for a model made by `hold`, with the forces that still fade on its modes.
   State state_for(const HeldModes& held, double time, const std::vector<int>& branches) const;
 
-  /// What held a mode that has joined, −r, acts on it from now on, and fades within `duration` [s].
-  void let_go(int coordinate, double force, double time, double duration);
+  /// Releases a mode that has been held: −r, the force that held it, acts on it from now on and fades within
+  /// `duration`.
+  /// @param coordinate  of the full model   @param force  −r [N/√kg]   @param time, duration  [s]
+  void release(int coordinate, double force, double time, double duration);
   /// Stops modes for good where they are: all others keep their momentum, but for what the joints do.
   /// @param held  made by `hold` without them
   /// @return energy lost by it [J]
@@ -48,7 +49,7 @@ class FullMotion {
 
   const Model* full_;
   SystemTerms terms_;
-  std::vector<FadingForce> fading_;  // `mode` is a coordinate of the full model
+  std::vector<FadingForce> fading_;  // on coordinates of the full model
   Eigen::VectorXd q_, v_, v_dot_;
 };
 

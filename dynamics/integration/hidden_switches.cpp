@@ -9,8 +9,8 @@ namespace {
 using lobatto::kNumNodes;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRounding = 1e-3;   // of the range: dips that count for none
-constexpr double kUnresolved = 0.1;  // of the range: an error at which the cubic says nothing of a function
+constexpr double kRounding = 1e-3;   // of the range: a smaller dip does not count
+constexpr double kUnresolved = 0.1;  // of the range: with a larger error the cubic says nothing of a function
 constexpr double kDoubt = 2.0;       // error elsewhere, of that where the true value is known
 constexpr double kSwingOfRange = 2.0, kSwingOfError = 4.0;  // how far it may swing beyond the points
 
@@ -39,7 +39,7 @@ double SwitchCourse::reach() const {
   return 1.0;
 }
 
-// Where it is, by that much less than the cubic tells; else not a number.
+// The place of a dip of the cubic lowered by `doubt`; not a number where there is none.
 double SwitchCourse::find_dip(double doubt) const {
   const double limit = doubt - kRounding * range();
   if (bound() >= limit) return kNone;

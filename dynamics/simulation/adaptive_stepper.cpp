@@ -40,10 +40,9 @@ void AdaptiveStepper::start(const State& state) {
   const State full = expand(*model_, options_, state);
   modes_.emplace(options_, full);
   motion_.emplace(*options_.full, full);
-  leg_ = make_leg(
-      options_.changes ? motion_->hold(modes_->active(), state.time) : match_modes(*model_, *options_.full),
-      state.time, state.branches);
-  start_time_ = evaluated_time_ = step_start_ = state.time;
+  leg_ = make_leg(options_.changes ? motion_->hold(modes_->active()) : match_modes(*model_, *options_.full),
+                  state.time, state.branches);
+  start_time_ = step_start_ = state.time;
 }
 
 std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, double time,
@@ -56,7 +55,7 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
   const Model& model = options_.changes ? leg->held.model : *model_;
   leg->stepper = make_stepper(model, integrator_, listener_.on_repartition);
   if (std::optional<KnownMotion> known = modes_->indicator().calc_small_motion(leg->held)) {
-    leg->stepper->suggest(std::move(*known));
+    leg->stepper->set_small_motion(std::move(*known));
   }
   leg->stepper->start(motion_->state_for(leg->held, time, branches));
   return leg;
@@ -64,7 +63,6 @@ std::unique_ptr<AdaptiveStepper::Leg> AdaptiveStepper::make_leg(HeldModes held, 
 
 void AdaptiveStepper::evaluate(double time, Level level) {
   leg_->stepper->evaluate(time, level);
-  evaluated_time_ = time;
 }
 
 SystemStepper::Observation AdaptiveStepper::observation() {
@@ -79,12 +77,12 @@ SystemStepper::Observation AdaptiveStepper::observation() {
 }
 
 // The forces may have jumped: the indicator has to know before the next step.
-void AdaptiveStepper::resume(double end_time) {
+void AdaptiveStepper::resume(double time, double end_time) {
   end_time_ = end_time;
   rest_.reset();
-  evaluate(evaluated_time_, Level::kAccelerations);
-  watch(evaluated_time_);
-  leg_->stepper->resume(end_time);
+  evaluate(time, Level::kAccelerations);
+  watch(time);
+  leg_->stepper->resume(time, end_time);
 }
 
 SystemStepper::EnergyFlow AdaptiveStepper::energy_flow() const {
@@ -141,7 +139,7 @@ bool AdaptiveStepper::follow_step() {
   for (int i = 1; i <= parts; ++i) {
     const double time = i == parts ? end : begin + length * i / parts;
     if (i == parts) {
-      leg_->stepper->evaluate_end_nearly();
+      leg_->stepper->evaluate_end_approximately();
     } else {
       leg_->stepper->evaluate(time, Level::kAccelerations);
     }
@@ -173,7 +171,7 @@ void AdaptiveStepper::take_back(Integrator::StepResult result) {
     let_join(missed);
     ++num_changes_;
   }
-  go_on(motion_->hold(modes_->active(), step_start_), step_start_, flow, branches);
+  go_on(motion_->hold(modes_->active()), step_start_, flow, branches);
 }
 
 // At the start of the step.
@@ -190,7 +188,7 @@ void AdaptiveStepper::let_join(const std::vector<int>& missed) {
   const double duration = modes_->calc_release_time(missed, forces);
   if (!(duration > 0.0)) return;
   for (std::size_t i = 0; i < missed.size(); ++i)
-    motion_->let_go(missed[i], forces[i], step_start_, duration);
+    motion_->release(missed[i], forces[i], step_start_, duration);
 }
 
 // Steps on from the end of the step that was made, through switches, up to the next break of a function of
@@ -202,7 +200,7 @@ void AdaptiveStepper::look_ahead(Integrator::StepResult result, double until) {
       if (result == Integrator::StepResult::kSwitched) {
         stepper.evaluate(time(), Level::kAccelerations);
         stepper.piece().update_branches(stepper.equations().terms());
-        stepper.resume(end_time_);
+        stepper.resume(time(), end_time_);
       }
       result = stepper.step(stepper.calc_longest_step());
       follow_step();
@@ -222,7 +220,7 @@ void AdaptiveStepper::go_on(HeldModes held, double time, const EnergyFlow& flow,
   piece().update_next_break(time);
   evaluate(time, Level::kAccelerations);
   watch(time);
-  leg_->stepper->resume(end_time_);
+  leg_->stepper->resume(time, end_time_);
 }
 
 // Where idle modes leave within the step just made: the rate of the slowest passes zero. The step ends there.
@@ -248,11 +246,11 @@ void AdaptiveStepper::let_modes_go() {
   modes_->go_back(memory_);
   watch(rest);
   if (leaving.empty()) {
-    leg_->stepper->resume(end_time_);
+    leg_->stepper->resume(rest, end_time_);
     return;
   }
   modes_->deactivate(leaving);
-  HeldModes held = motion_->hold(modes_->active(), rest);
+  HeldModes held = motion_->hold(modes_->active());
   EnergyFlow flow = energy_flow();
   const double lost = motion_->stop(leaving, held, rest, piece().branches());
   flow.dissipated += lost;

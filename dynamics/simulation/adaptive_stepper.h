@@ -29,7 +29,7 @@ class AdaptiveStepper final : public SystemStepper {
                   Listener listener);
 
   void start(const State& state) override;
-  void resume(double end_time) override;
+  void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return rest_ ? *rest_ : leg_->stepper->time(); }
   double calc_longest_step() const override { return leg_->stepper->calc_longest_step(); }
@@ -76,7 +76,7 @@ class AdaptiveStepper final : public SystemStepper {
   std::unique_ptr<Leg> leg_;
   EnergyFlow flow_before_;  // of the legs before
   Statistics work_before_;
-  double end_time_ = 0.0, evaluated_time_ = 0.0, watched_time_ = 0.0;
+  double end_time_ = 0.0, watched_time_ = 0.0;
   double looked_until_ = -std::numeric_limits<double>::infinity();  // how far the run has been looked ahead
 
   // The last step: its start, the indicator there.

@@ -44,7 +44,7 @@ class TransientRun {
     find_end_of_smoothness(start.time);
     stepper_->evaluate(start.time, SystemStepper::Level::kAccelerations);
     piece().update_branches(stepper_->equations().terms());
-    stepper_->resume(smooth_end_);
+    stepper_->resume(start.time, smooth_end_);
     // Modes that join at the very start are there from the first output on.
     const bool is_settled =
         !(options_.adaptivity && options_.adaptivity->changes && start.time < options_.end_time);
@@ -97,7 +97,7 @@ class TransientRun {
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
       tell({time, "switch", change.element, change.text});
     }
-    stepper_->resume(smooth_end_);
+    stepper_->resume(time, smooth_end_);
   }
 
   void count_switch(double time) {

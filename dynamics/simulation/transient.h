@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/system_stepper.h"
+#include "dynamics/system/energy.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {

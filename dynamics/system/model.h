@@ -10,6 +10,7 @@
 #include "dynamics/bodies/marker.h"
 #include "dynamics/forces/force_element.h"
 #include "dynamics/joints/joint.h"
+#include "dynamics/system/fading_force.h"
 
 namespace sprung::dynamics {
 
@@ -67,12 +68,14 @@ struct Model {
 /// and forces are complete.
 void number_model(Model& model);
 
-/// Positions and velocities of the whole system, with the branches of its force elements.
+/// Positions and velocities of the whole system, with the branches of its force elements and the forces that
+/// the run itself puts on its modes.
 struct State {
-  double time = 0.0;          ///< [s]
-  Eigen::VectorXd q;          ///< num_coordinates
-  Eigen::VectorXd v;          ///< num_coordinates
-  std::vector<int> branches;  ///< num_branches
+  double time = 0.0;                     ///< [s]
+  Eigen::VectorXd q;                     ///< num_coordinates
+  Eigen::VectorXd v;                     ///< num_coordinates
+  std::vector<int> branches;             ///< num_branches
+  std::vector<FadingForce> fading = {};  ///< on modes that have joined lately
 };
 
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include "dynamics/adaptivity/mode_indicator.h"
 #include "dynamics/adaptivity/unbalanced_force.h"
 #include "dynamics/linear/linearisation.h"
+#include "dynamics/system/energy.h"
 #include "dynamics/system/held_modes.h"
 #include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
@@ -171,7 +172,7 @@ TEST_CASE("Modes that leave take only their own momentum with them, and the ener
   const double kinetic = calc_energy(terms, branches).kinetic;
   const Eigen::VectorXd momentum = multiply_mass(*truck.full, terms, truck.v);
 
-  const dynamics::HeldModes held = motion.hold(truck.is_active, 0.0);
+  const dynamics::HeldModes held = motion.hold(truck.is_active);
   const double lost = motion.stop(truck.coordinates, held, 0.0, branches);
   CHECK((motion.q() - truck.q).norm() < 1e-10);
   for (const int i : truck.coordinates) CHECK(motion.v()[i] == 0.0);
