@@ -9,6 +9,7 @@
 
 #include "dynamics/adaptivity/full_motion.h"
 #include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/adaptivity/mode_change_ringing.h"
 #include "dynamics/forces/applied_force.h"
 #include "dynamics/joints/coordinate_joint.h"
 #include "dynamics/simulation/transient.h"
@@ -222,7 +223,7 @@ TEST_CASE("Modes are stopped together only where the impulse leaves little ringi
   const double largest = kSpin * kSpin * 1.0;  // acceleration of the tip so far
 
   v[fast] = 0.01;
-  const double share = adaptation.indicator().calc_stopping_shares({fast}, v)[0];
+  const double share = calc_stopping_shares(adaptation.indicator(), {fast}, v)[0];
   // Stopped, the motion goes on without the mode: what rings at the tip is normal to the beam, the spin along
   // it.
   std::vector<bool> active = options.active;
@@ -246,7 +247,7 @@ TEST_CASE("Modes are stopped together only where the impulse leaves little ringi
 
   // The slow one is at rest; the other goes with it only where a tenth of the threshold is kept.
   const double allowed = 0.1 * options.thresholds.recall;
-  v[fast] *= 1.1 * allowed / adaptation.indicator().calc_stopping_shares({slow, fast}, v)[1];
+  v[fast] *= 1.1 * allowed / calc_stopping_shares(adaptation.indicator(), {slow, fast}, v)[1];
   CHECK(adaptation.find_stoppable({slow, fast}, v) == std::vector<int>{slow});
   v[fast] *= 0.9 / 1.1;
   CHECK(adaptation.find_stoppable({slow, fast}, v) == std::vector<int>{slow, fast});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/adaptivity/full_motion.h"
-#include "dynamics/adaptivity/mode_indicator.h"
+#include "dynamics/adaptivity/full_small_motion.h"
 #include "dynamics/adaptivity/unbalanced_force.h"
 #include "dynamics/linear/linearisation.h"
 #include "dynamics/system/energy.h"
@@ -67,8 +67,8 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   const dynamics::Body& body = full.bodies[static_cast<std::size_t>(full.find_body("chassis"))];
   for (const int k : {1, 2, 5}) is_active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] = false;
   const dynamics::HeldModes held = dynamics::hold_modes(full, is_active, rest.equilibrium.q);
-  const dynamics::ModeIndicator indicator(full, 0.0, rest.equilibrium.q, {});
-  const std::optional<dynamics::KnownMotion> known = indicator.calc_small_motion(held);
+  const dynamics::FullSmallMotion motion(full, 0.0, rest.equilibrium.q, {}, nullptr);
+  const std::optional<dynamics::KnownMotion> known = motion.calc_held_motion(held);
   REQUIRE(known);
 
   dynamics::PartitionedEquations equations(held.model);
@@ -82,8 +82,8 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   // A linearisation that is known already is taken as it is.
   dynamics::LinearisedSystem other = rest.equilibrium.linearised;
   other.stiffness *= 2.0;
-  const dynamics::ModeIndicator informed(full, 0.0, rest.equilibrium.q, {}, &other);
-  CHECK((informed.calc_small_motion(held)->motion.stiffness - 2.0 * known->motion.stiffness).norm() <
+  const dynamics::FullSmallMotion informed(full, 0.0, rest.equilibrium.q, {}, &other);
+  CHECK((informed.calc_held_motion(held)->motion.stiffness - 2.0 * known->motion.stiffness).norm() <
         1e-6 * expected.stiffness.norm());
 }
 
