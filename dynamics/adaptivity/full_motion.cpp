@@ -67,8 +67,8 @@ void FullMotion::release(int coordinate, double force, double time, double durat
   fading_.push_back({coordinate, force, time, duration});
 }
 
-// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, but
-// for what the joints do.
+// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, except
+// for the impulses of the joints.
 double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
                         std::span<const int> branches) {
   update_terms(time);

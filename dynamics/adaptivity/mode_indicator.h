@@ -21,8 +21,8 @@ struct ModeAmplitude {
 /// Error indicator of modes that a run leaves out. Each is followed as an oscillator under the force that the
 /// run leaves unbalanced on it,
 ///     m_j ξ̈ + c_j ξ̇ + k_j ξ = r_j(t),   r = Q − M q̈ − φ_qᵀ λ in its row,
-/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is what
-/// the mode would add to first order, resonance included (adaptivity, eqs. 1–3).
+/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is, to
+/// first order, what the mode would add to the motion, resonance included (adaptivity, eqs. 1–3).
 class ModeIndicator {
  public:
   /// @param full    the model with every mode that could be active; has to outlive this

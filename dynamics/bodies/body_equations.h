@@ -20,7 +20,7 @@ struct FrameRotation {
   }
 };
 
-/// The rotation of a frame whose angle is asked for again and again nearby: sine and cosine there come from
+/// The rotation of a frame that is asked for at one nearby angle after the other: sine and cosine come from
 /// those at an angle that is kept, by their series, exact to rounding.
 class NearbyRotation {
  public:
@@ -56,7 +56,8 @@ inline Eigen::Vector2d turned(const Eigen::Vector2d& p) {
 void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
                       const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 
-/// The same where mass holds that of another state of the body: what no state changes is left as it stands.
+/// The same where `mass` holds the matrix at another state of the body: entries that depend on no state are
+/// not written.
 void update_mass_matrix(const Body& body, const FrameRotation& rotation,
                         const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
 

@@ -19,8 +19,8 @@ class BodyMass {
   void update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta);
   const Eigen::MatrixXd& matrix() const { return M_; }  ///< (3+n)×(3+n)
 
-  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither its
-  /// weight nor its turning make a torque.
+  /// A rigid body about its centre of mass: its mass matrix is diagonal and always the same, and neither
+  /// weight nor rotation causes a torque.
   bool is_constant() const { return constant_; }
 
   /// x ← M⁻¹ x.  @param x  3+n values
@@ -32,7 +32,7 @@ class BodyMass {
     }
   }
 
-  /// Two rows G of a Jacobian made ready for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
+  /// Prepares two rows G of a Jacobian for products G₁ M⁻¹ G₂ᵀ = U₁ V₂ᵀ: with Y = G_r − G_f M_ff⁻¹ Hᵀ,
   ///
   ///     U = (Y, G_f),   V = (Y C⁻¹, G_f M_ff⁻¹)
   ///

@@ -25,8 +25,8 @@ struct Marker {
   bool has_second_order() const { return K[0].size() > 0; }
 };
 
-/// Motion of a marker, world axes; what joints and forces see of the vehicle. What is read together stands
-/// together, in a cache line: places and velocities, then what accelerations and gradients need.
+/// Motion of a marker, world axes: all that joints and forces see of the vehicle. Members that are read
+/// together lie in one cache line: positions and velocities, then the terms of accelerations and gradients.
 struct alignas(64) MarkerState {
   Eigen::Vector2d r = Eigen::Vector2d::Zero();        ///< position [m]
   Eigen::Vector2d r_theta = Eigen::Vector2d::Zero();  ///< ∂r/∂θ [m/rad]
@@ -36,14 +36,14 @@ struct alignas(64) MarkerState {
   Eigen::Vector2d a_bias = Eigen::Vector2d::Zero();   ///< acceleration while q̈ = 0 [m/s²]
   double alpha_bias = 0.0;                            ///< angular acceleration while q̈ = 0 [rad/s²]
   FrameRotation rotation;                             ///< A of its body, where that has modes
-  Eigen::Matrix3Xd Phi;  ///< ∂(place in the body, angle)/∂η, 3×n [m, m, rad]
+  Eigen::Matrix3Xd Phi;  ///< ∂(position in the body, angle)/∂η, 3×n [m, m, rad]
 
   /// ∂r/∂η, 2×n [m]
   Eigen::Matrix2Xd r_eta() const;
 };
 
-/// What multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of a joint's
-/// Jacobian.
+/// A row vector that multiplies a marker's motion (δx, δy, δangle), world axes: force and torque, or a row of
+/// a joint's Jacobian.
 struct MarkerRow {
   double x, y, angle;
 
@@ -59,26 +59,26 @@ struct MarkerRow {
   double by_mode(const double* shape) const { return x * shape[0] + y * shape[1] + angle * shape[2]; }
 };
 
-/// A marker's state with room for its gradients; of a marker on the ground, which stays so, its position too.
+/// A marker's state with room for its gradients, at the marker's position in its body: that of a marker on
+/// the ground is complete.
 MarkerState make_marker_state(const Marker& marker);
 
-/// Displacement of the marker that its body's modes make, body axes: Φη, and of second order [m].
+/// Displacement of the marker by the modes of its body, body axes: Φη and the part of second order [m].
 /// @param eta  n
 Eigen::Vector2d calc_marker_deflection(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// What a displacement of second order adds to the two parts below: to the place u in the body, the angle and
-/// their gradients; to the acceleration while q̈ = 0.
+/// The parts of a displacement of second order in the two functions below: in the position u in the body, the
+/// angle and their gradients; in the acceleration while q̈ = 0.
 void add_second_order_position(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta,
                                Eigen::Vector2d& u, MarkerState& state);
 void add_second_order_bias(const Marker& marker, const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
                            MarkerState& state);
 
-/// Position of a marker that is at u in its body, as it is deformed, and the gradient of that by the body's
-/// angle.
+/// Position of a marker that is at u in its deformed body, and its derivative by the body's angle.
 /// @param u  body axes [m]   @param q  the body's coordinates, the first two of them
 inline void place_in_body(const Eigen::Vector2d& u, const FrameRotation& rotation, const double* q,
                           MarkerState& state) {
-  // One number at a time: pairs that were just written by their halves are slow to read.
+  // One number at a time: pairs whose halves have just been written one by one are slow to read.
   const double arm_x = rotation.cosine * u.x() - rotation.sine * u.y();
   const double arm_y = rotation.sine * u.x() + rotation.cosine * u.y();
   state.r = {q[0] + arm_x, q[1] + arm_y};

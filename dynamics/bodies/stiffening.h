@@ -8,16 +8,17 @@
 
 namespace sprung::dynamics {
 
-/// Displacement of second order of a point, ½ ηᵀ(K_x, K_y, K_angle)η taken back from its displacement along
-/// x, y and its rotation, body axes; n×n each, symmetric, or empty: none.
+/// Displacement of second order of a point: ½ ηᵀ(K_x, K_y, K_angle)η is subtracted from its displacement
+/// along x and y and from its rotation, body axes. Each is n×n and symmetric; all are empty where there is
+/// none.
 using SecondOrder = std::array<Eigen::MatrixXd, 3>;
 
-/// What axial forces do to the bending of a body, from the geometric stiffness of its superelement
+/// The effect of axial forces on the bending of a body, from the geometric stiffness of its superelement
 /// (bodies, eqs. 7–12). n active modes.
 struct BodyStiffening {
   Eigen::MatrixXd centrifugal;       ///< K_ω about the centre of mass, n×n
   Eigen::RowVectorXd mean_rotation;  ///< ĉ: the body turns at θ̇ + ĉ η̇ in the mean, 1×n
-  SecondOrder origin;                ///< of the material point that the frame's origin is at rest
+  SecondOrder origin;                ///< of the material point at the origin of the undeformed body
 };
 
 /// @param columns  0-based active modes, each below superelement.geometric_stiffness->num_modes()
