@@ -85,7 +85,7 @@ void EffectiveModes::update(const std::vector<bool>& is_active) {
   }
 }
 
-// A mode that the partition has follow from others, or any where there is no small motion: nothing gives way.
+// A mode to which nothing gives way: for dependent modes, and for all where there is no small motion.
 EffectiveModes::Mode EffectiveModes::make_lone_mode(int coordinate) const {
   const std::vector<Body>& bodies = motion_->model().bodies;
   const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& one) {

@@ -1,5 +1,7 @@
 #include "dynamics/adaptivity/full_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -83,7 +85,8 @@ double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& he
 
   ConstrainedEquations equations(held.model, SystemTerms::Markers::kActing);
   if (!equations.close_joints(time, select_active(held, q_))) {
-    throw support::NumericalError("the joints cannot be closed where modes leave");
+    throw support::NumericalError(
+        fmt::format("the joints cannot be closed at t = {:.9g} s, where modes leave", time));
   }
   Eigen::VectorXd v = select_active(held, momentum);
   equations.terms().update_mass();

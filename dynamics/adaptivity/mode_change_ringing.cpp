@@ -8,7 +8,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Of the vibrations in the free ones of the independent coordinates.
+// @param free  places of the coordinates that can vibrate among the independent ones
 Ringing make_ringing(const ModeIndicator& indicator, const std::vector<Eigen::Index>& free) {
   const FullSmallMotion& motion = indicator.small_motion();
   const auto& [M, C, K] = motion.motion();

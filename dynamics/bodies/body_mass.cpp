@@ -43,7 +43,7 @@ BodyMass::BodyMass(const Body& body)
   }
 }
 
-// One number at a time: pairs that were just written by their halves are slow to read.
+// One number at a time: pairs whose halves have just been written one by one are slow to read.
 void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   if (constant_) return;
   update_mass_matrix(*body_, rotation, eta, M_);

@@ -38,7 +38,7 @@ SecondOrder calc_second_order(const reduce::Superelement& superelement, const st
   const int node = superelement.points[static_cast<std::size_t>(point)].node;
   SecondOrder K = superelement.geometric_stiffness->point_loads[static_cast<std::size_t>(point)];
   for (Eigen::MatrixXd& matrix : K) matrix = matrix(columns, columns).eval();
-  // Against the frame that shares no momentum with it (bodies, eq. 9), then of the offset as it turns
+  // Relative to the frame that gets no momentum from it (bodies, eq. 9), then by the offset, which turns
   // (bodies, eq. 10).
   K[2] += stiffening.origin[2];
   const Eigen::Vector2d across = turned(superelement.node_positions.col(node));

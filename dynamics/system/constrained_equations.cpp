@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kClosed = 1e-12;  // of the model's length scale
 constexpr int kMaxClosings = 12;
-constexpr int kClosingsToRounding = 3;  // after which coordinates are as good as their rounding allows
+constexpr int kClosingsToRounding = 3;  // after them only the rounding of coordinates is left
 
 }  // namespace
 
@@ -75,7 +75,7 @@ double ConstrainedEquations::calc_motion_power() {
 bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
   terms_.update_positions(time, q);
   if (model_->num_constraints == 0) {
-    terms_.update_jacobian();  // without a row: other terms ask for it nevertheless
+    terms_.update_jacobian();  // it has no row, but counts as up to date
     return true;
   }
   closing_q_ = q;
@@ -83,7 +83,7 @@ bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
     terms_.calc_residual(violation_);
     terms_.update_jacobian();
     const double size = violation_.lpNorm<Eigen::Infinity>();
-    if (!violation_.allFinite()) return false;  // the largest one may pass over what is no number
+    if (!violation_.allFinite()) return false;  // the norm may pass over a NaN
     if (size <= kClosed * model_->length_scale) return true;
     if (iteration >= kClosingsToRounding && size <= model_->calc_rounding(closing_q_)) return true;
     terms_.update_mass();

@@ -9,12 +9,12 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kAssemblyTolerance = 1e-12;  // of the model's length scale
-constexpr double kAim = 0.01;  // of the tolerance: what is left would else be noise to a fine integration
+constexpr double kAim = 0.01;  // of the tolerance: a larger residual would be noise to a fine integration
 // Of the length scale, (kAim kAssemblyTolerance)^(3/5): after a step d the first residual r is of order d³
 // and falls by the share d = r^(1/3), so that r d² is left after two iterations.
 constexpr double kLargeFirst = 4e-9;
 constexpr int kMaxNewtonIterations = 12;
-constexpr int kIterationsToRounding = 3;  // after which coordinates are as good as their rounding allows
+constexpr int kIterationsToRounding = 3;  // after them only the rounding of coordinates is left
 
 }  // namespace
 
@@ -82,8 +82,8 @@ void PartitionedEquations::refactor() {
   dependents_.factorise(terms().jacobian());
 }
 
-// Newton for the dependents. The factors of φ_d are from the last positions: renewing them costs about as
-// much as an iteration, and is done where more than two would be needed without.
+// Newton's iteration for the dependent coordinates. The factors of φ_d are those of the last positions: new
+// ones cost about as much as an iteration, and are computed where more than two would be needed without them.
 bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = 0.0;
@@ -92,7 +92,7 @@ bool PartitionedEquations::solve_dependents(double time) {
     if (num_constraints_ == 0) return true;
     terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
-    if (!residual_.allFinite()) return false;  // the largest one may pass over what is no number
+    if (!residual_.allFinite()) return false;  // the norm may pass over a NaN
     if (size <= tolerance) return true;
     if (iteration >= kIterationsToRounding && size <= model_->calc_rounding(trial_q_)) return true;
     const bool is_slow = iteration == 0 ? size > kLargeFirst * model_->length_scale
@@ -113,7 +113,7 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   // where those are known; with both it is right to second order in time. Then Newton closes the joints.
   const double since = time - terms().time();
   const double weight = full_.has_accelerations() ? 0.5 * since * since : 0.0;
-  // Accelerations that do not count may be no numbers.
+  // Accelerations that do not count may be NaN.
   const auto drift = [&](int i) { return weight > 0.0 ? weight * v_dot()[i] : 0.0; };
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     const int i = partition_.independent[k];
@@ -199,7 +199,7 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
 Eigen::VectorXd PartitionedEquations::calc_reduced_force(const Eigen::MatrixXd& directions) const {
   // Dᵀφ_qᵀ = 0: multipliers do no work along the free directions.
   Eigen::VectorXd force = terms().forces();
-  Eigen::VectorXd alpha = v_dot();  // what is left of q̈ when the independents' is taken away: D q̈_i
+  Eigen::VectorXd alpha = v_dot();  // q̈ without the part D q̈_i that follows the independent coordinates
   Eigen::VectorXd independent(num_freedoms_);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     independent[static_cast<Eigen::Index>(k)] = v_dot()[partition_.independent[k]];

@@ -62,7 +62,7 @@ void SystemConstraints::add_block(const JointTerms& terms, JointSide& side) {
   side.block = static_cast<std::ptrdiff_t>(block);
   if (!terms.is_constant) return;
   for (int k = 0; k < terms.num_rows; ++k) {
-    for (int j = 0; j < 2; ++j) {  // what moves along with the frame's x and y
+    for (int j = 0; j < 2; ++j) {  // columns of the frame's x and y
       if (side.G(k, j) == 0.0) Phi_q_.mark_zero(block, k, j);
     }
   }

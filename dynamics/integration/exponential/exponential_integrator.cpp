@@ -15,7 +15,7 @@ using lobatto::combine;
 using lobatto::cubic_weights;
 using lobatto::node_polynomial;
 
-constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
+constexpr double kFirstLength = 1e-3;    // s; a step that is too long is repeated
 constexpr double kShortestStep = 1e-12;  // s
 
 constexpr int kMaxSweeps = 6;
@@ -24,7 +24,7 @@ constexpr double kFirstContraction = 0.3;  // until it is known
 constexpr double kLeastContraction = 0.02;
 constexpr double kUselessContraction = 0.9;
 constexpr double kHopelessError =
-    2.0;  // of what is allowed, at which a step is given up before its iteration ends
+    2.0;  // of what is allowed: a step with more is given up before its iteration ends
 // The pairs may be those of a state long past: iterations that fail, or are slow step after step, show it.
 constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
 constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
@@ -35,14 +35,14 @@ constexpr double kMemory =
     0.5;  // share of the last step's error that counts: an estimate may pass through zero
 // A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
 constexpr double kWorthwhile = 1.15;
-// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten
-// slowly.
+// A step that may hide a switch is repeated with this part of its length; the bound on the length of later
+// steps grows slowly.
 constexpr double kOfHiding = 0.5, kForgetting = 1.1;
 constexpr double kTruncationOfFirst =
-    0.3;  // part of fourth degree, of that of third, where no step was before
+    0.3;  // part of fourth degree over that of third, for a step without one before it
 
-// Time of a switch: a force that sets in late by this, at a tolerance of 1, changes the velocity by far less
-// than is allowed.
+// Error in the time of a switch at a tolerance of 1: a force that begins so late changes the velocity by far
+// less than is allowed.
 constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
@@ -108,7 +108,7 @@ void ExponentialIntegrator::begin() {
   has_begun_ = true;
 }
 
-// The drive at stage_y_, which `motion` stands for.
+// The drive at stage_y_, the state of `motion`.
 bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;

@@ -99,8 +99,8 @@ void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
   is_fresh_ = true;
 }
 
-// What an error may be; not below what rounding of positions does, which over a short step is much in
-// velocities.
+// The error allowed in a position, and in a velocity: not less than the rounding of positions causes, which
+// for velocities is large over a short step.
 double GeneralizedAlphaStep::allowed_position(int i) const {
   return std::max(tolerance_ * scales_.position(i), rounding(i));
 }
@@ -114,7 +114,7 @@ double GeneralizedAlphaStep::rounding(int i) const {
   return kRounding * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
 }
 
-// Root mean square of what the iteration has changed in q and v, of what is allowed.
+// Root mean square of the last changes of q and v, each divided by the error that is allowed.
 double GeneralizedAlphaStep::calc_iteration_norm(double length) const {
   const Index3Newton::Weights change = weights(length);
   double sum = 0.0;

@@ -15,17 +15,17 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kFirstLength = 1e-4;       // s; too long a step is found out
+constexpr double kFirstLength = 1e-4;       // s; a step that is too long is repeated
 constexpr double kShortestStep = 1e-10;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
 constexpr double kProbe = 1e-5;             // of a step, for rates at a start
 
 constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
-// A step is kept as it is where a better one would hardly be longer: equal steps make the smoother
+// The length of steps is kept where a better one would hardly be longer: equal steps give smoother
 // multipliers.
 constexpr double kWorthwhile = 1.2;
 
-// Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
+// Errors in the multipliers change their sign from step to step, and do not decay where the radius is 1.
 const char* remark_on_radius(double spectral_radius) {
   return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
 }
