@@ -1,7 +1,11 @@
 #include "dynamics/adaptivity/full_motion.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "dynamics/system/energy.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -44,33 +48,29 @@ double FullMotion::calc_held_strain(const std::vector<bool>& is_active) const {
   return strain;
 }
 
-HeldModes FullMotion::hold(const std::vector<bool>& is_active, double time) {
-  HeldModes held = hold_modes(*full_, is_active, q_);
-  std::erase_if(fading_, [&](const FadingForce& one) {
-    return time >= one.start + one.duration || !is_active[static_cast<std::size_t>(one.mode)];
-  });
-  for (FadingForce fading : fading_) {
-    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), fading.mode);
-    const int coordinate = static_cast<int>(place - held.coordinates.begin());
-    const auto body = std::find_if(held.model.bodies.begin(), held.model.bodies.end(), [&](const Body& one) {
-      return coordinate < one.first_coordinate + one.num_coordinates();
-    });
-    fading.mode = coordinate - body->first_coordinate - 3;
-    body->fading.push_back(fading);
-  }
-  return held;
+HeldModes FullMotion::hold(const std::vector<bool>& is_active) const {
+  return hold_modes(*full_, is_active, q_);
 }
 
 State FullMotion::state_for(const HeldModes& held, double time, const std::vector<int>& branches) const {
-  return {.time = time, .q = select_active(held, q_), .v = select_active(held, v_), .branches = branches};
+  State state{.time = time, .q = select_active(held, q_), .v = select_active(held, v_), .branches = branches};
+  for (FadingForce fading : fading_) {
+    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), fading.coordinate);
+    const bool is_held = place == held.coordinates.end() || *place != fading.coordinate;
+    if (is_held || fading.has_ended(time)) continue;
+    fading.coordinate = static_cast<int>(place - held.coordinates.begin());
+    state.fading.push_back(fading);
+  }
+  return state;
 }
 
-void FullMotion::let_go(int coordinate, double force, double time, double duration) {
+void FullMotion::release(int coordinate, double force, double time, double duration) {
+  std::erase_if(fading_, [&](const FadingForce& one) { return one.has_ended(time); });
   fading_.push_back({coordinate, force, time, duration});
 }
 
-// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, but
-// for what the joints do.
+// An impulse on the modes that leave, and on no other coordinate, stops them: M v of the others stays, except
+// for the impulses of the joints.
 double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
                         std::span<const int> branches) {
   update_terms(time);
@@ -85,7 +85,8 @@ double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& he
 
   ConstrainedEquations equations(held.model, SystemTerms::Markers::kActing);
   if (!equations.close_joints(time, select_active(held, q_))) {
-    throw support::NumericalError("the joints cannot be closed where modes leave");
+    throw support::NumericalError(
+        fmt::format("the joints cannot be closed at t = {:.9g} s, where modes leave", time));
   }
   Eigen::VectorXd v = select_active(held, momentum);
   equations.terms().update_mass();

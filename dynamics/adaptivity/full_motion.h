@@ -9,34 +9,36 @@
 
 namespace sprung::dynamics {
 
-/// Motion in coordinates of a full model, while models are run in which some of its modes are held: what is
-/// carried over from one to the next (system, eq. 11; adaptivity, eqs. 4, 5).
+/// Motion in coordinates of a full model, while models are run in which some of its modes are held: it
+/// carries the state from one such model to the next (system, eq. 11; adaptivity, eqs. 4, 5).
 class FullMotion {
  public:
   /// @param full   has to outlive this
   /// @param start  in its coordinates
   FullMotion(const Model& full, const State& start);
 
-  /// Takes over where the equations of a model that is run are; what is held stays, at rest.
+  /// Takes the motion of the equations of a model that is run; held modes stay where they are, at rest.
   void take(const HeldModes& held, const ConstrainedEquations& equations);
-  /// Goes to another state, as far as positions and velocities are concerned.
+  /// Goes to other positions and velocities.
   void go_to(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
   const Eigen::VectorXd& v_dot() const { return v_dot_; }
-  /// Strain energy of the modes that are not active [J]; the others add theirs, as no stiffness couples them.
+  /// Strain energy of the modes that are not active [J]. No stiffness couples them with the others.
   double calc_held_strain(const std::vector<bool>& is_active) const;
 
-  /// A model in which all modes but the active ones are held where they are now; forces being let go act on
-  /// it.
+  /// A model in which all modes but the active ones are held where they are now.
   /// @param is_active  for each coordinate of the full model
-  HeldModes hold(const std::vector<bool>& is_active, double time);
-  /// The state here for a model made by `hold`.
+  HeldModes hold(const std::vector<bool>& is_active) const;
+  /// The state here for a model made by `hold`, with the forces that still fade on its modes.
   State state_for(const HeldModes& held, double time, const std::vector<int>& branches) const;
 
-  /// What held a mode that has joined, −r, acts on it from now on, and fades within `duration` [s].
-  void let_go(int coordinate, double force, double time, double duration);
-  /// Stops modes for good where they are: all others keep their momentum, but for what the joints do.
+  /// Releases a mode that has been held: −r, the force that held it, acts on it from now on and fades within
+  /// `duration`.
+  /// @param coordinate  of the full model   @param force  −r [N/√kg]   @param time, duration  [s]
+  void release(int coordinate, double force, double time, double duration);
+  /// Stops modes where they are, by an impulse on them alone: all others keep their momentum, except for the
+  /// impulses of the joints (adaptivity, eq. 5).
   /// @param held  made by `hold` without them
   /// @return energy lost by it [J]
   /// @throws support::NumericalError if the joints cannot be closed
@@ -48,7 +50,7 @@ class FullMotion {
 
   const Model* full_;
   SystemTerms terms_;
-  std::vector<FadingForce> fading_;  // `mode` is a coordinate of the full model
+  std::vector<FadingForce> fading_;  // on coordinates of the full model
   Eigen::VectorXd q_, v_, v_dot_;
 };
 

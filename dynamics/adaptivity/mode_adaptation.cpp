@@ -5,69 +5,30 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dynamics/adaptivity/mode_change_ringing.h"
+
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kLeaveTogether =
-    0.4;  // of the recall threshold: sum of the shares of those that leave at once
+// Of the recall threshold: sum of the shares of modes that leave at once.
+constexpr double kLeaveTogether = 0.4;
 constexpr double kPeriodsToStay = 3.0;
-constexpr double kRinging = 0.1;  // of the recall threshold, that a change may leave ringing
+constexpr double kRinging = 0.1;  // of the recall threshold: share that a change may leave ringing
 
 }  // namespace
 
-ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const State& start)
+ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const dynamics::State& start)
     : options_(options),
       indicator_(*options.full, start.time, start.q, options.points, options.linearised),
       active_(options.active),
       windows_(indicator_.num_modes()),
       last_change_(start.time) {
   if (active_.size() != static_cast<std::size_t>(options.full->num_coordinates)) {
-    throw std::invalid_argument("ModeAdaptation: active must tell of every coordinate of the full model");
-  }
-  extremes_.resize(indicator_.num_modes());
-  for (Extreme& extreme : extremes_) {
-    extreme.reached.acceleration.assign(options.points.size(), 0.0);
-    extreme.acceleration_time.assign(options.points.size(), start.time);
+    throw std::invalid_argument(
+        "ModeAdaptation: active must have an entry for each coordinate of the full model");
   }
   indicator_.set_active(active_);
-}
-
-// What gives way to a mode is another after the next change: what counts is what it would have done now.
-void ModeAdaptation::note(double time, const LeftOut& largest) {
-  for (std::size_t j = 0; j < extremes_.size(); ++j) {
-    indicator_.calc_reached(j, largest[j], reached_);
-    Extreme& extreme = extremes_[j];
-    if (reached_.deflection > extreme.reached.deflection) {
-      extreme.reached.deflection = reached_.deflection;
-      extreme.deflection_time = time;
-    }
-    for (std::size_t i = 0; i < reached_.acceleration.size(); ++i) {
-      if (!(reached_.acceleration[i] > extreme.reached.acceleration[i])) continue;
-      extreme.reached.acceleration[i] = reached_.acceleration[i];
-      extreme.acceleration_time[i] = time;
-    }
-  }
-}
-
-WorstNeglect ModeAdaptation::worst() const {
-  WorstNeglect worst;
-  for (std::size_t j = 0; j < extremes_.size(); ++j) {
-    const auto& [reached, deflection_time, acceleration_time] = extremes_[j];
-    const ModeShare share = indicator_.share(reached);
-    if (!(share.worst() > worst.share.worst())) continue;
-    worst = {share, indicator_.modal_coordinates()[j], deflection_time};
-    if (share.deflection > share.acceleration) continue;
-    // The point whose share it is.
-    for (std::size_t i = 0; i < reached.acceleration.size(); ++i) {
-      ModeIndicator::Reached alone = reached;
-      alone.deflection = 0.0;
-      std::fill(alone.acceleration.begin(), alone.acceleration.end(), 0.0);
-      alone.acceleration[i] = reached.acceleration[i];
-      if (indicator_.share(alone).acceleration == share.acceleration) worst.time = acceleration_time[i];
-    }
-  }
-  return worst;
 }
 
 int ModeAdaptation::num_active_modes() const {
@@ -82,13 +43,14 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
   const std::vector<int>& modal = indicator_.modal_coordinates();
   for (std::size_t j = 0; j < modal.size(); ++j) {
     const double eta = q[modal[j]], acceleration = std::abs(v_dot[modal[j]]);
-    if (!indicator_.is_active(j)) continue;
+    if (!indicator_.active()[j]) continue;
     std::optional<Window>& window = windows_[j];
     if (!window) window = {time, eta, eta, acceleration, 0.0};
     window->low = std::min(window->low, eta);
     window->high = std::max(window->high, eta);
     window->largest_acceleration = std::max(window->largest_acceleration, acceleration);
-    window->share = indicator_.share(j, window->high - window->low, window->largest_acceleration).worst();
+    window->share =
+        indicator_.calc_share(j, {window->high - window->low, window->largest_acceleration}).worst();
     if (window->share > options_.thresholds.drop) window = {time, eta, eta, acceleration, window->share};
   }
 }
@@ -99,16 +61,7 @@ bool ModeAdaptation::misses_any() const {
   return square > options_.thresholds.recall * options_.thresholds.recall;
 }
 
-void ModeAdaptation::raise(LeftOut& largest) const {
-  largest.resize(indicator_.num_modes());
-  for (std::size_t j = 0; j < largest.size(); ++j) {
-    const ModeIndicator::LeftOut& now = indicator_.left_out()[j];
-    largest[j] = {std::max(largest[j].amplitude, now.amplitude),
-                  std::max(largest[j].acceleration, now.acceleration)};
-  }
-}
-
-std::vector<int> ModeAdaptation::find_missed(const LeftOut& largest) const {
+std::vector<int> ModeAdaptation::find_missed(const std::vector<ModeAmplitude>& largest) const {
   std::vector<std::pair<double, int>> left_out;
   for (const int coordinate : indicator_.modal_coordinates()) {
     if (!active_[static_cast<std::size_t>(coordinate)])
@@ -132,15 +85,15 @@ std::vector<int> ModeAdaptation::find_idle() const {
   if (indicator_.time() - last_change_ < options_.thresholds.residence) return idle;
   std::vector<std::pair<double, int>> candidates;
   for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
-    if (!indicator_.is_active(j) || !windows_[j]) continue;
-    const double frequency = indicator_.frequency(j);
+    if (!indicator_.active()[j] || !windows_[j]) continue;
+    const double frequency = indicator_.calc_frequency(j);
     const double stay =
         std::max(options_.thresholds.residence, frequency > 0.0 ? kPeriodsToStay / frequency : 0.0);
     if (indicator_.time() - windows_[j]->since >= stay) {
       candidates.emplace_back(windows_[j]->share, indicator_.modal_coordinates()[j]);
     }
   }
-  // What they stop together must not be what makes others join.
+  // The motion that they stop together must not make others join.
   std::sort(candidates.begin(), candidates.end());
   double sum = 0.0;
   for (const auto& [share, coordinate] : candidates) {
@@ -154,7 +107,7 @@ std::vector<int> ModeAdaptation::find_idle() const {
 
 std::vector<int> ModeAdaptation::find_stoppable(const std::vector<int>& idle,
                                                 const Eigen::VectorXd& v) const {
-  const std::vector<double> shares = indicator_.calc_stopping_shares(idle, v);
+  const std::vector<double> shares = calc_stopping_shares(indicator_, idle, v);
   std::vector<std::pair<double, int>> candidates;
   for (std::size_t k = 0; k < idle.size(); ++k) candidates.emplace_back(shares[k], idle[k]);
   std::sort(candidates.begin(), candidates.end());
@@ -174,16 +127,16 @@ std::size_t ModeAdaptation::mode_of(int coordinate) const {
   return static_cast<std::size_t>(std::lower_bound(modal.begin(), modal.end(), coordinate) - modal.begin());
 }
 
-ModeShare ModeAdaptation::share_of(int coordinate, const LeftOut& largest) const {
+ModeShare ModeAdaptation::share_of(int coordinate, const std::vector<ModeAmplitude>& largest) const {
   const std::size_t mode = mode_of(coordinate);
-  return indicator_.share(mode, largest[mode].amplitude, largest[mode].acceleration);
+  return indicator_.calc_share(mode, largest[mode]);
 }
 
 double ModeAdaptation::held_force_of(int coordinate) const {
   return indicator_.held_force(mode_of(coordinate));
 }
 double ModeAdaptation::frequency_of(int coordinate) const {
-  return indicator_.frequency(mode_of(coordinate));
+  return indicator_.calc_frequency(mode_of(coordinate));
 }
 
 void ModeAdaptation::activate(const std::vector<int>& coordinates) {
@@ -192,10 +145,10 @@ void ModeAdaptation::activate(const std::vector<int>& coordinates) {
   indicator_.set_active(active_);
 }
 
-double ModeAdaptation::calc_release_time(const std::vector<int>& coordinates,
-                                         const std::vector<double>& forces) const {
-  return indicator_.calc_release_time(coordinates, forces, kRinging * options_.thresholds.recall,
-                                      options_.thresholds.residence);
+double ModeAdaptation::calc_fading_time(const std::vector<int>& coordinates,
+                                        const std::vector<double>& forces) const {
+  return calc_release_time(indicator_, coordinates, forces, kRinging * options_.thresholds.recall,
+                           options_.thresholds.residence);
 }
 
 void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
@@ -207,14 +160,14 @@ void ModeAdaptation::deactivate(const std::vector<int>& coordinates) {
   indicator_.set_active(active_);
 }
 
-void ModeAdaptation::remember(Memory& memory) const {
-  indicator_.remember(memory.indicator);
-  memory.windows = windows_;
+void ModeAdaptation::get_state(State& state) const {
+  state.indicator = indicator_.state();
+  state.windows = windows_;
 }
 
-void ModeAdaptation::go_back(const Memory& memory) {
-  indicator_.go_back(memory.indicator);
-  windows_ = memory.windows;
+void ModeAdaptation::set_state(const State& state) {
+  indicator_.set_state(state.indicator);
+  windows_ = state.windows;
 }
 
 }  // namespace sprung::dynamics

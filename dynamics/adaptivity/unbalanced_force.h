@@ -8,7 +8,8 @@
 
 namespace sprung::dynamics {
 
-/// What the motion of a model in which some modes are held leaves unbalanced on the modes of the full one,
+/// The force that the motion of a model with some modes held leaves unbalanced on the modes of the full
+/// model,
 ///
 ///     r = Q − M q̈ − φ_qᵀλ   in their rows                                 (adaptivity, eq. 1)
 ///       = Σ (Φᵀ Aᵀ F + ψᵀ T) + PᵀAᵀ(g − R̈) − (c + ηᵀB)ᵀ θ̈ + θ̇² (d + M_tt η) + 2 θ̇ B η̇

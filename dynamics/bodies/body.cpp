@@ -23,11 +23,6 @@ void check_stiffening(const reduce::Superelement& superelement, int highest_mode
 
 }  // namespace
 
-double FadingForce::value(double time) const {
-  const double s = (time - start) / duration;
-  return s >= 1.0 ? 0.0 : s <= 0.0 ? force : 0.5 * force * (1.0 + std::cos(std::acos(-1.0) * s));
-}
-
 Body make_rigid_body(const std::string& name, double mass, double inertia) {
   if (!(mass > 0.0))
     throw std::invalid_argument(fmt::format("make_rigid_body: mass must be > 0 kg, got {}", mass));

@@ -10,17 +10,6 @@
 
 namespace sprung::dynamics {
 
-/// A force on a mode that fades out smoothly: F (1 + cos πs)/2 with s = (t − start)/duration from 0 to 1,
-/// F before and zero afterwards.
-struct FadingForce {
-  int mode = 0;           ///< 0-based among the active ones
-  double force = 0.0;     ///< F, the value at the start
-  double start = 0.0;     ///< [s]
-  double duration = 0.0;  ///< > 0 [s]
-
-  double value(double time) const;
-};
-
 /// Whether axial forces in a body change its bending stiffness.
 enum class Stiffening { kOff, kOn };
 
@@ -33,17 +22,16 @@ struct Body {
 
   double mass = 0.0;                                       ///< [kg]
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
-  double second_moment = 0.0;       ///< J₀ = ∫(x² + y²) dm about the frame's origin [kg·m²]
-  Eigen::Matrix2Xd P;               ///< ∫φ dm, 2×n
-  Eigen::RowVectorXd c;             ///< ∫(x φ_y − y φ_x) dm, 1×n
-  Eigen::RowVectorXd d;             ///< ∫(x φ_x + y φ_y) dm, 1×n
-  Eigen::MatrixXd M_ff;             ///< ∫φᵀφ dm with rotary inertia, n×n
-  Eigen::MatrixXd M_tt;             ///< the translational part of M_ff, n×n
-  Eigen::MatrixXd B;                ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
-  Eigen::MatrixXd stiffness;        ///< n×n
-  Eigen::MatrixXd damping;          ///< n×n
-  std::vector<FadingForce> fading;  ///< on modes that have just joined
-  Eigen::VectorXd mode_scale;       ///< n, largest displacement of any node per unit modal coordinate [m]
+  double second_moment = 0.0;  ///< J₀ = ∫(x² + y²) dm about the frame's origin [kg·m²]
+  Eigen::Matrix2Xd P;          ///< ∫φ dm, 2×n
+  Eigen::RowVectorXd c;        ///< ∫(x φ_y − y φ_x) dm, 1×n
+  Eigen::RowVectorXd d;        ///< ∫(x φ_x + y φ_y) dm, 1×n
+  Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm with rotary inertia, n×n
+  Eigen::MatrixXd M_tt;        ///< the translational part of M_ff, n×n
+  Eigen::MatrixXd B;           ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
+  Eigen::MatrixXd stiffness;   ///< n×n
+  Eigen::MatrixXd damping;     ///< n×n
+  Eigen::VectorXd mode_scale;  ///< n, largest displacement of any node per unit modal coordinate [m]
   std::optional<BodyStiffening> stiffening;  ///< present where it is switched on and there are modes
 
   int num_modes() const { return static_cast<int>(mode_numbers.size()); }

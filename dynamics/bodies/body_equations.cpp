@@ -82,15 +82,4 @@ void add_gravity_forces(const Body& body, const FrameRotation& rotation, const E
   for (int j = 0; j < body.num_modes(); ++j) Q[3 + j] += body.P.col(j).dot(gravity_B);
 }
 
-Momentum calc_momentum(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& q,
-                       const Eigen::Ref<const Eigen::VectorXd>& v) {
-  const int size = body.num_coordinates();
-  const Eigen::Index n = body.num_modes();
-  Eigen::MatrixXd mass(size, size);
-  calc_mass_matrix(body, FrameRotation::from_angle(q[2]), q.tail(n), mass);
-  const Eigen::VectorXd conjugate = mass * v;
-  // The generalized momentum of θ is the angular momentum about the frame's own origin.
-  return {.linear = conjugate.head<2>(), .angular = conjugate[2] + q[0] * conjugate[1] - q[1] * conjugate[0]};
-}
-
 }  // namespace sprung::dynamics

@@ -85,13 +85,4 @@ void add_gravity_forces(const Body& body, const FrameRotation& rotation, const E
 /// First moment of mass of the deformed body about the frame's origin: S₀ + Pη, body axes [kg·m].
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta);
 
-/// Momentum of a body and its angular momentum about the world's origin.
-struct Momentum {
-  Eigen::Vector2d linear = Eigen::Vector2d::Zero();  ///< [kg·m/s]
-  double angular = 0.0;                              ///< [kg·m²/s]
-};
-/// @param q, v  the body's 3+n coordinates and velocities
-Momentum calc_momentum(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& q,
-                       const Eigen::Ref<const Eigen::VectorXd>& v);
-
 }  // namespace sprung::dynamics

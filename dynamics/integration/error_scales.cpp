@@ -7,8 +7,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-// The tolerance is meant for a whole run, of which errors of the steps add up; this share of it is allowed in
-// a step. With it the energy book closes to the tolerance.
+// The share of the tolerance that is allowed in one step: errors of steps add up, and the tolerance is that
+// of a whole run. With this share the energy book closes to the tolerance.
 constexpr double kStepShare = 1.0 / 300.0;
 
 }  // namespace

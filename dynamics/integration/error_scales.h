@@ -6,8 +6,8 @@
 
 namespace sprung::dynamics {
 
-/// What the relative tolerance is of: the error that a step may make in a quantity is the tolerance times its
-/// scale here (integration, "Error control"). None depends on where the origin is.
+/// The scales of errors: a step may make an error of the relative tolerance times the scale of a quantity
+/// (integration, "Error control"). None depends on where the origin is.
 class ErrorScales {
  public:
   explicit ErrorScales(const Model& model);

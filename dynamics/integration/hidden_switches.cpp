@@ -9,10 +9,11 @@ namespace {
 using lobatto::kNumNodes;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRounding = 1e-3;   // of the range: dips that count for none
-constexpr double kUnresolved = 0.1;  // of the range: an error at which the cubic says nothing of a function
-constexpr double kDoubt = 2.0;       // error elsewhere, of that where the true value is known
-constexpr double kSwingOfRange = 2.0, kSwingOfError = 4.0;  // how far it may swing beyond the points
+constexpr double kRounding = 1e-3;   // of the range: a smaller dip does not count
+constexpr double kUnresolved = 0.1;  // of the range: with a larger error the cubic says nothing of a function
+constexpr double kDoubt = 2.0;       // error elsewhere, over the error at the place of the true value
+constexpr double kSwingOfRange = 2.0,
+                 kSwingOfError = 4.0;  // a bound of its swing beyond the values at the points
 
 double calc_cubic(const std::array<double, kNumNodes>& c, double theta) {
   return c[0] + theta * (c[1] + theta * (c[2] + theta * c[3]));
@@ -39,11 +40,11 @@ double SwitchCourse::reach() const {
   return 1.0;
 }
 
-// Where it is, by that much less than the cubic tells; else not a number.
+// The place of a dip of the cubic lowered by `doubt`; not a number where there is none.
 double SwitchCourse::find_dip(double doubt) const {
   const double limit = doubt - kRounding * range();
   if (bound() >= limit) return kNone;
-  // Of the two roots of the slope the one with s″ = 2√D > 0, so that nothing cancels.
+  // The root of the slope with s″ = 2√D > 0, by the formula in which nothing cancels.
   const std::array<double, kNumNodes> c = calc_coefficients();
   const double D = c[2] * c[2] - 3.0 * c[1] * c[3];
   if (!(D > 0.0)) return kNone;

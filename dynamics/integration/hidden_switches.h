@@ -11,8 +11,8 @@ namespace sprung::dynamics {
 /// A switch function along a step, as the cubic through its values at the four Lobatto points.
 ///
 /// Between two points it may become negative and positive again, as where a stop is only just touched. The
-/// points alone do not show that. The cubic does, where the motion is no richer than a cubic; whether it is,
-/// the true value at a place between the points tells.
+/// points alone do not show such a dip. The cubic does, unless the motion is richer than a cubic; the true
+/// value at a place between the points shows whether it is.
 class SwitchCourse {
  public:
   /// @param values  indexed by the number of the point
@@ -31,7 +31,7 @@ class SwitchCourse {
  private:
   // Coefficients of the cubic by powers of θ.
   std::array<double, lobatto::kNumNodes> calc_coefficients() const;
-  // The cubic is nowhere less: the least of its coefficients by Bernstein polynomials, which add up to 1.
+  // A lower bound of the cubic: the least of its coefficients by Bernstein polynomials, which add up to 1.
   double bound() const {
     const double second =
         kBernstein[0] * v_[0] + kBernstein[1] * v_[1] + kBernstein[2] * v_[2] + kBernstein[3] * v_[3];

@@ -29,12 +29,12 @@ class Integrator {
 
   virtual ~Integrator() = default;
 
-  /// Starts, or starts anew, at (time, y).
+  /// Starts, or restarts, at (time, y).
   virtual void start(double time, std::span<const double> y, double end_time) = 0;
   /// One step of at most `longest_step`.
   /// @throws support::NumericalError with the time and the reason
   virtual StepResult step(double longest_step) = 0;
-  /// Share of a step in which no forces are looked at.
+  /// Largest part of a step in which forces are not evaluated.
   virtual double largest_gap() const { return 1.0; }
 
   virtual double time() const = 0;                ///< end of the last step, or of its part up to a switch

@@ -12,7 +12,7 @@ struct SmallMotion {
   Eigen::MatrixXd damping, stiffness;
 };
 
-/// Small motion in coordinates of a model.
+/// Small motion in independent coordinates of a model.
 struct KnownMotion {
   std::vector<int> independent;  ///< ascending, f
   SmallMotion motion;
@@ -30,15 +30,16 @@ class OdeSystem {
   virtual bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) = 0;
   virtual int num_switches() const = 0;
   /// @param[out] values  positive while the formulas hold that calc_derivative uses, negative beyond; smooth
-  /// in time
+  /// in
+  ///                     time
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;
 
-  /// Small motion about (time, y), for integrators that treat it apart. It need not be exact.
+  /// Small motion about (time, y), for integrators that treat it separately. It need not be exact.
   /// @return false where it cannot be found
   virtual bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) = 0;
-  /// Changes whenever the coordinates in y come to mean something else.
+  /// Changes whenever the meaning of the coordinates in y changes.
   virtual int coordinate_version() const { return 0; }
 };
 

@@ -18,7 +18,7 @@ inline std::string_view method_name(SteppingMethod method) {
   return kMethodNames[static_cast<std::size_t>(method)];
 }
 
-/// What generalized-α alone asks for.
+/// Options of generalized-α alone.
 struct GeneralizedAlphaOptions {
   double spectral_radius = 0.8;  ///< 0 to 1, at infinite frequency
   /// All steps are equal and at most this long, whatever their error; 0: the error decides [s].
@@ -31,8 +31,8 @@ struct SteppingOptions {
   GeneralizedAlphaOptions generalized_alpha = {};
 };
 
-/// The method where none is asked for: exponential, or Adams for more freedoms than make its full matrices,
-/// 2f×2f, dearer than the equations, and for none.
+/// The default method: exponential; Adams without freedoms, and for so many that the full 2f×2f matrices of
+/// the exponential method cost more than the equations.
 SteppingMethod default_method(int num_freedoms);
 
 /// @throws std::invalid_argument for generalized-α, which is no integrator of ordinary differential equations

@@ -28,9 +28,9 @@ class SwitchSearch {
 
   /// @param places    2 to 4, increasing
   /// @param values    a column for each of them
-  /// @param after     the place before which, and behind the one before it, functions cross
+  /// @param after     index of a place: functions cross between the place before it and this one
   /// @param evaluate  (theta, values) → values at theta
-  /// @return a place within `tolerance` behind the first zero, as near as the cubic knows it
+  /// @return a place after the first zero, by at most `tolerance`
   template <class Evaluate>
   double locate(std::span<const double> places, const Eigen::Ref<const Eigen::MatrixXd>& values, int after,
                 double tolerance, const Evaluate& evaluate) {

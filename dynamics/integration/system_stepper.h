@@ -6,11 +6,11 @@
 
 namespace sprung::dynamics {
 
-/// Carries a state of the constrained system forward in time, in whatever unknowns. It integrates the smooth
-/// piece that holds; between pieces the caller chooses the next one and lets it resume.
+/// Integrates the constrained system in time, in unknowns of its own choice, as long as the equations are
+/// smooth (SmoothPiece). Between two smooth pieces the caller chooses the next one and lets it resume.
 class SystemStepper {
  public:
-  /// Energy that has left and entered the mechanical energy since the start [J].
+  /// Energy that has left and entered the mechanical system since the start [J].
   struct EnergyFlow {
     double dissipated = 0.0, input = 0.0;
   };
@@ -18,9 +18,10 @@ class SystemStepper {
     Integrator::Statistics integrator;
     long evaluations = 0;  ///< of the equations, by the integrator
     long repartitions = 0;
-    double velocity_violation = 0.0;  ///< largest |φ_q v + φ_t| of a step's end that was closed for output
+    double velocity_violation =
+        0.0;  ///< largest |φ_q v + φ_t| of the integrated motion, where it is evaluated
 
-    Statistics& operator+=(const Statistics& later);  ///< of steppers one after the other
+    Statistics& operator+=(const Statistics& later);  ///< adds those of a stepper that has taken over
   };
 
   /// What `evaluate` brings up to date; each level contains those before it.
@@ -40,28 +41,27 @@ class SystemStepper {
 
   virtual ~SystemStepper() = default;
 
-  /// Small motion about a state like that which the run starts from, for methods that treat it separately. To
-  /// be called before `start`.
-  virtual void suggest(KnownMotion) {}
+  /// Small motion about a state near the one that `start` will get, for methods that treat it separately.
+  virtual void set_small_motion(KnownMotion) {}
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
-  /// Restarts at the time evaluated last with the branches of piece(), up to `end_time`.
+  /// Restarts at `time`, at which `evaluate` was called last, with the branches of piece(), up to `end_time`.
   /// @throws support::NumericalError where there are no accelerations
-  virtual void resume(double end_time) = 0;
+  virtual void resume(double time, double end_time) = 0;
   /// One step of at most `longest_step`.
   /// @throws support::NumericalError with the time and the reason
   virtual Integrator::StepResult step(double longest_step) = 0;
   virtual double time() const = 0;  ///< end of the last step, or of its part up to a switch
-  /// Longest step that misses nothing that force elements and prescribed motion know ahead, at the state
-  /// evaluated last [s].
+  /// Longest step that passes over nothing that force elements and prescribed motions know to come, from the
+  /// state evaluated last [s].
   virtual double calc_longest_step() const = 0;
 
   /// Brings equations() and energy_flow() to a time within the last step.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time, Level level) = 0;
-  /// `evaluate` at the end of the last step up to kAccelerations, or as near to it as the last iterate of the
-  /// integrator where the equations are still there: good enough to be watched, not to continue from.
-  virtual void evaluate_end_nearly() { evaluate(time(), Level::kAccelerations); }
+  /// As `evaluate` at the end of the last step up to kAccelerations, but the integrator's last iterate there
+  /// is good enough: to observe the motion, not to continue from it.
+  virtual void evaluate_end_approximately() { evaluate(time(), Level::kAccelerations); }
   virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
   /// After `evaluate` up to kAccelerations or further.
   virtual Observation observation() {

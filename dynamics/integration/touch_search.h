@@ -13,9 +13,9 @@
 namespace sprung::dynamics {
 
 /// Finds switch functions that become negative and positive again within a step at whose ends none is
-/// negative, as where a stop is touched by what flies freely: for methods that look at switches at the ends
-/// of steps. Looks between them only where the functions' slopes let them reach zero. Allocates nothing after
-/// it is made.
+/// negative, as where a body that flies freely touches a stop: for methods that evaluate switches at the ends
+/// of steps only. It evaluates between them only where the functions' slopes let them reach zero. Allocates
+/// nothing after it is made.
 class TouchSearch {
  public:
   explicit TouchSearch(Eigen::Index num_switches)
@@ -27,7 +27,7 @@ class TouchSearch {
     forget();
   }
 
-  /// The next step follows none.
+  /// Says that no step precedes the next one.
   void forget() { slopes_.setConstant(std::numeric_limits<double>::infinity()); }
 
   /// @param begin, end  values of the functions at the ends of the step
@@ -40,9 +40,9 @@ class TouchSearch {
                              const Evaluate& evaluate) {
     values_.col(0) = begin.cwiseMax(0.0);
     values_.col(kLast) = end;
-    const bool looks = may_touch(length);
+    const bool may_reach_zero = may_touch(length);
     slopes_ = (end - begin) / length;
-    if (!looks) return std::nullopt;
+    if (!may_reach_zero) return std::nullopt;
     for (const int j : {1, 2}) {
       evaluate(lobatto::node(j), new_);
       values_.col(j) = new_;
@@ -65,7 +65,7 @@ class TouchSearch {
  private:
   static constexpr int kLast = lobatto::kNumNodes - 1;
 
-  // Whether one is as near to zero as its slope, in the step or the one before, leads within the step.
+  // Whether the slope of a function, in this step or the one before, can take it to zero within the step.
   bool may_touch(double length) const {
     for (Eigen::Index i = 0; i < slopes_.size(); ++i) {
       const double change = std::abs(values_(i, kLast) - values_(i, 0));

@@ -4,6 +4,7 @@
 
 #include "dynamics/linear/state_derivatives.h"
 #include "dynamics/linear/undamped_modes.h"
+#include "dynamics/system/energy.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {

@@ -9,7 +9,7 @@
 namespace sprung::dynamics {
 
 /// @param model           has to outlive the stepper
-/// @param on_repartition  told the time at which independent coordinates were chosen anew
+/// @param on_repartition  called with the time when other independent coordinates have been chosen
 std::unique_ptr<SystemStepper> make_stepper(const Model& model, const SteppingOptions& options,
                                             std::function<void(double time)> on_repartition);
 

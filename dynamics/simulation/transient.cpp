@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "dynamics/simulation/adaptive_stepper.h"
 #include "dynamics/simulation/make_stepper.h"
+#include "dynamics/simulation/monitored_stepper.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -19,42 +21,59 @@ namespace {
 constexpr int kMaxSwitchesInPlace = 100;  // within kSamePlace of each other before the run is given up
 constexpr double kSamePlace = 1e-9;       // s
 
+// The start in coordinates of the full model: modes that the run lacks are at zero.
+State expand_start(const Model& model, const AdaptivityOptions& options, const State& start) {
+  if (options.changes) return start;
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(options.full->num_coordinates);
+  State full{.time = start.time, .q = zero, .v = zero, .branches = start.branches};
+  const HeldModes held = match_modes(model, *options.full);
+  put_active(held, start.q, full.q);
+  put_active(held, start.v, full.v);
+  return full;
+}
+
 class TransientRun {
  public:
-  TransientRun(const Model& model, const TransientOptions& options) : options_(options) {
+  TransientRun(const Model& model, const State& start, const TransientOptions& options) : options_(options) {
     const auto on_repartition = [this](double time) {
-      tell({time, "partition", "", "independent coordinates chosen anew"});
+      report_event({time, "partition", "", "independent coordinates chosen anew"});
     };
-    if (!options.adaptivity) {
-      stepper_ = make_stepper(model, options.integrator, on_repartition);
-      return;
+    if (options.adaptivity) {
+      monitor_.emplace(*options.adaptivity, expand_start(model, *options.adaptivity, start));
     }
-    const auto on_change = [this](double time, int coordinate, const std::string& what) {
-      tell({time, "modes", options_.adaptivity->full->coordinate_name(coordinate), what});
-    };
-    auto adaptive = std::make_unique<AdaptiveStepper>(model, options.integrator, *options.adaptivity,
-                                                      AdaptiveStepper::Listener{on_repartition, on_change});
-    adaptive_ = adaptive.get();
-    stepper_ = std::move(adaptive);
+    if (!monitor_ || !options.adaptivity->changes) {
+      stepper_ = make_stepper(model, options.integrator, on_repartition);
+      if (monitor_) stepper_ = std::make_unique<MonitoredStepper>(std::move(stepper_), model, *monitor_);
+    } else {
+      const auto on_change = [this](double time, int coordinate, const std::string& what) {
+        report_event({time, "modes", options_.adaptivity->full->coordinate_name(coordinate), what});
+      };
+      auto adaptive = std::make_unique<AdaptiveStepper>(options.integrator, *monitor_,
+                                                        AdaptiveStepper::Listener{on_repartition, on_change});
+      adaptive_ = adaptive.get();
+      stepper_ = std::move(adaptive);
+    }
+    stepper_->start(start);
+    start_time_ = start.time;
   }
 
-  TransientStatistics run(const State& start) {
-    start_time_ = start.time;
-    stepper_->start(start);
-    find_end_of_smoothness(start.time);
-    stepper_->evaluate(start.time, SystemStepper::Level::kAccelerations);
+  TransientStatistics run() {
+    find_end_of_smoothness(start_time_);
+    stepper_->evaluate(start_time_, SystemStepper::Level::kAccelerations);
     piece().update_branches(stepper_->equations().terms());
-    stepper_->resume(smooth_end_);
+    stepper_->resume(start_time_, smooth_end_);
     // Modes that join at the very start are there from the first output on.
-    const bool is_settled =
-        !(options_.adaptivity && options_.adaptivity->changes && start.time < options_.end_time);
-    if (is_settled) write_outputs(start.time);
-    if (start.time < options_.end_time) integrate();
+    const bool is_settled = !(adaptive_ && start_time_ < options_.end_time);
+    if (is_settled) write_outputs(start_time_);
+    if (start_time_ < options_.end_time) integrate();
     statistics_.stepper = stepper_->statistics();
+    if (monitor_) {
+      statistics_.mean_active_modes = monitor_->modes().num_active_modes();
+      statistics_.worst_neglect = monitor_->find_worst();
+    }
     if (adaptive_) {
       statistics_.mode_changes = adaptive_->num_changes();
       statistics_.mean_active_modes = adaptive_->mean_active_modes();
-      statistics_.worst_neglect = adaptive_->modes().worst();
     }
     return statistics_;
   }
@@ -62,7 +81,7 @@ class TransientRun {
  private:
   SmoothPiece& piece() { return stepper_->piece(); }
 
-  void tell(const Event& event) const {
+  void report_event(const Event& event) const {
     if (options_.on_event) options_.on_event(event);
   }
 
@@ -75,29 +94,28 @@ class TransientRun {
       if (options_.on_step && !options_.on_step(time)) return;
       if (result == Integrator::StepResult::kEnded) {
         if (smooth_end_ >= options_.end_time) break;
-        start_anew(smooth_end_);
+        continue_from(smooth_end_);
       } else if (result == Integrator::StepResult::kSwitched) {
         count_switch(time);
-        start_anew(time);
+        continue_from(time);
       }
     }
     statistics_.completed = true;
   }
 
-  // Functions of time are smooth from `time` to the next of their breaks: the integrator goes no further in
-  // one go.
+  // Functions of time are smooth from `time` to the next of their breaks, where the integrator has to stop.
   void find_end_of_smoothness(double time) {
     smooth_end_ = std::min(options_.end_time, piece().update_next_break(time));
   }
 
-  // Goes on with the branches that hold at the end of the last step.
-  void start_anew(double time) {
+  // Continues with the branches that hold at the end of the last step.
+  void continue_from(double time) {
     find_end_of_smoothness(time);
     stepper_->evaluate(time, SystemStepper::Level::kMotion);
     for (const BranchChange& change : piece().update_branches(stepper_->equations().terms())) {
-      tell({time, "switch", change.element, change.text});
+      report_event({time, "switch", change.element, change.text});
     }
-    stepper_->resume(smooth_end_);
+    stepper_->resume(time, smooth_end_);
   }
 
   void count_switch(double time) {
@@ -136,12 +154,13 @@ class TransientRun {
                         .v_dot = now.v_dot,
                         .branches = piece().branches(),
                         .energy = {stored, flow.dissipated, flow.input},
-                        .modes = adaptive_ ? &adaptive_->modes() : nullptr});
+                        .modes = monitor_ ? &monitor_->modes() : nullptr});
   }
 
   const TransientOptions& options_;
+  std::optional<ModeMonitor> monitor_;  // of modes left out, if asked for
   std::unique_ptr<SystemStepper> stepper_;
-  const AdaptiveStepper* adaptive_ = nullptr;  // the stepper, where modes are watched
+  const AdaptiveStepper* adaptive_ = nullptr;  // the stepper, where modes change
   TransientStatistics statistics_;
   double start_time_ = 0.0;
   double smooth_end_ = 0.0;  // the next break of a function of time, or the end
@@ -162,7 +181,7 @@ Eigen::Vector2d Snapshot::calc_acceleration(std::size_t marker) const {
 }
 
 TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options) {
-  return TransientRun(model, options).run(start);
+  return TransientRun(model, start, options).run();
 }
 
 }  // namespace sprung::dynamics

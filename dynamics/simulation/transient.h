@@ -1,18 +1,22 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/adaptivity/mode_monitor.h"
 #include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/system_stepper.h"
+#include "dynamics/system/energy.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
 
-/// The energy book at one instant [J]. What is stored, against what has gone and come since the start.
+/// The energy book at one instant [J]: stored energy, and what has been dissipated and put in since the
+/// start.
 struct EnergyBook {
   Energy stored;
   double dissipated = 0.0;
@@ -36,7 +40,7 @@ struct Snapshot {
   const Eigen::VectorXd &q, &v, &v_dot;  ///< num_coordinates of the model that the run was given
   std::span<const int> branches;
   EnergyBook energy;
-  const ModeAdaptation* modes;  ///< which modes are active, and what the others miss; null where nobody asked
+  const ModeAdaptation* modes;  ///< active modes, and the neglect of the others; null without adaptivity
 
   const SystemTerms& terms() const { return equations.terms(); }
   const Eigen::VectorXd& multipliers() const { return equations.multipliers(); }  ///< num_constraints
@@ -48,8 +52,8 @@ struct TransientOptions {
   double output_step = 1e-3;                                      ///< > 0 [s]
   double largest_step = std::numeric_limits<double>::infinity();  ///< of the integrator [s]
   SteppingOptions integrator;
-  /// Modes that join and leave, or only the indicator of those left out. With changes, model and start of the
-  /// run are the full ones.
+  /// Modes that join and leave, or only the indicator of those left out; with `changes`, model and start of
+  /// the run are the full ones.
   std::optional<AdaptivityOptions> adaptivity;
   std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
   std::function<void(const Event&)> on_event;      ///< may be empty

@@ -36,7 +36,8 @@ class BlockJacobian {
   void add_product(const Eigen::VectorXd& v, Eigen::VectorXd& r) const;
   /// Q += φ_qᵀ λ.  @param lambda num_rows  @param Q num_columns
   void add_transposed_product(const Eigen::VectorXd& lambda, Eigen::VectorXd& Q) const;
-  /// The same num_rows×num_columns, for what is done once; without what is always zero.
+  /// The same as a matrix, num_rows×num_columns, for work that is done once; `sparse` without values that are
+  /// always zero.
   Eigen::MatrixXd dense() const;
   Eigen::SparseMatrix<double> sparse() const;
 

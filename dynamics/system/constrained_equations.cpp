@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kClosed = 1e-12;  // of the model's length scale
 constexpr int kMaxClosings = 12;
-constexpr int kClosingsToRounding = 3;  // after which coordinates are as good as their rounding allows
+constexpr int kClosingsToRounding = 3;  // after them only the rounding of coordinates is left
 
 }  // namespace
 
 ConstrainedEquations::ConstrainedEquations(const Model& model, SystemTerms::Markers scope)
     : model_(&model), terms_(model, scope), multipliers_(terms_.jacobian(), model.num_constraints) {
-  v_dot_ = moved_ = step_ = Eigen::VectorXd::Zero(model.num_coordinates);
-  lambda_ = residual_ = impulse_ = Eigen::VectorXd::Zero(model.num_constraints);
+  v_dot_ = correction_ = closing_q_ = closing_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  lambda_ = motion_rate_ = violation_ = impulse_ = Eigen::VectorXd::Zero(model.num_constraints);
   inverse_mass_ = Eigen::VectorXd::Ones(model.num_coordinates);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (terms_.masses()[b].is_constant())
@@ -37,12 +37,13 @@ bool ConstrainedEquations::factorise() {
   return multipliers_.factorise(terms_.jacobian(), terms_.masses());
 }
 
-// step_ = M⁻¹φ_qᵀ (φ_q M⁻¹ φ_qᵀ)⁻¹ residual_, the multipliers in impulse_.
+// impulse_ = (φ_q M⁻¹ φ_qᵀ)⁻¹ violation_, correction_ = M⁻¹φ_qᵀ impulse_: the smallest change in the mass
+// metric that takes the violation away.
 void ConstrainedEquations::calc_correction() {
-  multipliers_.solve(residual_, impulse_);
-  step_.setZero();
-  terms_.jacobian().add_transposed_product(impulse_, step_);
-  apply_inverse_mass(step_);
+  multipliers_.solve(violation_, impulse_);
+  correction_.setZero();
+  terms_.jacobian().add_transposed_product(impulse_, correction_);
+  apply_inverse_mass(correction_);
 }
 
 // With a₀ = M⁻¹Q: (φ_q M⁻¹ φ_qᵀ) λ = φ_q a₀ − γ, q̈ = a₀ − M⁻¹φ_qᵀλ.
@@ -52,39 +53,44 @@ bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
   v_dot_ = terms_.forces();
   apply_inverse_mass(v_dot_);
   if (model_->num_constraints > 0) {
-    terms_.calc_gamma(residual_);
-    residual_ = -residual_;
-    terms_.jacobian().add_product(v_dot_, residual_);
+    terms_.calc_gamma(violation_);
+    violation_ = -violation_;
+    terms_.jacobian().add_product(v_dot_, violation_);
     if (!factorise()) return false;
     calc_correction();
     lambda_ = impulse_;
-    v_dot_ -= step_;
+    v_dot_ -= correction_;
   }
-  return v_dot_.allFinite();
+  if (!v_dot_.allFinite()) return false;
+  terms_.set_has_accelerations();
+  return true;
 }
 
 double ConstrainedEquations::calc_motion_power() {
   if (!model_->has_motions) return 0.0;
-  terms_.calc_time_rate(residual_);
-  return lambda_.dot(residual_);
+  terms_.calc_time_rate(motion_rate_);
+  return lambda_.dot(motion_rate_);
 }
 
 bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
   terms_.update_positions(time, q);
-  if (model_->num_constraints == 0) return true;
-  moved_ = q;
+  if (model_->num_constraints == 0) {
+    terms_.update_jacobian();  // it has no row, but counts as up to date
+    return true;
+  }
+  closing_q_ = q;
   for (int iteration = 0; iteration < kMaxClosings; ++iteration) {
-    terms_.calc_residual(residual_);
+    terms_.calc_residual(violation_);
     terms_.update_jacobian();
-    const double size = residual_.lpNorm<Eigen::Infinity>();
-    if (!residual_.allFinite()) return false;  // the largest one may pass over what is no number
+    const double size = violation_.lpNorm<Eigen::Infinity>();
+    if (!violation_.allFinite()) return false;  // the norm may pass over a NaN
     if (size <= kClosed * model_->length_scale) return true;
-    if (iteration >= kClosingsToRounding && size <= model_->calc_rounding(moved_)) return true;
+    if (iteration >= kClosingsToRounding && size <= model_->calc_rounding(closing_q_)) return true;
     terms_.update_mass();
     if (!factorise()) return false;
     calc_correction();
-    moved_ -= step_;
-    terms_.update_positions(time, moved_);
+    closing_q_ -= correction_;
+    terms_.update_positions(time, closing_q_);
   }
   return false;
 }
@@ -96,16 +102,16 @@ double ConstrainedEquations::close_rates(const Eigen::VectorXd& v) {
   }
   terms_.update_mass();
   if (!factorise()) return std::numeric_limits<double>::quiet_NaN();
-  moved_ = v;
+  closing_v_ = v;
   double violation = 0.0;
   for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
-    terms_.calc_time_rate(residual_);
-    terms_.jacobian().add_product(moved_, residual_);
-    if (pass == 0) violation = residual_.lpNorm<Eigen::Infinity>();
+    terms_.calc_time_rate(violation_);
+    terms_.jacobian().add_product(closing_v_, violation_);
+    if (pass == 0) violation = violation_.lpNorm<Eigen::Infinity>();
     calc_correction();
-    moved_ -= step_;
+    closing_v_ -= correction_;
   }
-  terms_.update_velocities(moved_);
+  terms_.update_velocities(closing_v_);
   return violation;
 }
 

@@ -9,9 +9,9 @@
 
 namespace sprung::dynamics {
 
-/// M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at positions and velocities of all coordinates, which every way of
-/// integrating them solves in the end (system, eqs. 1, 6, 7; bodies, eq. 6). nq coordinates, m constraints.
-/// No allocation (but see MultiplierSolver for large systems).
+/// Solves M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at given positions and velocities of all coordinates, as every method of
+/// integration does in the end (system, eqs. 1, 6, 7; bodies, eq. 6). nq coordinates, m constraints.
+/// Allocates nothing once made.
 class ConstrainedEquations {
  public:
   ConstrainedEquations(const Model& model, SystemTerms::Markers scope);
@@ -23,16 +23,18 @@ class ConstrainedEquations {
   const Eigen::VectorXd& v_dot() const { return v_dot_; }
   const Eigen::VectorXd& multipliers() const { return lambda_; }
 
-  /// Accelerations and multipliers. Positions, Jacobian and velocities of the terms have to be up to date.
+  /// Accelerations and multipliers, after positions, Jacobian and velocities of the terms.
   /// @return false where NaN or infinity came out, or constraints have become dependent
   bool update_accelerations(std::span<const int> branches);
   /// Entries of the factor for the multipliers.
   int num_factor_entries() const { return multipliers_.num_factor_entries(); }
+  /// Whether `v_dot` and `multipliers` belong to the present time, q and v.
+  bool has_accelerations() const { return terms_.has(SystemTerms::Term::kAccelerations); }
   /// Power that prescribed motion puts in, λᵀφ_t, after update_accelerations [W] (joints, eq. 6).
   double calc_motion_power();
 
-  /// Positions and Jacobian at q, moved the least way in the mass metric to where the joints close.
-  /// @return false where they do not
+  /// Positions and Jacobian where the joints close, moved from q by the least distance in the mass metric.
+  /// @return false where they do not close
   bool close_joints(double time, const Eigen::VectorXd& q);
   /// Velocities nearest to v, in the mass metric, that the joints allow; after close_joints.
   /// @return largest |φ_q v + φ_t| before [m/s, rad/s]; NaN where there is no such velocity
@@ -46,10 +48,15 @@ class ConstrainedEquations {
   const Model* model_;
   SystemTerms terms_;
   MultiplierSolver multipliers_;
-  Eigen::VectorXd inverse_mass_;                 // nq, of bodies whose mass is constant; of the others 1
-  std::vector<std::size_t> varying_bodies_;      // those others
-  Eigen::VectorXd v_dot_, moved_, step_;         // nq
-  Eigen::VectorXd lambda_, residual_, impulse_;  // m
+  Eigen::VectorXd inverse_mass_;             // nq, of bodies whose mass is constant; of the others 1
+  std::vector<std::size_t> varying_bodies_;  // those others
+  Eigen::VectorXd v_dot_;                    // nq
+  Eigen::VectorXd lambda_;                   // m
+  Eigen::VectorXd motion_rate_;              // φ_t of prescribed motion, m
+  // Work space: what is passed to and comes from calc_correction, and the iterates of the two functions that
+  // close joints.
+  Eigen::VectorXd violation_, impulse_;                 // m
+  Eigen::VectorXd correction_, closing_q_, closing_v_;  // nq
 };
 
 }  // namespace sprung::dynamics

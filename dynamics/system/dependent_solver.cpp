@@ -9,7 +9,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// For each coordinate its position among those chosen, −1 where it is not one of them.
+// For each coordinate its position among the chosen ones, −1 where it is not one of them.
 std::vector<int> list_positions(const std::vector<int>& chosen, int num_coordinates) {
   std::vector<int> position(static_cast<std::size_t>(num_coordinates), -1);
   for (std::size_t k = 0; k < chosen.size(); ++k)
@@ -101,7 +101,7 @@ void DependentSolver::collect_strips(const BlockJacobian& jacobian, const Partit
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
     for (int j = 0; j < block.num_columns;) {
       const int first = position[static_cast<std::size_t>(block.column + j)];
-      int count = 0;  // both ascend: a run of independent coordinates is one of positions
+      int count = 0;  // both ascend: successive coordinates have successive positions
       while (j + count < block.num_columns &&
              position[static_cast<std::size_t>(block.column + j + count)] >= 0)
         ++count;

@@ -13,15 +13,15 @@ namespace sprung::dynamics {
 
 /// Solves φ_d x = r, φ_d being the columns of φ_q that belong to the dependent coordinates.
 ///
-/// The pattern of φ_d is brought to block triangular form once for a partition: independent loops and links
-/// of a chain become blocks of their own, solved one after the other, so that the cost grows with the number
-/// of joints and not with its cube (BlockTriangularForm).
+/// The pattern of φ_d is permuted to block triangular form once for a partition: independent loops and links
+/// of a chain become blocks of their own, solved one after the other. So the cost grows with the number of
+/// joints and not with its cube (BlockTriangularForm).
 class DependentSolver {
  public:
   DependentSolver() = default;
   DependentSolver(const BlockJacobian& jacobian, const Partition& partition, int num_coordinates);
 
-  /// Factors of φ_d at the present values of the Jacobian. Allocates nothing but where pivots are chosen, see
+  /// Factors of φ_d at the present values of the Jacobian. Allocates memory only where pivots are chosen, see
   /// SparseLu.
   void factorise(const BlockJacobian& jacobian);
   /// r += φ_i x_i, at the present values of the Jacobian that was factorised last.
@@ -37,9 +37,9 @@ class DependentSolver {
   void set_reference();
   /// Largest factor by which the determinant of a block has fallen since `set_reference`.
   double decay() const;
-  /// Whether the determinant of a block has changed sign since `set_reference`. It cannot while the motion is
-  /// followed: a mechanism goes through det φ_d = 0 only where its independents turn round, and there another
-  /// partition is due.
+  /// Whether the determinant of a block has changed sign since `set_reference`. It cannot do so along a
+  /// motion: a mechanism passes det φ_d = 0 only at a turning point of its independent coordinates, before
+  /// which another partition is chosen.
   bool is_mirrored() const;
   int num_factor_entries() const;
   int num_blocks() const { return static_cast<int>(singles_.size() + blocks_.size()); }
@@ -50,7 +50,7 @@ class DependentSolver {
     int column;          // dependent coordinate (position in the partition)
     std::size_t source;  // in the Jacobian's values
   };
-  // A block of one row and column, which most are in chains: kept side by side, with what they need.
+  // A block of one row and one column, as most are in chains. They are stored side by side.
   struct Single {
     int row, column;  // constraint; position in Partition::dependent
     std::size_t end_of_outside =

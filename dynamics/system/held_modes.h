@@ -21,8 +21,8 @@ struct HeldModes {
 /// be a force
 HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, const Eigen::VectorXd& q);
 
-/// A model beside a fuller one of the same vehicle, of whose modes it lacks some: only the places of its
-/// coordinates.
+/// The places of a model's coordinates in a fuller model of the same vehicle, which has more modes.
+/// @return without a model
 /// @throws std::invalid_argument for a mode that `full` does not have
 HeldModes match_modes(const Model& model, const Model& full);
 

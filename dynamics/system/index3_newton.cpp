@@ -57,7 +57,7 @@ void Index3Newton::find_couplings() {
   }
 }
 
-// Greedy: a body takes the first colour in which nobody is felt where it is felt.
+// Greedy: a body takes the first colour that contains no body on which the same forces depend.
 // Source: [Curtis, Powell & Reid 1974]
 void Index3Newton::colour_bodies() {
   const std::size_t num_bodies = model_->bodies.size();

@@ -29,9 +29,9 @@ class Index3Newton {
 
   explicit Index3Newton(const Model& model);
 
-  /// K = ∂r/∂q and C = ∂r/∂v by forward differences. Bodies that no common neighbour feels move at once, so
-  /// that the number of differences does not grow with the length of a chain. Leaves `residual` at the
-  /// motion.
+  /// K = ∂r/∂q and C = ∂r/∂v by forward differences. Bodies without a common neighbour are moved at once, so
+  /// that the number of differences does not grow with the length of a chain. Afterwards `residual` is that
+  /// of `motion` again.
   void linearise(Index3Residual& residual, const ConstrainedMotion& motion, std::span<const int> branches);
   /// Factors with M and φ_q of the terms and the K and C at hand.
   /// @return false where the matrix is singular
@@ -45,7 +45,7 @@ class Index3Newton {
   Eigen::MatrixXd dense() const;
 
  private:
-  // Of the forces on one body with respect to the coordinates of another that it feels, or itself.
+  // Derivatives of the forces on one body by the coordinates of another on which they depend, or by its own.
   struct Coupling {
     int row_body, column_body;
     Eigen::MatrixXd K, C;

@@ -7,8 +7,7 @@
 
 namespace sprung::dynamics {
 
-/// Everything that the constrained equations hold at an instant, as unknowns of their own. nq coordinates, m
-/// constraints.
+/// All unknowns of the constrained equations at an instant, each by itself. nq coordinates, m constraints.
 struct ConstrainedMotion {
   explicit ConstrainedMotion(const Model& model)
       : q(Eigen::VectorXd::Zero(model.num_coordinates)),
@@ -21,7 +20,7 @@ struct ConstrainedMotion {
   Eigen::VectorXd lambda;       ///< m
 };
 
-/// What is left of the equations of motion and of the constraints on the level of positions at any motion,
+/// Residual of the equations of motion and of the constraints on the level of positions, at any motion,
 /// consistent or not:
 ///
 ///     r = M(q) v̇ + φ_qᵀλ − Q(q, v, t),   φ(q, t)                                      (system, eq. 9)

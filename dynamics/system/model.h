@@ -10,10 +10,11 @@
 #include "dynamics/bodies/marker.h"
 #include "dynamics/forces/force_element.h"
 #include "dynamics/joints/joint.h"
+#include "dynamics/system/fading_force.h"
 
 namespace sprung::dynamics {
 
-/// Which coordinate of a body one of the system's is.
+/// A coordinate of the system as one of a body.
 struct BodyCoordinate {
   int body = 0;   ///< position in Model::bodies
   int local = 0;  ///< 0: x, 1: y, 2: angle, 3 + k: the body's k-th active mode
@@ -36,11 +37,11 @@ struct Model {
   std::vector<int> joint_rows;      ///< first constraint of each joint
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
-  std::vector<int> acting_markers;  ///< those that joints and forces see, ascending; the rest are for results
+  std::vector<int> acting_markers;  ///< those of joints and forces, ascending; the others are for results
   double length_scale = 1.0;        ///< largest distance of a marker from its body's frame [m]
-  bool has_motions = false;         ///< some joint moves by itself
+  bool has_motions = false;         ///< some joint prescribes a motion
   std::vector<double> time_breaks;  ///< where functions of time have a kink or jump, ascending [s]
-  double time_resolution = 0.0;     ///< step in time that misses nothing of any function of time [s]
+  double time_resolution = 0.0;     ///< longest step that passes over no detail of a function of time [s]
 
   int num_freedoms() const { return num_coordinates - num_constraints; }
   /// The part of all branches that belongs to force element f.
@@ -52,11 +53,11 @@ struct Model {
   BodyCoordinate body_coordinate(int coordinate) const;
   /// "chassis.x", "chassis.angle", "chassis.mode 3"
   std::string coordinate_name(int coordinate) const;
-  /// Natural size of a coordinate: length_scale for positions, 1 for angles, and for a modal coordinate what
-  /// moves some node by length_scale.
+  /// Natural size of a coordinate: length_scale for positions, 1 for angles, for a modal coordinate the value
+  /// that moves some node by length_scale.
   double coordinate_scale(int coordinate) const;
-  /// What the rounding of coordinates leaves of joints that are closed as well as can be: of bodies far from
-  /// the origin, or turned many times, more than nothing [m, rad].
+  /// Residual of joints that are closed as well as the rounding of coordinates allows: it counts where bodies
+  /// are far from the origin, or have turned many times [m, rad].
   /// @param q  num_coordinates
   double calc_rounding(const Eigen::VectorXd& q) const;
   int find_body(const std::string& name) const;    ///< -1 if there is none
@@ -67,12 +68,14 @@ struct Model {
 /// and forces are complete.
 void number_model(Model& model);
 
-/// Positions and velocities of the whole system, with the branches of its force elements.
+/// Positions and velocities of the whole system, with the branches of its force elements and the forces that
+/// the run itself puts on its modes.
 struct State {
-  double time = 0.0;          ///< [s]
-  Eigen::VectorXd q;          ///< num_coordinates
-  Eigen::VectorXd v;          ///< num_coordinates
-  std::vector<int> branches;  ///< num_branches
+  double time = 0.0;                     ///< [s]
+  Eigen::VectorXd q;                     ///< num_coordinates
+  Eigen::VectorXd v;                     ///< num_coordinates
+  std::vector<int> branches;             ///< num_branches
+  std::vector<FadingForce> fading = {};  ///< on modes that have joined lately
 };
 
 }  // namespace sprung::dynamics

@@ -41,10 +41,10 @@ Nodes make_nodes(const std::vector<Block>& blocks, int num_constraints) {
       place.row = all.num_rows.back()++;
     }
   };
-  for (const Block& block : blocks) {  // those of a joint's other body find them made
+  for (const Block& block : blocks) {  // the blocks of a joint's other body use the same ones
     if (all.places[static_cast<std::size_t>(block.row)].node < 0) add(block.row, block.num_rows);
   }
-  for (int i = 0; i < num_constraints; ++i) {  // no body: zero, which makes the matrix singular
+  for (int i = 0; i < num_constraints; ++i) {  // without a body: a zero, which makes the matrix singular
     if (all.places[static_cast<std::size_t>(i)].node < 0) add(i, 1);
   }
   return all;
@@ -98,7 +98,7 @@ MultiplierSolver::MultiplierSolver(const BlockJacobian& jacobian, int num_constr
   work_.resize(all.num_rows.size());
 }
 
-// Of each pair the one whose rows the factor stores; of one node that is twice on a body, both.
+// Of each pair of nodes the product whose rows the factor stores; both where a node is on a body twice.
 void MultiplierSolver::list_products(BodyPart& part) {
   const std::span members(members_.data() + part.first_member, part.last_member - part.first_member);
   part.first_product = products_.size();

@@ -12,10 +12,10 @@
 namespace sprung::dynamics {
 
 /// Solves (φ_q M⁻¹ φ_qᵀ) λ = r. The matrix couples only constraints that share a body: the cost grows with
-/// the number of such pairs and of what elimination adds to them. No allocation once made.
+/// the number of such pairs and with the fill-in of the elimination. Allocates nothing once made.
 ///
-/// Constraints are taken two at a time, as nodes; of a joint with an odd number the last one has beside it a
-/// row that is coupled with nothing.
+/// Two constraints of a joint at a time form a node. If their number is odd, the last node has a second row
+/// that is coupled with nothing.
 class MultiplierSolver {
  public:
   MultiplierSolver(const BlockJacobian& jacobian, int num_constraints);
@@ -27,8 +27,7 @@ class MultiplierSolver {
   int num_factor_entries() const { return factor_.num_factor_entries(); }
 
  private:
-  // What a node has on a body: one or two rows of the Jacobian, made ready for products
-  // (BodyMass::reduce_rows).
+  // The one or two rows of the Jacobian of a node on a body, prepared for products (BodyMass::reduce_rows).
   struct Member {
     int node;
     int num_rows;

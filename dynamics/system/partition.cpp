@@ -14,7 +14,7 @@ constexpr double kRankTolerance = 1e-9;  // of unit rows; assembled positions ar
 // A smallest pivot above this share of the largest leaves no singular value below kRankTolerance.
 constexpr double kSafePivot = 1e-6;
 
-// φ_q with columns scaled by 1/√M_ii: the constraints as the masses feel them.
+// φ_q with columns scaled by 1/√M_ii.
 Eigen::SparseMatrix<double> scaled_jacobian(const SystemTerms& terms) {
   const Model& model = terms.model();
   Eigen::VectorXd scales(model.num_coordinates);
@@ -56,7 +56,7 @@ std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
   const ColumnPivots pivots = choose_columns(rows);
   const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
   if (*smallest > kSafePivot * *largest) return {};
-  // Which ones take part is a question for those who made a mistake: it may take its time.
+  // The model probably contains a mistake: the cost of finding its place does not matter.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.toDense(), Eigen::ComputeFullU);
   std::vector<int> found;
   const auto singular = svd.singularValues();

@@ -19,8 +19,8 @@ struct Partition {
 /// Source: [Wehage & Haug 1982]
 Partition choose_partition(const SystemTerms& terms);
 
-/// Constraints that follow from others, and joints that cannot be satisfied together, are found at assembly;
-/// this is the test both use: rows of φ_q whose scaled pivots vanish.
+/// Finds constraints that depend on each other linearly: rows of φ_q whose scaled pivots vanish. The assembly
+/// uses it for constraints that follow from others and for joints that cannot be satisfied together.
 /// @return indices of constraints that take part in a linear dependence, empty where φ_q has full row rank
 std::vector<int> find_dependent_constraints(const SystemTerms& terms);
 

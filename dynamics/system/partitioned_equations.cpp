@@ -9,12 +9,12 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kAssemblyTolerance = 1e-12;  // of the model's length scale
-constexpr double kAim = 0.01;  // of the tolerance: what is left would else be noise to a fine integration
+constexpr double kAim = 0.01;  // of the tolerance: a larger residual would be noise to a fine integration
 // Of the length scale, (kAim kAssemblyTolerance)^(3/5): after a step d the first residual r is of order d³
 // and falls by the share d = r^(1/3), so that r d² is left after two iterations.
 constexpr double kLargeFirst = 4e-9;
 constexpr int kMaxNewtonIterations = 12;
-constexpr int kIterationsToRounding = 3;  // after which coordinates are as good as their rounding allows
+constexpr int kIterationsToRounding = 3;  // after them only the rounding of coordinates is left
 
 }  // namespace
 
@@ -23,15 +23,14 @@ PartitionedEquations::PartitionedEquations(const Model& model)
       full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  q_ = v_ = last_good_q_ = marked_q_ = marked_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  accepted_q_ = accepted_v_ = trial_q_ = trial_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
   residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
   step_.resize(static_cast<std::size_t>(num_freedoms_));
 }
 
 void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorXd& q) {
-  q_ = last_good_q_ = q;
-  has_accelerations_ = false;
-  mutable_terms().update_positions(time, q_);
+  accept_motion(time, q, Eigen::VectorXd::Zero(model_->num_coordinates));
+  mutable_terms().update_positions(time, q);
   mutable_terms().update_jacobian();
   mutable_terms().update_mass();
   partition_ = choose_partition(terms());
@@ -46,24 +45,36 @@ void PartitionedEquations::choose_partition_at(double time, const Eigen::VectorX
   }
 }
 
-void PartitionedEquations::mark(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  marked_time_ = time;
-  marked_q_ = q;
-  marked_v_ = v;
+void PartitionedEquations::accept_motion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  accepted_time_ = time;
+  accepted_q_ = q;
+  accepted_v_ = v;
 }
 
-void PartitionedEquations::return_to_mark() {
-  q_ = last_good_q_ = marked_q_;
-  has_accelerations_ = false;
-  mutable_terms().update_positions(marked_time_, q_);
+void PartitionedEquations::accept_motion() {
+  if (terms().has(SystemTerms::Term::kVelocities)) accept_motion(terms().time(), q(), v());
+}
+
+void PartitionedEquations::return_to_accepted() {
+  mutable_terms().update_positions(accepted_time_, accepted_q_);
   refactor();
 }
 
-bool PartitionedEquations::has_lost_turns(double time) const {
-  const double half = 0.5 * (time - marked_time_);
+bool PartitionedEquations::has_lost_turns() const {
+  const double half = 0.5 * (terms().time() - accepted_time_);
   return std::any_of(dependent_angles_.begin(), dependent_angles_.end(), [&](int i) {
-    return std::abs(q_[i] - marked_q_[i] - half * (marked_v_[i] + v_[i])) > std::numbers::pi;
+    return std::abs(q()[i] - accepted_q_[i] - half * (accepted_v_[i] + v()[i])) > std::numbers::pi;
   });
+}
+
+bool PartitionedEquations::is_at(double time, std::span<const double> q_independent,
+                                 std::span<const double> v_independent) const {
+  if (terms().time() != time || !terms().has(SystemTerms::Term::kVelocities)) return false;
+  for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
+    const int i = partition_.independent[k];
+    if (q()[i] != q_independent[k] || v()[i] != v_independent[k]) return false;
+  }
+  return true;
 }
 
 void PartitionedEquations::refactor() {
@@ -71,26 +82,26 @@ void PartitionedEquations::refactor() {
   dependents_.factorise(terms().jacobian());
 }
 
-// Newton for the dependents. The factors of φ_d are from the last positions: renewing them costs about as
-// much as an iteration, and is done where more than two would be needed without.
+// Newton's iteration for the dependent coordinates. The factors of φ_d are those of the last positions: new
+// ones cost about as much as an iteration, and are computed where more than two would be needed without them.
 bool PartitionedEquations::solve_dependents(double time) {
   const double tolerance = kAssemblyTolerance * model_->length_scale;
   double last = 0.0;
   for (int iteration = 0; iteration < kMaxNewtonIterations; ++iteration) {
-    mutable_terms().place_joints(time, q_);
+    mutable_terms().place_joints(time, trial_q_);
     if (num_constraints_ == 0) return true;
     terms().calc_residual(residual_);
     const double size = residual_.lpNorm<Eigen::Infinity>();
-    if (!residual_.allFinite()) return false;  // the largest one may pass over what is no number
+    if (!residual_.allFinite()) return false;  // the norm may pass over a NaN
     if (size <= tolerance) return true;
-    if (iteration >= kIterationsToRounding && size <= model_->calc_rounding(q_)) return true;
+    if (iteration >= kIterationsToRounding && size <= model_->calc_rounding(trial_q_)) return true;
     const bool is_slow = iteration == 0 ? size > kLargeFirst * model_->length_scale
                                         : size * (size / last) * (size / last) > kAim * tolerance;
     if (is_slow) refactor();
     last = size;
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
-      q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
+      trial_q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
     }
   }
   return false;
@@ -98,18 +109,20 @@ bool PartitionedEquations::solve_dependents(double time) {
 
 PartitionedEquations::Outcome PartitionedEquations::update_positions(double time,
                                                                      std::span<const double> q_independent) {
-  // The dependents go along with the independents by the last factors, and with the last accelerations where
-  // those are known: with both, to second order in time. Then Newton closes the joints.
+  // The prediction: the dependents follow the independents by the last factors, and by the last accelerations
+  // where those are known; with both it is right to second order in time. Then Newton closes the joints.
   const double since = time - terms().time();
-  const double bend = has_accelerations_ ? 0.5 * since * since : 0.0;
-  has_accelerations_ = false;
-  // Accelerations that do not count may be no numbers.
-  const auto drift = [&](int i) { return bend > 0.0 ? bend * v_dot()[i] : 0.0; };
+  const double weight = full_.has_accelerations() ? 0.5 * since * since : 0.0;
+  // Accelerations that do not count may be NaN.
+  const auto drift = [&](int i) { return weight > 0.0 ? weight * v_dot()[i] : 0.0; };
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     const int i = partition_.independent[k];
-    if (!std::isfinite(q_independent[k])) return Outcome::kNotFinite;
-    step_[k] = q_independent[k] - q_[i] - drift(i);
-    q_[i] = q_independent[k];
+    if (!std::isfinite(q_independent[k])) {
+      return_to_accepted();
+      return Outcome::kNotFinite;
+    }
+    step_[k] = q_independent[k] - q()[i] - drift(i);
+    trial_q_[i] = q_independent[k];
   }
   if (num_constraints_ > 0) {
     residual_.setZero();
@@ -117,42 +130,45 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
       const int i = partition_.dependent[k];
-      q_[i] += drift(i) - correction_[static_cast<Eigen::Index>(k)];
+      trial_q_[i] = q()[i] + (drift(i) - correction_[static_cast<Eigen::Index>(k)]);
     }
   }
-  bool assembled = solve_dependents(time);
-  if (assembled) {
+  if (solve_dependents(time)) {
     mutable_terms().place_others();
     refactor();
-    assembled = !dependents_.is_mirrored();
+    if (!dependents_.is_mirrored()) return Outcome::kGood;
   }
-  if (assembled) {
-    last_good_q_ = q_;
-    return Outcome::kGood;
-  }
-  q_ = last_good_q_;  // the next search starts where the last one ended well
-  mutable_terms().update_positions(time, q_);
-  refactor();
+  return_to_accepted();
   return Outcome::kNotAssembled;
 }
 
 void PartitionedEquations::update_velocities(std::span<const double> v_independent) {
   for (std::size_t k = 0; k < partition_.independent.size(); ++k)
-    v_[partition_.independent[k]] = v_independent[k];
+    trial_v_[partition_.independent[k]] = v_independent[k];
   if (num_constraints_ > 0) {
     terms().calc_time_rate(residual_);
     dependents_.add_independent_product(v_independent, residual_);
     dependents_.solve(residual_, correction_);
     for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
-      v_[partition_.dependent[k]] = -correction_[static_cast<Eigen::Index>(k)];
+      trial_v_[partition_.dependent[k]] = -correction_[static_cast<Eigen::Index>(k)];
     }
   }
-  mutable_terms().update_velocities(v_);
+  mutable_terms().update_velocities(trial_v_);
+}
+
+PartitionedEquations::Outcome PartitionedEquations::update_motion(double time,
+                                                                  std::span<const double> q_independent,
+                                                                  std::span<const double> v_independent) {
+  const Outcome outcome = update_positions(time, q_independent);
+  if (outcome != Outcome::kGood) return outcome;
+  update_velocities(v_independent);
+  if (!has_lost_turns()) return Outcome::kGood;
+  return_to_accepted();
+  return Outcome::kNotAssembled;
 }
 
 PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::span<const int> branches) {
-  has_accelerations_ = full_.update_accelerations(branches);
-  return has_accelerations_ ? Outcome::kGood : Outcome::kNotFinite;
+  return full_.update_accelerations(branches) ? Outcome::kGood : Outcome::kNotFinite;
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {
@@ -183,7 +199,7 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
 Eigen::VectorXd PartitionedEquations::calc_reduced_force(const Eigen::MatrixXd& directions) const {
   // Dᵀφ_qᵀ = 0: multipliers do no work along the free directions.
   Eigen::VectorXd force = terms().forces();
-  Eigen::VectorXd alpha = v_dot();  // what is left of q̈ when the independents' is taken away: D q̈_i
+  Eigen::VectorXd alpha = v_dot();  // q̈ without the part D q̈_i that follows the independent coordinates
   Eigen::VectorXd independent(num_freedoms_);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
     independent[static_cast<Eigen::Index>(k)] = v_dot()[partition_.independent[k]];

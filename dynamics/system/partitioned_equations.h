@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dynamics/system/constrained_equations.h"
@@ -13,38 +14,44 @@ namespace sprung::dynamics {
 
 /// The equations of motion in the independent coordinates (generalized coordinate partitioning): given q_i
 /// and v_i, finds q_d, v_d, all accelerations and the multipliers (system, eqs. 4–7). The cost grows with the
-/// number of joints and, for each body, with its modes; no allocation in the evaluating functions, but where
+/// number of joints and, for each body, with its modes. The evaluating functions allocate nothing, unless
 /// pivots of φ_d are chosen anew (SparseLu). f freedoms, m constraints, nq coordinates.
+///
+/// A search for positions can fail: too far a step, or a position near a singular one. The equations then go
+/// back to the *accepted motion*, the last one known to be right, and the next search starts there.
 /// Source: [Wehage & Haug 1982]
 class PartitionedEquations {
  public:
   enum class Outcome {
     kGood,
     kNotAssembled,  ///< the dependent coordinates did not converge, or to another way of assembling the
-                    ///< mechanism: too far a step, or near a singular position
+                    ///< mechanism, or with some bodies full turns off
     kNotFinite,     ///< NaN or infinity came out
   };
 
   explicit PartitionedEquations(const Model& model);
 
-  /// Chooses the partition at q, which must satisfy the constraints closely; positions q become the start of
-  /// the next search for dependents.
+  /// Chooses the partition at q, which has to satisfy the constraints closely, and accepts q at rest.
   void choose_partition_at(double time, const Eigen::VectorXd& q);
   const Partition& partition() const { return partition_; }
-  /// Marks a motion as one that has really been come to.
-  void mark(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  /// The next search for dependents starts at the marked positions, and not where a trial too far away has
-  /// ended.
-  void return_to_mark();
-  /// Whether a dependent angle has turned by half a turn more or less since the mark than its velocities then
-  /// and now tell: Newton may find the mechanism assembled, but full turns off. After update_velocities.
-  bool has_lost_turns(double time) const;
   int num_freedoms() const { return num_freedoms_; }
+  /// Accepts a motion of all coordinates.
+  void accept_motion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// Accepts the motion at which the equations stand, if it is complete.
+  void accept_motion();
 
-  /// Positions: dependents from independents, Jacobian and its factors.
+  /// Positions: dependents from independents, Jacobian and its factors. Where it fails, the positions are
+  /// those of the accepted motion, without velocities.
   Outcome update_positions(double time, std::span<const double> q_independent);
   /// Velocities, after update_positions.
   void update_velocities(std::span<const double> v_independent);
+  /// Positions and velocities. They are refused, too, where a dependent angle has turned by half a turn more
+  /// or less since the accepted motion than its velocities there and here give: the mechanism is assembled,
+  /// but full turns off.
+  Outcome update_motion(double time, std::span<const double> q_independent,
+                        std::span<const double> v_independent);
+  /// Whether the equations stand at this motion, velocities included.
+  bool is_at(double time, std::span<const double> q_independent, std::span<const double> v_independent) const;
   /// Accelerations and multipliers, after update_velocities: M q̈ + φ_qᵀλ = Q.
   Outcome update_accelerations(std::span<const int> branches);
 
@@ -53,12 +60,16 @@ class PartitionedEquations {
 
   /// Brings the markers that only results ask for up to date as well.
   void update_all_markers() { mutable_terms().update_all_markers(); }
+  /// Forces on modes that come from the run, see SystemTerms.
+  void set_fading_forces(std::vector<FadingForce> fading) {
+    mutable_terms().set_fading_forces(std::move(fading));
+  }
 
   /// The equations in all coordinates, at the motion evaluated last.
   const ConstrainedEquations& constrained() const { return full_; }
   const SystemTerms& terms() const { return full_.terms(); }
-  const Eigen::VectorXd& q() const { return q_; }
-  const Eigen::VectorXd& v() const { return v_; }
+  const Eigen::VectorXd& q() const { return full_.q(); }
+  const Eigen::VectorXd& v() const { return full_.v(); }
   const Eigen::VectorXd& v_dot() const { return full_.v_dot(); }
   const Eigen::VectorXd& multipliers() const { return full_.multipliers(); }
 
@@ -78,6 +89,8 @@ class PartitionedEquations {
  private:
   SystemTerms& mutable_terms() { return full_.terms(); }
   bool solve_dependents(double time);
+  bool has_lost_turns() const;
+  void return_to_accepted();
   void refactor();
 
   const Model* model_;
@@ -85,14 +98,14 @@ class PartitionedEquations {
   Partition partition_;
   DependentSolver dependents_;
   int num_freedoms_, num_constraints_;
-
-  Eigen::VectorXd q_, v_, last_good_q_;
   std::vector<int> dependent_angles_;  // coordinates
-  Eigen::VectorXd marked_q_, marked_v_;
-  double marked_time_ = 0.0;
+
+  double accepted_time_ = 0.0;
+  Eigen::VectorXd accepted_q_, accepted_v_;  // nq
+  // Work space.
+  Eigen::VectorXd trial_q_, trial_v_;      // nq
   Eigen::VectorXd residual_, correction_;  // m
   std::vector<double> step_;               // of the independents, f
-  bool has_accelerations_ = false;         // at q_
 };
 
 }  // namespace sprung::dynamics

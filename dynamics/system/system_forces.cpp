@@ -1,27 +1,27 @@
-// What SystemTerms does about forces, and the energy that goes with them.
-#include "dynamics/system/system_terms.h"
+#include "dynamics/system/system_forces.h"
 
 namespace sprung::dynamics {
 
-void SystemTerms::add_wrench(const MovingMarker& moving, const Wrench& wrench,
-                             Eigen::VectorXd& forces) const {
-  const MarkerState& state = markers_[moving.marker];
-  double* Q = forces.data() + moving.first_coordinate;
-  const MarkerRow row{wrench.force.x(), wrench.force.y(), wrench.torque};
-  Q[0] += row.x;
-  Q[1] += row.y;
-  Q[2] += row.by_theta(state);
-  if (moving.is_rigid()) return;
-  const MarkerRow in_body = row.in_body(state.rotation);
-  const double* shape = state.Phi.data();
-  for (int k = 3; k < moving.num_coordinates; ++k, shape += 3) Q[k] += in_body.by_mode(shape);
+SystemForces::SystemForces(const Model& model, const std::vector<BodyMass>& masses)
+    : model_(&model), wrenches_(model.markers.size()), Q_(Eigen::VectorXd::Zero(model.num_coordinates)) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    if (masses[b].is_constant())
+      constant_bodies_.push_back({model.bodies[b].first_coordinate, model.bodies[b].mass});
+    else
+      varying_bodies_.push_back(b);
+  }
+  for (const int i : model.acting_markers) {
+    const auto marker = static_cast<std::size_t>(i);
+    if (model.markers[marker].body == kGround) continue;
+    const Body& body = model.bodies[static_cast<std::size_t>(model.markers[marker].body)];
+    acting_markers_.push_back({marker, body.first_coordinate, body.num_coordinates()});
+  }
 }
 
-void SystemTerms::update_forces(std::span<const int> branches) {
-  assert(has(Term::kPositions) && has(Term::kVelocities));
+void SystemForces::update(const SystemMotion& motion, std::span<const int> branches) {
   for (const int i : model_->acting_markers) wrenches_[static_cast<std::size_t>(i)] = Wrench{};
   power_ = {};
-  const Instant now = instant();
+  const Instant now{motion.time, motion.markers};
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
     const Power power = force.add_wrenches(now, model_->branches_of(f, branches), wrenches_);
@@ -29,29 +29,44 @@ void SystemTerms::update_forces(std::span<const int> branches) {
     power_.input += power.input;
   }
   Q_.setZero();
-  for (const MovingMarker& moving : acting_markers_) {
-    const Wrench& wrench = wrenches_[moving.marker];
-    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(moving, wrench, Q_);
+  for (const ActingMarker& acting : acting_markers_) {
+    const Wrench& wrench = wrenches_[acting.marker];
+    if (!wrench.force.isZero(0.0) || wrench.torque != 0.0) add_wrench(acting, motion.markers[acting.marker]);
   }
   for (const ConstantBody& body : constant_bodies_) {
     Q_[body.first_coordinate] += body.mass * model_->gravity.x();
     Q_[body.first_coordinate + 1] += body.mass * model_->gravity.y();
   }
-  for (const std::size_t b : varying_bodies_) add_body_forces(b);
-  set(Term::kForces);
+  for (const std::size_t b : varying_bodies_) add_body_forces(b, motion);
+  if (!fading_.empty()) add_fading_forces(motion);
+}
+
+void SystemForces::add_wrench(const ActingMarker& acting, const MarkerState& state) {
+  const Wrench& wrench = wrenches_[acting.marker];
+  double* Q = Q_.data() + acting.first_coordinate;
+  const MarkerRow row{wrench.force.x(), wrench.force.y(), wrench.torque};
+  Q[0] += row.x;
+  Q[1] += row.y;
+  Q[2] += row.by_theta(state);
+  if (acting.num_coordinates == 3) return;
+  const MarkerRow in_body = row.in_body(state.rotation);
+  const double* shape = state.Phi.data();
+  for (int k = 3; k < acting.num_coordinates; ++k, shape += 3) Q[k] += in_body.by_mode(shape);
 }
 
 // Weight, quadratic velocity terms, stiffness, damping.
-void SystemTerms::add_body_forces(std::size_t b) {
+void SystemForces::add_body_forces(std::size_t b, const SystemMotion& motion) {
   const Body& body = model_->bodies[b];
+  const FrameRotation& rotation = motion.rotations[b];
   const int first = body.first_coordinate;
   const Eigen::Index n = body.num_modes();
-  const auto eta = q_.segment(first + 3, n);
-  const auto eta_dot = v_.segment(first + 3, n);
+  const auto eta = motion.q.segment(first + 3, n);
+  const auto eta_dot = motion.v.segment(first + 3, n);
+  const double theta_dot = motion.v[first + 2];
   auto Q = Q_.segment(first, 3 + n);
-  add_gravity_forces(body, rotations_[b], model_->gravity, eta, Q);
-  add_quadratic_velocity_forces(body, rotations_[b], v_[first + 2], eta, eta_dot, Q);
-  if (body.stiffening) add_stiffening_forces(*body.stiffening, v_[first + 2], eta, eta_dot, Q);
+  add_gravity_forces(body, rotation, model_->gravity, eta, Q);
+  add_quadratic_velocity_forces(body, rotation, theta_dot, eta, eta_dot, Q);
+  if (body.stiffening) add_stiffening_forces(*body.stiffening, theta_dot, eta, eta_dot, Q);
   for (Eigen::Index i = 0; i < n; ++i) {
     double damping_force = 0.0;
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -61,54 +76,14 @@ void SystemTerms::add_body_forces(std::size_t b) {
     Q[3 + i] -= damping_force;
     power_.dissipated += damping_force * eta_dot[i];
   }
-  for (const FadingForce& fading : body.fading) {
-    const double value = fading.value(time_);
-    Q[3 + fading.mode] += value;
-    power_.input += value * eta_dot[fading.mode];
-  }
 }
 
-void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const {
-  assert(has(Term::kJacobian) && has(Term::kForces));
-  std::copy(wrenches_.begin(), wrenches_.end(), loads.begin());
-  for (const JointTerms& terms : joints_) {
-    for (const JointSide* side : {&terms.a, &terms.b}) {
-      Wrench& load = loads[side->marker];
-      for (int k = 0; k < terms.num_rows; ++k) {
-        const double multiplier = lambda[terms.row + k];
-        load.force -= multiplier * side->G.row(k).head<2>().transpose();
-        load.torque -= multiplier * side->G(k, 2);
-      }
-    }
+void SystemForces::add_fading_forces(const SystemMotion& motion) {
+  for (const FadingForce& fading : fading_) {
+    const double value = fading.value(motion.time);
+    Q_[fading.coordinate] += value;
+    power_.input += value * motion.v[fading.coordinate];
   }
-}
-
-void SystemTerms::choose_branches(std::span<int> branches) const {
-  const Instant now = instant();
-  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
-    const ForceElement& force = *model_->forces[f];
-    force.choose_branches(now, model_->branches_of(f, branches));
-  }
-}
-
-Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
-  const Model& model = terms.model();
-  Energy energy;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    const Eigen::VectorXd q = terms.q().segment(body.first_coordinate, body.num_coordinates());
-    const Eigen::VectorXd v = terms.v().segment(body.first_coordinate, body.num_coordinates());
-    const Eigen::VectorXd eta = q.tail(body.num_modes());
-    energy.kinetic += 0.5 * v.dot(terms.mass(b) * v);
-    energy.strain += 0.5 * eta.dot(body.stiffness * eta);
-    const Eigen::Vector2d moment = FrameRotation::from_angle(q[2]) * calc_first_moment(body, eta);
-    energy.gravity -= model.gravity.dot(body.mass * q.head<2>() + moment);
-  }
-  for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const ForceElement& force = *model.forces[f];
-    energy.spring += force.calc_stored_energy(terms.instant(), model.branches_of(f, branches));
-  }
-  return energy;
 }
 
 }  // namespace sprung::dynamics

@@ -6,6 +6,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
+#include "tests/dynamics/momentum.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/truck.h"
 
@@ -27,8 +28,7 @@ Totals sum_up(const dynamics::Model& model, const VectorXd& q, const VectorXd& v
   Totals totals;
   for (const dynamics::Body& body : model.bodies) {
     const Index first = body.first_coordinate, size = body.num_coordinates();
-    const dynamics::Momentum momentum =
-        dynamics::calc_momentum(body, q.segment(first, size), v.segment(first, size));
+    const test::Momentum momentum = test::calc_momentum(body, q.segment(first, size), v.segment(first, size));
     totals.momentum += momentum.linear;
     totals.angular_momentum += momentum.angular;
     totals.mass += body.mass;

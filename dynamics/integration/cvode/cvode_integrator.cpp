@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 
+#include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
 #include "dynamics/integration/touch_search.h"
 #include "tools/support/errors/numerical_error.h"
@@ -47,6 +48,10 @@ int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void*
   const auto* callback = static_cast<Callback*>(data);
   const std::span<double> result(switches, static_cast<std::size_t>(callback->system->num_switches()));
   return callback->system->calc_switches(time, values(y), result) ? 0 : -1;
+}
+
+std::span<double> span_of(Eigen::VectorXd& x) {
+  return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
 int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
@@ -119,6 +124,7 @@ struct CvodeIntegrator::Memory {
   bool started = false;
   TouchSearch touch_search{0};
   Eigen::VectorXd begin_switches, end_switches;  // at the ends of the step
+  Eigen::VectorXd between;                       // y within the step
   Integrator::Statistics before;                 // of the runs before the last restart
 
   void check(int code, const char* what) const {
@@ -171,6 +177,7 @@ CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options)
     memory.check(CVodeSetNoInactiveRootWarn(memory.cvode), "CVodeSetNoInactiveRootWarn");
     memory.touch_search = TouchSearch(system.num_switches());
     memory.begin_switches = memory.end_switches = Eigen::VectorXd::Zero(system.num_switches());
+    memory.between = Eigen::VectorXd::Zero(system.size());
   }
 }
 
@@ -189,49 +196,48 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
   time_ = time;
   end_time_ = end_time;
   memory.touch_search.forget();
-  calc_switches(time_, memory.end_switches);
+  calc_switches(time_, values(memory.y), memory.end_switches);
 }
 
-// At y.
-void CvodeIntegrator::calc_switches(double time, Eigen::VectorXd& switches) {
+void CvodeIntegrator::calc_switches(double time, std::span<const double> y, Eigen::VectorXd& switches) {
   if (switches.size() == 0) return;
-  if (evaluate_switches(time, memory_->y, switches.data(), &memory_->callback) == 0) return;
+  if (memory_->callback.system->calc_switches(time, y, span_of(switches))) return;
   throw_stopped(time, "no positions can be found there");
 }
 
-// CVODE looks at switches at the ends of a step: what becomes negative and positive again within is found
-// here. y and time_ are there then.
+// CVODE evaluates switches at the ends of a step: a function that becomes negative and positive again within
+// the step is found here. y and time_ are at its first zero then.
 bool CvodeIntegrator::locate_touch(double from) {
   Memory& memory = *memory_;
   if (memory.end_switches.size() == 0) return false;
   const double to = time_, length = to - from;
   memory.begin_switches.swap(memory.end_switches);
-  calc_switches(to, memory.end_switches);
+  calc_switches(to, values(memory.y), memory.end_switches);
   if (!(length > kShortestStep)) return false;
-  bool has_moved = false;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(to)) / length;
-  const auto move_to = [&](double time) { interpolate(time, values(memory.y)); };
-  const std::optional<double> theta =
-      memory.touch_search.find(memory.begin_switches, memory.end_switches, length, tolerance,
-                               [&](double place, Eigen::VectorXd& switches) {
-                                 has_moved = true;
-                                 move_to(from + place * length);
-                                 calc_switches(from + place * length, switches);
-                               });
-  if (theta) {
-    time_ = from + *theta * length;
-    move_to(time_);
-  } else if (has_moved) {
-    move_to(to);
-    calc_switches(to, memory.end_switches);
-  }
-  return theta.has_value();
+  bool has_left = false;  // the end of the step
+  const auto evaluate_at = [&](double place, Eigen::VectorXd& switches) {
+    has_left = true;
+    interpolate(from + place * length, span_of(memory.between));
+    calc_switches(from + place * length, span_of(memory.between), switches);
+  };
+  const auto search = [&] {
+    return memory.touch_search.find(memory.begin_switches, memory.end_switches, length, tolerance,
+                                    evaluate_at);
+  };
+  const auto go_back = [&] {
+    if (has_left) calc_switches(to, values(memory.y), memory.end_switches);
+  };
+  const std::optional<double> theta = attempt_or_go_back(search, go_back);
+  if (!theta) return false;
+  time_ = from + *theta * length;
+  interpolate(time_, values(memory.y));
+  return true;
 }
 
 Integrator::StepResult CvodeIntegrator::step(double longest_step) {
   Memory& memory = *memory_;
-  if (end_time_ - time_ <= kShortestStep)
-    return StepResult::kEnded;  // started anew by a switch at the very end
+  if (end_time_ - time_ <= kShortestStep) return StepResult::kEnded;  // restarted by a switch at the very end
   memory.check(CVodeSetMaxStep(memory.cvode, std::isfinite(longest_step) ? longest_step : 0.0),
                "CVodeSetMaxStep");
   const double from = time_;

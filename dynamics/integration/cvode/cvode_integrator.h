@@ -24,7 +24,7 @@ class CvodeIntegrator final : public Integrator {
   Statistics statistics() const override;
 
  private:
-  void calc_switches(double time, Eigen::VectorXd& switches);
+  void calc_switches(double time, std::span<const double> y, Eigen::VectorXd& switches);
   bool locate_touch(double from);
 
   struct Memory;  // SUNDIALS' handles

@@ -44,7 +44,7 @@ void CollocationStep::propagate_quartic(const LobattoPropagator& propagator, con
 DrivePrediction::DrivePrediction(Eigen::Index num_pairs, Eigen::Index num_quadratures) {
   const CollocationStep step(num_pairs, num_quadratures);
   expected_ = step.drive;
-  surprise_ = at_ = step.motion;
+  jump_ = difference_ = at_ = step.motion;
 }
 
 void DrivePrediction::predict(const CollocationStep& last, Past past, CollocationStep& now) {
@@ -52,9 +52,9 @@ void DrivePrediction::predict(const CollocationStep& last, Past past, Collocatio
   const double ratio = past == Past::kNone ? 0.0 : now.length / last.length;
   const double origin = past == Past::kNone ? 0.0 : (now.start - last.start) / last.length;
   if (past == Past::kSwitched) {
-    last.calc_drive(origin, surprise_);
-    surprise_.u = drive.pairs.col(0) - surprise_.u;
-    surprise_.w = drive.rates.col(0) - surprise_.w;
+    last.calc_drive(origin, at_);
+    jump_.u = drive.pairs.col(0) - at_.u;
+    jump_.w = drive.rates.col(0) - at_.w;
   }
   std::array<double, kNumNodes> shape{};  // of the error that is left
   for (int j = 1; j < kNumNodes; ++j) {
@@ -68,8 +68,8 @@ void DrivePrediction::predict(const CollocationStep& last, Past past, Collocatio
     last.calc_drive(theta, at_);
     drive.set(j, at_);
     if (past == Past::kSwitched) {
-      drive.pairs.col(j) += surprise_.u;
-      drive.rates.col(j) += surprise_.w;
+      drive.pairs.col(j) += jump_.u;
+      drive.rates.col(j) += jump_.w;
     } else if (last.has_quartic) {
       drive.pairs.col(j) += node_polynomial(theta) * last.quartic.u;
       drive.rates.col(j) += node_polynomial(theta) * last.quartic.w;
@@ -81,12 +81,12 @@ void DrivePrediction::predict(const CollocationStep& last, Past past, Collocatio
   weights_(3, 2) = shape[3] / shape[2] * (node(3) - node(1)) / (node(2) - node(1));
 }
 
-void DrivePrediction::learn(int from, CollocationStep& now) {
-  surprise_.u = now.drive.pairs.col(from) - expected_.pairs.col(from);
-  surprise_.w = now.drive.rates.col(from) - expected_.rates.col(from);
+void DrivePrediction::correct(int from, CollocationStep& now) {
+  difference_.u = now.drive.pairs.col(from) - expected_.pairs.col(from);
+  difference_.w = now.drive.rates.col(from) - expected_.rates.col(from);
   for (int j = from + 1; j < kNumNodes; ++j) {
-    expected_.pairs.col(j) += weights_(j, from) * surprise_.u;
-    expected_.rates.col(j) += weights_(j, from) * surprise_.w;
+    expected_.pairs.col(j) += weights_(j, from) * difference_.u;
+    expected_.rates.col(j) += weights_(j, from) * difference_.w;
     now.drive.pairs.col(j) = expected_.pairs.col(j);
     now.drive.rates.col(j) = expected_.rates.col(j);
   }

@@ -15,7 +15,7 @@ using lobatto::combine;
 using lobatto::cubic_weights;
 using lobatto::node_polynomial;
 
-constexpr double kFirstLength = 1e-3;    // s; too long a step is found out
+constexpr double kFirstLength = 1e-3;    // s; a step that is too long is repeated
 constexpr double kShortestStep = 1e-12;  // s
 
 constexpr int kMaxSweeps = 6;
@@ -24,8 +24,8 @@ constexpr double kFirstContraction = 0.3;  // until it is known
 constexpr double kLeastContraction = 0.02;
 constexpr double kUselessContraction = 0.9;
 constexpr double kHopelessError =
-    2.0;  // of what is allowed, at which a step is given up before its iteration ends
-// The oscillators may be those of a state long past: iterations that fail, or are slow step after step, tell.
+    2.0;  // of what is allowed: a step with more is given up before its iteration ends
+// The pairs may be those of a state long past: iterations that fail, or are slow step after step, show it.
 constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
 constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
 
@@ -35,14 +35,14 @@ constexpr double kMemory =
     0.5;  // share of the last step's error that counts: an estimate may pass through zero
 // A step is kept as it is where a better one would hardly be longer: its propagators can be used again.
 constexpr double kWorthwhile = 1.15;
-// A step that may hide a switch is made anew with this part of its length; how long it was is forgotten
-// slowly.
+// A step that may hide a switch is repeated with this part of its length; the bound on the length of later
+// steps grows slowly.
 constexpr double kOfHiding = 0.5, kForgetting = 1.1;
 constexpr double kTruncationOfFirst =
-    0.3;  // part of fourth degree, of that of third, where no step was before
+    0.3;  // part of fourth degree over that of third, for a step without one before it
 
-// Time of a switch: a force that sets in late by this, at a tolerance of 1, changes the velocity by far less
-// than is allowed.
+// Error in the time of a switch at a tolerance of 1: a force that begins so late changes the velocity by far
+// less than is allowed.
 constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
 
@@ -63,8 +63,8 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
       prediction_(system.num_freedoms(), now_.motion.w.size()),
       contraction_(kFirstContraction) {
   if (system.num_freedoms() == 0) throw std::invalid_argument("ExponentialIntegrator: needs a freedom");
-  y_dot_ = stage_y_ = between_y_ = y_;
-  end_ = difference_ = between_motion_ = now_.motion;
+  y_dot_ = stage_y_ = error_sizes_ = between_y_ = y_;
+  end_ = again_ = change_ = drive_at_ = truncated_ = at_switch_ = between_motion_ = now_.motion;
   stages_.fill(now_.motion);
   between_ = LobattoPropagator(system.num_freedoms());
   propagators_.fill(between_);
@@ -82,7 +82,7 @@ void ExponentialIntegrator::start(double time, std::span<const double> y, double
   if (next_length_ == 0.0) next_length_ = kFirstLength;
 }
 
-// Any pairs are right: what they leave out of the accelerations stays in the drive.
+// Any pairs are right: the drive holds all of the accelerations that they leave out.
 void ExponentialIntegrator::linearise() {
   SmallMotion motion;
   if (!system_.calc_small_motion(time_, y(), motion)) {
@@ -108,7 +108,7 @@ void ExponentialIntegrator::begin() {
   has_begun_ = true;
 }
 
-// The drive at stage_y_, which `motion` stands for.
+// The drive at stage_y_, the state of `motion`.
 bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
   if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
     return false;
@@ -125,16 +125,11 @@ bool ExponentialIntegrator::iterate() {
       now_.propagate(propagators_[node], coordinates_.blocks(), stages_[node]);
       coordinates_.to_state(stages_[node], stage_y_);
       if (!evaluate(now_.start + lobatto::node(i) * now_.length, stages_[node], i)) return false;
-      if (sweep == 1) prediction_.learn(i, now_);
+      if (sweep == 1) prediction_.correct(i, now_);
     }
-    double change = 0.0;
-    for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-      now_.propagate(propagators_[node], coordinates_.blocks(), end_);
-      difference_.u = end_.u - stages_[node].u;
-      difference_.w.setZero();
-      change = std::max(change, coordinates_.calc_norm(difference_));
-    }
-    if (!std::isfinite(change)) return false;
+    const double within = calc_change(1, again_), at_end = calc_change(kNumNodes - 1, end_);
+    if (!std::isfinite(within) || !std::isfinite(at_end)) return false;
+    const double change = std::max(within, at_end);
     if (sweep > 1 && last_change > 0.0) {
       contraction_ = std::max(kLeastContraction, 0.5 * (contraction_ + change / last_change));
       if (sweep > 2 && contraction_ > kUselessContraction) return false;
@@ -144,6 +139,14 @@ bool ExponentialIntegrator::iterate() {
     if (change * rate / (1.0 - rate) <= kIterationShare || calc_truncation() > kHopelessError) return true;
   }
   return false;
+}
+
+// Motion at a node by the present drive. @return norm of its difference from that of the last sweep
+double ExponentialIntegrator::calc_change(std::size_t node, PairedMotion& motion) {
+  now_.propagate(propagators_[node], coordinates_.blocks(), motion);
+  change_.u = motion.u - stages_[node].u;
+  change_.w.setZero();
+  return coordinates_.calc_norm(change_);
 }
 
 // Coefficients of the part of fourth degree: by the drive at one more point, the third node of the step
@@ -156,23 +159,24 @@ void ExponentialIntegrator::estimate_quartic() {
     combine(now_.drive.rates, third, now_.quartic.w);
     return;
   }
-  last_.calc_drive(lobatto::node(2), difference_);
+  last_.calc_drive(lobatto::node(2), drive_at_);
   const double theta = (lobatto::node(2) - 1.0) * last_.length / now_.length;
   const lobatto::NodeWeights weights = cubic_weights(theta);
   combine(now_.drive.pairs, weights, now_.quartic.u);
   combine(now_.drive.rates, weights, now_.quartic.w);
   const double divisor = node_polynomial(theta);
-  now_.quartic.u = (difference_.u - now_.quartic.u) / divisor;
-  now_.quartic.w = (difference_.w - now_.quartic.w) / divisor;
+  now_.quartic.u = (drive_at_.u - now_.quartic.u) / divisor;
+  now_.quartic.w = (drive_at_.w - now_.quartic.w) / divisor;
 }
 
-// What a part of fourth degree, which the cubics lack, would do at the second node and at the end.
+// The truncation error: the effect of a part of fourth degree, which the cubics lack, at the second node and
+// at the end.
 double ExponentialIntegrator::calc_truncation() {
   estimate_quartic();
   double sum = 0.0;
   for (const std::size_t node : {std::size_t{1}, std::size_t{3}}) {
-    now_.propagate_quartic(propagators_[node], coordinates_.blocks(), difference_);
-    const double size = coordinates_.calc_norm(difference_);
+    now_.propagate_quartic(propagators_[node], coordinates_.blocks(), truncated_);
+    const double size = coordinates_.calc_norm(truncated_);
     sum += size * size;
   }
   return std::sqrt(sum);
@@ -191,8 +195,8 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     time_ = end_time_;
     return StepResult::kEnded;
   }
-  system_.calc_error_scales(y(), span_of(stage_y_));
-  coordinates_.set_allowed_error(tolerance_, stage_y_);
+  system_.calc_error_scales(y(), span_of(error_sizes_));
+  coordinates_.set_allowed_error(tolerance_, error_sizes_);
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();
 
@@ -250,13 +254,12 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
 }
 
-// now_ becomes last_, and the next one starts at its end, to which iterate() has brought end_. @return true
-// if a switch cut it off
+// Makes now_ the last step; the next one starts at its end. @return true if a switch cut it off
 bool ExponentialIntegrator::finish_step() {
   if (switches_.crosses()) {
     locate_switch();
     std::swap(now_, last_);
-    coordinates_.to_state(between_motion_, y_);
+    coordinates_.to_state(at_switch_, y_);
     has_begun_ = false;
     return true;
   }
@@ -265,18 +268,18 @@ bool ExponentialIntegrator::finish_step() {
   coordinates_.to_state(end_, y_);
   std::swap(now_, last_);
   std::swap(now_.motion, end_);
-  last_.calc_drive(1.0, difference_);
-  now_.drive.set(0, difference_);
+  last_.calc_drive(1.0, drive_at_);
+  now_.drive.set(0, drive_at_);
   switches_.start_from(kNumNodes - 1);
   past_ = Past::kSmooth;
   return false;
 }
 
-// The first zero of a switch function in now_. time_ and between_motion_ are there.
+// Finds the first zero of a switch function in now_: time_ and at_switch_.
 void ExponentialIntegrator::locate_switch() {
   const double tolerance =
       std::max({kSwitchTolerance * tolerance_, kLeastSwitchTolerance, 4e-16 * std::abs(time_)});
-  const double theta = switches_.locate(now_, coordinates_, tolerance, between_motion_);
+  const double theta = switches_.locate(now_, coordinates_, tolerance, at_switch_);
   time_ = now_.start + theta * now_.length;
 }
 

@@ -11,12 +11,12 @@
 
 namespace sprung::dynamics {
 
-/// Exponential collocation. Small motion about a state on the way is taken apart into uncoupled pairs, which
-/// are solved exactly whatever their frequency and damping; what is left of the accelerations is a cubic over
-/// the step through its values at the four Lobatto points, found by iteration. So the step follows what
-/// excites stiff modes, not their period. Order 6 at the ends of steps, 4 within. Nothing from before a
-/// switch is needed behind it: the step stays as long as it was. Source: variation of constants; [Hochbruck &
-/// Ostermann 2010] (integration/exponential, eqs. 1–6).
+/// Exponential collocation. Small motion about an earlier state is decomposed into uncoupled pairs, which are
+/// solved exactly whatever their frequency and damping. The rest of the accelerations is a cubic over the
+/// step through its values at the four Lobatto points, found by iteration. So the length of a step follows
+/// the excitation of stiff modes, not their period. Order 6 at the ends of steps, 4 within. No step needs
+/// those before it: after a switch the step stays as long as it was. Source: variation of constants;
+/// [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–6).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -40,6 +40,7 @@ class ExponentialIntegrator final : public Integrator {
   bool evaluate(double time, const PairedMotion& motion, int node);
   void estimate_quartic();
   bool iterate();
+  double calc_change(std::size_t node, PairedMotion& motion);
   double calc_truncation();
   bool finish_step();
   void locate_switch();
@@ -52,7 +53,7 @@ class ExponentialIntegrator final : public Integrator {
   int version_ = 0;  // of the coordinates in y that the pairs are for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
-  double failures_ = 0.0;        // of the iteration, those of earlier steps counting less and less
+  double failures_ = 0.0;        // of the iteration; those of earlier steps count less and less
 
   double time_ = 0.0, end_time_ = 0.0;
   Vector y_;                    // at time_
@@ -69,8 +70,12 @@ class ExponentialIntegrator final : public Integrator {
   std::array<LobattoPropagator, kNumNodes> propagators_;            // to each node but the first
   double propagator_length_ = 0.0;
 
-  PairedMotion end_, difference_;
-  Vector y_dot_, stage_y_;
+  PairedMotion end_;  // motion at the end of now_, when its iteration is over
+  // Work space.
+  Vector y_dot_, stage_y_, error_sizes_;
+  PairedMotion again_, change_;        // of a sweep: the motion at its second node anew, what has changed
+  PairedMotion drive_at_, truncated_;  // a drive within a step; the effect of the quartic
+  PairedMotion at_switch_;
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;
   mutable Vector between_y_;

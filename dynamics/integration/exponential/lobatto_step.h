@@ -8,8 +8,9 @@
 
 namespace sprung::dynamics {
 
-/// What pairs and plain integrals do from the start of a step up to one instant of it, exactly, under a drive
-/// that is the cubic through its values at the Lobatto points (integration/exponential, eq. 4). f pairs.
+/// The exact solution of pairs, and the integrals of quadratures, from the start of a step up to one instant
+/// of it, for a drive that is the cubic through its values at the Lobatto points
+/// (integration/exponential, eq. 4). f pairs.
 class LobattoPropagator {
  public:
   LobattoPropagator() = default;

@@ -16,14 +16,14 @@ class PairCoordinates {
   /// @param size  of y
   PairCoordinates(Eigen::Index num_freedoms, Eigen::Index size);
 
-  /// Takes the pairs of another small motion. Positions count from those in y from now on: large ones would
-  /// leave the pairs few digits.
+  /// Takes the pairs of another small motion. From now on positions count from those in y, since the pairs of
+  /// large positions would have few digits.
   void update(const SmallMotion& motion, const Eigen::VectorXd& y);
   const PairBlocks& blocks() const { return basis_.blocks; }
 
   void to_pairs(const Eigen::VectorXd& y, PairedMotion& motion);
   void to_state(const PairedMotion& motion, Eigen::VectorXd& y) const;
-  /// The drive at a node of a step: what the pairs leave of the derivatives ẏ.
+  /// The drive at a node of a step: the part of the derivatives ẏ that the pairs do not explain.
   void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node) const;
 
   /// The error allowed in each component of y is `tolerance` times its entry of `sizes`, > 0.

@@ -9,7 +9,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kSurprise = 100.0;  // of the error allowed: less than that hides no switch worth finding
+constexpr double kRicher = 100.0;         // of the error allowed: a smaller deviation hides no switch
 constexpr double kShortestHiding = 1e-9;  // s
 
 // The motion of a step at the instant of a propagator.
@@ -29,8 +29,8 @@ StepSwitches::StepSwitches(OdeSystem& system, const PairedMotion& motion)
       motion_(motion),
       y_(Eigen::VectorXd::Zero(system.size())),
       between_(Eigen::VectorXd::Zero(system.num_switches())) {
-  look_propagators_.fill(propagator_);
-  for (std::size_t k = 0; k < kLooks.size(); ++k) look_weights_[k] = lobatto::cubic_weights(kLooks[k]);
+  probe_propagators_.fill(propagator_);
+  for (std::size_t k = 0; k < kProbes.size(); ++k) probe_weights_[k] = lobatto::cubic_weights(kProbes[k]);
 }
 
 bool StepSwitches::evaluate(double time, std::span<const double> y, int node) {
@@ -49,9 +49,9 @@ bool StepSwitches::crosses() const {
   return false;
 }
 
-void StepSwitches::move_to_look(const CollocationStep& step, const PairCoordinates& coordinates,
-                                std::size_t look) {
-  propagate(step, look_propagators_[look], coordinates.blocks(), motion_);
+void StepSwitches::move_to_probe(const CollocationStep& step, const PairCoordinates& coordinates,
+                                 std::size_t probe) {
+  propagate(step, probe_propagators_[probe], coordinates.blocks(), motion_);
 }
 
 bool StepSwitches::may_hide(const CollocationStep& step, const Stages& stages,
@@ -60,27 +60,27 @@ bool StepSwitches::may_hide(const CollocationStep& step, const Stages& stages,
   for (Eigen::Index i = 0; i < values_.rows(); ++i) {
     if (std::isfinite(SwitchCourse(values_.row(i)).dip())) return true;
   }
-  if (step.length != look_length_) {
-    for (std::size_t k = 0; k < kLooks.size(); ++k)
-      look_propagators_[k].update(kLooks[k], step.length, coordinates.blocks());
-    look_length_ = step.length;
+  if (step.length != probe_length_) {
+    for (std::size_t k = 0; k < kProbes.size(); ++k)
+      probe_propagators_[k].update(kProbes[k], step.length, coordinates.blocks());
+    probe_length_ = step.length;
   }
   // Whether the motion is richer than the cubic through the nodes.
   bool is_richer = false;
-  for (std::size_t k = 0; k < kLooks.size() && !is_richer; ++k) {
-    move_to_look(step, coordinates, k);
-    const lobatto::NodeWeights& weights = look_weights_[k];
+  for (std::size_t k = 0; k < kProbes.size() && !is_richer; ++k) {
+    move_to_probe(step, coordinates, k);
+    const lobatto::NodeWeights& weights = probe_weights_[k];
     const auto difference = motion_.u - weights[0] * step.motion.u - weights[1] * stages[1].u -
                             weights[2] * stages[2].u - weights[3] * stages[3].u;
-    is_richer = coordinates.estimate_norm(difference) > kSurprise;
+    is_richer = coordinates.estimate_norm(difference) > kRicher;
   }
   if (!is_richer) return false;
-  for (std::size_t k = 0; k < kLooks.size(); ++k) {
-    move_to_look(step, coordinates, k);
+  for (std::size_t k = 0; k < kProbes.size(); ++k) {
+    move_to_probe(step, coordinates, k);
     coordinates.to_state(motion_, y_);
-    if (!evaluate_at(step.start + kLooks[k] * step.length, between_)) return true;
+    if (!evaluate_at(step.start + kProbes[k] * step.length, between_)) return true;
     for (Eigen::Index i = 0; i < values_.rows(); ++i) {
-      if (SwitchCourse(values_.row(i)).may_hide(kLooks[k], between_[i])) return true;
+      if (SwitchCourse(values_.row(i)).may_hide(kProbes[k], between_[i])) return true;
     }
   }
   return false;

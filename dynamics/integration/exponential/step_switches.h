@@ -12,8 +12,8 @@
 namespace sprung::dynamics {
 
 /// The switch functions along one collocation step, by their values at its nodes: whether one becomes
-/// negative in it, where, and whether one may do so unseen between the nodes (integration/exponential,
-/// "Hidden switches").
+/// negative in the step, where, and whether one may be negative only between the nodes
+/// (integration/exponential, "Hidden switches").
 class StepSwitches {
  public:
   /// The motion of a step at its nodes; the first is the step's own start and not used.
@@ -25,16 +25,16 @@ class StepSwitches {
   bool is_empty() const { return values_.rows() == 0; }
   /// The values at a node. @return false where they cannot be found
   bool evaluate(double time, std::span<const double> y, int node);
-  /// The values at a node become those at the start of a step. What has just become valid may be negative by
-  /// a rounding error and counts as zero, so that what it does next is not missed.
+  /// The values at a node become those at the start of a step. A switch function that has just changed its
+  /// branch may be negative by a rounding error: it counts as zero, so that its next zero is not missed.
   void start_from(int node) { values_.col(0) = values_.col(node).cwiseMax(0.0); }
-  /// Has to be called where the pairs have become others.
-  void forget_propagators() { look_length_ = 0.0; }
+  /// Has to be called when the pairs have changed.
+  void forget_propagators() { probe_length_ = 0.0; }
 
   /// Whether a switch function becomes negative from one node to a later one.
   bool crosses() const;
-  /// Whether a switch function may become negative and positive again between nodes: vibration is stepped
-  /// over exactly, however many periods fit into a step.
+  /// Whether a switch function may become negative and positive again between nodes: any number of periods of
+  /// a vibration may fit between them.
   bool may_hide(const CollocationStep& step, const Stages& stages, const PairCoordinates& coordinates);
   /// The place θ of the first zero, after `crosses`.
   /// @param tolerance  of the time [s]   @param[out] motion  at θ
@@ -42,18 +42,19 @@ class StepSwitches {
                 PairedMotion& motion);
 
  private:
-  // Places between the nodes, not both as far from the middle: no vibration looks like a cubic at both.
-  static constexpr std::array<double, 2> kLooks = {0.2, 0.6};
+  // Places between the nodes, at different distances from the middle: no vibration agrees with a cubic at
+  // both.
+  static constexpr std::array<double, 2> kProbes = {0.2, 0.6};
 
-  void move_to_look(const CollocationStep& step, const PairCoordinates& coordinates, std::size_t look);
+  void move_to_probe(const CollocationStep& step, const PairCoordinates& coordinates, std::size_t probe);
   bool evaluate_at(double time, Eigen::VectorXd& values);
 
   OdeSystem& system_;
   Eigen::MatrixXd values_;  // num_switches × 4
   SwitchSearch search_;
-  std::array<LobattoPropagator, kLooks.size()> look_propagators_;
-  std::array<lobatto::NodeWeights, kLooks.size()> look_weights_;
-  double look_length_ = 0.0;  // of the step that look_propagators_ are for [s]
+  std::array<LobattoPropagator, kProbes.size()> probe_propagators_;
+  std::array<lobatto::NodeWeights, kProbes.size()> probe_weights_;
+  double probe_length_ = 0.0;  // of the step that probe_propagators_ are for [s]
   LobattoPropagator propagator_;
   PairedMotion motion_;      // between nodes
   Eigen::VectorXd y_;        // there

@@ -68,8 +68,7 @@ void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x
 
 }  // namespace
 
-// Four rows at a time, in registers: Eigen's product is made for large matrices, and costs small ones more
-// than they take.
+// Four rows at a time, in registers: for small matrices the overhead of Eigen's product exceeds the product.
 void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
   constexpr Eigen::Index kSmall = 24;
   const Eigen::Index size = A.rows();

@@ -36,10 +36,10 @@ struct VibrationBasis {
   static void multiply(const Eigen::MatrixXd& A, const double* x, double* y);
 };
 
-/// Modes with a frequency are coupled by damping and become the complex modes of that part, in real form;
-/// what moves freely stays a coordinate and its velocity. Where complex modes are close to a defective set,
-/// or too many to be worth finding, the undamped modes are taken, each with its own damping: then damping
-/// that couples them is left out.
+/// Modes with a frequency are coupled by damping; their pairs are the complex modes of that part, in real
+/// form. A free motion stays a pair of coordinate and velocity. Where the complex modes are nearly defective,
+/// or too many to be worth finding, the undamped modes are taken, each with its own damping: damping that
+/// couples them is then left out.
 /// @throws support::NumericalError if there are no undamped modes: M is not positive definite
 VibrationBasis make_vibration_basis(const SmallMotion& motion);
 

@@ -17,6 +17,18 @@ constexpr double kUselessContraction = 0.7;
 constexpr double kRounding =
     64.0 * std::numeric_limits<double>::epsilon();  // of a coordinate and its natural size
 
+// Of the values and rates at both ends of a step for the cubic through them.
+struct HermiteWeights {
+  HermiteWeights(double begin_time, double end_time, double time) {
+    const double length = end_time - begin_time, s = (time - begin_time) / length;
+    end = s * s * (3.0 - 2.0 * s);
+    begin = 1.0 - end;
+    begin_rate = length * s * (1.0 - s) * (1.0 - s);
+    end_rate = -length * s * s * (1.0 - s);
+  }
+  double begin, end, begin_rate, end_rate;
+};
+
 }  // namespace
 
 GeneralizedAlphaStep::End::End(const Model& model, int num_switches)
@@ -40,8 +52,9 @@ GeneralizedAlphaStep::GeneralizedAlphaStep(const Model& model, const SmoothPiece
       newton_(model),
       begin_(model, piece.num_switches()),
       end_(begin_) {
-  auxiliary_begin_ = auxiliary_end_ = delta_ = error_q_ = error_v_ = work_ = begin_.motion.q;
-  delta_lambda_ = scaled_phi_ = begin_.motion.lambda;
+  auxiliary_begin_ = auxiliary_end_ = delta_ = begin_.motion.q;
+  error_ = error_q_ = error_v_ = error_force_ = begin_.motion.q;
+  delta_lambda_ = scaled_phi_ = error_lambda_ = no_violation_ = begin_.motion.lambda;
 }
 
 void GeneralizedAlphaStep::reset() {
@@ -86,8 +99,8 @@ void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
   is_fresh_ = true;
 }
 
-// What an error may be; not below what rounding of positions does, which over a short step is much in
-// velocities.
+// The error allowed in a position, and in a velocity: not less than the rounding of positions causes, which
+// for velocities is large over a short step.
 double GeneralizedAlphaStep::allowed_position(int i) const {
   return std::max(tolerance_ * scales_.position(i), rounding(i));
 }
@@ -101,7 +114,7 @@ double GeneralizedAlphaStep::rounding(int i) const {
   return kRounding * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
 }
 
-// Root mean square of what the iteration has changed in q and v, of what is allowed.
+// Root mean square of the last changes of q and v, each divided by the error that is allowed.
 double GeneralizedAlphaStep::calc_iteration_norm(double length) const {
   const Index3Newton::Weights change = weights(length);
   double sum = 0.0;
@@ -138,7 +151,7 @@ bool GeneralizedAlphaStep::iterate(double length) {
   return false;
 }
 
-// Newton's iteration, once more with a matrix of this very step where the one at hand does not do.
+// Newton's iteration, repeated with a matrix of this step where it does not converge with the present one.
 bool GeneralizedAlphaStep::solve(double length) {
   is_fresh_ = false;
   if (!iterate(length)) {
@@ -150,21 +163,20 @@ bool GeneralizedAlphaStep::solve(double length) {
       return false;
     }
   }
-  // Positions and masses change the matrix first; where they are new and it is slow still, it is the forces.
+  // Positions and masses make the matrix out of date first; if it is slow with new ones, the forces do.
   if (contraction_ > kSlowContraction) renewal_ = is_fresh_ ? Renewal::kAll : Renewal::kFactors;
   return true;
 }
 
-// e ← the part of an error in the coordinates that counts, by Newton's matrix: without what the constraints
-// take away again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
-void GeneralizedAlphaStep::filter_error(Vector& error) {
-  scaled_phi_.setZero();
+// The part of an error in the coordinates that counts, by Newton's matrix: without what the constraints take
+// away again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
+void GeneralizedAlphaStep::filter_error(const Vector& error, Vector& filtered) {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
-    work_.segment(first, size).noalias() = residual_.terms().mass(b) * error.segment(first, size);
+    error_force_.segment(first, size).noalias() = residual_.terms().mass(b) * error.segment(first, size);
   }
-  work_ *= -(1.0 - method_.alpha_m) / (1.0 - method_.alpha_f);
-  newton_.solve(work_, scaled_phi_, error, delta_lambda_);
+  error_force_ *= -(1.0 - method_.alpha_m) / (1.0 - method_.alpha_f);
+  newton_.solve(error_force_, no_violation_, filtered, error_lambda_);
 }
 
 // Root mean square over q, v and the energies of the step's errors, each divided by the error that is allowed
@@ -172,11 +184,11 @@ void GeneralizedAlphaStep::filter_error(Vector& error) {
 double GeneralizedAlphaStep::calc_error(double length) {
   const double between = 0.5 * (length + begin_.step_before);  // of the middles of this step and the last
   const double cubed = std::pow(length, 3);
-  error_q_ = auxiliary_end_ - auxiliary_begin_;
-  error_v_ = (method_.velocity_error() * cubed / between) * (error_q_ / length - begin_.jerk);
-  error_q_ *= method_.position_error() * length * length;
-  filter_error(error_q_);
-  filter_error(error_v_);
+  error_ = (method_.position_error() * length * length) * (auxiliary_end_ - auxiliary_begin_);
+  filter_error(error_, error_q_);
+  error_ = (method_.velocity_error() * cubed / between) *
+           ((auxiliary_end_ - auxiliary_begin_) / length - begin_.jerk);
+  filter_error(error_, error_v_);
   double sum = 0.0;
   for (int i = 0; i < model_->num_coordinates; ++i) {
     sum += std::pow(error_q_[i] / allowed_position(i), 2) +
@@ -197,15 +209,19 @@ void GeneralizedAlphaStep::finish(double length, double end_time) {
   end_.energy = begin_.energy + 0.5 * length * (begin_.power + end_.power);
 }
 
-// Cubic through positions and velocities, velocities and accelerations, energies and powers of both ends.
-void GeneralizedAlphaStep::interpolate(double time, Vector& q, Vector& v, Pair& energy) const {
+// Positions by the cubic through positions and velocities of both ends, velocities by that through velocities
+// and accelerations.
+void GeneralizedAlphaStep::interpolate_motion(double time, Vector& q, Vector& v) const {
   const ConstrainedMotion &a = begin_.motion, &b = end_.motion;
-  const double length = b.time - a.time, s = (time - a.time) / length;
-  const double of_b = s * s * (3.0 - 2.0 * s), of_a = 1.0 - of_b;
-  const double rate_of_a = length * s * (1.0 - s) * (1.0 - s), rate_of_b = -length * s * s * (1.0 - s);
-  q = of_a * a.q + of_b * b.q + rate_of_a * a.v + rate_of_b * b.v;
-  v = of_a * a.v + of_b * b.v + rate_of_a * a.v_dot + rate_of_b * b.v_dot;
-  energy = of_a * begin_.energy + of_b * end_.energy + rate_of_a * begin_.power + rate_of_b * end_.power;
+  const HermiteWeights w(a.time, b.time, time);
+  q = w.begin * a.q + w.end * b.q + w.begin_rate * a.v + w.end_rate * b.v;
+  v = w.begin * a.v + w.end * b.v + w.begin_rate * a.v_dot + w.end_rate * b.v_dot;
+}
+
+GeneralizedAlphaStep::Pair GeneralizedAlphaStep::interpolate_energy(double time) const {
+  const HermiteWeights w(begin_.motion.time, end_.motion.time, time);
+  return w.begin * begin_.energy + w.end * end_.energy + w.begin_rate * begin_.power +
+         w.end_rate * end_.power;
 }
 
 }  // namespace sprung::dynamics

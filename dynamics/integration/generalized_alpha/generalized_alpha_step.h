@@ -39,24 +39,25 @@ class GeneralizedAlphaStep {
   const End& begin() const { return begin_; }
   End& end() { return end_; }
   const End& end() const { return end_; }
-  void reset();    ///< forgets both ends
+  void reset();    ///< as if newly made
   void advance();  ///< the end becomes the beginning
 
   /// Finds the motion at the end of a step of this length. @return false where the iteration does not
   /// converge
   bool solve(double length);
-  /// Of the step solved last, of what is allowed; its end has to have its power.
+  /// Error of the step solved last, as a share of what is allowed; the power of its end has to be set.
   double calc_error(double length);
-  /// Has the matrix made of the positions of the next step.
+  /// Makes the next step factor the matrix at its own positions.
   void renew_factors() {
     if (renewal_ == Renewal::kNone) renewal_ = Renewal::kFactors;
   }
   /// Completes the end for the step after it.
   void finish(double length, double end_time);
-  /// Positions, velocities and energies within the step.
-  void interpolate(double time, Vector& q, Vector& v, Pair& energy) const;
+  /// Positions and velocities within the step.
+  void interpolate_motion(double time, Vector& q, Vector& v) const;
+  Pair interpolate_energy(double time) const;  ///< likewise [J]
 
-  Index3Residual& residual() { return residual_; }  ///< of the motion before the last change of the iteration
+  Index3Residual& residual() { return residual_; }  ///< at the motion before the iteration's last change
   const Index3Residual& residual() const { return residual_; }
   long iteration_failures() const { return iteration_failures_; }
 
@@ -70,7 +71,7 @@ class GeneralizedAlphaStep {
   double allowed_position(int i) const;
   double allowed_velocity(int i, double length) const;
   double calc_iteration_norm(double length) const;
-  void filter_error(Vector& error);
+  void filter_error(const Vector& error, Vector& filtered);
 
   const Model* model_;
   const SmoothPiece* piece_;
@@ -81,16 +82,20 @@ class GeneralizedAlphaStep {
   Index3Newton newton_;
   End begin_, end_;
 
-  // What of Newton's matrix is renewed before the next iteration.
+  // The part of Newton's matrix that is renewed before the next iteration.
   enum class Renewal { kNone, kFactors, kAll };
   Renewal renewal_ = Renewal::kAll;
   bool is_fresh_ = false;     // renewed in this step
   double contraction_ = 0.0;  // of the last iteration
   long iteration_failures_ = 0;
 
-  Vector auxiliary_begin_, auxiliary_end_;   // a, nq
-  Vector delta_, error_q_, error_v_, work_;  // nq
-  Vector delta_lambda_, scaled_phi_;         // m
+  Vector auxiliary_begin_, auxiliary_end_;  // a, nq
+  Vector delta_;                            // of the accelerations, by the last iteration, nq
+  Vector delta_lambda_, scaled_phi_;        // m
+  // Of calc_error: errors as they are and without the parts that do not count, and Newton's right-hand side
+  // and multipliers for these.
+  Vector error_, error_q_, error_v_, error_force_;  // nq
+  Vector error_lambda_, no_violation_;              // m
 };
 
 }  // namespace sprung::dynamics

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -14,17 +15,17 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kFirstLength = 1e-4;       // s; too long a step is found out
+constexpr double kFirstLength = 1e-4;       // s; a step that is too long is repeated
 constexpr double kShortestStep = 1e-10;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
 constexpr double kProbe = 1e-5;             // of a step, for rates at a start
 
 constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
-// A step is kept as it is where a better one would hardly be longer: equal steps make the smoother
+// The length of steps is kept where a better one would hardly be longer: equal steps give smoother
 // multipliers.
 constexpr double kWorthwhile = 1.2;
 
-// Errors in the multipliers change their sign from step to step, and lose nothing where the radius is 1.
+// Errors in the multipliers change their sign from step to step, and do not decay where the radius is 1.
 const char* remark_on_radius(double spectral_radius) {
   return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
 }
@@ -41,10 +42,11 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double rela
       equations_(model, SystemTerms::Markers::kActing),
       step_(model, piece_, method_, relative_tolerance),
       next_length_(kFirstLength),
+      probe_(model),
       switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()),
       touch_search_(piece_.num_switches()) {
-  q_ = v_ = Vector::Zero(model.num_coordinates);
+  interpolated_q_ = interpolated_v_ = Vector::Zero(model.num_coordinates);
 }
 
 void GeneralizedAlphaStepper::start(const State& state) {
@@ -53,6 +55,8 @@ void GeneralizedAlphaStepper::start(const State& state) {
   step_.begin().motion.q = state.q;
   step_.begin().motion.v = state.v;
   piece_.set_branches(state.branches);
+  equations_.terms().set_fading_forces(state.fading);
+  step_.residual().terms().set_fading_forces(state.fading);
   has_step_ = false;
 }
 
@@ -66,14 +70,14 @@ bool GeneralizedAlphaStepper::evaluate_equations(const ConstrainedMotion& motion
   return equations_.update_accelerations(piece_.branches());
 }
 
-// Dissipated, and put in, where the equations are.
+// Dissipated power and power put in, where the equations stand.
 GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power() {
   const Power& power = equations_.terms().power();
   return {power.dissipated, power.input + equations_.calc_motion_power()};
 }
 
-// Prescribed motion works with the multipliers that belong to the motion: those of the step jump where its
-// length does.
+// The work of prescribed motion takes the multipliers that belong to the motion: those of the step jump where
+// the step's length does.
 bool GeneralizedAlphaStepper::update_end_power() {
   if (model_->has_motions) {
     if (!evaluate_equations(step_.end().motion)) return false;
@@ -86,10 +90,10 @@ bool GeneralizedAlphaStepper::update_end_power() {
   return true;
 }
 
-void GeneralizedAlphaStepper::resume(double end_time) {
+void GeneralizedAlphaStepper::resume(double time, double end_time) {
   if (statistics_.integrator.steps > 0) ++statistics_.integrator.restarts;
   end_time_ = end_time;
-  time_ = evaluated_time_;
+  time_ = time;
   if (!equations_.update_accelerations(piece_.branches())) {
     throw_stopped(time_, "no accelerations can be found there");
   }
@@ -106,24 +110,22 @@ void GeneralizedAlphaStepper::resume(double end_time) {
   step_.residual().update(motion, piece_.branches());
   piece_.calc_switches(step_.residual().terms(), {step_.begin().switches.data(),
                                                   static_cast<std::size_t>(step_.begin().switches.size())});
-  // What is about to become valid may not be so yet by a rounding error: what it does then must not be
-  // missed.
+  // A formula that has just become valid may seem not to be so yet by a rounding error; the next change of
+  // its switch function must not be missed.
   step_.begin().switches = step_.begin().switches.cwiseMax(0.0);
   touch_search_.forget();
 }
 
-// The auxiliary acceleration leads q̈ by αm − αf of a step: to second order that takes the rate of q̈
-// (integration/generalized_alpha, eq. 4).
-// It is found from the accelerations a little later.
+// The auxiliary acceleration leads q̈ by αm − αf of a step. To second order this takes the rate of q̈
+// (integration/generalized_alpha, eq. 4), which is found from the accelerations a little later.
 void GeneralizedAlphaStepper::find_rates() {
   const ConstrainedMotion& motion = step_.begin().motion;
   step_.begin().power = calc_power();
   const double shift = kProbe * std::min(next_length_, end_time_ - time_);
-  step_.end().motion = motion;
-  step_.end().motion.time = motion.time + shift;
-  step_.end().motion.q += shift * motion.v + 0.5 * shift * shift * motion.v_dot;
-  step_.end().motion.v += shift * motion.v_dot;
-  if (!evaluate_equations(step_.end().motion)) throw_stopped(time_, "no accelerations can be found there");
+  probe_.time = motion.time + shift;
+  probe_.q = motion.q + (shift * motion.v + 0.5 * shift * shift * motion.v_dot);
+  probe_.v = motion.v + shift * motion.v_dot;
+  if (!evaluate_equations(probe_)) throw_stopped(time_, "no accelerations can be found there");
   step_.begin().jerk = (equations_.v_dot() - motion.v_dot) / shift;
   step_.begin().lambda_rate = (equations_.multipliers() - motion.lambda) / shift;
   step_.begin().lead = method_.offset() * step_.begin().jerk;
@@ -192,44 +194,44 @@ bool GeneralizedAlphaStepper::locate_switch() {
   piece_.calc_switches(terms, span_of(step_.end().switches));
   const double from = step_.begin().motion.time, to = step_.end().motion.time, length = to - from;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
-  bool has_moved = false;
+  bool has_left = false;  // the end of the step
   const auto evaluate_at = [&](double place, Vector& values) {
-    has_moved = true;
-    step_.interpolate(from + place * length, q_, v_, energy_);
-    terms.update_positions(piece_.evaluation_time(from + place * length), q_);
-    terms.update_velocities(v_);
+    has_left = true;
+    step_.interpolate_motion(from + place * length, interpolated_q_, interpolated_v_);
+    terms.update_positions(piece_.evaluation_time(from + place * length), interpolated_q_);
+    terms.update_velocities(interpolated_v_);
     piece_.calc_switches(terms, span_of(values));
   };
-  const Vector &begin = step_.begin().switches, &end = step_.end().switches;
-  std::optional<double> theta;
-  if (SwitchSearch::any_crosses(begin, end)) {
+  const auto search = [&]() -> std::optional<double> {
+    const Vector &begin = step_.begin().switches, &end = step_.end().switches;
+    if (!SwitchSearch::any_crosses(begin, end))
+      return touch_search_.find(begin, end, length, tolerance, evaluate_at);
     switches_.col(0) = begin;
     switches_.col(1) = end;
-    theta = switch_search_.locate(kEnds, switches_, 1, tolerance, evaluate_at);
-  } else {
-    theta = touch_search_.find(begin, end, length, tolerance, evaluate_at);
-  }
-  if (theta) {
-    time_ = from + *theta * length;
-  } else if (has_moved) {
+    return switch_search_.locate(kEnds, switches_, 1, tolerance, evaluate_at);
+  };
+  const auto go_back = [&] {
+    if (!has_left) return;
     terms.update_positions(piece_.evaluation_time(to), step_.end().motion.q);
     terms.update_velocities(step_.end().motion.v);
-  }
+  };
+  const std::optional<double> theta = attempt_or_go_back(search, go_back);
+  if (theta) time_ = from + *theta * length;
   return theta.has_value();
 }
 
-// Accelerations are evaluated at all levels: they tell whether the position is a regular one.
+// Accelerations are evaluated at all levels: without them a singular position would not be noticed.
 void GeneralizedAlphaStepper::evaluate(double time, Level level) {
   if (has_step_) {
-    step_.interpolate(time, q_, v_, energy_);
+    step_.interpolate_motion(time, interpolated_q_, interpolated_v_);
+    energy_ = step_.interpolate_energy(time);
   } else {
-    q_ = step_.begin().motion.q;
-    v_ = step_.begin().motion.v;
     energy_ = step_.begin().energy;
   }
-  evaluated_time_ = time;
-  const bool is_closed = equations_.close_joints(piece_.evaluation_time(time), q_);
-  const double violation = is_closed ? equations_.close_rates(v_) : std::numeric_limits<double>::quiet_NaN();
+  const Vector& q = has_step_ ? interpolated_q_ : step_.begin().motion.q;
+  const Vector& v = has_step_ ? interpolated_v_ : step_.begin().motion.v;
+  const bool is_closed = equations_.close_joints(piece_.evaluation_time(time), q);
+  const double violation = is_closed ? equations_.close_rates(v) : std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(violation) || !equations_.update_accelerations(piece_.branches())) {
     throw support::NumericalError(fmt::format(
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));

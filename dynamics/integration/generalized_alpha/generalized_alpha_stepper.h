@@ -10,7 +10,7 @@
 
 namespace sprung::dynamics {
 
-/// Generalized-α on the constrained system as it stands: positions, velocities, accelerations and multipliers
+/// Generalized-α on the constrained system itself: positions, velocities, accelerations and multipliers
 /// of all coordinates, the constraints on the level of positions, no partition (system, eqs. 9, 10;
 /// integration/generalized_alpha, eqs. 1, 2, 4, 5). Second order. Velocities and accelerations satisfy their
 /// constraints to the order of the method only: `evaluate` closes positions and velocities and finds
@@ -24,7 +24,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
                           const GeneralizedAlphaOptions& options);
 
   void start(const State& state) override;
-  void resume(double end_time) override;
+  void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return time_; }
   double calc_longest_step() const override { return piece_.calc_longest_step(step_.residual().terms()); }
@@ -53,17 +53,18 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   GeneralizedAlpha method_;
   double spectral_radius_, fixed_step_;
   SmoothPiece piece_;
-  ConstrainedEquations equations_;  // at the state evaluated last; `step` takes them elsewhere
+  ConstrainedEquations equations_;  // at the state evaluated last, until the next `step`
   Statistics statistics_;
   long num_evaluations_ = 0;  // of the equations
 
   GeneralizedAlphaStep step_;  // being made, or made last
   bool has_step_ = false;
   double time_ = 0.0, end_time_ = 0.0, next_length_;
-  double evaluated_time_ = 0.0;
+  Pair energy_ = Pair::Zero();  // at the time evaluated last [J]
 
-  Vector q_, v_;  // within a step
-  Pair energy_ = Pair::Zero();
+  // Work space.
+  Vector interpolated_q_, interpolated_v_;
+  ConstrainedMotion probe_;   // a little after a start
   Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
   SwitchSearch switch_search_;
   TouchSearch touch_search_;

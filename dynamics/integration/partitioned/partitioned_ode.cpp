@@ -12,14 +12,13 @@ namespace sprung::dynamics {
 PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), piece_(model), scales_(model) {
   y_.resize(static_cast<std::size_t>(size()));
-  evaluated_y_.resize(2 * static_cast<std::size_t>(num_freedoms()));
 }
 
 void PartitionedOde::set_state(const State& state, double dissipated, double input) {
   equations_.choose_partition_at(state.time, state.q);
   ++coordinate_version_;
-  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
-  equations_.mark(state.time, state.q, state.v);
+  equations_.accept_motion(state.time, state.q, state.v);
+  equations_.set_fading_forces(state.fading);
   piece_.set_branches(state.branches);
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
@@ -35,20 +34,10 @@ void PartitionedOde::set_state(const State& state, double dissipated, double inp
 
 bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
   const auto f = static_cast<std::size_t>(equations_.num_freedoms());
+  const std::span<const double> q_i = y.first(f), v_i = y.subspan(f, f);
   const double formula_time = piece_.evaluation_time(time);
-  if (formula_time == evaluated_time_ && std::equal(evaluated_y_.begin(), evaluated_y_.end(), y.begin()))
-    return true;
-  evaluated_time_ = accelerated_time_ = std::numeric_limits<double>::quiet_NaN();
-  const bool is_good =
-      equations_.update_positions(formula_time, y.first(f)) == PartitionedEquations::Outcome::kGood;
-  if (is_good) equations_.update_velocities(y.subspan(f, f));
-  if (!is_good || equations_.has_lost_turns(formula_time)) {
-    equations_.return_to_mark();
-    return false;
-  }
-  evaluated_time_ = formula_time;
-  std::copy(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(2 * f), evaluated_y_.begin());
-  return true;
+  return equations_.is_at(formula_time, q_i, v_i) ||
+         equations_.update_motion(formula_time, q_i, v_i) == PartitionedEquations::Outcome::kGood;
 }
 
 void PartitionedOde::throw_not_closed(double time) {
@@ -65,15 +54,15 @@ State PartitionedOde::make_state(double time, std::span<const double> y) {
   if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
     throw_not_closed(time);
   }
-  accelerated_time_ = evaluated_time_;
-  return {.time = time, .q = equations_.q(), .v = equations_.v(), .branches = piece_.branches()};
+  return {.time = time,
+          .q = equations_.q(),
+          .v = equations_.v(),
+          .branches = piece_.branches(),
+          .fading = equations_.terms().fading_forces()};
 }
 
-void PartitionedOde::mark_motion() {
-  if (std::isfinite(evaluated_time_)) equations_.mark(evaluated_time_, equations_.q(), equations_.v());
-}
-
-// What is known; else differences of the accelerations at the branches that hold: M δq̈ = −C δv − K δq.
+// The motion that was set; without one, by differences of the accelerations at the branches that hold:
+// M δq̈ = −C δv − K δq.
 bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
   if (known_ && known_->independent == equations_.partition().independent) {
     motion = std::move(known_->motion);
@@ -106,7 +95,6 @@ bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std
   if (!evaluate_motion(time, y)) return false;
   if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood)
     return false;
-  accelerated_time_ = evaluated_time_;
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
   for (std::size_t k = 0; k < f; ++k) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -26,9 +25,8 @@ class PartitionedOde final : public OdeSystem {
   void set_state(const State& state, double dissipated, double input);
   std::span<const double> y() const { return y_; }
 
-  /// Small motion for the first time that it is asked for, where the partition is the one that it is known
-  /// for.
-  void suggest(KnownMotion known) { known_ = std::move(known); }
+  /// Small motion that `calc_small_motion` gives when it is called first, if the partition is the same.
+  void set_small_motion(KnownMotion known) { known_ = std::move(known); }
 
   /// Brings positions and velocities of `equations()` to y.
   /// @throws support::NumericalError if the constraints cannot be satisfied
@@ -37,10 +35,6 @@ class PartitionedOde final : public OdeSystem {
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);
 
-  /// The motion evaluated last, if it was good, belongs to what has really been come to: from there positions
-  /// are searched for where a trial has failed, and dependent angles count their turns.
-  void mark_motion();
-
   PartitionedEquations& equations() { return equations_; }
   const PartitionedEquations& equations() const { return equations_; }
   SmoothPiece& piece() { return piece_; }
@@ -48,8 +42,11 @@ class PartitionedOde final : public OdeSystem {
   double dissipated(std::span<const double> y) const { return y[y.size() - 2]; }
   double input(std::span<const double> y) const { return y[y.size() - 1]; }
 
-  /// Whether the equations were evaluated last at that time, accelerations included.
-  bool has_accelerations(double time) const { return piece_.evaluation_time(time) == accelerated_time_; }
+  /// Whether the equations stand at that time, accelerations included.
+  bool has_accelerations(double time) const {
+    return equations_.constrained().has_accelerations() &&
+           equations_.terms().time() == piece_.evaluation_time(time);
+  }
 
   long num_derivatives() const { return num_derivatives_; }
 
@@ -75,10 +72,6 @@ class PartitionedOde final : public OdeSystem {
   int coordinate_version_ = 0;
   std::optional<KnownMotion> known_;
   std::vector<double> natural_sizes_;  // of the independents
-  // The arguments at which the motion of the equations was evaluated last.
-  double evaluated_time_ = std::numeric_limits<double>::quiet_NaN();
-  double accelerated_time_ = std::numeric_limits<double>::quiet_NaN();  // and the accelerations, if they were
-  std::vector<double> evaluated_y_;
 };
 
 }  // namespace sprung::dynamics

@@ -22,21 +22,21 @@ PartitionedStepper::PartitionedStepper(const Model& model, const Integrator::Opt
 void PartitionedStepper::start(const State& state) {
   ode_.set_state(state, 0.0, 0.0);
   y_.assign(ode_.y().begin(), ode_.y().end());
-  start_time_ = evaluated_time_ = state.time;
+  start_time_ = state.time;
   is_running_ = false;
 }
 
-void PartitionedStepper::resume(double end_time) {
+void PartitionedStepper::resume(double time, double end_time) {
   end_time_ = end_time;
-  integrator_->start(evaluated_time_, y_, end_time_);
+  integrator_->start(time, y_, end_time_);
   is_running_ = true;
 }
 
-// A coordinate that is integrated may come to a turning point of the mechanism faster than the partition is
-// seen to grow bad: beyond it no position can be found. Another partition goes on from there.
+// An independent coordinate may come to a turning point of the mechanism, beyond which there is no position,
+// before the decay of the partition shows. Then the integrator fails, and continues with another partition.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
   if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
-  ode_.mark_motion();
+  ode_.equations().accept_motion();
   try {
     return integrator_->step(longest_step);
   } catch (const support::NumericalError&) {
@@ -63,7 +63,6 @@ void PartitionedStepper::evaluate(double time, Level level) {
     else
       integrator_->interpolate(time, y_);
   }
-  evaluated_time_ = time;
   if (level == Level::kMotion)
     ode_.close_joints(time, y_);
   else
@@ -71,7 +70,7 @@ void PartitionedStepper::evaluate(double time, Level level) {
   if (level == Level::kAllMarkers) ode_.equations().update_all_markers();
 }
 
-void PartitionedStepper::evaluate_end_nearly() {
+void PartitionedStepper::evaluate_end_approximately() {
   if (!ode_.has_accelerations(time())) evaluate(time(), Level::kAccelerations);
 }
 

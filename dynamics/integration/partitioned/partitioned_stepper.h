@@ -11,23 +11,23 @@
 
 namespace sprung::dynamics {
 
-/// Steps in independent coordinates, by any Integrator. Chooses other coordinates where those at hand grow
-/// bad.
+/// Steps in independent coordinates, by any Integrator. It chooses other independent coordinates where the
+/// dependent ones follow the present ones badly (system, "Equations of motion").
 class PartitionedStepper final : public SystemStepper {
  public:
   PartitionedStepper(const Model& model, const Integrator::Options& options,
                      std::function<void(double time)> on_repartition);
 
-  void suggest(KnownMotion known) override { ode_.suggest(std::move(known)); }
+  void set_small_motion(KnownMotion known) override { ode_.set_small_motion(std::move(known)); }
   void start(const State& state) override;
-  void resume(double end_time) override;
+  void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return is_running_ ? integrator_->time() : start_time_; }
   double calc_longest_step() const override {
     return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
   }
   void evaluate(double time, Level level) override;
-  void evaluate_end_nearly() override;
+  void evaluate_end_approximately() override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
   EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
   SmoothPiece& piece() override { return ode_.piece(); }
@@ -40,7 +40,6 @@ class PartitionedStepper final : public SystemStepper {
   std::unique_ptr<Integrator> integrator_;
   std::function<void(double)> on_repartition_;
   std::vector<double> y_;  // evaluated last
-  double evaluated_time_ = 0.0;
   double start_time_ = 0.0, end_time_ = 0.0;
   bool is_running_ = false;
   double last_rescue_ = -std::numeric_limits<double>::infinity();

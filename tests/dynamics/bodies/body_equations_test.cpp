@@ -11,6 +11,7 @@
 
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/momentum.h"
 #include "tests/dynamics/random_numbers.h"
 
 using namespace sprung;
@@ -153,7 +154,7 @@ TEST_CASE("Momentum and angular momentum are sums over the body's points", "[bod
     angular += motion.dm * (motion.r.x() * motion.v.y() - motion.r.y() * motion.v.x());
     moment += motion.dm * (point.r + point.shape * general.q.tail(kNumModes));
   }
-  const dynamics::Momentum momentum = dynamics::calc_momentum(general.body, general.q, general.v);
+  const test::Momentum momentum = test::calc_momentum(general.body, general.q, general.v);
   CHECK((momentum.linear - linear).norm() < kRounding * linear.norm());
   CHECK(std::abs(momentum.angular - angular) < kRounding * std::abs(angular));
   CHECK((dynamics::calc_first_moment(general.body, general.q.tail(kNumModes)) - moment).norm() <

@@ -8,6 +8,7 @@
 #include "dynamics/bodies/body_equations.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/momentum.h"
 #include "tests/dynamics/random_numbers.h"
 
 using namespace sprung;
@@ -116,7 +117,7 @@ TEST_CASE("The mean rotation is that of the angular momentum about the centre of
   VectorXd q = VectorXd::Zero(6), v = general.random.vector(6, 2.0);
   const reduce::InertiaInvariants& inertia = general.superelement.inertia;
   const Vector2d center = inertia.first_moment / inertia.mass;
-  const dynamics::Momentum momentum = dynamics::calc_momentum(general.body, q, v);
+  const test::Momentum momentum = test::calc_momentum(general.body, q, v);
   const double about_center =
       momentum.angular - center.x() * momentum.linear.y() + center.y() * momentum.linear.x();
   const double central = inertia.second_moment - inertia.mass * center.squaredNorm();

@@ -122,7 +122,7 @@ TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
     stepper.start(bump.state);
     stepper.evaluate(0.0, dynamics::SystemStepper::Level::kAccelerations);
     stepper.piece().update_branches(stepper.equations().terms());
-    stepper.resume(0.6);
+    stepper.resume(0.0, 0.6);
     stepper.step(1e-3);  // lists the entries of its matrix
     long taken = 0, steps = 0;
     while (stepper.time() < 0.6) {
@@ -133,7 +133,7 @@ TEST_CASE("Steps of generalized-α over the bump take no memory", "[truck]") {
       ++steps;
       if (result != dynamics::Integrator::StepResult::kSwitched) continue;
       stepper.piece().update_branches(stepper.equations().terms());
-      stepper.resume(0.6);
+      stepper.resume(stepper.time(), 0.6);
     }
     INFO(num_modes << " modes");
     CHECK(steps > 50);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dynamics/system/energy.h"
 #include "dynamics/system/partitioned_equations.h"
 #include "tests/dynamics/dense_evaluator.h"
 

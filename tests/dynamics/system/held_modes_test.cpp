@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "dynamics/adaptivity/full_motion.h"
-#include "dynamics/adaptivity/mode_indicator.h"
+#include "dynamics/adaptivity/full_small_motion.h"
 #include "dynamics/adaptivity/unbalanced_force.h"
 #include "dynamics/linear/linearisation.h"
+#include "dynamics/system/energy.h"
 #include "dynamics/system/held_modes.h"
 #include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
@@ -66,8 +67,8 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   const dynamics::Body& body = full.bodies[static_cast<std::size_t>(full.find_body("chassis"))];
   for (const int k : {1, 2, 5}) is_active[static_cast<std::size_t>(body.first_coordinate + 3 + k)] = false;
   const dynamics::HeldModes held = dynamics::hold_modes(full, is_active, rest.equilibrium.q);
-  const dynamics::ModeIndicator indicator(full, 0.0, rest.equilibrium.q, {});
-  const std::optional<dynamics::KnownMotion> known = indicator.calc_small_motion(held);
+  const dynamics::FullSmallMotion motion(full, 0.0, rest.equilibrium.q, {}, nullptr);
+  const std::optional<dynamics::KnownMotion> known = motion.calc_held_motion(held);
   REQUIRE(known);
 
   dynamics::PartitionedEquations equations(held.model);
@@ -81,8 +82,8 @@ TEST_CASE("Small motion with held modes is that of the full model without them",
   // A linearisation that is given is used as it is.
   dynamics::LinearisedSystem other = rest.equilibrium.linearised;
   other.stiffness *= 2.0;
-  const dynamics::ModeIndicator informed(full, 0.0, rest.equilibrium.q, {}, &other);
-  CHECK((informed.calc_small_motion(held)->motion.stiffness - 2.0 * known->motion.stiffness).norm() <
+  const dynamics::FullSmallMotion informed(full, 0.0, rest.equilibrium.q, {}, &other);
+  CHECK((informed.calc_held_motion(held)->motion.stiffness - 2.0 * known->motion.stiffness).norm() <
         1e-6 * expected.stiffness.norm());
 }
 
@@ -171,7 +172,7 @@ TEST_CASE("Modes that leave take only their own momentum with them, and the repo
   const double kinetic = calc_energy(terms, branches).kinetic;
   const Eigen::VectorXd momentum = multiply_mass(*truck.full, terms, truck.v);
 
-  const dynamics::HeldModes held = motion.hold(truck.is_active, 0.0);
+  const dynamics::HeldModes held = motion.hold(truck.is_active);
   const double lost = motion.stop(truck.coordinates, held, 0.0, branches);
   CHECK((motion.q() - truck.q).norm() < 1e-10);
   for (const int i : truck.coordinates) CHECK(motion.v()[i] == 0.0);

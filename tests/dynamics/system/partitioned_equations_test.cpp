@@ -186,9 +186,7 @@ TEST_CASE("A search for positions that ends in NaN leaves the equations usable",
   std::vector<double> start, far;
   for (const int i : independent) start.push_back(q[i]);
   far.assign(start.size(), 1e308);
-  equations.mark(0.0, q, VectorXd::Zero(q.size()));
   CHECK(equations.update_positions(0.0, far) == PartitionedEquations::Outcome::kNotAssembled);
-  equations.return_to_mark();
   REQUIRE(equations.update_positions(0.0, start) == PartitionedEquations::Outcome::kGood);
   CHECK(equations.q().allFinite());
   equations.update_velocities(std::vector<double>(start.size(), 0.0));

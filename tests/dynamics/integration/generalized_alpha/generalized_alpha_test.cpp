@@ -62,7 +62,7 @@ void begin(GeneralizedAlphaStepper& stepper, const dynamics::State& state, doubl
   stepper.start(state);
   stepper.evaluate(state.time, dynamics::SystemStepper::Level::kAccelerations);
   stepper.piece().update_branches(stepper.equations().terms());
-  stepper.resume(end_time);
+  stepper.resume(state.time, end_time);
 }
 
 void finish(GeneralizedAlphaStepper& stepper) {

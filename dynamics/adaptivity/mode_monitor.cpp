@@ -1,0 +1,60 @@
+#include "dynamics/adaptivity/mode_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kLongestGap = 4e-3;  // s between updates
+constexpr double kMostParts = 8.0;    // of a step, with an update at the end of each
+
+}  // namespace
+
+ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
+    : modes_(options, start),
+      motion_(*options.full, start),
+      record_(modes_.indicator(), start.time),
+      rates_(start.v),
+      largest_(modes_.indicator().num_modes()) {}
+
+void ModeMonitor::update(double time, const HeldModes& held, const ConstrainedEquations& equations) {
+  motion_.take(held, equations);
+  modes_.update(time, equations, motion_.q(), motion_.v(), motion_.v_dot());
+  rates_ = motion_.v();
+}
+
+void ModeMonitor::begin_step() {
+  largest_ = modes_.indicator().amplitudes();
+}
+
+bool ModeMonitor::follow_step(SystemStepper& stepper, const HeldModes& held) {
+  const bool may_miss = modes_.options().changes;
+  const double begin = modes_.indicator().time(), end = stepper.time(), length = end - begin;
+  if (!(length > 0.0)) return false;
+  const int parts = static_cast<int>(std::clamp(std::ceil(length / kLongestGap), 1.0, kMostParts));
+  bool misses = may_miss && modes_.misses_any();  // forces may have jumped at its start
+  for (int i = 1; i <= parts; ++i) {
+    const double time = i == parts ? end : begin + length * i / parts;
+    if (i == parts) {
+      stepper.evaluate_end_approximately();
+    } else {
+      stepper.evaluate(time, SystemStepper::Level::kAccelerations);
+    }
+    update(time, held, stepper.equations());
+    update_largest();
+    misses |= may_miss && modes_.misses_any();
+  }
+  return misses;
+}
+
+void ModeMonitor::update_largest() {
+  for (std::size_t j = 0; j < largest_.size(); ++j) {
+    const ModeAmplitude& now = modes_.indicator().amplitudes()[j];
+    largest_[j] = {std::max(largest_[j].amplitude, now.amplitude),
+                   std::max(largest_[j].acceleration, now.acceleration)};
+  }
+}
+
+}  // namespace sprung::dynamics

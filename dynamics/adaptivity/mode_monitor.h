@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/adaptivity/full_motion.h"
+#include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/adaptivity/neglect_record.h"
+#include "dynamics/integration/system_stepper.h"
+
+namespace sprung::dynamics {
+
+/// Updates the indicator of modes left out along with a run: at its start, after each switch, at the end of
+/// each step and within longer ones (adaptivity, "Indicator").
+class ModeMonitor {
+ public:
+  /// @param start  in coordinates of `options.full`
+  ModeMonitor(const AdaptivityOptions& options, const State& start);
+
+  ModeAdaptation& modes() { return modes_; }
+  const ModeAdaptation& modes() const { return modes_; }
+  FullMotion& motion() { return motion_; }  ///< at the last update, or where it has been taken since
+  const Eigen::VectorXd& rates() const { return rates_; }  ///< v of the full model at the last update
+  WorstNeglect find_worst() const { return record_.find_worst(modes_.indicator()); }
+
+  /// Updates at a time at which the equations are evaluated, up to accelerations.
+  /// @param held  where the coordinates of the model that is run are in the full one
+  void update(double time, const HeldModes& held, const ConstrainedEquations& equations);
+
+  /// Starts a step at the last update.
+  void begin_step();
+  /// Updates through the step that a stepper has just made.
+  /// @return whether modes were missed in it, where modes can change
+  bool follow_step(SystemStepper& stepper, const HeldModes& held);
+  /// The largest amplitudes of each mode since `begin_step`.
+  const std::vector<ModeAmplitude>& largest() const { return largest_; }
+  /// Records the step, which is final.
+  void accept_step() { record_.add_step(modes_.indicator(), largest_); }
+
+ private:
+  void update_largest();
+
+  ModeAdaptation modes_;
+  FullMotion motion_;
+  NeglectRecord record_;
+  Eigen::VectorXd rates_;
+  std::vector<ModeAmplitude> largest_;
+};
+
+}  // namespace sprung::dynamics

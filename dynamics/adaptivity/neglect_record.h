@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/adaptivity/mode_indicator.h"
+
+namespace sprung::dynamics {
+
+/// The largest share that a mode left out has had in a run.
+struct WorstNeglect {
+  ModeShare share;
+  int coordinate = -1;  ///< of the full model, −1: none was left out
+  double time = 0.0;    ///< [s]
+};
+
+/// Records the largest that each mode would have done while it was left out, by the set of modes that was
+/// active then.
+class NeglectRecord {
+ public:
+  NeglectRecord(const ModeIndicator& indicator, double start_time);
+  /// Records a step that is final.
+  /// @param indicator  at its end   @param largest  amplitudes in it, of each mode
+  void add_step(const ModeIndicator& indicator, const std::vector<ModeAmplitude>& largest);
+  /// As shares of the largest sizes in all of the run. With modes that join and leave never more than the
+  /// recall threshold, as steps in which it was passed have been taken back.
+  WorstNeglect find_worst(const ModeIndicator& indicator) const;
+
+ private:
+  struct Peak {
+    double value = 0.0, time = 0.0;
+  };
+  struct Peaks {
+    Peak deflection;                 // [m]
+    std::vector<Peak> acceleration;  // of each point asked for [m/s²]
+  };
+  std::vector<Peaks> peaks_;  // of each mode
+};
+
+}  // namespace sprung::dynamics

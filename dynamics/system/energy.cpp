@@ -1,0 +1,25 @@
+#include "dynamics/system/energy.h"
+
+namespace sprung::dynamics {
+
+Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
+  const Model& model = terms.model();
+  Energy energy;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const Eigen::VectorXd q = terms.q().segment(body.first_coordinate, body.num_coordinates());
+    const Eigen::VectorXd v = terms.v().segment(body.first_coordinate, body.num_coordinates());
+    const Eigen::VectorXd eta = q.tail(body.num_modes());
+    energy.kinetic += 0.5 * v.dot(terms.mass(b) * v);
+    energy.strain += 0.5 * eta.dot(body.stiffness * eta);
+    const Eigen::Vector2d moment = FrameRotation::from_angle(q[2]) * calc_first_moment(body, eta);
+    energy.gravity -= model.gravity.dot(body.mass * q.head<2>() + moment);
+  }
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const ForceElement& force = *model.forces[f];
+    energy.spring += force.calc_stored_energy(terms.instant(), model.branches_of(f, branches));
+  }
+  return energy;
+}
+
+}  // namespace sprung::dynamics
