@@ -20,10 +20,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;       // of the length scale
-constexpr double kLoaded = 1e-6;           // of forces whose sizes are about 1: less is rounding
-constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
+constexpr int kMaxClosingIterations = 60;
+constexpr double kClosingTolerance = 1e-12;  // of the length scale
+constexpr double kLoaded = 1e-6;             // of forces whose sizes are about 1: less is rounding
+constexpr double kRegularisation = 1e-12;    // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
   Eigen::VectorXd inverse(terms.model().num_coordinates);
@@ -140,9 +140,9 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
-  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q));
+  for (int iteration = 0; size > std::max(kClosingTolerance * model.length_scale, model.calc_rounding(q));
        ++iteration) {
-    if (iteration == kMaxIterations) throw_cannot_close(model, phi);
+    if (iteration == kMaxClosingIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
     const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/support/dense/vector_span.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -13,10 +15,6 @@ constexpr double kAllowed = 1e-9;  // of the prescribed rates: what constraints 
 constexpr double kSame = 1e-6;     // of the largest acceleration: equal accelerations
 constexpr double kPlace = 1e-3;    // how far from the balance they are compared, natural sizes
 constexpr std::array<double, 2> kTurns{0.7, 2.1};  // how far carried [rad, or lengths of the model]
-
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
 
 // ρ̈ of who stands still in the motion at positions q and a time, seen from time 0; empty where q does not
 // fit.
@@ -30,11 +28,12 @@ Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion
     q_i[k] = q[equations.partition().independent[static_cast<std::size_t>(k)]];
     v_i[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
   }
-  if (equations.update_positions(time, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return {};
+  if (equations.update_positions(time, support::as_span(q_i)) != PartitionedEquations::Outcome::kGood)
+    return {};
   for (int i = 0; i < model.num_coordinates; ++i) {
     if (std::abs(equations.q()[i] - q[i]) > kAllowed * model.coordinate_scale(i)) return {};
   }
-  equations.update_velocities(span_of(v_i));
+  equations.update_velocities(support::as_span(v_i));
   std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
   equations.terms().choose_branches(branches);
   equations.update_accelerations(branches);
@@ -125,7 +124,8 @@ bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::Vect
     const int i = equations.partition().independent[static_cast<std::size_t>(k)];
     q_i[k] = q[i] + kPlace * std::cos(1.7 * static_cast<double>(k + 1)) * model.coordinate_scale(i);
   }
-  if (equations.update_positions(0.0, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return false;
+  if (equations.update_positions(0.0, support::as_span(q_i)) != PartitionedEquations::Outcome::kGood)
+    return false;
   const Eigen::VectorXd place = equations.q();
   const Eigen::VectorXd here = calc_carried_acceleration(model, motion, place, 0.0);
   const Eigen::VectorXd w = motion.calc_velocity(model, place);

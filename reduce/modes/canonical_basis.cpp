@@ -14,7 +14,7 @@ namespace sprung::reduce {
 namespace {
 
 constexpr double kMomentGap = 1e-3;  // of the radius: nearer values of ∫x φᵀφ dm count as equal
-constexpr double kTie = 0.01;        // participations nearer than this share count as equal
+constexpr double kEqualParticipation = 0.01;  // participations nearer than this share count as equal
 
 // Directions fixed so far and an orthonormal basis of those still free, as columns over a cluster's members.
 struct ClusterDirections {
@@ -81,7 +81,7 @@ double calc_sign(const Eigen::VectorXd& participation, const Eigen::VectorXd& sh
   double decisive = 0.0;
   if (largest >= kParticipationThreshold) {
     Eigen::Index i = 0;
-    while (std::abs(participation(i)) < (1.0 - kTie) * largest) ++i;
+    while (std::abs(participation(i)) < (1.0 - kEqualParticipation) * largest) ++i;
     decisive = participation(i);
   } else {
     decisive = shape(find_largest_displacement(shape, node_positions));
