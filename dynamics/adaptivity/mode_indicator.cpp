@@ -1,9 +1,9 @@
 #include "dynamics/adaptivity/mode_indicator.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "tools/support/dense/dense_solvers.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -132,7 +132,6 @@ std::vector<Eigen::Index> ModeIndicator::find_free(const std::vector<bool>& acti
 // for an active one, which the others give way to, x = M_AA⁻¹ e_j over its own entry.
 void ModeIndicator::update_effective() {
   const std::vector<Eigen::Index> giving = find_free(active_);
-  const Eigen::LLT<Eigen::MatrixXd> factor(mass_(giving, giving));
   const auto n = static_cast<Eigen::Index>(modal_.size());
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mass_.rows(), n);
   std::vector<Eigen::Index> own(modal_.size(), -1);
@@ -147,8 +146,7 @@ void ModeIndicator::update_effective() {
       x.col(column) = -mass_.col(own[j]);
     }
   }
-  Eigen::MatrixXd part = x(giving, Eigen::all);
-  if (!giving.empty()) factor.solveInPlace(part);
+  const Eigen::MatrixXd part = support::solve_positive_definite(mass_(giving, giving), x(giving, Eigen::all));
   x.setZero();
   x(giving, Eigen::all) = part;
   for (std::size_t j = 0; j < modal_.size(); ++j) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -14,6 +13,7 @@
 
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/partition.h"
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -76,9 +76,9 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
   const Model& model = terms.model();
   const BlockJacobian& jacobian = terms.jacobian();
   const Eigen::MatrixXd rows = Eigen::MatrixXd(jacobian.sparse())(dependent, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.num_constraints);
-  lambda(dependent) = svd.matrixU().rightCols<1>();  // forces of the joints that move nothing
+  lambda(dependent) = support::calc_left_singular_pairs(rows)
+                          .vectors.rightCols<1>();  // forces of the joints that move nothing
   // Of each body the forces and the torque about its frame's origin that it is loaded by, place by place.
   std::map<std::tuple<int, double, double>, Eigen::Vector3d> loads;
   for (const BlockJacobian::Block& block : jacobian.blocks()) {

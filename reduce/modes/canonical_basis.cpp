@@ -1,12 +1,11 @@
 #include "reduce/modes/canonical_basis.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/largest_displacement.h"
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -32,8 +31,7 @@ void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
 // free.
 // @param row  the functional's values on the columns of directions.free
 void fix_direction(ClusterDirections& directions, const Eigen::RowVectorXd& row) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row.transpose());
-  const Eigen::MatrixXd rotation = qr.householderQ();
+  const Eigen::MatrixXd rotation = support::make_rotation_onto(row.transpose());
   append_columns(directions.fixed, directions.free * rotation.leftCols(1));
   const Eigen::MatrixXd rest = directions.free * rotation.rightCols(rotation.cols() - 1);
   directions.free = rest;
