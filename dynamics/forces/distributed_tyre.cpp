@@ -29,10 +29,10 @@ struct DistributedTyre::Wheel {
   double height;       // of the centre
   double penetration;  // δ
   double rate;         // δ̇
-  double depth_rate;   // of the deepest place
+  double depth_rate;   // rate of overlap.depth
   double elastic, viscous;
-  double lift, drag;   // of the vertical and of the backward force in the force's size
-  double level_width;  // of contact at δ on level ground
+  double lift, drag;   // vertical and backward part of the force, divided by its size
+  double level_width;  // width of contact on level ground at δ
 };
 
 DistributedTyre::DistributedTyre(std::string element_name, Parameters parameters, PlacedRoad road)
@@ -53,7 +53,7 @@ DistributedTyre::Wheel DistributedTyre::calc_wheel(const Instant& instant) const
   wheel.penetration = find_level_penetration(radius, overlap.area);
   wheel.level_width = 2.0 * std::sqrt(wheel.penetration * (2.0 * radius - wheel.penetration));
   const bool touches = wheel.level_width > 0.0;
-  // Where it only just touches: in one point.
+  // A wheel that only just touches has contact in one point.
   wheel.lift = touches ? overlap.width / wheel.level_width : 1.0;
   wheel.drag = touches ? overlap.rise / wheel.level_width : overlap.depth_slope;
   const double speed = road().direction * center.v.x();
@@ -74,7 +74,7 @@ Power DistributedTyre::add_wrenches(const Instant& instant, std::span<const int>
                                     std::span<Wrench> wrenches) const {
   if (branches[0] != kPressed) {
     if (branches[0] == kInAir) return {};
-    // Touching without force: what the spring gives back is lost.
+    // Touching without force: the energy that the spring releases is dissipated.
     const Wheel wheel = calc_wheel(instant);
     return {.dissipated = -parameters().multiplicity * wheel.elastic * wheel.rate};
   }
@@ -110,9 +110,9 @@ void DistributedTyre::add_road_response(const Instant& instant, std::span<const 
   using namespace std::complex_literals;
   const Wheel wheel = calc_wheel(instant);
   const double half_width = 0.5 * wheel.level_width, angle = wave.wavenumber * half_width;
-  const double mean_height = angle > 0.0 ? std::sin(angle) / angle : 1.0;  // over what touches
-  // A higher edge moves outwards, by its height over the slope a/(R − δ) at which the circle leaves the
-  // ground.
+  const double mean_height = angle > 0.0 ? std::sin(angle) / angle : 1.0;  // over the length of contact
+  // An end of the contact whose road is higher moves outwards by this height divided by the slope a/(R − δ)
+  // of the circle there.
   const double lift =
       (std::cos(angle) - mean_height) * (parameters().radius - wheel.penetration) / (half_width * half_width);
   const std::complex<double> drag = 1i * std::sin(angle) / half_width;

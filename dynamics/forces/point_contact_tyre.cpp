@@ -21,8 +21,8 @@ PointContactTyre::Wheel PointContactTyre::calc_wheel(const Instant& instant,
   wheel.road_rate = sample.slope * road().direction * center.v.x();
   wheel.penetration = parameters().radius - (center.r.y() - sample.height);
   wheel.rate = wheel.road_rate - center.v.y();
-  // Where contact ends is located; in a trial beyond, the spring's own formula goes on, so that all stays
-  // smooth.
+  // The end of contact is located. A trial beyond it uses the same formula of the spring, so that the force
+  // stays smooth.
   wheel.elastic = parameters().spring.value(wheel.penetration);
   wheel.viscous = parameters().damping * wheel.rate;
   wheel.force = branches[0] == kPressed ? wheel.elastic + wheel.viscous : 0.0;
@@ -35,7 +35,7 @@ Power PointContactTyre::add_wrenches(const Instant& instant, std::span<const int
   const Wheel wheel = calc_wheel(instant, branches);
   const double force = parameters().multiplicity * wheel.force;
   wrenches[static_cast<std::size_t>(parameters().marker)].force.y() += force;
-  // Where the force is cut off at zero, what the spring gives back is lost.
+  // While the force is kept at zero, the energy that the spring releases is dissipated.
   return {.dissipated = parameters().multiplicity * (wheel.force - wheel.elastic) * wheel.rate,
           .input = force * wheel.road_rate};
 }

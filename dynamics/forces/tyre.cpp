@@ -7,11 +7,11 @@ namespace sprung::dynamics {
 
 namespace {
 
-// A switch is located to about 1e-13 s, on either side of the zero; what counts is where the motion goes from
-// there.
+// A switch is located to about 1e-13 s, before or after the zero. So the branches are chosen by the motion
+// that follows a little later.
 constexpr double kLookAhead = 1e-9;  // s
-// A pressed tyre lets go a trifle below zero force and presses again a trifle above it, so that the zero is
-// passed once.
+// A pressed tyre is released a little below zero force and pressed again a little above it, so that one
+// passage through zero gives one switch.
 constexpr double kForceDeadBand = 1e-6;  // of the force at a penetration of 1 % of the radius
 
 }  // namespace
