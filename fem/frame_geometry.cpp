@@ -11,8 +11,8 @@ namespace sprung::fem {
 namespace {
 
 constexpr int kMaxElementsPerLine = 100000;
-constexpr double kRelativeDistance =
-    1e-9;  // of the largest distance from the first point; nearer is the same place
+// Points nearer than this are at one place; relative to the largest distance from the first point.
+constexpr double kLeastPointDistance = 1e-9;
 
 void check_points(const FrameGeometry& geometry) {
   std::set<std::string> names;
@@ -32,7 +32,7 @@ void check_points(const FrameGeometry& geometry) {
   for (std::size_t i = 0; i < geometry.points.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Eigen::Vector2d gap = geometry.points[i].position - geometry.points[j].position;
-      if (gap.norm() > kRelativeDistance * extent) continue;
+      if (gap.norm() > kLeastPointDistance * extent) continue;
       throw support::InputError(
           geometry.points[i].where,
           fmt::format("points '{}' and '{}' are at one place, ({:.6g}, {:.6g})", geometry.points[j].name,

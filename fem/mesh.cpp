@@ -12,8 +12,8 @@ namespace sprung::fem {
 
 namespace {
 
-constexpr double kRelativeDistance = 1e-9;  // of the extent; nearer is the same place
-constexpr std::size_t kMaxListed = 8;       // nodes listed in a message
+constexpr double kLeastElementLength = 1e-9;  // of the extent; nearer is the same place
+constexpr std::size_t kMaxListed = 8;         // nodes listed in a message
 
 double calc_extent(const Mesh& mesh) {
   const Eigen::Vector2d size =
@@ -173,7 +173,7 @@ void check_mesh(const Mesh& mesh, const support::SourceLocation& where) {
   check_mesh_indices(mesh, "check_mesh");
   if (mesh.elements.empty()) throw support::InputError(where, "the mesh has no line elements");
   check_positions(mesh, where);
-  const double smallest = kRelativeDistance * calc_extent(mesh);
+  const double smallest = kLeastElementLength * calc_extent(mesh);
   check_used(mesh, where);
   check_lengths(mesh, smallest, where);
   check_duplicates(mesh, where);

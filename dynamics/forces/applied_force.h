@@ -5,13 +5,13 @@
 
 namespace sprung::dynamics {
 
-/// Force and torque on one marker as functions of time, in axes that stay with the world or follow the marker
-/// (forces, eq. 4). The work they do is energy put in.
+/// Force and torque on one marker as functions of time, in the axes of the world or of the marker (forces,
+/// eq. 4). Their work is energy put in.
 class AppliedForce final : public ForceElement {
  public:
   enum class Axes {
     kWorld,
-    kFollowing,  ///< turn with the marker: its body's frame and, on a flexible body, its node's rotation
+    kFollowing,  ///< they turn with the marker, on a flexible body with the rotation of its node
   };
   struct Parameters {
     int marker = 0;

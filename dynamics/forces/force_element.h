@@ -21,65 +21,67 @@ struct Wrench {
   double torque = 0.0;                              ///< [N·m]
 };
 
-/// What a force element sees of the vehicle at one instant.
+/// Time and the motion of the vehicle's markers: all that a force depends on.
 struct Instant {
   double time = 0.0;                     ///< [s]
-  std::span<const MarkerState> markers;  ///< all of the model's
+  std::span<const MarkerState> markers;  ///< all markers of the model
 };
 
-/// Power that leaves (dissipated) or enters (input) the mechanical energy through a force element [W].
+/// Power by which a force element reduces (dissipated) or increases (input) the mechanical energy [W].
 struct Power {
   double dissipated = 0.0;
   double input = 0.0;
 };
 
-/// What a channel says, for readers that do not know the element.
+/// The meaning of a channel, for readers that do not know the element.
 enum class ChannelRole {
-  kForce,              ///< force that the element exerts: along its line, or the vertical one on a wheel
+  kForce,              ///< force that the element exerts: along its line, or vertical on a wheel
   kLongitudinalForce,  ///< horizontal force on a wheel
-  kTorque,             ///< torque that it exerts
+  kTorque,             ///< torque that the element exerts
   kGiven,              ///< force or torque that the input file gives as a function of time
-  kExtent,             ///< length, or angle, between its points
-  kDeflection,         ///< what a spring's law depends on: compression, penetration
+  kExtent,             ///< length or angle between the element's points
+  kDeflection,         ///< argument of a spring's law: compression, penetration
   kRate,               ///< rate of that deflection
   kContact,            ///< 1 while a wheel touches the road, else 0
   kRoadHeight,         ///< height of the road under a wheel
 };
 
-/// A column of a force element's results.
+/// One quantity among a force element's results.
 struct Channel {
   std::string_view name;
   std::string_view unit;
   ChannelRole role;
 };
 
-/// As in results files: "road-height".
+/// The name of a role in results files: "road-height".
 std::string_view role_name(ChannelRole role);
 
-/// A force between markers, or on one. Open to new kinds: the solver knows no more than this.
+/// A force between markers, or on one marker. This interface is all that the solver knows about forces, so
+/// that new kinds can be added.
 ///
-/// Where its law jumps or changes formula, an element declares *branches*: integers that say which smooth
-/// formula is in use. Within a step they stay fixed, so that the integrator sees a smooth function even
-/// beyond the switch; the zero of a *switch function* is located and the branches are chosen anew there.
+/// If the law of an element jumps or changes its formula, the element has *branches*: integers that say which
+/// smooth formula is in use. They stay fixed within a step, so that the integrator sees a smooth function
+/// even beyond the switch. The zero of a *switch function* is located, and the branches are chosen anew
+/// there.
 class ForceElement {
  public:
   explicit ForceElement(std::string element_name) : name(std::move(element_name)) {}
   virtual ~ForceElement() = default;
 
   virtual std::string_view kind() const = 0;
-  /// The markers that it sees.
+  /// The markers that the force depends on or acts on.
   virtual std::vector<int> markers() const = 0;
-  /// Its points in the order of markers(), and what it was made with.
+  /// Its points in the order of markers(), and its parameters.
   virtual ElementDescription describe() const = 0;
 
   /// Adds the element's wrenches on its markers.
-  /// @param branches  the element's own, as chosen last
-  /// @param wrenches  one per marker of the model, added to
+  /// @param branches  of the element, as chosen last
+  /// @param[in,out] wrenches  one for each marker of the model
   virtual Power add_wrenches(const Instant& instant, std::span<const int> branches,
                              std::span<Wrench> wrenches) const = 0;
 
-  /// Energy stored [J]; its change is minus the work done by what add_wrenches neither dissipates nor puts
-  /// in.
+  /// Energy stored [J]. Its rate is minus the power of the wrenches, minus the power dissipated, plus the
+  /// power put in (see add_wrenches).
   virtual double calc_stored_energy(const Instant& /*instant*/, std::span<const int> /*branches*/) const {
     return 0.0;
   }
@@ -90,34 +92,33 @@ class ForceElement {
   /// @param[out] values  positive while the branches hold, negative beyond; smooth in time
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
-  /// What a change of branches means, for the list of events: "touches the ground"; "" where it is not worth
-  /// telling.
+  /// What a change of branches means, for the list of events: "touches the ground"; "" if it is not an event
+  /// for that list.
   virtual std::string describe_change(std::span<const int> /*old_branches*/,
                                       std::span<const int> /*new_branches*/) const {
     return {};
   }
 
-  /// How far the integrator may go in one step without missing something that the element knows is coming
-  /// [s].
+  /// Longest step that cannot pass over a change of the force unseen, as far as the element knows [s].
   virtual double calc_longest_step(const Instant& /*instant*/) const {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// Where it stands on the road; none for an element that does not see the road.
+  /// Its position on the road; none for an element that does not depend on the road.
   virtual std::optional<RoadPlace> find_road_place(const Instant& /*instant*/,
                                                    std::span<const int> /*branches*/) const {
     return std::nullopt;
   }
-  /// What low waves of the road do to it while the vehicle keeps still about its place, on level ground: the
-  /// linear part of wrenches and channels, for an amplitude of 1 m. Called for elements that are pressed to
-  /// the road only.
-  /// @param wrenches  one per marker of the model, added to
-  /// @param channels  one per channel [its unit/m], set
+  /// The response of wrenches and channels to a road wave, linearised about level ground with the markers at
+  /// rest relative to the steady motion, for an amplitude of 1 m. It is called only while the element is
+  /// pressed to the road.
+  /// @param[in,out] wrenches  one for each marker of the model, to which the element's are added
+  /// @param[out] channels  one for each channel [its unit/m]
   virtual void add_road_response(const Instant& /*instant*/, std::span<const int> /*branches*/,
                                  const RoadWave& /*wave*/, std::span<WrenchGain> /*wrenches*/,
                                  std::span<std::complex<double>> /*channels*/) const {}
 
-  /// The functions of time in it, whose breaks the integrator has to step to.
+  /// The functions of time that it depends on; the integrator steps to each of their breaks.
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
 
   virtual std::span<const Channel> channels() const = 0;

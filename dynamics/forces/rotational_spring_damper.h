@@ -4,16 +4,16 @@
 
 namespace sprung::dynamics {
 
-/// Spring and damper between the angles of two markers (forces, eq. 3). Deflection d = free
-/// angle − (angle_b − angle_a); the torque T = spring(d) + damper(ḋ) turns b counter-clockwise when positive,
-/// and a the other way. Angles count full turns.
+/// Spring and damper between the angles of two markers (forces, eq. 3). The deflection is d = free angle −
+/// (angle_b − angle_a); full turns count. A positive torque T = spring(d) + damper(ḋ) turns b
+/// counter-clockwise and a clockwise.
 class RotationalSpringDamper final : public SpringAndDamper {
  public:
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
     double free_angle = 0.0;                      ///< [rad]
-    double multiplicity = 1.0;                    ///< how many of them act side by side, > 0
+    double multiplicity = 1.0;                    ///< number of them side by side, > 0
     PiecewisePolynomial spring;                   ///< T(d) [N·m], with its stops
     PiecewisePolynomial damper;                   ///< T(ḋ) [N·m]
     std::optional<double> compression_stop = {};  ///< where it begins, part of the spring's law [rad]

@@ -4,7 +4,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// How far a piece is used beyond its end: far below what a force or a torque could show.
+// How far a piece is used beyond its end: too little to be seen in a force or a torque.
 constexpr double kDeflectionDeadBand = 1e-9;  // m or rad
 constexpr double kRateDeadBand = 1e-6;        // m/s or rad/s
 

@@ -7,9 +7,9 @@
 
 namespace sprung::dynamics {
 
-/// A spring and a damper side by side, functions of one deflection and of its rate: what the two kinds of
-/// them, along a line and between angles, have in common. Branches: pieces of spring and damper. Switches:
-/// the ends of both, where they have any.
+/// A spring and a damper in parallel, functions of one deflection and of its rate: what the two kinds, along
+/// a line and between angles, have in common. Branches: the pieces in use of spring and damper. Switches: the
+/// ends of these pieces.
 class SpringAndDamper : public ForceElement {
  public:
   using ForceElement::ForceElement;
@@ -25,11 +25,11 @@ class SpringAndDamper : public ForceElement {
     double value;  ///< d [m or rad]
     double rate;   ///< ḋ
   };
-  /// Units of the two laws.
+  /// Units of the arguments and values of the two laws.
   struct Units {
     const char *deflection, *rate, *force;
   };
-  /// Adds what both kinds are made with: multiplicity, laws, stops.
+  /// Adds the parameters that both kinds have: multiplicity, laws, stops.
   template <typename Parameters>
   static void describe_laws(const Units& units, const Parameters& parameters,
                             ElementDescription& description) {

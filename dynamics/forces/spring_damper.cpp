@@ -17,8 +17,7 @@ SpringDamper::Line SpringDamper::calc_line(const Instant& instant) const {
   const Eigen::Vector2d span = b.r - a.r;
   Line line;
   line.length = span.norm();
-  // Markers in one place leave no direction; the force then has none either, and the spring goes through its
-  // middle.
+  // Between markers at one place there is no direction; then there is no force either.
   line.direction = line.length > 0.0 ? Eigen::Vector2d(span / line.length) : Eigen::Vector2d::Zero();
   line.deflection = parameters_.free_length - line.length;
   line.rate = -line.direction.dot(b.v - a.v);

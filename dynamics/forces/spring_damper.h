@@ -4,16 +4,15 @@
 
 namespace sprung::dynamics {
 
-/// Spring and damper along the line between two markers (forces, eq. 2). Deflection d = free
-/// length − length, positive in compression; the force F = spring(d) + damper(ḋ) pushes the markers apart
-/// when positive.
+/// Spring and damper along the line between two markers (forces, eq. 2). The deflection d = free length −
+/// length is positive in compression. A positive force F = spring(d) + damper(ḋ) pushes the markers apart.
 class SpringDamper final : public SpringAndDamper {
  public:
   struct Parameters {
     int marker_a = 0;
     int marker_b = 0;
     double free_length = 0.0;                     ///< > 0 [m]
-    double multiplicity = 1.0;                    ///< how many of them act side by side, > 0
+    double multiplicity = 1.0;                    ///< number of them side by side, > 0
     PiecewisePolynomial spring;                   ///< F(d) [N], with its stops
     PiecewisePolynomial damper;                   ///< F(ḋ) [N]
     std::optional<double> compression_stop = {};  ///< where it begins, part of the spring's law [m]

@@ -32,8 +32,9 @@ struct Depth {
     return {xi, point.height - y + half, point.slope - circle_slope, point.slope, point.height};
   }
 
-  // Where e, or its slope, goes through zero between two places of opposite sign: Newton for e kept in bounds
-  // by halving, halving alone for the slope, whose errors count only squared.
+  // The zero of e, or of its slope, between two places where its signs differ. For e: Newton's method, with
+  // halving where it would leave the bracket. For the slope halving is enough, since its error has a
+  // second-order effect.
   Sample find_zero(Sample left, Sample right) const {
     double guess = 0.5 * (left.at + right.at);
     for (int iteration = 0; iteration < 60; ++iteration) {
@@ -59,12 +60,12 @@ struct Depth {
 void take_deepest(const Depth::Sample& sample, WheelOverlap& overlap) {
   if (sample.value <= overlap.depth) return;
   overlap.depth = sample.value;
-  // Where the deepest place is level the circle slopes as the road does; at a corner of the road, which stays
-  // where it is, the circle's slope alone counts.
+  // At a maximum of e inside a segment, circle and road have the same slope. At a corner of the road, which
+  // does not move, only the slope of the circle counts.
   overlap.depth_slope = std::isfinite(sample.slope) ? sample.road_slope - sample.slope : sample.road_slope;
 }
 
-// The part between two places all of which touches.
+// Adds the part between two places, all of which touches the wheel.
 void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right,
                   WheelOverlap& overlap) {
   const double width = right.at - left.at;
@@ -77,7 +78,7 @@ void add_touching(const Depth& depth, const Depth::Sample& left, const Depth::Sa
   overlap.rise += right.road_height - left.road_height;
 }
 
-// One cell, in which e has at most one maximum or minimum.
+// Adds one cell, in which e has at most one maximum or minimum.
 void add_cell(const Depth& depth, const Depth::Sample& left, const Depth::Sample& right,
               WheelOverlap& overlap) {
   const bool touches_left = left.value > 0.0, touches_right = right.value > 0.0;
@@ -130,7 +131,7 @@ WheelOverlap calc_wheel_overlap(const Road& road, double s, double y, double rad
       if (segment_end <= cell_end) ++depth.segment;
     }
   }
-  overlap.area = std::max(0.0, overlap.area);  // a difference of larger areas, where it only just touches
+  overlap.area = std::max(0.0, overlap.area);  // rounding of a difference of larger areas
   return overlap;
 }
 
@@ -142,7 +143,7 @@ double calc_level_overlap(double radius, double penetration) {
 double find_level_penetration(double radius, double area) {
   if (!(area > 0.0)) return 0.0;
   const double target = std::min(2.0 * area / (radius * radius), std::numbers::pi);  // 2α − sin 2α
-  double twice = std::cbrt(6.0 * target);  // exact where small; below the solution always
+  double twice = std::cbrt(6.0 * target);  // exact in the limit of small areas, else below the solution
   for (int iteration = 0; iteration < 30; ++iteration) {
     // x − sin x without cancellation where x is small: x³/6 (1 − x²/20 (1 − x²/42 (1 − x²/72 (1 − x²/110))))
     const double x2 = twice * twice;

@@ -4,21 +4,21 @@
 
 namespace sprung::dynamics {
 
-/// Two places and the values of a function there, of opposite signs; the value at b may be 0.
+/// Two arguments of a function and its values there, which have opposite signs; the value at b may be 0.
 struct ZeroBracket {
   double a, value_a;
   double b, value_b;
 };
 
-/// When the search for a zero ends: where the bracket is no wider than `width` or the value no larger than
-/// `value`.
+/// The search for a zero ends when the bracket is no wider than `width`, or |f| is no larger than `value`.
 struct ZeroTolerance {
   double width = 0.0, value = 0.0;
   int max_evaluations = 100;
 };
 
-/// A zero of a continuous function of one variable by the Illinois rule: secants, the older value halved
-/// where its end stays. @return the place evaluated last, or b. Source: [Dowell & Jarratt 1971]
+/// A zero of a continuous function of one variable by the Illinois rule: secant steps, in which the value at
+/// an end that stays is halved. @return the argument evaluated last; b if none was Source: [Dowell & Jarratt
+/// 1971]
 template <class Function>
 double find_zero(const Function& function, ZeroBracket ends, const ZeroTolerance& tolerance) {
   auto [a, value_a, b, value_b] = ends;

@@ -11,10 +11,10 @@ constexpr int kTop = OscillatorResponse::kMaxPower;
 constexpr double kInverseFactorial[] = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0};
 static_assert(kTop + 2 < static_cast<int>(std::size(kInverseFactorial)));
 
-// Scaled time below which the power series is used; its terms then fall from the first on.
+// Scaled time below which the power series is used; all of its terms are then smaller than the one before.
 constexpr double kSeriesLimit = 1.5;
-// d/ω above which the two decays of an overdamped oscillator are far enough apart to be told from each other,
-// and below which the recurrence divides by no small number.
+// d/ω above which the two exponentials of an overdamped oscillator have clearly different rates, and below
+// which the recurrence divides by no small number.
 constexpr double kOverdamped = 1.2;
 
 // 1/m and 1/(m(m−1)).
@@ -41,8 +41,8 @@ double power_term(int k, double time) {
   return value;
 }
 
-// Highest two forced responses by their power series, the lower ones by the equation itself, which only
-// multiplies.
+// The highest two forced responses by their power series, the lower ones by the differential equation, which
+// needs products only.
 OscillatorResponse by_series(double stiffness, double decay, double time, int top) {
   // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
   double before = 0.0, term = power_term(top + 2, time);
@@ -120,7 +120,7 @@ std::array<double, kTop + 2> exponential_responses(double rate, double time, int
   return Y;
 }
 
-// Far beyond critical damping: the difference of two decays, which are far apart.
+// Far beyond critical damping: the difference of two exponentials with very different rates.
 OscillatorResponse by_two_decays(double stiffness, double decay, double time, int top) {
   const double root = std::sqrt(decay * decay - stiffness);
   const double slow_rate = -stiffness / (decay + root), fast_rate = -(decay + root);

@@ -212,7 +212,7 @@ std::size_t PiecewisePolynomial::find_piece(double x) const {
 }
 
 void PiecewisePolynomial::rebuild_integrals() {
-  // First relative to the origin of piece 0, then shifted so that the integral from 0 is meant.
+  // At first from the origin of piece 0, then shifted so that they begin at 0.
   integrals_.assign(pieces_.size(), 0.0);
   for (std::size_t i = 1; i < pieces_.size(); ++i) {
     const double at_break =

@@ -6,8 +6,8 @@
 
 namespace sprung::dynamics {
 
-/// A function of one variable made of polynomials end to end: characteristics of springs, dampers and tyres,
-/// tables, splines. Continuous. The first and the last piece go on for ever.
+/// A continuous function of one variable, made of polynomials joined end to end: characteristics of springs,
+/// dampers and tyres, tables, splines. The first and the last piece continue for ever.
 class PiecewisePolynomial {
  public:
   PiecewisePolynomial() : PiecewisePolynomial(std::vector<double>{0.0}) {}
@@ -15,7 +15,7 @@ class PiecewisePolynomial {
   /// One polynomial Σ a_k x^k.
   explicit PiecewisePolynomial(std::vector<double> coefficients);
 
-  /// Straight lines through points; ends go on with the slope of their last piece.
+  /// Straight lines through points; beyond the ends, the outermost lines continue.
   /// @param x ascending, at least 2; y as many
   /// @throws std::invalid_argument
   static PiecewisePolynomial through_points(std::span<const double> x, std::span<const double> y);
@@ -25,15 +25,15 @@ class PiecewisePolynomial {
   /// @param x ascending, at least 2; y as many
   static PiecewisePolynomial clamped_spline(std::span<const double> x, std::span<const double> y);
 
-  /// Polynomials end to end: pieces[0] up to breaks[0], pieces[k] from breaks[k − 1] on, as coefficients of
-  /// (x − breaks[k − 1])^j; the first of (x − breaks[0])^j.
-  /// @param breaks ascending, at least 1; one more piece than breaks, none empty
+  /// Polynomials joined end to end. pieces[0] ends at breaks[0] and pieces[k] begins at breaks[k − 1]. Entry
+  /// j of pieces[k] is the coefficient of (x − breaks[k − 1])^j, in pieces[0] of (x − breaks[0])^j.
+  /// @param breaks ascending, at least 1   @param pieces  one more than breaks, none empty
   /// @throws std::invalid_argument
   static PiecewisePolynomial from_pieces(std::vector<double> breaks, std::vector<std::vector<double>> pieces);
 
-  /// From `at` on (or up to `at`, for below = true) the function continues straight with slope `rate`.
+  /// Replaces the function beyond `at` (below = true: before `at`) by a straight line with slope `rate`.
   void continue_straight(double at, double rate, bool below);
-  /// Below `at` the function is zero (its value at `at` has to be zero).
+  /// Makes the function zero below `at`, where its value must be zero.
   void cut_off_below(double at);
 
   double value(double x) const;
@@ -41,24 +41,24 @@ class PiecewisePolynomial {
   double integral(double x) const;         ///< ∫₀ˣ
   PiecewisePolynomial derivative() const;  ///< may jump at the breaks
 
-  bool is_zero() const;  ///< everywhere
+  bool is_zero() const;  ///< it is zero everywhere
 
   std::span<const double> breaks() const { return breaks_; }  ///< between pieces, ascending
 
   std::size_t num_pieces() const { return pieces_.size(); }
-  /// Of piece k: Σ coefficients_j (x − origin)^j.
+  /// Piece k is Σ coefficients(k)[j] (x − origin(k))^j.
   double origin(std::size_t k) const { return origins_[k]; }
   std::span<const double> coefficients(std::size_t k) const { return pieces_[k]; }
 
-  /// A piece's polynomial, at x that may lie beyond its ends.
+  /// The polynomial of one piece; x may lie beyond its ends.
   double value_in_piece(int piece, double x) const;
-  /// The 0-based piece to use at x, where `piece` has been in use: that one until x is half a dead band
-  /// beyond its ends, so that x trembling at a break does not change pieces again and again.
+  /// The piece to use at x, from 0. It is the piece in use until x is half a dead band beyond its ends, so
+  /// that small changes of x at a break do not change the piece each time. @param piece  in use
   int choose_piece(int piece, double x, double dead_band) const;
-  /// Two, the ends of the piece in use; none where one piece is all there is.
+  /// 2, for the two ends of the piece in use; 0 for a function of one piece.
   int num_switches() const { return breaks_.empty() ? 0 : 2; }
-  /// @param[out] values  num_switches: positive while x has not gone a dead band beyond the lower, the upper
-  /// end of the piece
+  /// @param[out] values  num_switches: positive until x is a dead band beyond the lower end of the piece, and
+  /// the upper one
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
 
  private:

@@ -9,12 +9,12 @@
 namespace sprung::dynamics {
 
 /// A function of time with its first two derivatives: applied forces, prescribed motion (functions, eq. 1).
-/// Smooth between its breaks; at a break the formula of what follows holds. The integrator steps to every
-/// break exactly and starts anew there.
+/// It is smooth between its breaks; at a break, the formula after it holds. The integrator steps to each
+/// break exactly and restarts there.
 class TimeFunction {
  public:
   TimeFunction() = default;
-  /// The same value always.
+  /// A constant.
   explicit TimeFunction(double constant) : TimeFunction(PiecewisePolynomial({constant})) {}
 
   /// Σ a_k t^k
@@ -29,12 +29,12 @@ class TimeFunction {
   /// mean + amplitude sin(2π frequency t + phase)
   static TimeFunction harmonic(const Harmonic& parameters);
 
-  /// Straight lines through points, level before the first and after the last; kinks at all of them.
+  /// Straight lines through points, constant before the first and after the last; each point is a break.
   /// @param t ascending, at least 2 [s]; x as many
   /// @throws std::invalid_argument
   static TimeFunction lines(std::span<const double> t, std::span<const double> x);
-  /// Cubic spline through points, twice continuously differentiable, starting and ending level and level
-  /// outside.
+  /// Cubic spline through points, twice continuously differentiable, with zero slope at both ends and
+  /// constant outside.
   /// @param t ascending, at least 2 [s]; x as many
   /// @throws std::invalid_argument
   static TimeFunction spline(std::span<const double> t, std::span<const double> x);
@@ -53,20 +53,20 @@ class TimeFunction {
   double acceleration(double time) const;
   bool is_constant() const;
 
-  /// The function is the sum of these two; the second is none where its amplitude is 0.
+  /// The function is the sum of these two; with an amplitude of 0 there is no harmonic part.
   const PiecewisePolynomial& polynomials() const { return value_; }
   const Harmonic& oscillation() const { return harmonic_; }
 
-  /// Where a derivative may jump, ascending [s].
+  /// Times at which a derivative may jump, ascending [s].
   std::span<const double> breaks() const { return breaks_; }
-  /// Step in time that misses nothing of the function [s]; infinite for one that is smooth as a whole.
+  /// Longest step in time that does not step over a detail of the function [s]; infinite without details.
   double resolution() const { return resolution_; }
 
  private:
   explicit TimeFunction(PiecewisePolynomial value);
 
   PiecewisePolynomial value_, rate_, acceleration_;
-  Harmonic harmonic_;  // added; none where the amplitude is 0
+  Harmonic harmonic_;  // added; amplitude 0 if there is none
   std::vector<double> breaks_;
   double resolution_ = std::numeric_limits<double>::infinity();
 };

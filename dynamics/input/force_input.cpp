@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/forces/distributed_tyre.h"
+#include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/input/characteristic_input.h"
 #include "dynamics/input/time_function_input.h"
 
@@ -92,9 +94,9 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
   force.parameters = std::move(parameters);
 }
 
-// Reads the parameters that both kinds of tyre share; DistributedTyre does not use one_sided.
-PointContactTyre::Parameters read_tyre_laws(const support::TomlTable& table) {
-  PointContactTyre::Parameters parameters;
+// Reads the parameters that both kinds of tyre share; a distributed tyre does not use one_sided.
+Tyre::Parameters read_tyre_laws(const support::TomlTable& table) {
+  Tyre::Parameters parameters;
   parameters.radius = table.number("radius", support::positive("m"));
   parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
   parameters.damping = table.number_or("damping", 0.0, support::non_negative("N·s/m"));
@@ -122,19 +124,12 @@ void read_tyre(const support::TomlTable& table, ForceDescription& force) {
   force.points = {read_point(table.at("wheel"))};
   force.on_road = true;
   const std::optional<support::TomlValue> contact = table.find("contact");
-  const bool is_distributed = contact && contact->one_of(kContacts) == "distributed";
-  const PointContactTyre::Parameters parameters = read_tyre_laws(table);
-  if (is_distributed && !parameters.one_sided) {
+  TyreDescription tyre{.is_distributed = contact && contact->one_of(kContacts) == "distributed",
+                       .parameters = read_tyre_laws(table)};
+  if (tyre.is_distributed && !tyre.parameters.one_sided) {
     throw table.at("one_sided").error("must be true of a tyre with distributed contact, which cannot pull");
   }
-  if (is_distributed) {
-    force.parameters = DistributedTyre::Parameters{.radius = parameters.radius,
-                                                   .multiplicity = parameters.multiplicity,
-                                                   .spring = parameters.spring,
-                                                   .damping = parameters.damping};
-  } else {
-    force.parameters = parameters;
-  }
+  force.parameters = std::move(tyre);
 }
 
 const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
@@ -168,16 +163,11 @@ std::unique_ptr<ForceElement> place(const std::string& name, AppliedForce::Param
   return std::make_unique<AppliedForce>(name, std::move(parameters));
 }
 
-std::unique_ptr<ForceElement> place(const std::string& name, PointContactTyre::Parameters parameters,
+std::unique_ptr<ForceElement> place(const std::string& name, TyreDescription tyre,
                                     std::span<const int> markers, const PlacedRoad& road) {
-  parameters.marker = markers[0];
-  return std::make_unique<PointContactTyre>(name, std::move(parameters), road);
-}
-
-std::unique_ptr<ForceElement> place(const std::string& name, DistributedTyre::Parameters parameters,
-                                    std::span<const int> markers, const PlacedRoad& road) {
-  parameters.marker = markers[0];
-  return std::make_unique<DistributedTyre>(name, std::move(parameters), road);
+  tyre.parameters.marker = markers[0];
+  if (tyre.is_distributed) return std::make_unique<DistributedTyre>(name, std::move(tyre.parameters), road);
+  return std::make_unique<PointContactTyre>(name, std::move(tyre.parameters), road);
 }
 
 }  // namespace

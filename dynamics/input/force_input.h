@@ -7,20 +7,24 @@
 #include <vector>
 
 #include "dynamics/forces/applied_force.h"
-#include "dynamics/forces/distributed_tyre.h"
-#include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
+#include "dynamics/forces/tyre.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/road/road.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 
+/// Parameters of a tyre of either kind.
+struct TyreDescription {
+  bool is_distributed = false;  ///< touches the road along a length of it
+  Tyre::Parameters parameters;
+};
+
 /// Parameters of a force element of any kind.
-using ForceParameters =
-    std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters, AppliedForce::Parameters,
-                 PointContactTyre::Parameters, DistributedTyre::Parameters>;
+using ForceParameters = std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters,
+                                     AppliedForce::Parameters, TyreDescription>;
 
 /// A force element as described in the vehicle file.
 struct ForceDescription {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -14,16 +13,17 @@
 
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/partition.h"
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;       // of the length scale
-constexpr double kLoaded = 1e-6;           // smaller ones of forces of the order 1 are rounding errors
-constexpr double kRegularisation = 1e-12;  // of the largest diagonal entry
+constexpr int kMaxClosingIterations = 60;
+constexpr double kClosingTolerance = 1e-12;  // of the length scale
+constexpr double kLoaded = 1e-6;             // smaller ones of forces of the order 1 are rounding errors
+constexpr double kRegularisation = 1e-12;    // of the largest diagonal entry
 
 Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
   Eigen::VectorXd inverse(terms.model().num_coordinates);
@@ -76,9 +76,9 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
   const Model& model = terms.model();
   const BlockJacobian& jacobian = terms.jacobian();
   const Eigen::MatrixXd rows = Eigen::MatrixXd(jacobian.sparse())(dependent, Eigen::all);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullU);
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(model.num_constraints);
-  lambda(dependent) = svd.matrixU().rightCols<1>();  // forces of the joints that move nothing
+  lambda(dependent) = support::calc_left_singular_pairs(rows)
+                          .vectors.rightCols<1>();  // forces of the joints that move nothing
   // For each body and position in it, the force there and its torque about the body frame's origin.
   std::map<std::tuple<int, double, double>, Eigen::Vector3d> loads;
   for (const BlockJacobian::Block& block : jacobian.blocks()) {
@@ -139,9 +139,9 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
-  for (int iteration = 0; size > std::max(kTolerance * model.length_scale, model.calc_rounding(q));
+  for (int iteration = 0; size > std::max(kClosingTolerance * model.length_scale, model.calc_rounding(q));
        ++iteration) {
-    if (iteration == kMaxIterations) throw_cannot_close(model, phi);
+    if (iteration == kMaxClosingIterations) throw_cannot_close(model, phi);
     terms.update_jacobian();
     const Eigen::SparseMatrix<double> Phi_q = terms.jacobian().sparse();
     const Eigen::SparseMatrix<double> weighted = inverse_mass.asDiagonal() * Phi_q.transpose();

@@ -16,9 +16,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr int kMaxIterations = 200;
-constexpr double kTolerance = Equilibrium::kTolerance;
-constexpr double kRounding = 1e-10;        // steps below this that stop decreasing are rounding
+constexpr int kMaxNewtonIterations = 200;
+constexpr double kRoundingStep = 1e-10;    // steps below this that stop decreasing are rounding
 constexpr double kWorstRounding = 1e-5;    // largest rounding of a step that is accepted
 constexpr double kRoundingMargin = 4.0;    // the estimate of rounding is correct to a factor of a few
 constexpr double kPushedStiffness = 1e-9;  // for a direction with force and no stiffness, of the largest one
@@ -120,7 +119,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
 
 [[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
                                        const ModalForce& modal, double last_step) {
-  const double least = std::max(modal.rounding_step, kTolerance);
+  const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
   if (!modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
@@ -134,7 +133,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
       fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
                   "(tolerance {:.0e}); what "
                   "keeps moving: {}; check that something holds it against gravity, and the start position",
-                  kMaxIterations, last_step, least, direction.description));
+                  kMaxNewtonIterations, last_step, least, direction.description));
 }
 
 // Bounds of a step. They widen each time the forces change as the stiffness predicts.
@@ -187,7 +186,7 @@ Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::
 Eigen::VectorXd iterate_with_same_stiffness(const Model& model, PartitionedEquations& equations,
                                             const LinearisedSystem& system, const ModalForce& modal,
                                             const SteadyMotion& motion, double last_size, int& steps) {
-  while (last_size > kTolerance) {
+  while (last_size > Equilibrium::kTolerance) {
     Eigen::VectorXd q_i = select_independent(system, equations.q());
     const Eigen::VectorXd force = calc_static_force(equations, 0.0, q_i, nullptr, motion);
     if (force.size() == 0) break;
@@ -225,10 +224,10 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     const double newton_step =
         largest_natural(model, system.partition.independent, modal.calc_step(modal.force, 0.0));
     if (on_iteration) on_iteration(iteration, newton_step);
-    const double rounding = std::clamp(modal.rounding_step, kRounding, kWorstRounding);
+    const double rounding = std::clamp(modal.rounding_step, kRoundingStep, kWorstRounding);
     const bool is_rounding = newton_step <= rounding && newton_step > 0.5 * last_step;
     last_step = newton_step;
-    if (!modal.is_falling && (newton_step <= kTolerance || is_rounding)) {
+    if (!modal.is_falling && (newton_step <= Equilibrium::kTolerance || is_rounding)) {
       equilibrium.last_step = newton_step;
       equilibrium.rounding_step = modal.rounding_step;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
@@ -243,7 +242,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       equilibrium.linearised = std::move(system);
       return equilibrium;
     }
-    if (iteration == kMaxIterations) throw_no_equilibrium(model, system, modal, newton_step);
+    if (iteration == kMaxNewtonIterations) throw_no_equilibrium(model, system, modal, newton_step);
     equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q),
                                   motion, trust);
     ++equilibrium.iterations;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "dynamics/linear/undamped_modes.h"
 #include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/dense/orthogonal_factors.h"
 
 namespace sprung::dynamics {
 
@@ -86,12 +86,11 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
   held.by_velocity = outputs.by_velocity;
   if (!coordinates.empty()) {
     // D_Sᵀ λ = (K̂ + sĈ + s²M̂) x − F: the reactions of the held coordinates and their effect on the outputs.
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> holding(
-        full.directions(coordinates, Eigen::all).transpose());
-    const Eigen::MatrixXd Q = holding.householderQ() * Eigen::MatrixXd::Identity(f, f);
-    free = Q.rightCols(f - holding.rank());
-    const Eigen::MatrixXd G =
-        outputs.by_force(Eigen::all, coordinates) * holding.solve(Eigen::MatrixXd::Identity(f, f));
+    const Eigen::MatrixXd holding = full.directions(coordinates, Eigen::all).transpose();
+    const support::ColumnSpace held_space = support::find_column_space(holding, f);
+    free = held_space.basis.rightCols(f - held_space.rank);
+    const Eigen::MatrixXd G = outputs.by_force(Eigen::all, coordinates) *
+                              support::solve_least_squares(holding, Eigen::MatrixXd::Identity(f, f));
     held.by_position += G * full.stiffness;
     held.by_velocity += G * full.damping;
     by_acceleration += G * full.mass;

@@ -16,8 +16,9 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kTolerance = 1e-7;  // error of a panel, of the whole mean square
-constexpr double kRounding = 1e-18;  // mean square that counts as zero, of the largest in the same unit
+constexpr double kPanelTolerance = 1e-7;  // error of a panel, of the whole mean square
+constexpr double kNegligibleShare =
+    1e-18;  // mean square that counts as zero, of the largest in the same unit
 constexpr double kPanelsPerDecade = 6.0;
 constexpr double kMostDelays = 20000.0;  // panels for the delay between the wheels
 
@@ -103,7 +104,7 @@ Eigen::VectorXd calc_root_mean_squares(const LinearVehicle& vehicle, const Linea
     }
     Eigen::VectorXd floor(values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      floor[i] = kRounding * largest[outputs.units[static_cast<std::size_t>(i)]];
+      floor[i] = kNegligibleShare * largest[outputs.units[static_cast<std::size_t>(i)]];
     }
     return floor;
   };
@@ -112,7 +113,7 @@ Eigen::VectorXd calc_root_mean_squares(const LinearVehicle& vehicle, const Linea
         const double f = std::exp(log_frequency);
         return Eigen::VectorXd(f * calc_response_spectrum(vehicle, outputs, road, speed, f));
       },
-      breaks, kTolerance, floors);
+      breaks, kPanelTolerance, floors);
   if (!integral.converged) throw_undamped(eigenvalues, std::exp(integral.worst));
   return integral.value.cwiseSqrt();
 }
@@ -126,7 +127,8 @@ double calc_road_rms(const RoadSpectrum& road, double speed, const FrequencyRang
         const double n = std::exp(log_frequency) / speed;
         return Eigen::VectorXd::Constant(1, n * road.density(n));
       },
-      breaks, kTolerance, [](const Eigen::VectorXd& values) { return Eigen::VectorXd::Zero(values.size()); });
+      breaks, kPanelTolerance,
+      [](const Eigen::VectorXd& values) { return Eigen::VectorXd::Zero(values.size()); });
   return std::sqrt(integral.value[0]);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "tools/support/dense/vector_span.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -25,10 +26,6 @@ double scale_of(const PartitionedEquations& equations, Eigen::Index k) {
   return model_of(equations).coordinate_scale(coordinate_of(equations, k));
 }
 
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
 // Evaluates velocities relative to a steady motion, and accelerations, at the present positions.
 // @return the branches in use
 std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::VectorXd& rate_independent,
@@ -36,7 +33,7 @@ std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::Ve
   const Eigen::VectorXd w = motion.calc_velocity(model_of(equations), equations.q());
   Eigen::VectorXd v_independent = rate_independent;
   for (Eigen::Index k = 0; k < v_independent.size(); ++k) v_independent[k] += w[coordinate_of(equations, k)];
-  equations.update_velocities(span_of(v_independent));
+  equations.update_velocities(support::as_span(v_independent));
   std::vector<int> branches(static_cast<std::size_t>(model_of(equations).num_branches));
   equations.terms().choose_branches(branches);
   equations.update_accelerations(branches);
@@ -48,7 +45,8 @@ std::vector<int> set_velocities(PartitionedEquations& equations, const Eigen::Ve
 std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, Eigen::VectorXd q_independent,
                                   Eigen::Index k, double distance, const SteadyMotion& motion) {
   q_independent[k] += distance;
-  if (equations.update_positions(time, span_of(q_independent)) != PartitionedEquations::Outcome::kGood) {
+  if (equations.update_positions(time, support::as_span(q_independent)) !=
+      PartitionedEquations::Outcome::kGood) {
     throw support::NumericalError(
         fmt::format("linearise: the constraints cannot be satisfied at a distance of {} along {}", distance,
                     model_of(equations).coordinate_name(coordinate_of(equations, k))));

@@ -1,9 +1,11 @@
 #include "dynamics/linear/steady_motion.h"
 
-#include <Eigen/QR>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "tools/support/dense/orthogonal_factors.h"
+#include "tools/support/dense/vector_span.h"
 
 namespace sprung::dynamics {
 
@@ -13,10 +15,6 @@ constexpr double kAllowed = 1e-9;  // residual of the constraints, of the prescr
 constexpr double kSame = 1e-6;     // difference of accelerations that counts as none, of the largest one
 constexpr double kOffset = 1e-3;   // distance from the equilibrium of the comparison [natural sizes]
 constexpr std::array<double, 2> kTurns{0.7, 2.1};  // later positions of the motion [rad, or length scales]
-
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
 
 // ρ̈ of a system at rest relative to the motion, at positions q and a time, rotated back to time 0; empty
 // where q does not satisfy the constraints.
@@ -30,11 +28,12 @@ Eigen::VectorXd calc_carried_acceleration(const Model& model, const SteadyMotion
     q_i[k] = q[equations.partition().independent[static_cast<std::size_t>(k)]];
     v_i[k] = w[equations.partition().independent[static_cast<std::size_t>(k)]];
   }
-  if (equations.update_positions(time, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return {};
+  if (equations.update_positions(time, support::as_span(q_i)) != PartitionedEquations::Outcome::kGood)
+    return {};
   for (int i = 0; i < model.num_coordinates; ++i) {
     if (std::abs(equations.q()[i] - q[i]) > kAllowed * model.coordinate_scale(i)) return {};
   }
-  equations.update_velocities(span_of(v_i));
+  equations.update_velocities(support::as_span(v_i));
   std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
   equations.terms().choose_branches(branches);
   equations.update_accelerations(branches);
@@ -110,7 +109,7 @@ std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::
   rigid.col(1) = SteadyMotion{.velocity = {0.0, 1.0}}.calc_velocity(model, q);
   rigid.col(2) = SteadyMotion{.omega = 1.0}.calc_velocity(model, q);
   const Eigen::MatrixXd allowed = terms.jacobian().dense() * rigid;
-  const Eigen::Vector3d found = allowed.completeOrthogonalDecomposition().solve(-phi_t);
+  const Eigen::Vector3d found = support::solve_minimum_norm(allowed, -phi_t);
   if ((allowed * found + phi_t).norm() > kAllowed * phi_t.norm()) return std::nullopt;
   return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
 }
@@ -125,7 +124,8 @@ bool is_steady(const Model& model, const SteadyMotion& motion, const Eigen::Vect
     const int i = equations.partition().independent[static_cast<std::size_t>(k)];
     q_i[k] = q[i] + kOffset * std::cos(1.7 * static_cast<double>(k + 1)) * model.coordinate_scale(i);
   }
-  if (equations.update_positions(0.0, span_of(q_i)) != PartitionedEquations::Outcome::kGood) return false;
+  if (equations.update_positions(0.0, support::as_span(q_i)) != PartitionedEquations::Outcome::kGood)
+    return false;
   const Eigen::VectorXd place = equations.q();
   const Eigen::VectorXd here = calc_carried_acceleration(model, motion, place, 0.0);
   const Eigen::VectorXd w = motion.calc_velocity(model, place);

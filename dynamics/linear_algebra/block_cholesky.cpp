@@ -8,13 +8,13 @@ namespace sprung::dynamics {
 
 namespace {
 
-// For each step of the elimination the nodes that are coupled with the one eliminated and still there.
-struct Elimination {
+// The nodes in the order of elimination and, for each, the remaining nodes that are then coupled with it.
+struct EliminationOrder {
   std::vector<int> order;
   std::vector<std::vector<int>> coupled;
 };
 
-Elimination eliminate_by_degree(int num_nodes, const std::vector<std::pair<int, int>>& couplings) {
+EliminationOrder find_minimum_degree_order(int num_nodes, const std::vector<std::pair<int, int>>& couplings) {
   std::vector<std::set<int>> neighbours(static_cast<std::size_t>(num_nodes));
   const auto of = [&](int i) -> std::set<int>& { return neighbours[static_cast<std::size_t>(i)]; };
   for (const auto& [i, j] : couplings) {
@@ -24,7 +24,7 @@ Elimination eliminate_by_degree(int num_nodes, const std::vector<std::pair<int, 
   }
   std::set<std::pair<std::size_t, int>> by_degree;
   for (int i = 0; i < num_nodes; ++i) by_degree.emplace(of(i).size(), i);
-  Elimination elimination;
+  EliminationOrder elimination;
   while (!by_degree.empty()) {
     const int node = by_degree.begin()->second;
     by_degree.erase(by_degree.begin());
@@ -63,7 +63,7 @@ void solve_diagonal(const Eigen::Matrix2d& factors, Value& x, Value& y) {
 
 BlockCholesky::BlockCholesky(int num_nodes, const std::vector<std::pair<int, int>>& couplings)
     : num_nodes_(num_nodes), step_(static_cast<std::size_t>(num_nodes)) {
-  const Elimination elimination = eliminate_by_degree(num_nodes, couplings);
+  const EliminationOrder elimination = find_minimum_degree_order(num_nodes, couplings);
   const std::vector<int>& order = elimination.order;
   for (std::size_t k = 0; k < order.size(); ++k)
     step_[static_cast<std::size_t>(order[k])] = static_cast<int>(k);

@@ -7,7 +7,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// A column for each row such that all of them differ (augmenting paths); −1 where there is none.
+// Assigns a different column to as many rows as possible (augmenting paths); −1 for the others.
 class Matching {
  public:
   explicit Matching(const PatternRows& rows)
@@ -28,11 +28,11 @@ class Matching {
   const std::vector<int>& row_of_column() const { return row_of_column_; }
 
  private:
-  // @param origin  the row that looks for a column: no column is tried twice for it
+  // Finds a column for a row, for which other rows may move to another column.
+  // @param origin  the row that began the search, which tries no column twice
   bool augment(int row, int origin) {
     const std::vector<PatternEntry>& entries = rows_[static_cast<std::size_t>(row)];
-    for (const PatternEntry& entry :
-         entries) {  // a column that nobody has spares the way through those that have one
+    for (const PatternEntry& entry : entries) {  // a free column first: then no other row has to move
       int& owner = row_of_column_[static_cast<std::size_t>(entry.column)];
       if (owner >= 0) continue;
       owner = row;
@@ -54,8 +54,8 @@ class Matching {
   std::vector<int> tried_for_;
 };
 
-// Strongly connected groups of rows, where a row needs the rows whose columns it contains; in an order in
-// which each group comes after those that it needs.
+// Strongly connected components of the rows [Tarjan 1972]. A row needs the rows whose columns it contains;
+// each group comes after the groups that it needs.
 class Groups {
  public:
   Groups(const PatternRows& rows, const Matching& matching)

@@ -1,6 +1,6 @@
 #include "dynamics/linear_algebra/column_pivoting.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <compare>
@@ -11,44 +11,38 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kEqual = 1e-9;       // share by which norms differ that differ by more than rounding
-constexpr double kLeastPivot = 1e-6;  // of the largest one before
-constexpr int kFewRows = 150;         // up to which the longest column is taken
-constexpr double kAlike = 2.0;        // of a matrix with more: factor within which sizes count as equal
+constexpr double kEqual = 1e-9;       // relative difference of lengths that is no more than rounding
+constexpr int kFewRows = 150;         // up to which the matrix is decomposed as a dense one
+constexpr double kAlike = 2.0;        // factor within which pivots of the elimination count as equal
+constexpr double kLeastPivot = 1e-6;  // of the elimination: of the largest one before
 
-// The same for all sizes that count as equal, growing where they get smaller.
+// The same number for all sizes that count as equal, larger for smaller sizes.
 double rank_of(double size, double largest, double log_equal) {
   return size > 0.0 ? -std::round(std::log(size / largest) / log_equal) : 1e300;
 }
 
 struct Pivot {
-  int column = -1;    // −1: nothing is left
-  double size = 0.0;  // of what is left of it
-  int row = -1;       // where it is one entry
+  int column = -1;    // −1: no column has an entry left
+  double size = 0.0;  // length of the column, or size of the entry, that is left
+  int row = -1;       // of the entry
 };
 
-// What is left of the columns of a matrix of few rows while they are taken: QR by its rows, of which AᵀA −
-// RᵀR needs no more than the diagonal.
-class Remainder {
+// What is left of the columns of a dense matrix when what lies along the columns taken is removed (modified
+// Gram–Schmidt). Lengths are calculated anew from what is left, so that they are right down to rounding.
+class OrthogonalRemainder {
  public:
-  explicit Remainder(const Eigen::SparseMatrix<double>& matrix)
-      : matrix_(matrix),
-        rows_(Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols())),
-        squares_(matrix.cols()),
-        is_left_(static_cast<std::size_t>(matrix.cols())) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      squares_[j] = matrix.col(j).squaredNorm();
-      is_left_[static_cast<std::size_t>(j)] = squares_[j] > 0.0;
-    }
-    if (matrix.cols() > 0) largest_square_ = squares_.maxCoeff();
-  }
+  explicit OrthogonalRemainder(const Eigen::SparseMatrix<double>& matrix)
+      : columns_(matrix.toDense()),
+        squares_(columns_.colwise().squaredNorm()),
+        is_taken_(static_cast<std::size_t>(matrix.cols()), false),
+        largest_square_(squares_.maxCoeff()) {}
 
   // The longest column, of those that count as equal the first.
   Pivot choose() const {
     Pivot best;
     double best_rank = 0.0;
     for (Eigen::Index j = 0; j < squares_.size(); ++j) {
-      if (!is_left_[static_cast<std::size_t>(j)]) continue;
+      if (is_taken_[static_cast<std::size_t>(j)]) continue;
       const double rank = rank_of(squares_[j], largest_square_, 2.0 * kEqual);
       if (best.column >= 0 && !(rank < best_rank)) continue;
       best = {.column = static_cast<int>(j), .size = std::sqrt(squares_[j])};
@@ -58,33 +52,28 @@ class Remainder {
   }
 
   void take(const Pivot& pivot) {
-    const int column = pivot.column;
-    const Eigen::VectorXd taken = matrix_.col(column);
-    Eigen::VectorXd row = matrix_.transpose() * taken;
-    row.noalias() -= rows_.topRows(num_taken_).transpose() * rows_.col(column).head(num_taken_);
-    row /= pivot.size;
-    rows_.row(num_taken_++) = row;
-    squares_ -= row.cwiseAbs2();
-    is_left_[static_cast<std::size_t>(column)] = false;
+    is_taken_[static_cast<std::size_t>(pivot.column)] = true;
+    if (!(pivot.size > 0.0)) return;
+    const Eigen::VectorXd direction = columns_.col(pivot.column) / pivot.size;
+    const Eigen::RowVectorXd along = direction.transpose() * columns_;
     for (Eigen::Index j = 0; j < squares_.size(); ++j) {
-      if (!(squares_[j] > kLeastPivot * kLeastPivot * largest_square_))
-        is_left_[static_cast<std::size_t>(j)] = false;
+      if (along[j] == 0.0) continue;
+      columns_.col(j) -= along[j] * direction;
+      squares_[j] = columns_.col(j).squaredNorm();
     }
   }
 
  private:
-  const Eigen::SparseMatrix<double>& matrix_;
-  Eigen::MatrixXd rows_;     // of R, those of the columns taken
-  Eigen::VectorXd squares_;  // of the lengths left
-  std::vector<bool> is_left_;
-  Eigen::Index num_taken_ = 0;
-  double largest_square_ = 0.0;
+  Eigen::MatrixXd columns_;
+  Eigen::RowVectorXd squares_;  // of the lengths
+  std::vector<bool> is_taken_;
+  double largest_square_;  // of the matrix
 };
 
-// What is left of a matrix of many rows while it is eliminated by rows and columns.
-class Elimination {
+// What Gaussian elimination has left of a sparse matrix when the rows and columns of the pivots are gone.
+class EliminatedRemainder {
  public:
-  explicit Elimination(const Eigen::SparseMatrix<double>& matrix)
+  explicit EliminatedRemainder(const Eigen::SparseMatrix<double>& matrix)
       : rows_(static_cast<std::size_t>(matrix.rows())), columns_(static_cast<std::size_t>(matrix.cols())) {
     for (int j = 0; j < matrix.outerSize(); ++j) {  // so that the entries of a row ascend
       for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, j); entry; ++entry) {
@@ -96,13 +85,13 @@ class Elimination {
       }
     }
     for (const std::vector<int>& column : columns_) first_counts_.push_back(column.size());
-    for (int j = 0; j < static_cast<int>(columns_.size()); ++j) note_if_alone(j);
+    for (int j = 0; j < static_cast<int>(columns_.size()); ++j) add_if_alone(j);
     for (int i = 0; i < static_cast<int>(rows_.size()); ++i) by_size_.insert(key(i));
   }
 
-  // A column that is in one row alone and is large enough there: nothing is left to be eliminated. Else, of
-  // the rows with the largest entries, one that has the fewest; of its columns with an entry about as large
-  // that which costs least.
+  // A column with an entry in one row only, if that entry is large enough: it costs no elimination.
+  // Otherwise, among the rows with the largest entries, a row with the fewest; among its columns with an
+  // entry about as large, the one that costs least.
   Pivot choose() {
     while (!alone_.empty()) {
       const int column = alone_.extract(alone_.begin()).value().second;
@@ -136,7 +125,7 @@ class Elimination {
       subtract(i, find(row(i), pivot.column)->value / pivot_value, pivot_row, pivot.column);
       by_size_.insert(key(i));
     }
-    for (const Entry& entry : pivot_row) note_if_alone(entry.column);
+    for (const Entry& entry : pivot_row) add_if_alone(entry.column);
   }
 
  private:
@@ -152,10 +141,10 @@ class Elimination {
     auto operator<=>(const Key&) const = default;
   };
 
-  // Of eliminating a column.
+  // Cost of eliminating a column, compared from the first member on.
   struct Cost {
     std::size_t num_rows, num_rows_at_first;
-    std::size_t num_entries;  // of those rows: even growth keeps all of them short
+    std::size_t num_entries;  // of those rows, so that all rows stay short
     auto operator<=>(const Cost&) const = default;
   };
 
@@ -170,8 +159,8 @@ class Elimination {
     for (const Entry& entry : row) largest = std::max(largest, std::abs(entry.value));
     return largest;
   }
-  // Rows that grow beyond what the matrix had at first gain nothing by it, or the longest would be taken
-  // first.
+  // A row whose entries have grown beyond the largest of the matrix counts like that one: otherwise the
+  // longest rows would be taken first.
   Key key(int i) {
     const double size = std::min(largest_of(row(i)), largest_);
     return {rank_of(size, largest_, std::log(kAlike)), row(i).size(), i};
@@ -183,11 +172,11 @@ class Elimination {
     return {column(j).size(), first_counts_[static_cast<std::size_t>(j)], num_entries};
   }
 
-  void note_if_alone(int j) {
+  void add_if_alone(int j) {
     if (column(j).size() == 1) alone_.emplace(first_counts_[static_cast<std::size_t>(j)], j);
   }
 
-  // Row i less `factor` times another, of which nothing is left in the column chosen.
+  // Row i minus `factor` times another row; its entry in the column chosen is gone.
   void subtract(int i, double factor, const Row& other, int chosen) {
     merged_.clear();
     auto mine = row(i).begin();
@@ -204,35 +193,26 @@ class Elimination {
   }
 
   std::vector<Row> rows_;
-  std::vector<std::vector<int>> columns_;  // rows with an entry there
-  std::vector<std::size_t> first_counts_;  // of rows, before the first was taken
+  std::vector<std::vector<int>> columns_;  // rows with an entry in each
+  std::vector<std::size_t> first_counts_;  // of each column's rows, before the first pivot
   std::set<Key> by_size_;
-  std::set<std::pair<std::size_t, int>> alone_;  // columns in one row, with their first counts
+  std::set<std::pair<std::size_t, int>> alone_;  // first count and number of each column with one row
   double largest_ = 0.0;
   Row merged_;
 };
 
-ColumnPivots choose_densely(const Eigen::SparseMatrix<double>& matrix) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix.toDense());
-  ColumnPivots pivots;
-  for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-    pivots.columns.push_back(qr.colsPermutation().indices()[k]);
-    pivots.sizes.push_back(std::abs(qr.matrixQR()(k, k)));
-  }
-  return pivots;
-}
-
-template <class What>
-ColumnPivots choose_from(What left, const Eigen::SparseMatrix<double>& matrix) {
+// @param least_pivot  of the largest one before: the search ends at a smaller pivot, with fewer columns
+template <class Remainder>
+ColumnPivots choose_from(Remainder remainder, Eigen::Index num_rows, double least_pivot) {
   ColumnPivots pivots;
   double largest = 0.0;
-  while (static_cast<Eigen::Index>(pivots.columns.size()) < matrix.rows()) {
-    const Pivot pivot = left.choose();
+  while (static_cast<Eigen::Index>(pivots.columns.size()) < num_rows) {
+    const Pivot pivot = remainder.choose();
     largest = std::max(largest, pivot.size);
-    if (!(pivot.size > kLeastPivot * largest)) return choose_densely(matrix);
+    if (pivot.column < 0 || pivot.size < least_pivot * largest) break;
     pivots.columns.push_back(pivot.column);
     pivots.sizes.push_back(pivot.size);
-    left.take(pivot);
+    remainder.take(pivot);
   }
   return pivots;
 }
@@ -240,9 +220,13 @@ ColumnPivots choose_from(What left, const Eigen::SparseMatrix<double>& matrix) {
 }  // namespace
 
 ColumnPivots choose_columns(const Eigen::SparseMatrix<double>& matrix) {
-  if (matrix.rows() == 0) return {};  // a vehicle without joints
-  if (matrix.rows() <= kFewRows) return choose_from(Remainder(matrix), matrix);
-  return choose_from(Elimination(matrix), matrix);
+  const Eigen::Index num_rows = matrix.rows();
+  if (num_rows == 0) return {};  // a vehicle without joints
+  if (num_rows > kFewRows) {
+    ColumnPivots pivots = choose_from(EliminatedRemainder(matrix), num_rows, kLeastPivot);
+    if (static_cast<Eigen::Index>(pivots.columns.size()) == num_rows) return pivots;
+  }
+  return choose_from(OrthogonalRemainder(matrix), num_rows, 0.0);
 }
 
 }  // namespace sprung::dynamics

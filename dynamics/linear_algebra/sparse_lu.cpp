@@ -11,19 +11,19 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kThreshold = 0.1;    // of the largest in its row: smallest pivot
-constexpr double kPivotDecay = 0.02;  // of its first size: a pivot below is chosen anew
-constexpr int kNumRowsSearched = 4;   // for a pivot, among those with the fewest entries
+constexpr double kThreshold = 0.1;    // smallest pivot, relative to the largest entry of its row
+constexpr double kPivotDecay = 0.02;  // relative to its first size: with a smaller pivot, all are chosen anew
+constexpr int kNumRowsSearched = 4;   // rows with the fewest entries, among which a pivot is chosen
 
 }  // namespace
 
-// The matrix as far as it is eliminated, while pivots are chosen.
-struct SparseLu::Elimination {
+// What elimination has left of the matrix while pivots are chosen: the active submatrix.
+struct SparseLu::ActiveSubmatrix {
   std::vector<std::map<int, double>> rows;  // by column
   std::vector<std::set<int>> columns;       // rows with an entry there
   std::set<std::pair<std::size_t, int>> rows_by_count;
 
-  Elimination(int size, const std::vector<Position>& entries, std::span<const double> values)
+  ActiveSubmatrix(int size, const std::vector<Position>& entries, std::span<const double> values)
       : rows(static_cast<std::size_t>(size)), columns(static_cast<std::size_t>(size)) {
     for (std::size_t k = 0; k < entries.size(); ++k) {
       row(entries[k].row)[entries[k].column] += values[k];
@@ -53,7 +53,7 @@ struct SparseLu::Elimination {
         best_size = std::abs(value);
       }
     }
-    // Values that are not numbers: any pivots will do.
+    // No entry passes if the values are NaN. Any pivot will do: the result is NaN.
     if (best.row < 0)
       best = {rows_by_count.begin()->second, row(rows_by_count.begin()->second).begin()->first};
     return best;
@@ -85,10 +85,10 @@ SparseLu::SparseLu(int size, std::vector<Position> entries)
 void SparseLu::choose_pivots(std::span<const double> values) {
   const auto size = static_cast<std::size_t>(size_);
   std::vector<int> step_of_row(size), step_of_column(size);
-  std::vector<std::vector<int>> upper(size), lower(size);  // columns and rows of A
+  std::vector<std::vector<int>> upper(size), lower(size);  // of each step: columns and rows of A
   std::vector<std::vector<Product>> forward(size);
   steps_.clear();
-  Elimination matrix(size_, entries_, values);
+  ActiveSubmatrix matrix(size_, entries_, values);
   int num_factors = 0;
   for (std::size_t k = 0; k < size; ++k) {
     const Position pivot = matrix.choose();
@@ -109,7 +109,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
     matrix.eliminate(pivot);
   }
 
-  // Places of entries: by the step that comes first of their row's and their column's.
+  // An entry is stored with the step of its row or of its column, whichever comes first.
   factors_.assign(static_cast<std::size_t>(num_factors), 0.0);
   forward_.clear();
   upper_columns_.clear();
@@ -147,7 +147,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
       }
     }
   }
-  // The sign of the permutation from steps' rows to their columns: each cycle of even length turns it.
+  // The sign of the permutation from the steps' rows to their columns: each cycle of even length reverses it.
   permutation_sign_ = 1.0;
   std::vector<bool> seen(size, false);
   for (std::size_t start = 0; start < size; ++start) {
@@ -166,7 +166,7 @@ void SparseLu::load(std::span<const double> values) {
     factors_[static_cast<std::size_t>(places_[k])] += values[k];
 }
 
-// @return false where a pivot has become small against its first size
+// @return false if a pivot has become small compared with its first size
 bool SparseLu::eliminate() {
   bool good = true;
   determinant_ = permutation_sign_;
@@ -179,7 +179,7 @@ bool SparseLu::eliminate() {
     good &= std::abs(*pivot) >= kPivotDecay * first_pivots_[k];
     determinant_ *= *pivot;
     const double inverse = 1.0 / *pivot;
-    *pivot = inverse;  // kept inverted: solving then divides nowhere
+    *pivot = inverse;  // stored inverted, so that solving needs no division
     for (int i = 0; i < step.num_lower; ++i) {
       lower[i] *= inverse;
       for (int j = 0; j < step.num_upper; ++j)
@@ -202,7 +202,7 @@ void SparseLu::factorise(std::span<const double> values) {
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const double size = 1.0 / std::abs(factors_[static_cast<std::size_t>(steps_[k].first)]);
     first_pivots_[k] =
-        size > 0.0 ? size : std::numeric_limits<double>::infinity();  // singular: again next time
+        size > 0.0 ? size : std::numeric_limits<double>::infinity();  // singular: chosen anew next time
   }
 }
 

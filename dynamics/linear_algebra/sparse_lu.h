@@ -5,45 +5,46 @@
 
 namespace sprung::dynamics {
 
-/// LU factors of a square sparse matrix whose pattern stays and whose values come again and again: what is
-/// eliminated by what is written down once, so that factorising and solving are a few plain loops over
-/// contiguous storage. The work grows with the entries of the factors.
+/// LU factors of a square sparse matrix whose values change while its pattern stays. The products of the
+/// elimination are listed once. After that, factorising and solving are plain loops over contiguous storage,
+/// whose work grows with the entries of the factors.
 ///
-/// Pivots are chosen for little fill among entries that are not small in their row (Markowitz with
-/// threshold), at the first values and again where one of them has become small against what it was. Source:
-/// [Duff, Erisman & Reid 2017], §§5.2, 7.2, 10.2
+/// Pivots are chosen for little fill-in among entries that are not small in their row (Markowitz's rule with
+/// a threshold). They are chosen for the first values, and again when one of them has become small compared
+/// with its first size. Source: [Duff, Erisman & Reid 2017], §§5.2, 7.2, 10.2
 class SparseLu {
  public:
   struct Position {
     int row, column;
   };
-  /// @param entries  of the pattern; those at one position add up
+  /// @param entries  the pattern; the values of entries at one position are added
   SparseLu(int size, std::vector<Position> entries);
 
   int size() const { return size_; }
-  /// @param values  one for each entry of the pattern, in their order. A zero pivot is left to give
-  /// infinities, which the caller finds in its result. Asks for memory only where pivots are chosen.
+  /// Allocates memory only when pivots are chosen. A zero pivot gives infinities, which the caller finds in
+  /// the solution.
+  /// @param values  one for each entry of the pattern, in their order
   void factorise(std::span<const double> values);
   /// x ← A⁻¹ x
   void solve(double* x) const;
-  /// Sign and size are right whichever the pivots.
+  /// Sign and size do not depend on the pivots chosen.
   double determinant() const { return determinant_; }
   int num_factor_entries() const { return static_cast<int>(factors_.size()); }
 
  private:
-  // Elimination of one row and column. factors_ holds its pivot, inverted; then upper, then lower, both
-  // divided by it.
+  // Elimination of one row and column. factors_ holds the inverse of its pivot, then the upper and then the
+  // lower entries, both divided by the pivot.
   struct Step {
     int first;  // of its entries in factors_
     int num_upper, num_lower;
     int row, column;         // in A
-    int end_of_forward = 0;  // of its row of L in forward_
+    int end_of_forward = 0;  // end of its row of L in forward_
   };
-  // What the rows of L take in solving: an entry, times the result of an earlier step.
+  // An entry of a row of L, to be multiplied by the result of an earlier step.
   struct Product {
     int step, place;
   };
-  struct Elimination;
+  struct ActiveSubmatrix;
 
   void choose_pivots(std::span<const double> values);
   void load(std::span<const double> values);
@@ -54,11 +55,11 @@ class SparseLu {
   std::vector<Step> steps_;
   std::vector<int> places_;  // of A's entries in factors_
   std::vector<int>
-      targets_;  // for every lower entry and every upper one beside it: what their product is taken from
-  std::vector<Product> forward_;    // row by row, to Step::end_of_forward
-  std::vector<int> upper_columns_;  // beside the upper entries of all steps: the steps of their columns
+      targets_;  // for each pair of a lower and an upper entry: the entry that loses their product
+  std::vector<Product> forward_;    // row by row, each up to Step::end_of_forward
+  std::vector<int> upper_columns_;  // for the upper entries of all steps: the step of each one's column
   std::vector<double> factors_;
-  std::vector<double> first_pivots_;  // as they were when they were chosen
+  std::vector<double> first_pivots_;  // sizes when they were chosen
   double permutation_sign_ = 1.0;
   double determinant_ = 1.0;
   mutable std::vector<double> work_;

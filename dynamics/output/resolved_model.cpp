@@ -71,7 +71,7 @@ void write_modes_of(support::Hdf5Writer& file, const std::string& group, const B
   file.write(group + "/damping_ratio", ratio, "1");
 }
 
-void write_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
+void write_resolved_bodies(support::Hdf5Writer& file, const ResultsHeader& header) {
   for (std::size_t b = 0; b < header.model.bodies.size(); ++b) {
     const Body& body = header.model.bodies[b];
     const BodyDescription& description = header.vehicle.bodies[b];
@@ -141,7 +141,7 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
   file.attribute(kRoot, "direction", header.vehicle.direction);
   file.write(kRoot + "/gravity", model.gravity, "m/s^2");
   write_settings(file, header);
-  write_bodies(file, header);
+  write_resolved_bodies(file, header);
   write_points(file, model, header.vehicle);
   for (const std::string kind : {"/joints", "/forces"}) file.make_group(kRoot + kind);
   for (const auto& joint : model.joints) {

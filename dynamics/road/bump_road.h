@@ -12,10 +12,10 @@ enum class BumpShape {
   kHalfSine,   ///< height · sin(πu)
   kHaversine,  ///< height · (1 − cos(2πu))/2, no kink at its ends
   kTriangle,   ///< straight up to the middle and down again
-  kRamp,       ///< straight up; the road stays at `height` behind it
+  kRamp,       ///< straight up; the road stays at `height` after it
 };
 
-/// The words of the run file for the shapes, in the order of BumpShape: "half-sine", …
+/// The names of the shapes in run files, in the order of BumpShape: "half-sine", …
 const std::vector<std::string>& bump_shape_names();
 
 /// A flat road with one bump.

@@ -6,13 +6,13 @@
 
 namespace sprung::dynamics {
 
-/// One-sided spectral density of a random road's height over the wavenumber n [1/m], waves per metre:
-/// ∫ G dn = mean square of the height.
+/// One-sided spectral density G of the height of a random road over the wavenumber n, in waves per metre. ∫ G
+/// dn is the mean square of the height.
 ///
-/// A power law G = G(n₀) (n/n₀)^−w with n₀ = 0.1 1/m, or straight lines between points in logarithms of both;
-/// zero outside of a band.
+/// It is a power law G = G(n₀) (n/n₀)^−w with n₀ = 0.1 1/m (road, eq. 1), or straight lines between points in
+/// the logarithms of n and G. Outside of a band it is zero.
 ///
-/// Source: ISO 8608:2016, annexes A and C
+/// Source: [ISO 8608], annexes A and C
 class RoadSpectrum {
  public:
   static constexpr double kReferenceWavenumber = 0.1;  ///< n₀ [1/m]
@@ -24,12 +24,12 @@ class RoadSpectrum {
   /// @throws std::invalid_argument
   static RoadSpectrum through_points(std::span<const double> wavenumber, std::span<const double> density);
 
-  /// Cuts off what lies outside of lowest to highest [1/m].
+  /// Makes the density zero outside of lowest to highest [1/m].
   /// @throws std::invalid_argument unless 0 ≤ lowest < highest
   void limit_to(double lowest, double highest);
 
   double density(double wavenumber) const;  ///< at n > 0 [m³]
-  /// Where it has a kink or jump or ends: breaks of an integral over it, ascending [1/m].
+  /// Wavenumbers at which the density has a kink or a jump, or ends; ascending [1/m].
   std::vector<double> breaks() const;
 
  private:

@@ -81,7 +81,7 @@ TableRoad::TableRoad(double start, std::span<const double> s, std::span<const do
 }
 
 bool TableRoad::overshoots(std::size_t i) const {
-  // The road is level before the first and behind the last point.
+  // The road is level before the first point and after the last one.
   const double before = i > 0 ? height_[i - 1] : height_.front();
   const double after = i + 2 < height_.size() ? height_[i + 2] : height_.back();
   if ((height_[i] - before) * (after - height_[i + 1]) < 0.0)
@@ -92,8 +92,8 @@ bool TableRoad::overshoots(std::size_t i) const {
 }
 
 void TableRoad::limit_slopes() {
-  // A limited slope may make its neighbour overshoot; each pass limits one interval at least, once and for
-  // all.
+  // A limited slope may make a neighbouring interval overshoot. Each pass limits at least one interval for
+  // good.
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i + 1 < s_.size(); ++i) {
@@ -107,7 +107,7 @@ void TableRoad::limit_slopes() {
   }
 }
 
-// Points mostly have equal distances: then the interval is where it would be by them, or beside.
+// Most tables have equal distances. The interval is then the one that this distance gives, or one beside it.
 std::size_t TableRoad::find_interval(double s) const {
   const auto last = static_cast<double>(s_.size() - 2);
   const double guess = std::floor((s - s_.front()) / (s_.back() - s_.front()) * (last + 1.0));

@@ -8,24 +8,22 @@
 
 namespace sprung::dynamics {
 
-/// A road through measured or generated points: flat, then a smooth curve, then level at the height of the
-/// last point.
+/// A road through measured or generated points. It is flat before the first point, a smooth curve between the
+/// points, and stays at the height of the last one.
 ///
 /// The curve is the complete cubic spline through the points: twice continuously differentiable, level at
-/// both ends. Over points `spacing` apart on a smooth road z(s) it is wrong by at most 5/384 · spacing⁴ ·
-/// max|z⁗|: on a sine with 6 points on each wave by 1.6 % of its amplitude, with 12 points by 0.1 %. [Hall &
-/// Meyer 1976, theorem 2]
+/// both ends. Through points at a distance Δ on a smooth road z(s), its error is at most 5/384 · Δ⁴ ·
+/// max|z⁗|: on a sine with 6 points on each wave 1.6 % of the amplitude, with 12 points 0.1 %. [Hall & Meyer
+/// 1976, theorem 2]
 ///
-/// Around a kerb such a spline swings past the points. Where it would leave the heights at both ends of an
-/// interval by more than 1 % of the range of the four points around, though these points neither rise and
-/// then fall nor fall and then rise, its slopes at both ends are limited to what keeps a cubic monotone (with
-/// the sign of the secant and at most three times as steep): the second derivative may jump at these two
-/// points, and the curve stays between their heights. [Fritsch & Carlson 1980, section 3]
+/// At a kerb such a spline swings past the points. In an interval that is part of a kerb ("Shape" in the
+/// README), the slopes at both ends are limited so that the cubic is monotone. The curve then stays between
+/// the heights of the two points, where its second derivative may jump. [Fritsch & Carlson 1980, section 3]
 class TableRoad final : public Road {
  public:
-  /// @param start    where the first point lies [m]
+  /// @param start    s of the first point on the road [m]
   /// @param s        ascending, at least 2 [m], counted from any origin
-  /// @param height   as many [m]; the first is 0, as the road before it
+  /// @param height   as many [m]; the first is 0, the height of the road before it
   /// @throws std::invalid_argument
   TableRoad(double start, std::span<const double> s, std::span<const double> height);
 
@@ -37,7 +35,7 @@ class TableRoad final : public Road {
   double integral(int segment, double s) const override;
   double resolution(int segment, double s) const override;
 
-  /// In how many intervals between points the spline was limited.
+  /// Number of intervals in which the slopes were limited.
   std::size_t num_limited() const { return num_limited_; }
 
  private:

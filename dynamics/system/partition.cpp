@@ -1,10 +1,10 @@
 #include "dynamics/system/partition.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "dynamics/linear_algebra/column_pivoting.h"
+#include "tools/support/dense/orthogonal_factors.h"
 
 namespace sprung::dynamics {
 
@@ -57,14 +57,13 @@ std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
   const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
   if (*smallest > kSafePivot * *largest) return {};
   // The model probably contains a mistake: the cost of finding its place does not matter.
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows.toDense(), Eigen::ComputeFullU);
+  const support::SingularPairs singular = support::calc_left_singular_pairs(rows.toDense());
   std::vector<int> found;
-  const auto singular = svd.singularValues();
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     double share = 0.0;  // of constraint i in the combinations of rows that vanish
     for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-      const double value = k < singular.size() ? singular[k] : 0.0;
-      if (value <= kRankTolerance) share += std::abs(svd.matrixU()(i, k));
+      const double value = k < singular.values.size() ? singular.values[k] : 0.0;
+      if (value <= kRankTolerance) share += std::abs(singular.vectors(i, k));
     }
     if (share > 1e-6) found.push_back(static_cast<int>(i));
   }

@@ -1,12 +1,11 @@
 #include "reduce/inspection/comparison.h"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "reduce/inspection/shape_samples.h"
+#include "tools/support/dense/orthogonal_factors.h"
 
 namespace sprung::reduce {
 
@@ -28,10 +27,9 @@ std::vector<ModeRange> list_clusters(const Superelement& s) {
 Eigen::MatrixXd make_basis(const Eigen::MatrixXd& shapes, const ModeRange& range) {
   const Eigen::MatrixXd columns = shapes.middleCols(range.begin, range.size());
   if (columns.rows() < columns.cols()) return Eigen::MatrixXd::Zero(columns.rows(), columns.cols());
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
-  basis.rightCols(columns.cols() - qr.rank()).setZero();
-  return basis;
+  support::ColumnSpace space = support::find_column_space(columns, columns.cols());
+  space.basis.rightCols(columns.cols() - space.rank).setZero();
+  return space.basis;
 }
 
 struct Overlap {
@@ -41,7 +39,7 @@ struct Overlap {
 
 Overlap calc_overlap(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Eigen::MatrixXd product = a.transpose() * b;
-  const Eigen::VectorXd cosines = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues();
+  const Eigen::VectorXd cosines = support::calc_singular_values(product);
   return {.mean = cosines.cwiseAbs2().mean(),
           .least = std::min(1.0, cosines.minCoeff() * cosines.minCoeff())};
 }

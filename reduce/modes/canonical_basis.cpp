@@ -1,12 +1,11 @@
 #include "reduce/modes/canonical_basis.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/largest_displacement.h"
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -14,7 +13,7 @@ namespace sprung::reduce {
 namespace {
 
 constexpr double kMomentGap = 1e-3;  // of the radius: nearer values of ∫x φᵀφ dm count as equal
-constexpr double kTie = 0.01;        // participations nearer than this share count as equal
+constexpr double kEqualParticipation = 0.01;  // participations nearer than this share count as equal
 
 // Directions fixed so far and an orthonormal basis of those still free, as columns over a cluster's members.
 struct ClusterDirections {
@@ -32,8 +31,7 @@ void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
 // free.
 // @param row  the functional's values on the columns of directions.free
 void fix_direction(ClusterDirections& directions, const Eigen::RowVectorXd& row) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(row.transpose());
-  const Eigen::MatrixXd rotation = qr.householderQ();
+  const Eigen::MatrixXd rotation = support::make_rotation_onto(row.transpose());
   append_columns(directions.fixed, directions.free * rotation.leftCols(1));
   const Eigen::MatrixXd rest = directions.free * rotation.rightCols(rotation.cols() - 1);
   directions.free = rest;
@@ -81,7 +79,7 @@ double calc_sign(const Eigen::VectorXd& participation, const Eigen::VectorXd& sh
   double decisive = 0.0;
   if (largest >= kParticipationThreshold) {
     Eigen::Index i = 0;
-    while (std::abs(participation(i)) < (1.0 - kTie) * largest) ++i;
+    while (std::abs(participation(i)) < (1.0 - kEqualParticipation) * largest) ++i;
     decisive = participation(i);
   } else {
     decisive = shape(find_largest_displacement(shape, node_positions));

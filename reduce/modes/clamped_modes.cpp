@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -20,10 +19,6 @@ namespace {
 
 constexpr int kAlwaysDense = 300;  // up to this many freedoms the dense solution is the quicker one
 constexpr int kAttempts = 6;
-
-double as_hz(double omega_squared) {
-  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
-}
 
 bool take_dense(Eigen::Index n, Eigen::Index wanted, EigenMethod method) {
   if (method == EigenMethod::kDense || wanted >= n) return true;
@@ -67,16 +62,17 @@ ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, i
   if (end == found) {
     return {.modes = {},
             .reason = fmt::format("the cluster of mode {} at {:.6g} Hz goes on after mode {}", num_modes,
-                                  as_hz(pairs.omega_squared(end - 1)), found)};
+                                  calc_frequency_hz(pairs.omega_squared(end - 1)), found)};
   }
   const double shift = choose_shift(pairs.omega_squared(end - 1), pairs.omega_squared(end));
   const int counted = count_modes_below(problem, shift);
   if (counted != end) {
     return {.modes = {},
-            .reason = fmt::format("{} modes found below {:.6g} Hz, {} counted", end, as_hz(shift), counted)};
+            .reason = fmt::format("{} modes found below {:.6g} Hz, {} counted", end, calc_frequency_hz(shift),
+                                  counted)};
   }
   ClampedModes modes = take(pairs, cluster, end);
-  modes.proof_hz = as_hz(shift);
+  modes.proof_hz = calc_frequency_hz(shift);
   modes.num_below = counted;
   return {.modes = std::move(modes), .reason = {}};
 }

@@ -1,8 +1,8 @@
 #include "reduce/modes/dense_eigen_solver.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -28,15 +28,15 @@ EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& 
   const Eigen::MatrixXd lower = G.matrixL();
   const Eigen::MatrixXd W = L.matrixL().solve(lower);
   // Singular values descend, so that frequencies ascend.
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(W, Eigen::ComputeThinV);
-  const Eigen::VectorXd& sigma = svd.singularValues();
+  const support::SingularPairs singular = support::calc_right_singular_pairs(W);
+  const Eigen::VectorXd& sigma = singular.values;
   if (!sigma.allFinite() || !(sigma.minCoeff() > 0.0)) {
     throw support::NumericalError(
         "modes: a frequency is not finite; the stiffness matrix is singular to rounding");
   }
   EigenPairs pairs;
   pairs.omega_squared = sigma.cwiseAbs2().cwiseInverse();
-  pairs.vectors = G.matrixU().solve(svd.matrixV());
+  pairs.vectors = G.matrixU().solve(singular.vectors);
   return pairs;
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
+#include <numbers>
 
 namespace sprung::reduce {
 
@@ -19,5 +21,10 @@ struct EigenPairs {
   Eigen::VectorXd omega_squared;  ///< k [rad²/s²]
   Eigen::MatrixXd vectors;        ///< n×k, φᵀ M φ = I [1/√kg; rotations 1/(m·√kg)]
 };
+
+/// f = ω/2π [Hz].
+inline double calc_frequency_hz(double omega_squared) {
+  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
+}
 
 }  // namespace sprung::reduce

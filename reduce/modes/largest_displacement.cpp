@@ -7,8 +7,8 @@ namespace sprung::reduce {
 
 namespace {
 
-constexpr double kTie = 0.01;           // sizes nearer than this share count as equal
-constexpr double kSamePosition = 1e-9;  // of the radius
+constexpr double kEqualDisplacement = 0.01;  // sizes nearer than this share count as equal
+constexpr double kSamePosition = 1e-9;       // of the radius
 
 // +1: a before b, −1: b before a, 0: the same.
 int compare(double a, double b, double tolerance) {
@@ -24,7 +24,7 @@ Eigen::Index find_largest_displacement(const Eigen::MatrixXd& shapes,
   const double radius = node_positions.colwise().norm().maxCoeff();
   Eigen::VectorXd sizes = shapes.rowwise().norm();
   for (Eigen::Index node = 0; node < node_positions.cols(); ++node) sizes(3 * node + 2) *= radius;
-  const double smallest = (1.0 - kTie) * sizes.maxCoeff();
+  const double smallest = (1.0 - kEqualDisplacement) * sizes.maxCoeff();
   Eigen::Index best = -1, best_node = -1;
   for (Eigen::Index node = 0; node < node_positions.cols(); ++node) {
     if (best_node >= 0) {

@@ -17,10 +17,6 @@ using support::InputError;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-double as_hz(double omega_squared) {
-  return std::sqrt(omega_squared) / kTwoPi;
-}
-
 int count_modes_up_to(const ModesUpTo& wanted, const WantedModes& request, const ModalProblem& problem,
                       const ClampedModeOptions& options) {
   // A frequency that is the mode's own, as printed or copied, is meant to take it.
@@ -30,7 +26,7 @@ int count_modes_up_to(const ModesUpTo& wanted, const WantedModes& request, const
   const ClampedModes lowest = calc_clamped_modes(problem, 1, options);
   throw InputError(request.where,
                    fmt::format("no mode has a frequency up to {:.6g} Hz; the lowest is at {:.6g} Hz",
-                               wanted.frequency_hz, as_hz(lowest.pairs.omega_squared(0))));
+                               wanted.frequency_hz, calc_frequency_hz(lowest.pairs.omega_squared(0))));
 }
 
 }  // namespace
@@ -68,8 +64,8 @@ std::vector<int> select_modes(const WantedModes& request, const ClampedModes& mo
         request.where,
         fmt::format("{} modes would take part of the cluster of modes {} … {}, which have one frequency, "
                     "{:.6g} Hz; take {} or {} modes, or name them by 'numbers'",
-                    num_needed, range.begin + 1, range.end, as_hz(modes.pairs.omega_squared(range.begin)),
-                    range.begin, range.end));
+                    num_needed, range.begin + 1, range.end,
+                    calc_frequency_hz(modes.pairs.omega_squared(range.begin)), range.begin, range.end));
   }
   std::vector<int> columns(static_cast<std::size_t>(num_needed));
   std::iota(columns.begin(), columns.end(), 0);

@@ -114,17 +114,17 @@ void copy_mesh(const fem::Mesh& mesh, const Eigen::Matrix2Xd& node_positions, Su
 }
 
 // The checks for which the finite element model is needed.
-void add_model_checks(const ModalProblem& problem, const ClampedModes& modes, int reference_node,
-                      double rounding, Superelement& s) {
+std::vector<CheckResult> check_modes(const ModalProblem& problem, const ClampedModes& modes,
+                                     int reference_node, double rounding, const Superelement& s) {
   const Eigen::MatrixXd held = remove_node(s.shapes, reference_node);
   const auto num_found = static_cast<double>(modes.pairs.omega_squared.size());
-  s.checks.push_back({.name = "modes missing below the highest one",
-                      .value = std::abs(static_cast<double>(modes.num_below) - num_found),
-                      .tolerance = 0.0});
-  s.checks.push_back({.name = kRoundingCheck, .value = rounding, .tolerance = kMaxRoundingError});
-  s.checks.push_back({.name = "residual of the modes",
-                      .value = calc_residual(problem, held, s.stiffness),
-                      .tolerance = kResidualTolerance});
+  return {{.name = "modes missing below the highest one",
+           .value = std::abs(static_cast<double>(modes.num_below) - num_found),
+           .tolerance = 0.0},
+          {.name = kRoundingCheck, .value = rounding, .tolerance = kMaxRoundingError},
+          {.name = "residual of the modes",
+           .value = calc_residual(problem, held, s.stiffness),
+           .tolerance = kResidualTolerance}};
 }
 
 void require_checks(const std::vector<CheckResult>& checks) {
@@ -178,7 +178,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
       calc_reference_stiffness(model, design.reference_node, problem.stiffness, moments, basis.shapes);
   s.provenance = design.provenance;
 
-  add_model_checks(problem, modes, design.reference_node, rounding, s);
+  s.checks = check_modes(problem, modes, design.reference_node, rounding, s);
   for (const CheckResult& check : check_superelement(s)) s.checks.push_back(check);
   require_checks(s.checks);
   return s;

@@ -2,6 +2,7 @@
 # written from the repository's root.
 option(SPRUNG_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 option(SPRUNG_PRECOMPILED_HEADERS "Read Eigen, fmt and the standard library once for all sources" OFF)
+option(SPRUNG_UNITY_BUILD "Compile the sources of a room as one, which is faster" OFF)
 
 function(sprung_target name)
   _sprung_compile_options(${name})
@@ -21,8 +22,8 @@ function(_sprung_compile_options name)
     $<$<BOOL:${SPRUNG_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
-# The headers that nearly every source reads, compiled once. Sources name what they include all the same: the presets
-# debug and asan build without this. The options have to be those of the targets that use it.
+# The headers that nearly every source reads, compiled once. Sources name what they include all the same: the preset
+# debug builds without this, and without SPRUNG_UNITY_BUILD. The options have to be those of the targets that use it.
 if(SPRUNG_PRECOMPILED_HEADERS)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/precompiled.cpp" CONTENT "")
   add_library(sprung_precompiled STATIC "${PROJECT_BINARY_DIR}/precompiled.cpp")
@@ -43,6 +44,9 @@ function(sprung_room)
   sprung_room_target(name "${folder}")
   add_library(${name} STATIC ${arg_UNPARSED_ARGUMENTS})
   sprung_target(${name})
+  # All in one, since the templates of Eigen and fmt that they share are what takes the time. So names in anonymous
+  # namespaces differ within a room.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${SPRUNG_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 0)
   target_link_libraries(${name} PUBLIC Eigen3::Eigen fmt::fmt PRIVATE ${arg_LINKS})
   foreach(room IN LISTS arg_USES)
     sprung_room_target(used "${room}")

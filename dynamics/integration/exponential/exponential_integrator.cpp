@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dynamics/integration/throw_stopped.h"
+#include "tools/support/dense/vector_span.h"
 
 namespace sprung::dynamics {
 
@@ -45,10 +46,6 @@ constexpr double kTruncationOfFirst =
 // less than is allowed.
 constexpr double kSwitchTolerance = 1e-4;        // s
 constexpr double kLeastSwitchTolerance = 1e-12;  // s
-
-std::span<double> span_of(Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
-}
 
 }  // namespace
 
@@ -110,10 +107,11 @@ void ExponentialIntegrator::begin() {
 
 // The drive at stage_y_, the state of `motion`.
 bool ExponentialIntegrator::evaluate(double time, const PairedMotion& motion, int node) {
-  if (!stage_y_.allFinite() || !system_.calc_derivative(time, span_of(stage_y_), span_of(y_dot_)))
+  if (!stage_y_.allFinite() ||
+      !system_.calc_derivative(time, support::as_span(stage_y_), support::as_span(y_dot_)))
     return false;
   coordinates_.calc_drive(y_dot_, motion, now_.drive, node);
-  return switches_.is_empty() || switches_.evaluate(time, span_of(stage_y_), node);
+  return switches_.is_empty() || switches_.evaluate(time, support::as_span(stage_y_), node);
 }
 
 // Sweeps over the nodes until the motion no longer changes. @return false where it does not settle
@@ -195,7 +193,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     time_ = end_time_;
     return StepResult::kEnded;
   }
-  system_.calc_error_scales(y(), span_of(error_sizes_));
+  system_.calc_error_scales(y(), support::as_span(error_sizes_));
   coordinates_.set_allowed_error(tolerance_, error_sizes_);
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();

@@ -9,6 +9,7 @@
 
 #include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
+#include "tools/support/dense/vector_span.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -189,9 +190,8 @@ void GeneralizedAlphaStepper::finish_step(double length) {
 
 bool GeneralizedAlphaStepper::locate_switch() {
   static constexpr std::array<double, 2> kEnds = {0.0, 1.0};
-  const auto span_of = [](Vector& x) { return std::span(x.data(), static_cast<std::size_t>(x.size())); };
   SystemTerms& terms = step_.residual().terms();
-  piece_.calc_switches(terms, span_of(step_.end().switches));
+  piece_.calc_switches(terms, support::as_span(step_.end().switches));
   const double from = step_.begin().motion.time, to = step_.end().motion.time, length = to - from;
   const double tolerance = std::max(kSwitchTolerance, 4e-16 * std::abs(time_)) / length;
   bool has_left = false;  // the end of the step
@@ -200,7 +200,7 @@ bool GeneralizedAlphaStepper::locate_switch() {
     step_.interpolate_motion(from + place * length, interpolated_q_, interpolated_v_);
     terms.update_positions(piece_.evaluation_time(from + place * length), interpolated_q_);
     terms.update_velocities(interpolated_v_);
-    piece_.calc_switches(terms, span_of(values));
+    piece_.calc_switches(terms, support::as_span(values));
   };
   const auto search = [&]() -> std::optional<double> {
     const Vector &begin = step_.begin().switches, &end = step_.end().switches;

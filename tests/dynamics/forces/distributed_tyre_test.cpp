@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/forces/point_contact_tyre.h"
+#include "dynamics/forces/wheel_overlap.h"
 #include "dynamics/road/bump_road.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
@@ -126,4 +127,11 @@ TEST_CASE("The integrator stops where the wheel's front edge reaches the next se
   tyre.calc_switches(wheel.instant(), acting.branches, switches);
   CHECK(switches[3] == Approx(5.0 - (4.3 + kRadius)));
   CHECK(tyre.calc_longest_step(Wheel({5.1, 0.58}, {3.0, 0.0}).instant()) == Approx(0.125 * 0.4 / 3.0));
+}
+
+TEST_CASE("A distributed tyre that is to pull is refused", "[forces]") {
+  const dynamics::FlatRoad road;
+  CHECK_THROWS_WITH(
+      DistributedTyre("tyre", {.radius = kRadius, .spring = kSpring, .one_sided = false}, {&road, 1.0, 0.0}),
+      Contains("one_sided"));
 }

@@ -138,6 +138,16 @@ TEST_CASE("Sparse pivoting takes the columns that dense QR takes", "[system]") {
   }
 }
 
+TEST_CASE("Of columns whose lengths differ by rounding only, the first is taken", "[system]") {
+  // Columns 1 and 2 differ by 1e-11 of their length, less than what counts; after that, column 3 is longer
+  // than column 0 by far more.
+  const MatrixXd dense = (MatrixXd(2, 4) << 0.0, 3.0, 3.0 * (1.0 + 1e-11), 0.0,  //
+                          1.0, 0.0, 0.0, 1.0 + 1e-6)
+                             .finished();
+  const dynamics::ColumnPivots found = dynamics::choose_columns(dense.sparseView());
+  CHECK(found.columns == std::vector<int>{1, 3});
+}
+
 TEST_CASE("No columns are chosen from a matrix without rows", "[system]") {
   const dynamics::ColumnPivots found = dynamics::choose_columns(Eigen::SparseMatrix<double>(0, 4));
   CHECK(found.columns.empty());

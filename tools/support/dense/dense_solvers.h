@@ -4,7 +4,7 @@
 
 namespace sprung::support {
 
-/// x of A x = b by LU factors with partial pivoting.
+/// Solves A x = b by LU factors with partial pivoting.
 /// @param A  n×n   @param b  n×k   @return n×k; NaN or infinity where A is singular
 Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 Eigen::MatrixXcd solve_lu(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
@@ -19,8 +19,8 @@ struct LuFactors {
 };
 LuFactors factorise_lu(const Eigen::MatrixXd& A);
 
-/// x of A x = b by Cholesky factors. @param A n×n, symmetric positive definite, which is not checked   @param
-/// b n×k
+/// Solves A x = b by Cholesky factors. @param A  n×n, symmetric positive definite, which is not checked
+/// @param b  n×k
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 /// Whether the Cholesky factorisation of a symmetric matrix succeeds.
 bool is_positive_definite(const Eigen::MatrixXd& A);

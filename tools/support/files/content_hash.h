@@ -9,8 +9,8 @@
 
 namespace sprung::support {
 
-/// SHA-256 of a sequence of labelled values, independent of how a file stores them. Each value goes in with
-/// its label and length, so that no two different sequences give the same bytes.
+/// SHA-256 of a sequence of labelled values, independent of how a file stores them. The label and the length
+/// of each value are hashed with it, so that two different sequences never give the same bytes.
 class ContentHash {
  public:
   ContentHash();

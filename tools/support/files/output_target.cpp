@@ -29,7 +29,7 @@ void sync_file(const fs::path& target, const fs::path& written) {
   if (!synced) throw cannot_be_written(target, std::strerror(reason));
 }
 
-// Makes the rename last. Not every file system lets a folder be synced; the file is whole either way.
+// Writes the rename to the disk. Some file systems cannot sync a folder; the file is complete in any case.
 void sync_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;

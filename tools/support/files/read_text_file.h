@@ -5,8 +5,8 @@
 
 namespace sprung::support {
 
-/// The whole of a text file.
-/// @throws InputError if it is missing, a folder, or cannot be read.
+/// The content of a text file.
+/// @throws InputError if it is missing, is a folder, or cannot be read
 std::string read_text_file(const std::filesystem::path& path);
 
 }  // namespace sprung::support

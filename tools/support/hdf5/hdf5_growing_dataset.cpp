@@ -39,7 +39,7 @@ Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& p
 }
 
 void Hdf5GrowingDataset::append(std::span<const double> values) {
-  if (values.size() == row_size()) {  // the most frequent by far
+  if (values.size() == row_size()) {  // by far the most frequent case
     append_row(values.data());
     return;
   }
@@ -54,7 +54,8 @@ void Hdf5GrowingDataset::append(std::span<const double> values) {
 void Hdf5GrowingDataset::append_row(const double* values) {
   const std::size_t n = row_size();
   double* row = chunk_.data() + filled_;
-  for (std::size_t i = 0; i < n; ++i) row[i] = values[i];  // mostly few: a loop is shorter than a call
+  for (std::size_t i = 0; i < n; ++i)
+    row[i] = values[i];  // mostly few, for which a loop is faster than a call
   filled_ += n;
   if (filled_ < chunk_.size() - 1) return;
   write_chunk();
@@ -69,7 +70,7 @@ void Hdf5GrowingDataset::write_pending() {
   write_chunk();
 }
 
-// As it is to stand in the file: the library would copy it twice on the way, and its checksum is slow.
+// Writes the chunk with its checksum directly: the library would copy it twice, and its own checksum is slow.
 void Hdf5GrowingDataset::write_chunk() {
   static_assert(std::endian::native == std::endian::little, "chunks are written as they are in memory");
   const std::string what = fmt::format("dataset '{}' cannot be written", path_);

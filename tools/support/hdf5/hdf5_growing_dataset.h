@@ -10,8 +10,8 @@
 
 namespace sprung::support {
 
-/// A dataset of doubles whose rows grow, kept open and written by whole chunks. Used by Hdf5Writer alone.
-/// Failures of HDF5 are thrown as hdf5::Failure.
+/// A dataset of doubles to which rows are appended. It stays open and is written in whole chunks. Only
+/// Hdf5Writer uses it. Failures of HDF5 are thrown as hdf5::Failure.
 class Hdf5GrowingDataset {
  public:
   /// @param parent   file or group identifier
@@ -22,7 +22,7 @@ class Hdf5GrowingDataset {
 
   /// @throws std::invalid_argument if the values are not whole rows
   void append(std::span<const double> values);
-  void write_pending();  ///< what has not come to a whole chunk yet; more may follow
+  void write_pending();  ///< writes the rows of a chunk that is not full yet; more rows may follow
 
  private:
   std::size_t row_size() const { return columns_ == 0 ? 1 : columns_; }
@@ -32,9 +32,9 @@ class Hdf5GrowingDataset {
   std::string path_;
   std::size_t columns_;
   std::size_t chunk_rows_;
-  std::size_t rows_before_ = 0;  // the chunk's first row
-  std::size_t filled_ = 0;       // values in it
-  std::vector<double> chunk_;    // as it goes to the file, with room for the checksum
+  std::size_t rows_before_ = 0;  // in earlier chunks
+  std::size_t filled_ = 0;       // values in the present chunk
+  std::vector<double> chunk_;    // as it is written to the file, with space for the checksum
   Hdf5Handle dataset_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace sprung::support {
 
-/// Owns an HDF5 identifier and closes it. Not for use outside this room, except to hold one.
+/// Owns an HDF5 identifier and closes it. Other rooms may hold one, but not use it.
 class Hdf5Handle {
  public:
   Hdf5Handle() = default;
@@ -15,8 +15,10 @@ class Hdf5Handle {
   ~Hdf5Handle() { reset(); }
 
   std::int64_t get() const { return id_; }
-  void reset();                                              ///< closes; an error is dropped
-  std::int64_t release() { return std::exchange(id_, -1); }  ///< gives the identifier away, unclosed
+  void reset();  ///< closes; an error is dropped
+  std::int64_t release() {
+    return std::exchange(id_, -1);
+  }  ///< gives up ownership; the identifier stays open
 
  private:
   std::int64_t id_ = -1;

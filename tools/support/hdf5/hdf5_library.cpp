@@ -31,8 +31,8 @@ std::string system_reason(std::string_view description) {
 }  // namespace
 
 void initialize() {
-  // Both are the library's wish to be helpful: a failed H5Fclose leaves an identifier whose file is gone, and
-  // the clean-up at exit would touch it again. Everything here is closed by its owner.
+  // A failed H5Fclose leaves an identifier whose file is gone, and the library's clean-up at exit would use
+  // it again. Everything here is closed by its owner.
   static const herr_t no_clean_up = H5dont_atexit();
   static_cast<void>(no_clean_up);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the error stack, and this with it, belongs to the thread
@@ -46,7 +46,7 @@ std::string failure_reason() {
   };
   constexpr Known kKnown[] = {
       {"Fletcher32", "its checksum does not fit, the data is damaged"},
-      // All that HDF5 1.14 tells of a filter; the checksum is the only one that our files have.
+      // HDF5 1.14 says no more about a filter; the checksum is the only filter of this project's files.
       {"filter returned failure during read", "its checksum does not fit, the data is damaged"},
       {"metadata checksum", "the file is damaged (a checksum of its structure does not fit)"},
       {"truncated file", "the file is truncated"},

@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to this room: what the writer and the reader share. The only header that includes HDF5's.
+// Private to this room: functions that the writer and the reader share. Only this header includes HDF5's.
 #include <fmt/format.h>
 #include <hdf5.h>
 
@@ -18,21 +18,21 @@ namespace sprung::support::hdf5 {
 
 static_assert(std::is_same_v<hid_t, std::int64_t> && std::is_same_v<herr_t, int>, "Hdf5Handle relies on it");
 
-/// A call of HDF5 that failed: what we wanted, and the system's or the library's reason. The writer and the
-/// reader turn it into an InputError of their file.
+/// A call of HDF5 that failed. The message says what was attempted, and the reason of the system or the
+/// library. The writer and the reader turn it into an InputError of their file.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Before any other call: no printing by the library, and no clean-up at exit (it crashes after a failed
-/// close).
+/// To be called before any other call of HDF5. The library then prints nothing and does no clean-up at exit,
+/// which would crash after a failed close.
 void initialize();
 
 /// The reason for the last failure, from HDF5's error stack, in words for the user.
 std::string failure_reason();
 
-/// Passes a good status or identifier on.
+/// Returns a status or identifier that is not negative.
 /// @throws Failure `what: reason` if it is negative
 template <typename Status>
 Status check(Status status, std::string_view what) {
@@ -40,13 +40,13 @@ Status check(Status status, std::string_view what) {
   return status;
 }
 
-/// check() of an identifier, owned.
+/// Takes ownership of an identifier after check().
 Hdf5Handle own(hid_t id, int (*close)(std::int64_t), std::string_view what);
 
 /// Creation properties of an object of this class, without time stamps.
 Hdf5Handle make_properties(hid_t object_class);
 
-/// Whether a path leads to an object; false as well where something on the way is missing.
+/// Whether there is an object at a path; false also if a group of the path is missing.
 bool exists(hid_t file, const std::string& path);
 
 /// The path up to the last '/', "" for the file itself.

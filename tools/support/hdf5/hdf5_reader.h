@@ -10,10 +10,10 @@
 
 namespace sprung::support {
 
-/// Reads an HDF5 file strictly: a missing dataset, another type or shape, NaN or infinity, or a chunk whose
-/// checksum fails throws InputError `path: error: dataset '…' …`. Declared sizes are held against the file's
-/// size before anything is allocated. Compressed datasets and strings of variable length are refused: this
-/// project's files have none, and the latter carry no checksum.
+/// Reads an HDF5 file strictly. A missing dataset, an unexpected type or shape, NaN, infinity or a wrong
+/// checksum throws InputError `path: error: dataset '…' …`. Declared sizes are compared with the size of the
+/// file before memory is allocated. Compressed datasets and strings of variable length are refused: this
+/// project's files have none, and such strings have no checksum.
 class Hdf5Reader {
  public:
   /// @throws InputError if the file is missing, empty, truncated, not HDF5, or was left open by its writer.

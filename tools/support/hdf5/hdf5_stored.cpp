@@ -9,7 +9,7 @@ namespace sprung::support::hdf5 {
 
 namespace {
 
-// "3×2", "a single value" for rank 0; what is negative is any number.
+// "3×2"; "a single value" for rank 0. A negative number stands for any size.
 template <typename Size>
 std::string format_shape(std::span<const Size> shape) {
   if (shape.empty()) return "a single value";
@@ -71,12 +71,12 @@ std::size_t expect_string(hid_t type, const std::string& label) {
   return H5Tget_size(type);
 }
 
-// What a padded string holds.
+// The content of a padded string.
 std::string unpadded(std::string_view text) {
   return std::string(text.substr(0, text.find('\0')));
 }
 
-// Name of the file that an object is in. A link may lead to another one.
+// Name of the file that holds an object: a link may lead to another file.
 std::string file_name(hid_t object) {
   const std::string_view what = "the file's name cannot be read";
   std::string name(static_cast<std::size_t>(check(H5Fget_name(object, nullptr, 0), what)) + 1, '\0');
@@ -110,7 +110,8 @@ StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::ui
   for (const std::size_t size : shape_) count_ *= size;
 }
 
-// A damaged or hostile header may declare anything: before memory is taken for it, the data must be there.
+// A damaged or hostile header may declare any size. So the data must be in the file before memory is
+// allocated.
 void StoredDataset::check_storage(std::uint64_t file_size) const {
   const std::string what = label_ + " cannot be read";
   const Hdf5Handle properties = own(H5Dget_create_plist(dataset_.get()), H5Pclose, what);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to this room: a dataset or attribute of a file that is not trusted, checked before it is read.
+// Private to this room: datasets and attributes of a file that is not trusted, checked before they are read.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace sprung::support::hdf5 {
 
-/// A dataset of plain storage: chunked or contiguous, not compressed, not elsewhere.
+/// A dataset that is stored plainly: chunked or contiguous, not compressed, and in this file.
 class StoredDataset {
  public:
   /// @param file_size  [bytes]; a dataset that declares more than this is refused

@@ -14,7 +14,7 @@ namespace sprung::support {
 
 namespace fs = std::filesystem;
 
-// What goes into one dataset.
+// The content of one dataset.
 struct Hdf5Writer::Array {
   std::int64_t file_type;
   std::int64_t memory_type;
@@ -56,7 +56,7 @@ Hdf5Handle create_file(const fs::path& temporary) {
   return hdf5::own(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
 }
 
-// Opens an object and takes an older attribute of this name away.
+// Opens an object and removes an older attribute of this name.
 Hdf5Handle open_for_attribute(hid_t file, const std::string& object, const std::string& name) {
   const std::string what = fmt::format("attribute '{}' of '{}' cannot be written", name, object);
   Hdf5Handle handle = hdf5::own(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
@@ -75,7 +75,7 @@ void write_scalar_attribute(hid_t object, const std::string& name, hid_t file_ty
   hdf5::check(H5Awrite(attribute.get(), memory_type, value), what);
 }
 
-// The same path for each way of writing it.
+// The path in one form, however it was written.
 std::string from_root(const std::string& path) {
   return path.starts_with('/') ? path.substr(1) : path;
 }
@@ -118,7 +118,7 @@ bool Hdf5Writer::has(const std::string& path) const {
   return objects_.contains(from_root(path));
 }
 
-// Makes each group on the path that is not there.
+// Makes each group of the path that is missing.
 void Hdf5Writer::make_groups(const std::string& path) {
   if (path.empty() || path == "/") return;
   for (std::size_t end = path.find('/', 1); true; end = path.find('/', end + 1)) {
@@ -287,8 +287,8 @@ void Hdf5Writer::keep_temporary() {
   finished_ = true;
 }
 
-// Removes the temporary file, then closes what is left of it. After a failed write HDF5 still holds data, and
-// these closes fail again; their errors are dropped, the file's descriptor is closed all the same.
+// Removes the temporary file, then closes its identifiers. After a failed write HDF5 still holds data, and
+// these closes fail again. Their errors are dropped; the descriptor of the file is closed nevertheless.
 void Hdf5Writer::abandon() noexcept {
   std::error_code ignored;
   fs::remove(temporary_, ignored);

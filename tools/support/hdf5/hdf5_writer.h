@@ -18,14 +18,14 @@ namespace sprung::support {
 
 /// Writes an HDF5 file under a temporary name beside the target; `commit` renames it when it is whole.
 ///
-/// Every dataset is chunked with fletcher32 and carries no time stamp, so equal calls give equal bytes.
-/// Missing groups on a path are made. Anything that fails (a full disk, a missing folder) throws InputError
-/// naming the file and the system's reason; after that only the destructor may follow. The destructor removes
-/// what was not committed or kept. Writing something twice, to a place that is not there, or in a shape that
-/// does not fit is the caller's mistake: std::invalid_argument.
+/// Every dataset is chunked, has fletcher32 checksums and no time stamp, so that equal calls give equal
+/// bytes. Missing groups of a path are made. A failure (a full disk, a missing folder) throws InputError with
+/// the file and the system's reason; after that, the writer can only be destroyed. The destructor removes a
+/// file that was not committed or kept. Writing an object twice, attributes of a missing object, or values
+/// that do not fit the shape is a mistake of the caller: std::invalid_argument.
 class Hdf5Writer {
  public:
-  /// @param target     final name; an existing file there stays whole until `commit`
+  /// @param target     final name; an existing file of this name stays unchanged until `commit`
   /// @param temporary  name to write under, in the same folder; "" for `target` + ".tmp"
   /// @throws InputError if the folder is missing, the target is not a regular file, or another program is
   /// writing it
@@ -56,17 +56,17 @@ class Hdf5Writer {
   void write(const std::string& dataset, std::span<const std::string> values);  ///< UTF-8 without NUL, rank 1
 
   void make_group(const std::string& group);
-  /// Attributes of a group or dataset; "/" for the file itself. One that is there already is replaced.
+  /// Attributes of a group or dataset; "/" for the file itself. An existing attribute is replaced.
   void attribute(const std::string& object, const std::string& name, std::string_view value);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
-  /// @return for `append`, up to `commit` or `keep_temporary`
+  /// @return valid until `commit` or `keep_temporary`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
-  /// Appends whole rows, row-major. Rows are gathered to chunks, so that an error may show later.
+  /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
-  void flush();  ///< all that was appended goes to the file
+  void flush();  ///< writes all appended rows to the file
 
   void commit();  ///< closes, syncs and renames to the target
   /// Closes the file and leaves it under the temporary name (an interrupted run).
@@ -88,7 +88,7 @@ class Hdf5Writer {
 
   std::filesystem::path target_, temporary_;
   Hdf5Handle file_;
-  std::set<std::string> objects_;  // groups and datasets made, by their paths
+  std::set<std::string> objects_;  // paths of the groups and datasets made
   std::map<std::string, Hdf5GrowingDataset> growing_;
   bool finished_ = false;
 };

@@ -9,7 +9,7 @@ namespace sprung::support {
 /// null.
 using Json = nlohmann::ordered_json;
 
-/// The text of `--json`: one line. Bytes that are no UTF-8 are replaced.
+/// The text of `--json`: one line. Bytes that are not UTF-8 are replaced.
 inline std::string format_json(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -21,7 +21,7 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
-// The first signal asks; the second has its usual effect, at once.
+// The first signal requests the end; the second ends the process at once, as usual.
 void handle_interrupt(int signal) {
   if (interrupted.exchange(true)) {
     std::signal(signal, SIG_DFL);
@@ -37,7 +37,7 @@ void install_signal_handlers() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // A terminal that is closed; under nohup it does not matter, and shall not.
+  // SIGHUP comes when the terminal is closed. Under nohup it is ignored and stays so.
   struct sigaction inherited = {};
   sigaction(SIGHUP, nullptr, &inherited);
   if (inherited.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
@@ -46,14 +46,14 @@ void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-// To stderr, after what has been printed so far. Nothing can be done where stderr itself is closed.
+// Prints to stderr, after the output so far. If stderr itself is closed, nothing can be done.
 void print_message(std::string_view text) {
   std::fflush(stdout);
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fputc('\n', stderr);
 }
 
-// The reader of our output may go away (`| head`): nothing to complain about.
+// The reader of the output may end first (`| head`), which is not an error.
 int finish_output(const char* name, int code) {
   errno = 0;
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;

@@ -5,8 +5,8 @@
 
 namespace sprung::support {
 
-/// How far long work has come, on stderr: a bar with the time left on a terminal, a plain line for every
-/// tenth elsewhere, nothing when quiet.
+/// Shows the progress of a long calculation on stderr: on a terminal a bar with the time left, elsewhere a
+/// line for each tenth, and nothing if quiet.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
@@ -14,7 +14,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// @param fraction  done, from 0 to 1
+  /// @param fraction  part that is done, from 0 to 1
   void update(double fraction);
   /// Ends the line. Called by the destructor too.
   void finish();

@@ -7,7 +7,7 @@
 
 namespace sprung::support {
 
-/// A table for people: columns as wide as their widest cell, numbers right-aligned, text left-aligned.
+/// A table of text: columns are as wide as their widest cell, numbers right-aligned, text left-aligned.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header);
@@ -19,7 +19,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;  // the first is the header
 };
 
-/// A number with so many digits behind the point; what rounds to zero has no sign.
+/// A number with this many digits after the point. A number that rounds to zero has no sign.
 std::string format_fixed(double value, int digits);
 /// "1 mode", "2 modes"
 std::string format_count(std::size_t count, std::string_view noun);

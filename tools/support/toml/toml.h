@@ -15,7 +15,7 @@
 
 namespace sprung::support {
 
-/// What a number read from a file must satisfy; NaN and infinity never do.
+/// The range that a number from a file must lie in; NaN and infinity never do.
 struct Quantity {
   std::string_view unit;                ///< for the message, "" for a pure number
   std::optional<double> above = {};     ///< value > above
@@ -32,25 +32,25 @@ constexpr Quantity non_negative(std::string_view unit) {
   return {.unit = unit, .at_least = 0.0};
 }
 
-/// A value of a TOML document with the place it was written at and its full key ("bodies.chassis.mass").
+/// A value of a TOML document, its place in the text and its full key ("bodies.chassis.mass").
 struct TomlNode {
   struct Array {
     std::vector<TomlNode> items;
   };
   struct Table {
     std::vector<std::pair<std::string, TomlNode>> entries;  ///< in the order of the file
-    mutable std::vector<std::string> asked;                 ///< keys the program has asked for
+    mutable std::vector<std::string> asked;                 ///< keys that the program has looked up
   };
   SourceLocation location;      ///< of the value
-  SourceLocation key_location;  ///< of its key; the value's own place for array elements
-  std::string key;              ///< full, array elements by 0-based position: "forces.2.stiffness"
+  SourceLocation key_location;  ///< of its key; of the value itself for array elements
+  std::string key;  ///< full key, with the 0-based position of array elements: "forces.2.stiffness"
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
 };
 
 class TomlTable;
 
-/// A value to be converted; each conversion throws InputError at the value's place when type or range do not
-/// fit.
+/// A value to be converted. Each conversion throws InputError at the place of the value if its type or range
+/// is wrong.
 class TomlValue {
  public:
   explicit TomlValue(const TomlNode& node) : node_(&node) {}
@@ -73,7 +73,7 @@ class TomlValue {
   std::vector<double> numbers(const Quantity& quantity, std::size_t count) const;
   TomlTable table() const;
 
-  /// One of the words; the error lists them and names the nearest.
+  /// A string that must be one of the words; the error lists them and names the most similar one.
   const std::string& one_of(std::span<const std::string> words) const;
 
   /// The error to throw at this value: "'key' " + message.
@@ -83,7 +83,7 @@ class TomlValue {
   const TomlNode* node_;
 };
 
-/// A table that remembers which keys were asked for, so that `reject_unknown_keys` finds the misspelt ones.
+/// A table that records which keys are looked up, so that `reject_unknown_keys` finds misspelt ones.
 class TomlTable {
  public:
   explicit TomlTable(const TomlNode& node);
@@ -92,9 +92,9 @@ class TomlTable {
   const std::string& key() const { return node_->key; }
 
   bool has(std::string_view key) const { return find(key).has_value(); }
-  std::optional<TomlValue> find(std::string_view key) const;  ///< asked for, may be absent
+  std::optional<TomlValue> find(std::string_view key) const;  ///< none if the key is missing
   TomlValue at(std::string_view key) const;                   ///< throws InputError naming the missing key
-  std::vector<std::pair<std::string, TomlValue>> entries() const;  ///< all of them, all taken as asked for
+  std::vector<std::pair<std::string, TomlValue>> entries() const;  ///< all; each counts as looked up
 
   double number(std::string_view key, const Quantity& quantity) const { return at(key).number(quantity); }
   double number_or(std::string_view key, double fallback, const Quantity& quantity) const;
@@ -105,10 +105,10 @@ class TomlTable {
   std::string string_or(std::string_view key, std::string_view fallback) const;
   std::optional<TomlTable> find_table(std::string_view key) const;
 
-  /// Throws InputError for the first key nobody asked for, naming the nearest that was. Call after reading a
-  /// table.
+  /// Throws InputError for the first key that was not looked up, and names the most similar one that was. To
+  /// be called after a table has been read.
   void reject_unknown_keys() const;
-  /// The keys the program has asked this table for so far, present or not.
+  /// The keys that have been looked up so far, present or not.
   std::span<const std::string> asked_keys() const;
 
   /// The error to throw at this table: "'key' " + message.
@@ -119,20 +119,20 @@ class TomlTable {
   const TomlNode::Table* table_;
 };
 
-/// A parsed document. Views (TomlTable, TomlValue) live as long as the document does.
+/// A parsed document. TomlTable and TomlValue refer to it and must not outlive it.
 class TomlDocument {
  public:
-  /// @throws InputError if the file cannot be read or is not TOML (place of the fault).
+  /// @throws InputError if the file cannot be read, or at the place where it is not TOML
   static TomlDocument read(const std::filesystem::path& path);
-  /// @param name  stands for the path in messages
+  /// @param name  used in place of the path in messages
   static TomlDocument parse(std::string text, const std::string& name);
 
-  /// Overrides one key: `key.path=value`, value as in TOML, a bare word being a string. Tables on the way are
-  /// made; `name.3.key` reaches into an array by its 0-based position or, for tables, by their `name`. Views
-  /// of a value that is replaced end here.
-  /// @param where  stands for the path in messages, e.g. "--set 1"
-  /// @throws InputError if it is no assignment, or the path runs through a value that is neither table nor
-  /// array
+  /// Overrides one key by `key.path=value`. The value is written as in TOML; a bare word is a string. Missing
+  /// tables of the path are made. `name.3.key` selects an element of an array by its 0-based position; tables
+  /// in an array may also be selected by their `name`. A TomlValue of a replaced value becomes invalid.
+  /// @param where  used in place of the path in messages: "--set 1"
+  /// @throws InputError if it is not an assignment, or if the path leads through a value that is neither a
+  /// table nor an array
   void set(std::string_view assignment, const std::string& where);
 
   TomlTable root() const { return TomlTable(*root_); }

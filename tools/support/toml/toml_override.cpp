@@ -139,7 +139,7 @@ TomlNode& find_element(TomlNode& node, TomlNode::Array& array, const KeyPart& pa
                                          nearest_name_hint(part.text, names)));
 }
 
-// The entry of a table, made where it is missing.
+// The entry of a table; it is made if it is missing.
 TomlNode& find_or_make_entry(TomlNode& node, TomlNode::Table& table, const std::string& name,
                              const SourceLocation& location) {
   for (auto& [key, entry] : table.entries) {

@@ -11,8 +11,8 @@ namespace sprung::support {
 
 namespace {
 
-// Turns the library's tree into ours. Its tables are sorted by key; the keys' places give the order of the
-// text back.
+// Converts the library's tree. Its tables are sorted by key; the places of the keys restore the order of the
+// text.
 class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}

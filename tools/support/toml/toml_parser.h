@@ -7,10 +7,11 @@
 
 namespace sprung::support {
 
-/// Parses a TOML text; the only place that knows the parsing library.
-/// @param name  stands for the path in messages
+/// Parses a TOML text. Only this function uses the parsing library.
+/// @param name  used in place of the path in messages
 /// @return the root table, entries in the order of the text, each node with its place and full key
-/// @throws InputError at the place of the fault: not TOML, or a date or time, which no input of ours has
+/// @throws InputError at the place where the text is not TOML, or has a date or time, which no key of this
+/// project takes
 TomlNode parse_toml(std::string_view text, const std::string& name);
 
 }  // namespace sprung::support

@@ -7,10 +7,12 @@
 
 namespace sprung::support {
 
-/// `parent.part`, the part quoted where TOML asks for it; the part alone under the root, whose key is "".
+/// `parent.part`, the part in quotes if TOML requires them; the part alone if the parent is the root, whose
+/// key is
+/// "".
 std::string join_key(std::string_view parent, std::string_view part);
 
-/// What a value is, for messages: `a string "heavy"`, `a number 3.5`, `a table` …
+/// Type and value of a node, for messages: `a string "heavy"`, `a number 3.5`, `a table` …
 std::string describe(const TomlNode& node);
 
 /// The shortest text that reads back as the same number.
