@@ -28,7 +28,7 @@ def series_of(acceleration, height=0.0, deflection=0.0):
 
 
 class Judging(unittest.TestCase):
-    def test_rms_above_counts_what_lies_above_alone(self):
+    def test_rms_above_counts_higher_frequencies_only(self):
         time = np.arange(2000) * 1e-3  # 2 s: whole periods of both
         values = 3.0 * np.sin(2 * np.pi * 4.0 * time) + 0.5 * np.sin(2 * np.pi * 40.0 * time)
         self.assertAlmostEqual(rms_above(values, 1e-3, 16.0), 0.5 / np.sqrt(2.0), places=12)

@@ -143,7 +143,7 @@ class OfTheTruck(ToolTestCase):
         for name in ("velocity", "acceleration", "deflection"):
             np.testing.assert_array_equal(large.point_data[name], plain.point_data[name])
 
-    def test_it_may_be_written_again_and_takes_nothing_else_away(self):
+    def test_it_may_be_written_again_and_removes_no_other_file(self):
         for _ in range(2):
             self.export("chassis.h5", "-o", "modes.pvd", "--modes", "1")
         self.assertEqual(os.listdir(self.folder / "modes"), ["mode_001.vtu"])
@@ -154,7 +154,7 @@ class OfTheTruck(ToolTestCase):
         (self.folder / "file").touch()
         self.assert_refuses(self.run_tool("export_paraview", "chassis.h5", "-o", "file.pvd"), "'file' is there")
 
-    def test_what_cannot_be_done_is_refused_and_leaves_nothing(self):
+    def test_errors_are_reported_and_leave_no_file(self):
         before = sorted(os.listdir(self.folder))
         for fragment, *arguments in (
             (

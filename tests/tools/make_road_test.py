@@ -53,7 +53,7 @@ class Profiles(unittest.TestCase):
         # Raised cosine: the first step is (π h/3)²/4 = 7.1e-4 of what the profile has there.
         self.assertLess(abs(profile.height[1]), 7.1e-4 * 0.2)
 
-    def test_easing_leaves_the_middle_as_it_was_but_for_the_scale(self):
+    def test_easing_changes_the_middle_by_a_factor_only(self):
         eased, whole = (make_profile(RECIPE._replace(ease=ease)) for ease in (3.0, 1e-9))
         middle = slice(60, -60)  # 60 · 0.0508 m > 3 m
         ratio = np.sqrt(eased.density / whole.density)
@@ -168,7 +168,7 @@ class Tool(ToolTestCase):
         self.assertNotIn("road.txt", headers[0].partition("make_road.py")[2])
         self.assertEqual(len(set(headers)), 1)
 
-    def test_too_coarse_points_are_told(self):
+    def test_too_coarse_points_get_a_note(self):
         process = self.run_tool("make_road.py", *self.arguments, "--band", "0.05", "9", "--rms", "0.01")
         self.assertIn("note: only 2.22 points on the shortest wave", process.stdout)
 

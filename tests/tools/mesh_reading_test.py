@@ -60,7 +60,7 @@ class Reading(ToolTestCase):
         self.assertEqual(self.run_tool("convert_mesh", "a.dat", "a.msh").returncode, 0)
         self.assertEqual(sorted(meshio.read(self.folder / "a.msh").field_data), ["property_1", "set_4_1", "set_4_2"])
 
-    def test_names_that_gmsh_cannot_hold_are_changed_and_said(self):
+    def test_names_that_gmsh_cannot_hold_are_changed_with_a_remark(self):
         long = "n" * 200
         names = {'a "b"': 0, "a 'b'": 1, " ": 2, "": 3, f"{long}1": 4, f"{long}2": 5, "as it was": 6}
         remarks = []

@@ -26,7 +26,7 @@ class ModeHistories(ToolTestCase):
         self.addCleanup(results.file.close)
         return results
 
-    def test_modes_are_told_by_their_numbers_and_frequencies_in_the_superelement(self):
+    def test_modes_are_named_by_number_and_frequency_in_the_superelement(self):
         (history,) = read_mode_histories(self.open_run())
         self.assertEqual(history.body, "chassis")
         np.testing.assert_array_equal(history.number, [1, 3, 4])
@@ -47,7 +47,7 @@ class ModeHistories(ToolTestCase):
         self.assertEqual(find_worst_neglect(results, 0), Neglect(0.03, "chassis", 3, 0.5))
         self.assertEqual(find_worst_neglect(results, 1), Neglect(0.008, "chassis", 2, 0.2))
 
-    def test_a_run_that_did_not_look_tells_nothing(self):
+    def test_a_run_without_an_indicator_gives_no_shares(self):
         results = self.open_run(is_adaptive=False)
         self.assertEqual(read_neglected(results), {})
         self.assertIsNone(find_worst_neglect(results, 0))

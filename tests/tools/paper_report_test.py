@@ -237,7 +237,7 @@ class Report(unittest.TestCase):
         # The bent chassis stands slightly differently on its springs.
         np.testing.assert_allclose(moments[0], elastic[0], atol=1e-3 * np.max(np.abs(elastic[0])))
 
-    def test_a_rigid_chassis_in_balance_carries_its_overhang(self):
+    def test_a_rigid_chassis_in_equilibrium_carries_its_overhang(self):
         # At the foremost pivot: −q L²/2 of the overhang L = 3.8257 − 3.034 m; the element's own load q L²/12, which a
         # cubic cannot show, is missing from it.
         rigid = self.numbers.run("bump_rigid").results

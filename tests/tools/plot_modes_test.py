@@ -72,7 +72,7 @@ class PlotModes(ToolTestCase):
             self.assertEqual((sum(not line for line in lines), sum(bool(line) for line in lines)), (6, 4))
             self.assertEqual(len(re.findall(r'<use [^>]*style="fill: #ffffff; stroke', svg)), 4)
 
-    def test_what_holds_no_choice_is_refused(self):
+    def test_a_file_without_a_choice_is_refused(self):
         write_choice(self.folder / "fixed.h5", kind="sprung-results", with_choice=False)
         write_choice(self.folder / "blind.h5", with_forcing=False)
         write_choice(self.folder / "foreign.h5", kind="something")
@@ -88,7 +88,7 @@ class PlotModes(ToolTestCase):
             self.assert_refuses(self.run_tool("plot_modes", "-o", "out.png", name), fragment)
         self.assertFalse((self.folder / "out.png").exists())
 
-    def test_modes_over_time_above_what_the_run_did(self):
+    def test_modes_over_time_are_drawn_above_quantities_of_the_run(self):
         write_adaptive_run(self.folder / "adaptive.h5")
         write_results(self.folder / "rigid.h5", num_modes=0)
         svg = self.draw_svg("--over-time", "adaptive=adaptive.h5", "rigid chassis=rigid.h5")
@@ -126,7 +126,7 @@ class PlotModes(ToolTestCase):
             "rigid.h5: error: no body of this run has modes",
         )
 
-    def test_what_goes_with_over_time_alone_is_refused_without_it(self):
+    def test_options_of_over_time_are_refused_without_it(self):
         write_choice(self.folder / "choice.h5")
         for arguments in (
             ("two.h5",),

@@ -62,7 +62,7 @@ class PlotResponse(ToolTestCase):
         self.assertIn(f"{SEAT}, (m/s²)²/Hz", texts)
         self.assertEqual(len(curves), 1)
 
-    def test_what_is_not_there_is_refused(self):
+    def test_missing_outputs_and_files_are_refused(self):
         for arguments, fragment in (
             (
                 ("a.h5", "--show", "points/nobody/velocity.y"),

@@ -38,7 +38,7 @@ class Controls(PageTestCase):
         self.assertEqual(page.evaluate("player.playing"), False)
         self.assertEqual(page.problems(), [])
 
-    def test_every_control_does_what_it_says(self):
+    def test_every_control_has_its_effect(self):
         page = self.open()
         self.browser.save_downloads(self.folder)
         cases = self.list_cases()

@@ -72,7 +72,7 @@ class Report(ToolTestCase):
         spans = decode(data["runs"][0]["frames"]["tyres"]["front_tyre"]["off"])
         self.assertAlmostEqual(float(np.sum(spans[1::2] - spans[::2])), off * 1.0 / (NUM_SAMPLES - 1), places=5)
 
-    def test_what_was_run_is_told_with_versions_and_hashes(self):
+    def test_the_settings_are_shown_with_versions_and_hashes(self):
         with h5py.File(self.folder / "soft.h5", "a") as file:
             file.attrs["program_version"] = np.bytes_("7.8.9")
         facts = dict(self.report("soft.h5")[1]["runs"][0]["facts"])

@@ -123,7 +123,7 @@ class Tool(ToolTestCase):
         self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
         self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
 
-    def test_no_share_of_travel_is_told_where_the_vehicle_stands_on_its_stop(self):
+    def test_no_share_of_travel_is_given_if_the_vehicle_rests_on_its_stop(self):
         write_ride_results(self.folder / "a.h5", stop=0.05)
         rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
         self.assertEqual([row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]])
@@ -136,7 +136,7 @@ class Tool(ToolTestCase):
         self.assertNotIn("body.seat", process.stdout)
         self.assertNotIn("largest moment", process.stdout)
 
-    def test_what_a_file_does_not_hold_is_refused(self):
+    def test_missing_quantities_are_refused(self):
         write_ride_results(self.folder / "a.h5")
         self.assert_refuses(self.run_tool("ride", "b.h5"), "b.h5: error: no such file")
         self.assert_refuses(

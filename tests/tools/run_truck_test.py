@@ -94,7 +94,7 @@ class RunTruck(ToolTestCase):
         self.assert_succeeds(process)
         self.assertTrue((self.folder / "given/report.html").exists())
 
-    def test_it_can_be_run_again_and_writes_into_the_build_folder_unless_told_otherwise(self):
+    def test_it_can_be_run_again_and_writes_into_the_build_folder_by_default(self):
         for _ in range(2):
             self.assertEqual(self.run_truck().returncode, 0)
         self.assertTrue((self.root / "build/truck/bump_displacement.png").exists())

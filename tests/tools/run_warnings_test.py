@@ -39,7 +39,7 @@ class RunWarnings(ToolTestCase):
                       found[0].text)  # fmt: skip
         self.assertEqual(found[1].of, ("chassis",))
 
-    def test_a_share_of_next_to_nothing_at_the_start_does_not_count(self):
+    def test_shares_of_small_values_at_the_start_do_not_count(self):
         self.write_neglected(self.folder / "a.h5", early=1.0)
         with h5py.File(self.folder / "a.h5", "a") as file:
             file.require_group("summary/points/chassis.seat")

@@ -39,13 +39,13 @@ class Labels(ToolTestCase):
         paths = [write_results(self.folder / f"{n}.h5", num_modes=n) for n in (0, 4)]
         self.assertEqual([run.label for run in self.open(*paths)], ["rigid", "chassis 4 modes"])
 
-    def test_runs_that_would_be_called_the_same_are_told_apart_by_file(self):
+    def test_runs_of_equal_names_are_distinguished_by_file(self):
         paths = [write_results(self.folder / name) for name in ("a.h5", "b.h5")]
         self.assertEqual(
             [run.label for run in self.open(*paths)], ["chassis 2 modes (a.h5)", "chassis 2 modes (b.h5)"]
         )
 
-    def test_one_file_twice_is_told_apart_by_number(self):
+    def test_the_same_file_twice_is_distinguished_by_number(self):
         path = write_results(self.folder / "a.h5")
         labels = [run.label for run in self.open(f"x={path}", f"x={path}")]
         self.assertEqual(labels, ["x (a.h5) (no. 1)", "x (a.h5) (no. 2)"])
@@ -84,7 +84,7 @@ class Captions(ToolTestCase):
         self.assertIn("method adams", caption)
         self.assertIn("a sample every 5 ms", caption)
 
-    def test_what_is_told_is_what_was_run_not_what_the_files_say(self):
+    def test_the_caption_is_of_the_model_as_run_not_of_the_files(self):
         told = {"settings": {"speed": 5.0}, "integrator": {"relative_tolerance": 1e-8}, "overrides": ("speed=5",)}
         with open_results(write_results(self.folder / "run.h5", **told)) as results:
             caption = make_caption([results])
@@ -98,7 +98,7 @@ class Captions(ToolTestCase):
         with open_results(self.folder / "run.h5") as results:
             self.assertEqual(make_caption([results]), "a sample every 5 ms")
 
-    def test_only_what_all_runs_share_is_told(self):
+    def test_the_caption_holds_only_what_all_runs_share(self):
         with open_results(write_results(self.folder / "slow.h5")) as slow:
             with open_results(write_results(self.folder / "fast.h5", settings={"speed": 5.0})) as fast:
                 caption = make_caption([slow, fast])

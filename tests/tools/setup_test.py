@@ -56,7 +56,7 @@ class Setup(ToolTestCase):
         self.assertIn("all packages are installed", process.stdout)
         self.assertEqual(self.calls(), [])
 
-    def test_exactly_what_is_missing_is_installed_after_an_update_without_questions(self):
+    def test_only_missing_packages_are_installed_after_an_update_without_questions(self):
         self.make_debian(missing=("catch2", "libgmsh-dev"))
         process = self.setup_tool()
         self.assertEqual(process.returncode, 0, process.stderr)
@@ -67,7 +67,7 @@ class Setup(ToolTestCase):
             install, r"^noninteractive apt-get .*\binstall -y --no-install-recommends libgmsh-dev catch2$"
         )
 
-    def test_what_will_be_installed_is_told_before_in_packages_and_bytes(self):
+    def test_the_number_and_size_of_packages_are_printed_before(self):
         self.make_debian(missing=("catch2", "libgmsh-dev"))
         # The installation prints a line of its own, which must come after.
         self.stand_in("apt-get", f"{ASKED}; echo doing $*")
@@ -80,7 +80,7 @@ class Setup(ToolTestCase):
         installation = next(line for line in lines if line.startswith("doing") and "install -y" in line)
         self.assertLess(lines.index(told), lines.index(installation))
 
-    def test_nothing_that_draws_is_installed_where_that_is_wished(self):
+    def test_minimal_installs_no_packages_for_pictures(self):
         drawing = ("python3-matplotlib", "python3-meshio", "libjs-dygraphs")
         self.make_debian(missing=drawing)
         self.assertIn("all packages are installed", self.setup_tool("--minimal").stdout)

@@ -11,7 +11,7 @@ from sprung_tools.files.whole_file import write_whole
 
 
 class WholeFile(ToolTestCase):
-    def test_text_and_bytes_take_the_place_of_what_was_there(self):
+    def test_text_and_bytes_replace_an_earlier_file(self):
         path = self.folder / "a.txt"
         for content, expected in (("ε\n", "ε\n".encode()), (b"\x00\xff", b"\x00\xff")):
             write_whole(path, content)

@@ -167,8 +167,8 @@ damper = {damper}
 RUN = 'start = "as-given"\nduration = 2.0\noutput_step = 1e-3\n[integrator]\nrelative_tolerance = {tolerance:g}\n'
 
 
-class BendingForces(VerificationCase):
-    """Forces that bend within a step, through which the default method goes."""
+class KinkedForces(VerificationCase):
+    """Forces whose laws have kinks, several of them within the length of a smooth step."""
 
     def test_the_energy_of_a_prescribed_motion_closes_with_the_tolerance(self):
         for tolerance in (1e-3, 1e-4, 1e-6, 1e-8):
@@ -180,7 +180,7 @@ class BendingForces(VerificationCase):
                 self.assertLess(results.summary["energy_closure"], tolerance)
 
     def test_outputs_show_the_piece_of_a_table_that_holds(self):
-        # Six pieces, each of them passed within a few ms: steps meet several of them.
+        # Six pieces, each of them passed within a few ms.
         rates = np.array([-1.0, -0.1, -0.02, 0.0, 0.03, 0.2, 1.0])
         forces = np.array([-900.0, -400.0, -250.0, 0.0, 80.0, 200.0, 500.0])
         table = ", ".join(f"[{x}, {y}]" for x, y in zip(rates, forces))
@@ -194,7 +194,7 @@ class BendingForces(VerificationCase):
                 rate = results["bodies/base/velocity"][:, 1] - results["bodies/mass/velocity"][:, 1]
                 force = 2e4 * (1.05 - length) + np.interp(rate, rates, forces)
                 acceleration = results["points/mass.origin/acceleration"][:, 1]
-                # Within a step the place of a bend is known as well as the motion is.
+                # A kink is located as accurately as the motion.
                 self.assert_close(acceleration, force / 100.0 - 9.80665, absolute=max(1e-9, 3.0 * tolerance))
 
     def test_a_damper_stiff_on_one_side_does_not_bind_the_steps(self):

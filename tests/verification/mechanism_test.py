@@ -183,7 +183,7 @@ a = "ground.origin"
 b = "bar.eye"
 """
 
-    def test_the_energy_of_what_turns_steadily_closes(self):
+    def test_the_energy_balance_of_steady_rotation_closes(self):
         """The terms of the energy change only by errors, which are small against the kinetic energy."""
         results = self.run_text(self.VEHICLE, """
 start = "as-given"
@@ -248,7 +248,7 @@ class GeneralizedAlpha(VerificationCase):
         self.assertGreater(results.summary["velocity_violation"], 1e-9)
         self.assertLess(results.summary["energy_closure"], 1e-3)
 
-    def test_steps_that_damp_nothing_fail_with_a_word_on_it(self):
+    def test_steps_without_numerical_damping_fail_with_the_reason(self):
         process = run_program(
             [os.environ["SPRUNG_DYNAMICS"], "run", EXAMPLES / "andrews_run.toml", "--set", "integrator.fixed_step=1e-3",
              "--set", "integrator.method=generalized-alpha", "--set", "integrator.spectral_radius=1.0"])

@@ -77,7 +77,7 @@ class Sled(VerificationCase):
                 self.assertLess(results.summary["energy_closure"], 1e-7)
                 self.assertGreater(np.ptp(results["energy/input"]), 0.05)
 
-    def test_table_goes_smoothly_through_its_points(self):
+    def test_a_table_is_a_smooth_curve_through_its_points(self):
         table = "{ table = [[0.2, 0.0], [0.5, 0.3], [0.9, -0.1], [1.2, 0.2]] }"
         results = self.run_text(SLED.format(f'joint = "rail"\nfunction = {table}'), "duration = 1.5\n")
         position = results["bodies/sled/position"][:, 0]

@@ -115,7 +115,7 @@ class HalfCar(ResponseCase):
             self.assertLess(abs(pitch[np.argmin(np.abs(response.frequency - 5.0 - 5.0 * zero))]), 1e-9)
         self.assertGreater(np.max(np.abs(pitch)), 0.3)
 
-    def test_a_lifted_wheel_takes_no_part_and_is_named(self):
+    def test_a_lifted_wheel_is_no_input_and_is_named(self):
         spare = '''
 [[forces]]
 name = "spare"
@@ -178,7 +178,7 @@ class Limits(ResponseCase):
 
 
 class ResponseFile(ResponseCase):
-    def test_holds_what_is_printed(self):
+    def test_output_has_the_printed_values(self):
         path = self.folder / "response.h5"
         arguments = overrides(response__road__class="B", response__number=50)
         response = self.response(HALF_CAR, *arguments, "-o", str(path))

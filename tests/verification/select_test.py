@@ -49,7 +49,7 @@ class Truck(VerificationCase):
         self.assertGreater(abs(rms - 1.0), 0.05)
         self.assertLess(auto["evaluations"], 0.8 * full["evaluations"])
 
-    def test_what_is_predicted_is_what_a_run_neglects(self):
+    def test_the_predicted_share_is_that_of_a_run(self):
         # A terrain of a twentieth of its height, where the truck is nearly linear but for the damper, made equal both
         # ways.
         s, height = np.loadtxt(TRUCK / "terrain_road.txt", unpack=True)
@@ -141,7 +141,7 @@ class Truck(VerificationCase):
             self.assertLessEqual(mode["share"]["static"], 1.0)
             self.assertEqual(mode["share"]["acceleration_rms"], 0.0)
 
-    def test_numbering_the_nodes_the_other_way_changes_nothing(self):
+    def test_another_numbering_of_the_nodes_changes_nothing(self):
         # The same chassis, numbered from its rear end: all of its modes are pairs, of which any turn would do.
         design = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
         lines = re.search(r"\[points\]\n(.*?)\n\n", design, re.DOTALL).group(1)  # nodes are numbered in this order

@@ -77,7 +77,7 @@ class Steady(VerificationCase):
             self.assertEqual(num_rigid, 0)
             self.assert_close(omega, [abs(speed) * math.sqrt(3.0 * 0.5 * 0.3 / (0.2 + 3.0 * 0.3**2))], relative=1e-7)
 
-    def test_a_run_goes_on_as_steadily_as_it_begins(self):
+    def test_a_run_continues_the_steady_motion(self):
         self.write(HUB.format(speed=4.0, rest=PENDULUM))
         results = self.run_to_results(self.folder / "run.toml")
         self.assert_close(results["bodies/bar/velocity"][:, 2], 4.0, absolute=1e-6)
@@ -119,7 +119,7 @@ class Steady(VerificationCase):
             self.assertRegex(texts[verb], "[Ss]teady motion")
         self.assertNotIn("modes are missing", texts["run"])
 
-    def test_what_is_not_steady_is_refused(self):
+    def test_motion_that_is_not_steady_is_refused(self):
         spring = ('[[forces]]\nname = "rope"\ntype = "spring-damper"\na = "ground.origin"\nb = "bar.origin"\n'
                   "free_length = 0.5\nspring = { polynomial = [0.0, 100.0] }\n")
         turning = HUB.format(speed=9.0, rest=PENDULUM)

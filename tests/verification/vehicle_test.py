@@ -86,7 +86,7 @@ class Truck(VerificationCase):
         self.assert_close(distributed["energy/input"], 0.0, absolute=1e-9)
         self.assertLess(distributed.summary["energy_closure"], 1e-5)
 
-    def test_dry_run_says_what_would_be_run(self):
+    def test_dry_run_prints_the_model(self):
         report = self.program("run", TRUCK, "--dry-run", "-o", str(self.folder / "none.h5"),
                               superelements=os.environ["SPRUNG_TRUCK_SUPERELEMENTS"])
         # 7 bodies of 3 coordinates and 2 modes; 8 joints that hold x and y.
