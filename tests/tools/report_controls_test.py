@@ -382,6 +382,39 @@ class Controls(PageTestCase):
         self.assertLess(np.mean(picture), 0.5)
         self.check_alive(page)
 
+    def test_all_menus_and_buttons_work_on_the_pages_of_other_vehicles(self):
+        for name in ("quarter_car", "four_bar"):  # one with a road and without a flexible body, one without either
+            self.drive(f"examples/{name}_run.toml", name)
+            self.report(f"{name}.html", f"{name}.h5")
+            for size in ("desktop", "phone"):
+                with self.subTest(name, size=size):
+                    self.use_everything(self.open(f"{name}.html", size=size))
+
+    def use_everything(self, page):
+        """Chooses every option of every menu that is there, presses every button, moves every slider."""
+        self.browser.save_downloads(self.folder)
+        shown = f"{ALL_CONTROLS}.filter((one) => one.getClientRects().length && one.id)"
+        for name in page.evaluate(f"{shown}.filter((one) => one.tagName === 'SELECT').map((one) => one.id)"):
+            for value in page.evaluate(f"[...document.getElementById('{name}').options].map((one) => one.value)"):
+                self.choose(page, name, value)
+                self.assertEqual(page.evaluate(f"document.getElementById('{name}').value"), value)
+        saving = f"{shown}.filter((one) => one.matches('.save') && one.id !== 'scene-webm')"
+        for name in page.evaluate(f"{saving}.map((one) => one.id)"):
+            page.click(f"#{name}")
+            page.wait_for_download()
+        for name in page.evaluate(f"{shown}.filter((one) => one.type === 'range').map((one) => one.id)"):
+            highest = page.evaluate(f"document.getElementById('{name}').max")
+            self.choose(page, name, highest)
+        page.prefer(True)
+        self.assertEqual(page.problems(), [])
+        last = page.evaluate("clock.last")
+        self.assertEqual(page.evaluate("clock.time"), last)
+        page.click("#play")  # from the beginning again
+        page.wait_until(f"clock.time < {last} && clock.time > 0")
+        page.click("#play")
+        dead = "(one) => !one.hidden && document.querySelector(one.hash).hidden"
+        self.assertEqual(page.evaluate(f"[...document.querySelectorAll('nav a')].filter({dead}).length"), 0)
+
     def test_the_note_of_the_modes_is_that_of_the_body_chosen(self):
         self.drive("truck/bump.toml", "long arms", "--set", "modes.chassis=2", "--set", "modes.front_long_arm=2")
         self.drive("truck/bump.toml", "adaptive", "--set", "modes.chassis=4", "--set", "adaptivity.enabled=true",

@@ -15,7 +15,7 @@ MODELS = ROOT / "dynamics/models"
 PICTURES = Path(os.environ.get("SPRUNG_SCREENSHOTS", tempfile.gettempdir()))
 BLACK, BLUE = (0x11, 0x11, 0x11), (0x00, 0x72, 0xB2)  # of the first and the second run on light paper
 OFF_ROAD, GROUND = (0xC2, 0x41, 0x0C), (0xE7, 0xE2, 0xD8)
-SIZES = {"desktop": (1280, 900), "phone": (390, 844)}
+SIZES = {"desktop": (1400, 900), "phone": (390, 844)}
 
 
 def is_colour(picture, colour, tolerance=0.02):

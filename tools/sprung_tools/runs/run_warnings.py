@@ -96,6 +96,6 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
         return []
     text = (
         "the vehicle's modes and frequencies are those of small motion about the equilibrium; here "
-        f"{' and '.join(airborne)} left the ground"
+        f"{', '.join(airborne)} left the ground"
     )
     return [RunWarning(EQUILIBRIUM, tuple(airborne), text)]

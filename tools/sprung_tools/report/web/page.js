@@ -39,6 +39,7 @@ makeSpectra();
 makeVehicleModes();
 makeModeAmplitudes();
 makeZoom();
+for (const link of document.querySelectorAll("nav a")) link.hidden = byId(link.hash.slice(1)).hidden;
 dark.addEventListener("change", drawAll);
 let resizing = 0;
 window.addEventListener("resize", () => {

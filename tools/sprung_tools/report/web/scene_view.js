@@ -4,7 +4,7 @@
 const ROOM = 1.3;  // width of the view in vehicle lengths, on a wide screen
 const EDGE = 12;    // between the view's edge and the vehicle, px
 const BELOW = 44;   // from the ground to the lower edge, px
-const LEAST_HEIGHT = 200, MOST_HEIGHT = 460;  // of the scene, px
+const LEAST_HEIGHT = 160, MOST_HEIGHT = 460;  // of the scene, px
 const MOST_RISE = 0.6;  // of the vehicle's height: room kept above it for its jumps
 
 /** The height of a vehicle's highest point, m. */
