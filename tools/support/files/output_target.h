@@ -13,6 +13,13 @@ void check_target(const std::filesystem::path& target);
 /// @throws InputError if another program holds its lock, or it is not a regular file
 void check_temporary(const std::filesystem::path& target, const std::filesystem::path& temporary);
 
+/// The name that `target` is written under until it is whole.
+std::filesystem::path temporary_name(const std::filesystem::path& target);
+
+/// Removes what a program that was killed left under the temporary name of `target`, unless another program
+/// is writing it.
+void remove_left_over(const std::filesystem::path& target);
+
 /// Brings a closed file to the disk and gives it its final name.
 /// @throws InputError with the system's reason
 void rename_to_target(const std::filesystem::path& temporary, const std::filesystem::path& target);
