@@ -37,14 +37,21 @@ struct TomlNode {
   struct Array {
     std::vector<TomlNode> items;
   };
+  struct Entry;
   struct Table {
-    std::vector<std::pair<std::string, TomlNode>> entries;  ///< in the order of the file
-    mutable std::vector<std::string> asked;                 ///< keys the program has asked for
+    std::vector<Entry> entries;              ///< in the order of the file
+    mutable std::vector<std::string> asked;  ///< keys the program has asked for
   };
   SourceLocation location;      ///< of the value
   SourceLocation key_location;  ///< of its key; the value's own place for array elements
   std::string key;              ///< full, array elements by 0-based position: "forces.2.stiffness"
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
+};
+
+/// A key of a table with its value; clang cannot have a std::pair in its place.
+struct TomlNode::Entry {
+  std::string key;
+  TomlNode node;
 };
 
 class TomlTable;
