@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include <clocale>
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
@@ -12,7 +11,9 @@
 #include <vector>
 
 #include "fem/gmsh_contents.h"
+#include "fem/gmsh_contents_bytes.h"
 #include "fem/msh_file.h"
+#include "tools/support/files/bytes.h"
 #include "tools/support/files/read_text_file.h"
 
 namespace sprung::fem {
@@ -24,26 +25,10 @@ using support::InputError;
 constexpr int kLineType = 1;    // gmsh's number of the two-node line
 constexpr int kPointType = 15;  // and of the point
 
-// A session of gmsh, from initialize to finalize. gmsh sets the locale and keeps parameters of files from one
-// session to the next: this class resets both.
-class GmshSession {
+// What is wrong with the input, without its place; it crosses from the child to the parent as text.
+class Refusal : public std::runtime_error {
  public:
-  GmshSession() : locale_(std::setlocale(LC_ALL, nullptr)) {
-    gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::onelab::clear();
-    gmsh::logger::start();
-  }
-  ~GmshSession() {
-    gmsh::logger::stop();
-    gmsh::finalize();
-    std::setlocale(LC_ALL, locale_.c_str());
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-
- private:
-  std::string locale_;
+  using std::runtime_error::runtime_error;
 };
 
 // The first message of a level ("Error", "Warning") in gmsh's log, or "".
@@ -56,20 +41,40 @@ std::string find_logged(const std::string& level) {
   return {};
 }
 
-// Runs gmsh calls; what gmsh throws or logs as an error becomes an InputError.
+// Runs gmsh calls; what gmsh throws or logs as an error becomes a Refusal.
 template <class Calls>
-void run_gmsh(const support::SourceLocation& where, Calls&& calls) {
+void run_gmsh(Calls&& calls) {
+  gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::logger::start();
   try {
     calls();
-  } catch (const InputError&) {
+  } catch (const Refusal&) {
     throw;
   } catch (const std::string& message) {  // of gmsh 4.8
-    throw InputError(where, "gmsh: " + message);
+    throw Refusal("gmsh: " + message);
   } catch (const std::runtime_error& error) {  // of gmsh 4.13
-    throw InputError(where, fmt::format("gmsh: {}", error.what()));
+    throw Refusal(fmt::format("gmsh: {}", error.what()));
   }
-  if (const std::string message = find_logged("Error"); !message.empty()) {
-    throw InputError(where, "gmsh: " + message);
+  if (const std::string message = find_logged("Error"); !message.empty()) throw Refusal("gmsh: " + message);
+}
+
+// gmsh crashes on damaged files, and keeps locale, parameters and memory from one model to the next: each
+// model gets a process of its own, which is thrown away.
+template <class Calls>
+GmshContents run_gmsh_in_child(const support::SourceLocation& where, const support::ChildLimits& limits,
+                               Calls&& calls) {
+  const auto work = [&] {
+    GmshContents contents;
+    run_gmsh([&] { contents = calls(); });
+    return pack(contents);
+  };
+  try {
+    return unpack(support::run_in_limited_child("gmsh", work, limits));
+  } catch (const support::ChildFailure& failure) {
+    throw InputError(where, failure.what());
+  } catch (const support::DamagedBytes&) {
+    throw InputError(where, "gmsh sent a damaged mesh");
   }
 }
 
@@ -88,8 +93,7 @@ EntityGroups get_groups(int dimension, int entity) {
   return groups;
 }
 
-void get_elements(GmshContents& contents, const std::pair<int, int>& entity,
-                  const support::SourceLocation& where) {
+void get_elements(GmshContents& contents, const std::pair<int, int>& entity) {
   const auto [dimension, tag] = entity;
   const auto [groups, is_reversed] = get_groups(dimension, tag);
   std::vector<int> types;
@@ -102,8 +106,8 @@ void get_elements(GmshContents& contents, const std::pair<int, int>& entity,
       std::vector<double> parameters;
       gmsh::model::mesh::getElementProperties(types[t], name, of_dimension, order, num_nodes, parameters,
                                               num_primary);
-      throw InputError(where, fmt::format("element {} is a {}, expected straight two-node lines only",
-                                          ids[t].front(), name));
+      throw Refusal(
+          fmt::format("element {} is a {}, expected straight two-node lines only", ids[t].front(), name));
     }
     for (std::size_t e = 0; e < ids[t].size(); ++e) {
       const auto id = static_cast<std::int64_t>(ids[t][e]);
@@ -119,7 +123,7 @@ void get_elements(GmshContents& contents, const std::pair<int, int>& entity,
   }
 }
 
-GmshContents get_contents(const support::SourceLocation& where) {
+GmshContents get_contents() {
   GmshContents contents;
   std::vector<std::size_t> ids;
   std::vector<double> coordinates, parameters;
@@ -130,7 +134,7 @@ GmshContents get_contents(const support::SourceLocation& where) {
   }
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities);
-  for (const std::pair<int, int>& entity : entities) get_elements(contents, entity, where);
+  for (const std::pair<int, int>& entity : entities) get_elements(contents, entity);
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups);
   for (const auto& [dimension, tag] : groups) {
@@ -195,15 +199,15 @@ void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
   }
 }
 
-void check_counts(const MshDeclaration& declared, const GmshContents& contents,
-                  const support::SourceLocation& where) {
+void check_counts(const MshDeclaration& declared, const GmshContents& contents) {
   const auto check = [&](const char* what, std::int64_t expected, std::size_t read) {
     if (expected == static_cast<std::int64_t>(read)) return;
     const std::string warning = find_logged("Warning");
-    throw InputError(
-        where, fmt::format("the file declares {} {}, but {} could be read: it is truncated, or some belong "
-                           "to no element or have the same number{}{}",
-                           expected, what, read, warning.empty() ? "" : "; gmsh: ", warning));
+    throw Refusal(
+        fmt::format("the file declares {} {}, but {} could be read: it is truncated, or some belong to no "
+                    "element or have "
+                    "the same number{}{}",
+                    expected, what, read, warning.empty() ? "" : "; gmsh: ", warning));
   };
   check("nodes", declared.num_nodes, contents.nodes.size());
   check("elements", declared.num_elements, contents.lines.size() + contents.points.size());
@@ -225,21 +229,17 @@ void replace_groups(const MshDeclaration& declared, GmshContents& contents) {
 Mesh mesh_lines(const FrameGeometry& geometry) {
   check_frame_geometry(geometry);
   const support::SourceLocation where = geometry.lines.front().where;
-  GmshContents contents;
-  {
-    const GmshSession session;
-    run_gmsh(where, [&] {
-      gmsh::model::add("frame");
-      build_lines(geometry);
-      gmsh::model::mesh::generate(1);
-      contents = get_contents(where);
-    });
-  }
+  GmshContents contents = run_gmsh_in_child(where, {}, [&] {
+    gmsh::model::add("frame");
+    build_lines(geometry);
+    gmsh::model::mesh::generate(1);
+    return get_contents();
+  });
   divide_exactly(contents, geometry);
   return make_mesh(std::move(contents), where);
 }
 
-Mesh read_gmsh_file(const std::filesystem::path& path) {
+Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits) {
   const support::SourceLocation where{.path = path.string()};
   const bool is_script = path.extension() == ".geo";
   MshDeclaration declared;
@@ -250,16 +250,13 @@ Mesh read_gmsh_file(const std::filesystem::path& path) {
   } else {
     throw InputError(where, "the file's name must end in .geo or .msh");
   }
-  GmshContents contents;
-  {
-    const GmshSession session;
-    run_gmsh(where, [&] {
-      gmsh::open(path.string());
-      if (is_script) gmsh::model::mesh::generate(1);
-      contents = get_contents(where);
-      if (!is_script) check_counts(declared, contents, where);
-    });
-  }
+  GmshContents contents = run_gmsh_in_child(where, limits, [&] {
+    gmsh::open(path.string());
+    if (is_script) gmsh::model::mesh::generate(1);
+    GmshContents read = get_contents();
+    if (!is_script) check_counts(declared, read);
+    return read;
+  });
   if (!is_script) replace_groups(declared, contents);
   return make_mesh(std::move(contents), where);
 }

@@ -4,12 +4,13 @@
 
 #include "fem/frame_geometry.h"
 #include "fem/mesh.h"
+#include "tools/support/processes/limited_child.h"
 
 namespace sprung::fem {
 
-// Both functions use the gmsh library, which is not thread-safe: one call at a time in a process. They leave
-// gmsh finalised and the process's locale as it was, print nothing, read no user options and install no
-// signal handlers. Equal input gives an equal mesh.
+// Both functions run the gmsh library in a child process of their own: a file on which gmsh crashes, runs
+// without end or asks for all memory is refused like any other. Nothing of gmsh stays in this process. The
+// caller should have one thread only (as run_in_limited_child says). Equal input gives an equal mesh.
 
 /// Meshes lines with gmsh's transfinite curves.
 ///
@@ -27,13 +28,14 @@ Mesh mesh_lines(const FrameGeometry& geometry);
 /// gives it. Points that no line uses (centres of arcs) are left out. Only straight two-node lines are
 /// accepted.
 ///
-/// @param path  ends in .geo or .msh
+/// @param path    ends in .geo or .msh
+/// @param limits  of the process in which gmsh reads and meshes the file
 /// @throws support::InputError `path: error: …` for a file that is missing, empty, of another format or
-///         version, truncated (fewer nodes or elements than it declares), or that gmsh reports as wrong; for
-///         a line in no physical curve, in two, or in one without a name; for elements that are no lines, or
-///         of higher order; for z that is not constant; for a physical point of several points, or through
-///         which no line passes; and as check_mesh
+///         version, truncated (fewer nodes or elements than it declares), that gmsh reports as wrong, or on
+///         which gmsh crashes or exceeds the limits; for a line in no physical curve, in two, or in one
+///         without a name; for elements that are no lines, or of higher order; for z that is not constant;
+///         for a physical point of several points, or through which no line passes; and as check_mesh
 /// Checked by tests/fem/gmsh_mesher_test.cpp
-Mesh read_gmsh_file(const std::filesystem::path& path);
+Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits = {});
 
 }  // namespace sprung::fem

@@ -13,7 +13,10 @@ namespace sprung::fem {
 namespace {
 
 constexpr double kLeastElementLength = 1e-9;  // of the extent; nearer is the same place
-constexpr std::size_t kMaxListed = 8;         // nodes listed in a message
+// Beyond these, lengths to the fourth power leave the range of a double once they are multiplied with
+// stiffnesses.
+constexpr double kSmallestExtent = 1e-12, kLargestExtent = 1e12;  // m
+constexpr std::size_t kMaxListed = 8;                             // nodes listed in a message
 
 double calc_extent(const Mesh& mesh) {
   const Eigen::Vector2d size =
@@ -36,6 +39,12 @@ void check_positions(const Mesh& mesh, const support::SourceLocation& where) {
       throw support::InputError(where, describe_node(mesh, node) + " has no finite position");
     }
   }
+}
+
+void check_extent(double extent, const support::SourceLocation& where) {
+  if (extent >= kSmallestExtent && extent <= kLargestExtent) return;
+  throw support::InputError(where, fmt::format("the frame is {:.3g} m large, expected {:g} … {:g} m", extent,
+                                               kSmallestExtent, kLargestExtent));
 }
 
 void check_lengths(const Mesh& mesh, double smallest, const support::SourceLocation& where) {
@@ -173,7 +182,8 @@ void check_mesh(const Mesh& mesh, const support::SourceLocation& where) {
   check_mesh_indices(mesh, "check_mesh");
   if (mesh.elements.empty()) throw support::InputError(where, "the mesh has no line elements");
   check_positions(mesh, where);
-  const double smallest = kLeastElementLength * calc_extent(mesh);
+  const double extent = calc_extent(mesh), smallest = kLeastElementLength * extent;
+  check_extent(extent, where);
   check_used(mesh, where);
   check_lengths(mesh, smallest, where);
   check_duplicates(mesh, where);

@@ -45,9 +45,9 @@ std::string describe_node(const Mesh& mesh, int node);
 ///         names function and item)
 void check_mesh_indices(const Mesh& mesh, const char* function);
 
-/// Checks that the mesh is one connected frame: it has elements, none shorter than 1e-9 of the frame's
-/// extent, no two between the same nodes; every node belongs to an element; no two nodes are at the same
-/// position (nearer than 1e-9 of the extent); all elements are connected.
+/// Checks that the mesh is one connected frame: it is 1e-12 … 1e12 m large; it has elements, none shorter
+/// than 1e-9 of the frame's extent, no two between the same nodes; every node belongs to an element; no two
+/// nodes are at the same position (nearer than 1e-9 of the extent); all elements are connected.
 /// @param where  source of the mesh, for the message
 /// @throws support::InputError naming the nodes concerned (of the smallest part, if the frame is not
 /// connected)

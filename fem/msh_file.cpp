@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <string_view>
 
 #include "tools/support/errors/input_error.h"
@@ -122,6 +123,30 @@ int get_num_nodes_of_type(std::int64_t type) {
   return type == 1 ? 2 : type == 15 ? 1 : 0;
 }
 
+// Negative where an element is taken in the opposite direction.
+void check_group(const Cursor& cursor, std::int64_t group) {
+  constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
+  if (group < -kLargest || group > kLargest) {
+    cursor.fail(fmt::format("physical group {} is out of range, expected up to {}", group, kLargest));
+  }
+}
+
+// Each node and each element takes more than one byte.
+void check_count(const Cursor& cursor, const char* what, std::int64_t count, std::size_t file_size) {
+  if (count >= 0 && static_cast<std::uint64_t>(count) <= file_size) return;
+  cursor.fail(fmt::format("declares {} {}, but the file has {} bytes", count, what, file_size));
+}
+
+// 4.1: number of blocks, number of nodes or elements, smallest and largest tag.
+std::int64_t read_count_of_blocks(Cursor& cursor, bool is_binary) {
+  if (!is_binary) {
+    cursor.read_number();
+    return cursor.read_number();
+  }
+  cursor.read_binary<std::uint64_t>();
+  return cursor.read_binary<std::int64_t>();
+}
+
 void read_text_groups(Cursor& cursor, MshDeclaration& declaration) {
   cursor.skip_line();
   while (!cursor.at_end()) {
@@ -129,6 +154,7 @@ void read_text_groups(Cursor& cursor, MshDeclaration& declaration) {
     const std::int64_t type = cursor.read_number();
     const std::int64_t num_tags = cursor.read_number();
     const std::int64_t group = num_tags > 0 ? cursor.read_number() : 0;
+    check_group(cursor, group);
     if (get_num_nodes_of_type(type) > 0) declaration.element_groups.emplace(id, static_cast<int>(group));
     cursor.skip_line();
   }
@@ -147,6 +173,7 @@ void read_binary_groups(Cursor& cursor, MshDeclaration& declaration) {
         const std::int32_t value = cursor.read_binary<std::int32_t>();
         if (tag == 0) group = value;
       }
+      check_group(cursor, group);
       for (int node = 0; node < get_num_nodes_of_type(type); ++node) cursor.read_binary<std::int32_t>();
       declaration.element_groups.emplace(id, group);
     }
@@ -157,33 +184,27 @@ void read_binary_groups(Cursor& cursor, MshDeclaration& declaration) {
 }  // namespace
 
 MshDeclaration read_msh_declaration(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  const std::string file = support::read_text_file(path);
+  return parse_msh_declaration(support::read_text_file(path), path.string());
+}
+
+MshDeclaration parse_msh_declaration(std::string_view file, const std::string& name) {
   const Format format = read_format(file, name);
   MshDeclaration declaration{.version = format.version};
   Cursor nodes(find_section(file, name, "Nodes"), name, "Nodes");
   Cursor elements(find_section(file, name, "Elements"), name, "Elements");
-  if (format.version == "2.2") {
-    declaration.num_nodes = nodes.read_number();
-    declaration.num_elements = elements.read_number();
-    if (format.is_binary) {
-      read_binary_groups(elements, declaration);
-    } else {
-      read_text_groups(elements, declaration);
-    }
-    return declaration;
-  }
-  // 4.1: number of blocks, number of nodes or elements, smallest and largest tag
+  const bool in_blocks = format.version == "4.1";
+  const auto read_count = [&](Cursor& cursor) {
+    return in_blocks ? read_count_of_blocks(cursor, format.is_binary) : cursor.read_number();
+  };
+  declaration.num_nodes = read_count(nodes);
+  check_count(nodes, "nodes", declaration.num_nodes, file.size());
+  declaration.num_elements = read_count(elements);
+  check_count(elements, "elements", declaration.num_elements, file.size());
+  if (in_blocks) return declaration;
   if (format.is_binary) {
-    nodes.read_binary<std::uint64_t>();
-    elements.read_binary<std::uint64_t>();
-    declaration.num_nodes = nodes.read_binary<std::int64_t>();
-    declaration.num_elements = elements.read_binary<std::int64_t>();
+    read_binary_groups(elements, declaration);
   } else {
-    nodes.read_number();
-    elements.read_number();
-    declaration.num_nodes = nodes.read_number();
-    declaration.num_elements = elements.read_number();
+    read_text_groups(elements, declaration);
   }
   return declaration;
 }

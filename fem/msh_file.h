@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace sprung::fem {
@@ -21,9 +22,12 @@ struct MshDeclaration {
 
 /// Reads the header, the numbers of nodes and elements and (2.2) the elements' groups of a `.msh` file.
 ///
-/// @throws support::InputError `path: error: …` if the file is missing, empty, not in format 2.2 or 4.1, or a
-///         section has no end (truncated)
+/// @throws support::InputError `path: error: …` if the file is missing, empty, not in format 2.2 or 4.1, a
+///         section has no end (truncated), or a number in it cannot be
 /// Source: [gmsh 4.8], chapter "File formats" — checked by tests/fem/msh_file_test.cpp
 MshDeclaration read_msh_declaration(const std::filesystem::path& path);
+
+/// The same of a file's bytes. @param name  of the file, for messages
+MshDeclaration parse_msh_declaration(std::string_view file, const std::string& name);
 
 }  // namespace sprung::fem

@@ -288,8 +288,8 @@ void ResultsWriter::finish(const RunStatistics& statistics, const TransientStati
 
 std::filesystem::path ResultsWriter::abandon() {
   write_events();
-  file_.keep_temporary();
-  return file_.temporary();
+  file_.keep_partial();
+  return file_.partial();
 }
 
 }  // namespace sprung::dynamics

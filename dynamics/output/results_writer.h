@@ -49,6 +49,10 @@ class ResultsWriter {
   void add(const Snapshot& snapshot);
   void add(const Event& event) { events_.push_back(event); }
 
+  /// What has been added can be read from here on under the partial name, even if the program is killed; the
+  /// events come at the end only.
+  void checkpoint() { file_.checkpoint(); }
+
   /// Writes the summary and gives the file its final name.
   void finish(const RunStatistics& statistics, const TransientStatistics& transient);
   /// Closes the file under its partial name. @return that name

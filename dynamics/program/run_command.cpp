@@ -20,6 +20,10 @@ namespace sprung::dynamics {
 
 namespace {
 
+// Steps times coordinates between two checkpoints: the model's own measure of time, so that equal runs have
+// equal checkpoints.
+constexpr double kWorkBetweenCheckpoints = 2e6;
+
 TransientOptions make_options(const Run& run) {
   TransientOptions options;
   options.end_time = run.duration;
@@ -92,8 +96,14 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
   };
+  double work = 0.0;  // since the last checkpoint
   options.on_step = [&](double time) {
     time_reached = time;
+    work += prepared.model.num_coordinates;
+    if (writer && work >= kWorkBetweenCheckpoints) {
+      writer->checkpoint();
+      work = 0.0;
+    }
     progress.update(time / options.end_time);
     return !support::interrupt_requested();
   };
@@ -125,6 +135,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
     return support::kGood;
   }
+  if (support::interrupt_requested()) throw support::Interrupted("before the run began; nothing was written");
   if (!output.json && !request.quiet) print_description(prepared);
   warn_of_small_scale(prepared.model.length_scale);
 

@@ -9,6 +9,7 @@
 #include "reduce/design/design_sections.h"
 #include "reduce/design/known_keys.h"
 #include "reduce/design/program_version.h"
+#include "reduce/design/sizes.h"
 #include "tools/support/files/content_hash.h"
 #include "tools/support/files/read_text_file.h"
 #include "tools/support/toml/toml.h"
@@ -28,8 +29,9 @@ void read_point_masses(const TomlTable& root, fem::BeamModel& model) {
     expect_keys(table, {"point", "mass", "inertia"});
     model.point_masses.push_back(
         {.node = find_named_node(model.mesh, table.at("point")),
-         .mass = table.number("mass", support::non_negative("kg")),
-         .inertia = table.number_or("inertia", 0.0, support::non_negative("kg·m²"))});
+         .mass = table.number("mass", {.unit = "kg", .at_least = 0.0, .at_most = kLargestMass}),
+         .inertia = table.number_or("inertia", 0.0,
+                                    {.unit = "kg·m²", .at_least = 0.0, .at_most = kLargestInertia})});
   }
 }
 
@@ -67,7 +69,8 @@ WantedModes read_modes(const TomlTable& table) {
     return {.wanted = ModeCount{static_cast<int>(count->integer(1, 1'000'000))}, .where = count->location()};
   }
   if (highest)
-    return {.wanted = ModesUpTo{highest->number(support::positive("Hz"))}, .where = highest->location()};
+    return {.wanted = ModesUpTo{read_size(table, "highest_frequency", "Hz", kFrequencies)},
+            .where = highest->location()};
   if (numbers) return {.wanted = read_numbers(*numbers), .where = numbers->location()};
   if (!all->boolean()) throw all->error("is false; leave it out and give 'count' or 'highest_frequency'");
   return {.wanted = AllModes{}, .where = all->location()};

@@ -9,6 +9,7 @@
 #include "fem/gmsh_mesher.h"
 #include "reduce/design/design.h"
 #include "reduce/design/known_keys.h"
+#include "reduce/design/sizes.h"
 #include "tools/support/files/read_text_file.h"
 
 namespace sprung::reduce {
@@ -27,7 +28,8 @@ Points read_points(const TomlTable& root) {
   const std::optional<TomlTable> table = root.find_table("points");
   if (!table) return points;
   for (const auto& [name, value] : table->entries()) {
-    const std::vector<double> position = value.numbers(support::any("m"), 2);
+    const std::vector<double> position =
+        value.numbers({.unit = "m", .at_least = -kLengths.largest, .at_most = kLengths.largest}, 2);
     points.push_back({.name = name, .position = {position[0], position[1]}, .where = value.location()});
   }
   return points;

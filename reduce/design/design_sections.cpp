@@ -9,12 +9,12 @@
 
 #include "fem/section_shapes.h"
 #include "reduce/design/known_keys.h"
+#include "reduce/design/sizes.h"
 
 namespace sprung::reduce {
 
 namespace {
 
-using support::positive;
 using support::TomlTable;
 using support::TomlValue;
 
@@ -30,9 +30,10 @@ std::vector<std::string> get_names(const std::map<std::string, Value>& map) {
 fem::Material read_material(const std::string& name, const TomlTable& table) {
   expect_keys(table, {"youngs_modulus", "density", "poissons_ratio"});
   fem::Material material{.name = name,
-                         .youngs_modulus = table.number("youngs_modulus", positive("Pa")),
-                         .density = table.number_or("density", 0.0, positive("kg/m³")),
+                         .youngs_modulus = read_size(table, "youngs_modulus", "Pa", kModuli),
+                         .density = 0.0,
                          .poissons_ratio = std::numeric_limits<double>::quiet_NaN()};
+  if (table.has("density")) material.density = read_size(table, "density", "kg/m³", kDensities);
   if (const auto ratio = table.find("poissons_ratio")) {
     material.poissons_ratio = ratio->number({.unit = "", .above = -1.0, .at_most = 0.5});
   }
@@ -48,27 +49,24 @@ const fem::Material& find_material(const TomlTable& section, const Materials& ma
 }
 
 fem::SectionGeometry calc_shape(const std::string& shape, const TomlTable& table, double poissons_ratio) {
-  const support::Quantity metre = positive("m");
+  const auto length = [&](const char* key) { return read_size(table, key, "m", kLengths); };
   if (shape == "rectangle") {
-    return fem::calc_section_geometry(
-        fem::Rectangle{.width = table.number("width", metre), .height = table.number("height", metre)},
-        poissons_ratio);
+    return fem::calc_section_geometry(fem::Rectangle{.width = length("width"), .height = length("height")},
+                                      poissons_ratio);
   }
   if (shape == "box") {
-    return fem::calc_section_geometry(fem::Box{.width = table.number("width", metre),
-                                               .height = table.number("height", metre),
-                                               .wall = table.number("wall", metre)},
-                                      poissons_ratio);
+    return fem::calc_section_geometry(
+        fem::Box{.width = length("width"), .height = length("height"), .wall = length("wall")},
+        poissons_ratio);
   }
   if (shape == "tube") {
-    return fem::calc_section_geometry(fem::Tube{.outer_diameter = table.number("outer_diameter", metre),
-                                                .wall = table.number("wall", metre)},
-                                      poissons_ratio);
+    return fem::calc_section_geometry(
+        fem::Tube{.outer_diameter = length("outer_diameter"), .wall = length("wall")}, poissons_ratio);
   }
-  return fem::calc_section_geometry(fem::ISection{.height = table.number("height", metre),
-                                                  .flange_width = table.number("flange_width", metre),
-                                                  .flange_thickness = table.number("flange_thickness", metre),
-                                                  .web_thickness = table.number("web_thickness", metre)},
+  return fem::calc_section_geometry(fem::ISection{.height = length("height"),
+                                                  .flange_width = length("flange_width"),
+                                                  .flange_thickness = length("flange_thickness"),
+                                                  .web_thickness = length("web_thickness")},
                                     poissons_ratio);
 }
 
@@ -83,19 +81,25 @@ fem::SectionGeometry read_geometry(const TomlTable& table, const fem::Material& 
     } catch (const std::invalid_argument& fault) {
       throw table.error(fmt::format("is no possible section: {}", fault.what()));
     }
+    if (!(geometry.area > 0.0 && geometry.second_moment > 0.0)) {
+      throw table.error(
+          fmt::format("has the area {:.3g} m² and the second moment {:.3g} m⁴: rounding leaves "
+                      "nothing of walls as thin as these",
+                      geometry.area, geometry.second_moment));
+    }
   } else {
-    geometry = {.area = table.number("area", positive("m²")),
-                .second_moment = table.number("second_moment", positive("m⁴")),
+    geometry = {.area = read_size(table, "area", "m²", kAreas),
+                .second_moment = read_size(table, "second_moment", "m⁴", kSecondMoments),
                 .shear_coefficient = std::numeric_limits<double>::quiet_NaN()};
   }
-  if (const auto coefficient = table.find("shear_coefficient")) {
-    geometry.shear_coefficient = coefficient->number({.unit = "", .above = 0.0, .at_most = 1.0});
+  if (table.has("shear_coefficient")) {
+    geometry.shear_coefficient = read_size(table, "shear_coefficient", "", kShearCoefficients);
   }
   return geometry;
 }
 
 double read_mass_per_length(const TomlTable& table, const fem::Material& material, double area) {
-  if (const auto mass = table.find("mass_per_length")) return mass->number(positive("kg/m"));
+  if (table.has("mass_per_length")) return read_size(table, "mass_per_length", "kg/m", kMassesPerLength);
   if (material.density > 0.0) return material.density * area;
   throw table.error(
       fmt::format("needs 'mass_per_length', because material '{}' has no 'density'", material.name));

@@ -31,10 +31,13 @@ int count_modes_below(const ModalProblem& problem, double omega_squared) {
     residual = (shifted * x - load).cwiseAbs().cwiseQuotient(scale).maxCoeff();
   }
   if (!(residual < kResidualTolerance)) {
+    const std::string fault =
+        std::isfinite(residual)
+            ? fmt::format("relative residual {:.3g}, tolerance {:.0e}", residual, kResidualTolerance)
+            : "a pivot vanishes";
     throw support::NumericalError(fmt::format(
-        "count of modes below {:.9g} Hz: K − σM could not be factored, relative residual {:.3g}, tolerance "
-        "{:.0e}; ask for another number of modes",
-        std::sqrt(omega_squared) / (2.0 * std::numbers::pi), residual, kResidualTolerance));
+        "count of modes below {:.9g} Hz: K − σM could not be factored, {}; ask for another number of modes",
+        std::sqrt(omega_squared) / (2.0 * std::numbers::pi), fault));
   }
   return static_cast<int>((factors.vectorD().array() < 0.0).count());
 }

@@ -11,6 +11,7 @@
 #include "reduce/reduction/reduction.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/files/output_target.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::reduce {
@@ -70,6 +71,7 @@ std::string find_reason(const PreviousFile& previous, const fs::path& design, co
 }
 
 void build_one(const fs::path& design, const fs::path& output, const BuildOptions& options) {
+  support::remove_left_over(output);
   const PreviousFile previous = read_previous_file(output);
   const std::string reason = find_reason(previous, design, output, options);
   if (reason.empty()) {

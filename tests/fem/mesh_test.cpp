@@ -49,6 +49,14 @@ TEST_CASE("A frame in two parts is refused, naming the nodes of the smaller") {
       "node 11 at (2.61, 1.02), node 20 'tip' at (3.35, 0.28)");
 }
 
+TEST_CASE("A frame beyond all sizes is refused") {
+  CHECK(message([](Mesh& mesh) { mesh.node_positions *= 1e300; }).find("m large, expected 1e-12 … 1e+12 m") !=
+        std::string::npos);
+  CHECK(message([](Mesh& mesh) {
+          mesh.node_positions *= 1e-300;
+        }).find("m large, expected 1e-12 … 1e+12 m") != std::string::npos);
+}
+
 TEST_CASE("A long separate part is abridged") {
   const std::string text = message([](Mesh& mesh) {
     for (int i = 0; i < 12; ++i) {  // twelve nodes of a beam far off; the frame's five are the smaller part

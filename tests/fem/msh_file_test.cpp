@@ -1,5 +1,7 @@
 #include "fem/msh_file.h"
 
+#include <fmt/format.h>
+
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
 #include "tools/support/errors/input_error.h"
@@ -39,6 +41,19 @@ TEST_CASE("Lines may end as on Windows") {
   const MshDeclaration declaration = read_msh_declaration(test::write_file("windows.msh", windows));
   CHECK(declaration.num_elements == 11);
   CHECK(declaration.element_groups.at(9) == 2);
+}
+
+TEST_CASE("Numbers that no file can have are refused before anything is made of them") {
+  const std::string text = test::read_file(test::get_data("portal_22.msh"));
+  CHECK(message(test::replace(text, "$Nodes\n9\n", "$Nodes\n99999999999\n")) ==
+        fmt::format("declaration.msh: error: $Nodes: declares 99999999999 nodes, but the file has {} bytes",
+                    text.size() + 10));
+  CHECK(message(test::replace(text, "$Elements\n11\n", "$Elements\n-1\n")) ==
+        fmt::format("declaration.msh: error: $Elements: declares -1 elements, but the file has {} bytes",
+                    text.size()));
+  CHECK(message(test::replace(text, "4 1 2 1 1 4 5", "4 1 2 4294967297 1 4 5")) ==
+        "declaration.msh: error: $Elements: physical group 4294967297 is out of range, expected up to "
+        "2147483647");
 }
 
 TEST_CASE("A file that is no complete gmsh mesh is refused") {

@@ -208,6 +208,75 @@ class ProgramTest(ProgramTestCase):
         self.assertEqual(self.files(), made)
         self.assertEqual(self.run_program("check", *(self.folder / "out" / name for name in made)).returncode, 0)
 
+    def test_a_file_that_another_program_changed_is_judged_as_the_specification_says(self):
+        self.build("ladder_frame.toml")
+        whole = self.folder / "out/ladder_frame.h5"
+
+        def store_again(file, name, values, **options):
+            attributes = dict(file[name].attrs)
+            del file[name]
+            dataset = file.create_dataset(name, data=values, **options)
+            for key, value in attributes.items():
+                dataset.attrs[key] = value
+
+        def check(kind, name, change, code):
+            changed = self.folder / "changed.h5"
+            shutil.copy(whole, changed)
+            with h5py.File(changed, "r+") as file:
+                change(file, name, file[name][()])
+            result = self.run_program("check", "changed.h5")
+            self.assertEqual(result.returncode, code, f"{kind} of {name}: {result.stdout}{result.stderr}")
+            if code == 2:
+                self.assertIn("changed.h5: error: ", result.stderr)
+
+        def set_attribute(key, value):
+            return lambda file, name, _: file[name].attrs.__setitem__(key, value)
+
+        def retype(dtype):
+            return lambda file, name, values: store_again(file, name, values.astype(dtype))
+
+        def to_integers(file, name, values):
+            store_again(file, name, (values * 0).astype("i8"))
+
+        def compress(file, name, values):
+            store_again(file, name, values, compression=9)
+
+        def lengthen(file, name, values):
+            store_again(file, name, values.astype(f"S{values.dtype.itemsize + 9}"))
+
+        def vary(file, name, values):
+            store_again(file, name, values.astype(object), dtype=h5py.string_dtype())
+
+        names = []
+        with h5py.File(whole) as file:
+            file.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+            kinds = {name: file[name].dtype.kind for name in names}
+        self.assertGreater(len(names), 35)
+        for name in names:
+            kind = kinds[name]
+            check("another attribute", name, set_attribute("scale", 1000.0), 0)
+            check("a wrong unit", name, set_attribute("unit", "furlong"), 2)
+            check("one more rank", name, lambda file, name, values: store_again(file, name, values[..., None]), 2)
+            check("no filter", name, lambda file, name, values: store_again(file, name, values), 0)
+            if kind == "f":
+                check("another byte order", name, retype(">f8"), 0)
+                check("complex numbers", name, retype("c16"), 2)
+                check("integers", name, to_integers, 2)
+                check("compression", name, compress, 2)
+            elif kind == "i":
+                check("narrower integers", name, retype("i2"), 0)
+                check("unsigned integers of 64 bits", name, retype("u8"), 2)
+                check("reals", name, retype("f8"), 2)
+            else:
+                check("longer texts", name, lengthen, 0)
+                check("variable texts", name, vary, 2)
+
+    def test_what_a_killed_build_left_is_cleaned_up_by_the_next(self):
+        self.build("chassis.toml")
+        (self.folder / "out/chassis.h5.tmp").write_bytes(b"half a file")
+        self.assertIn("up to date", self.build("chassis.toml").stdout)
+        self.assertEqual(self.files(), ["chassis.h5"])
+
     # What is printed
 
     def test_info_shows_modes_mass_points_checks_and_origin(self):

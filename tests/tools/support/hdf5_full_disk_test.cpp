@@ -78,12 +78,21 @@ void write_flushing(Hdf5Writer& writer) {
   writer.commit();
 }
 
+void write_checkpoints(Hdf5Writer& writer) {
+  Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+  for (int i = 0; i < 1000; ++i) {
+    writer.append(t, std::vector<double>(1000, 0.25));
+    writer.checkpoint();
+  }
+  writer.commit();
+}
+
 // Catches the error and tries to keep the partial file, as an interrupted run does: that fails as well.
 void write_and_keep(Hdf5Writer& writer) {
   try {
     write_growing(writer);
   } catch (const InputError&) {
-    writer.keep_temporary();
+    writer.keep_partial();
   }
 }
 
@@ -93,13 +102,18 @@ int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf
   limit_file_size(limit);
   const std::string target = (folder / "a.h5").string();
   try {
-    Hdf5Writer writer(target);
+    Hdf5Writer writer(target, folder / "a.partial.h5");
     write(writer);
     return kNoError;
   } catch (const InputError& error) {
     const std::string_view message = error.what();
     const bool named = message.starts_with(target + ": error: ");
     if (!named || message.find("File too large") == std::string_view::npos) return kWrongMessage;
+  }
+  // A checkpoint may have left a partial file; it is readable.
+  if (std::filesystem::exists(folder / "a.partial.h5")) {
+    const Hdf5Reader reader(folder / "a.partial.h5");
+    std::filesystem::remove(folder / "a.partial.h5");
   }
   if (!folder.is_empty()) return kLeftBehind;
   if (num_descriptors() != num_open) return kStillOpen;
@@ -113,7 +127,8 @@ int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf
 
 TEST_CASE("a write that fails is an input error, leaves nothing behind and does not harm the process") {
   const rlim_t limit = GENERATE(100, 2000, 20000, 300000, 1000000, 2000000, 4700000);
-  const auto write = GENERATE(write_growing, write_at_once, write_flushing, write_and_keep);
+  const auto write =
+      GENERATE(write_growing, write_at_once, write_flushing, write_checkpoints, write_and_keep);
   const TemporaryFolder folder;
   const ChildResult result = run_in_child([&] { return write_limited(folder, limit, write); });
   INFO("limit " << limit << ", signal " << result.signal << ", output " << result.output);
@@ -164,4 +179,27 @@ TEST_CASE(
   INFO("signal " << result.signal << ", output " << result.output);
   CHECK(result.exit_code == kAsExpected);
   CHECK(result.output.empty());
+}
+
+TEST_CASE("a write that fails leaves what was there at the last checkpoint, readable") {
+  const TemporaryFolder folder;
+  const ChildResult result = run_in_child([&] {
+    limit_file_size(300000);
+    const std::ptrdiff_t num_open = num_descriptors();
+    try {
+      Hdf5Writer writer(folder / "a.h5", folder / "a.partial.h5");
+      Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+      writer.append(t, std::vector<double>(1500, 0.25));
+      writer.checkpoint();
+      writer.append(t, std::vector<double>(100000, 0.5));
+      writer.commit();
+    } catch (const InputError&) {
+      if (num_descriptors() != num_open) return kStillOpen;
+      return Hdf5Reader(folder / "a.partial.h5").reals("t", {1500})[1499] == 0.25 ? kAsExpected : kUnusable;
+    }
+    return kNoError;
+  });
+  INFO("signal " << result.signal << ", output " << result.output);
+  CHECK(result.exit_code == kAsExpected);
+  CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
 }

@@ -1,13 +1,16 @@
+#include <fmt/format.h>
 #include <hdf5.h>
 #include <sys/stat.h>
 
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/tools/support/child_process.h"
 #include "tests/tools/support/error_message.h"
 #include "tests/tools/support/temporary_folder.h"
 #include "tools/support/errors/input_error.h"
@@ -95,15 +98,63 @@ TEST_CASE("a file that is not committed leaves nothing behind, and the old file 
   CHECK_FALSE(std::filesystem::exists(folder / "a.h5.tmp"));
 }
 
-TEST_CASE("a temporary file that is kept can be read") {
+TEST_CASE("a partial file that is kept can be read") {
   const TemporaryFolder folder;
   {
     Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
     writer.append(writer.make_growing("t", 0, "s"), kValues);
-    writer.keep_temporary();
+    writer.keep_partial();
   }
   CHECK_FALSE(std::filesystem::exists(folder / "run.h5"));
   CHECK(Hdf5Reader(folder / "run.partial.h5").reals("t", {3})[2] == 3.5);
+}
+
+TEST_CASE("what was written up to a checkpoint can be read after the program was killed") {
+  const TemporaryFolder folder;
+  const ChildResult result = run_in_child([&] {
+    Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
+    writer.attribute("/", "format", "test");
+    Hdf5GrowingDataset& pairs = writer.make_growing("a/pairs", 2, "m");
+    std::vector<Hdf5GrowingDataset*> times;
+    for (int i = 0; i < 30; ++i) times.push_back(&writer.make_growing(fmt::format("t{}", i), 0, "s"));
+    for (int row = 0; row < 5000; ++row) {
+      writer.append(pairs, std::vector{1.0 * row, 0.5});
+      for (Hdf5GrowingDataset* t : times) writer.append(*t, std::vector{2.0 * row});
+      if (row == 3000 || row == 3001) writer.checkpoint();
+    }
+    return ::raise(SIGKILL);
+  });
+  CHECK(result.signal == SIGKILL);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.h5.tmp"));
+  const Hdf5Reader reader(folder / "run.partial.h5");
+  CHECK(reader.reals("a/pairs", {3002, 2})[6002] == 3001.0);
+  for (int i = 0; i < 30; ++i) CHECK(reader.reals(fmt::format("t{}", i), {3002})[3001] == 6002.0);
+}
+
+TEST_CASE("a checkpoint does not change the bytes of the file that is whole in the end") {
+  const TemporaryFolder folder;
+  for (const int every : {100000, 700}) {
+    Hdf5Writer writer(folder / fmt::format("{}.h5", every), folder / "partial.h5");
+    Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+    for (int row = 1; row < 5000; ++row) {
+      writer.append(t, std::vector{1.0 * row});
+      if (row % every == 0) writer.checkpoint();
+    }
+    writer.commit();
+  }
+  CHECK(Hdf5Reader(folder / "700.h5").reals("t", {4999}) ==
+        Hdf5Reader(folder / "100000.h5").reals("t", {4999}));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
+}
+
+TEST_CASE("a file that is whole takes away what an earlier program left of it") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "run.partial.h5", "an older partial file");
+  Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
+  writer.write("x", kValues, "m");
+  CHECK(read_bytes(folder / "run.partial.h5") == "an older partial file");
+  writer.commit();
+  CHECK_FALSE(std::filesystem::exists(folder / "run.partial.h5"));
 }
 
 TEST_CASE("a file left over from a crash is overwritten") {
@@ -177,7 +228,7 @@ TEST_CASE("a caller's mistake is distinguished from a bad file") {
   CHECK(error([&] { writer.attribute("/", "s", std::string(1, '\0')); }) ==
         "Hdf5Writer: a string of 's' contains NUL");
   CHECK(error([&] { Hdf5Writer other(folder / "b.h5", "/tmp/b.tmp"); }) ==
-        "Hdf5Writer: temporary '/tmp/b.tmp' is not in the folder of '" + (folder / "b.h5").string() + "'");
+        "Hdf5Writer: partial file '/tmp/b.tmp' is not in the folder of '" + (folder / "b.h5").string() + "'");
   writer.commit();  // none of them has spoilt the file
   CHECK(Hdf5Reader(folder / "a.h5").has("t"));
   CHECK(Hdf5Reader(folder / "a.h5").has("x"));

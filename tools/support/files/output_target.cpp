@@ -37,6 +37,16 @@ void sync_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
+// Whether another program holds HDF5's lock. A file that cannot be opened is not locked: the attempt to write
+// it will give the reason.
+bool is_locked(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return held;
+}
+
 }  // namespace
 
 fs::path folder_of(const fs::path& path) {
@@ -72,11 +82,19 @@ void check_temporary(const fs::path& target, const fs::path& temporary) {
   if (!fs::is_regular_file(status)) {
     throw cannot_be_written(target, fmt::format("'{}' is in the way", temporary.string()));
   }
-  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return;  // the attempt to write will give the reason
-  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  if (held) throw cannot_be_written(target, fmt::format("another writer is at '{}'", temporary.string()));
+  if (is_locked(temporary))
+    throw cannot_be_written(target, fmt::format("another writer is at '{}'", temporary.string()));
+}
+
+fs::path temporary_name(const fs::path& target) {
+  return target.string() + ".tmp";
+}
+
+void remove_left_over(const fs::path& target) {
+  const fs::path temporary = temporary_name(target);
+  std::error_code ignored;
+  if (!fs::is_regular_file(fs::symlink_status(temporary, ignored)) || is_locked(temporary)) return;
+  fs::remove(temporary, ignored);
 }
 
 void rename_to_target(const fs::path& temporary, const fs::path& target) {

@@ -13,6 +13,13 @@ void check_target(const std::filesystem::path& target);
 /// @throws InputError if another program has locked it, or if it is not a regular file
 void check_temporary(const std::filesystem::path& target, const std::filesystem::path& temporary);
 
+/// The name of `target` until it is complete.
+std::filesystem::path temporary_name(const std::filesystem::path& target);
+
+/// Removes the temporary file of `target` that a killed program has left, unless another program is writing
+/// it.
+void remove_left_over(const std::filesystem::path& target);
+
 /// Writes a closed file through to the disk and gives it its final name.
 /// @throws InputError with the system's reason
 void rename_to_target(const std::filesystem::path& temporary, const std::filesystem::path& target);

@@ -71,6 +71,21 @@ std::size_t expect_string(hid_t type, const std::string& label) {
   return H5Tget_size(type);
 }
 
+// Refuses filters other than the checksum: compressed data may have any size when they are unpacked.
+void expect_plain(hid_t properties, const std::string& label) {
+  const int num_filters = check(H5Pget_nfilters(properties), label);
+  for (int i = 0; i < num_filters; ++i) {
+    unsigned flags = 0;
+    std::size_t num_values = 0;
+    const H5Z_filter_t filter = check(H5Pget_filter2(properties, static_cast<unsigned>(i), &flags,
+                                                     &num_values, nullptr, 0, nullptr, nullptr),
+                                      label);
+    if (filter != H5Z_FILTER_FLETCHER32) {
+      throw Failure(label + " is compressed or coded by a filter, which is not read");
+    }
+  }
+}
+
 // The content of a padded string.
 std::string unpadded(std::string_view text) {
   return std::string(text.substr(0, text.find('\0')));
@@ -119,6 +134,7 @@ void StoredDataset::check_storage(std::uint64_t file_size) const {
   const bool elsewhere = (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) ||
                          H5Pget_external_count(properties.get()) != 0;
   if (elsewhere) throw Failure(label_ + " has its data in another file, which is not read");
+  expect_plain(properties.get(), label_);
   const std::uint64_t stored = H5Dget_storage_size(dataset_.get());
   const std::uint64_t limit = std::min(stored, file_size);
   const bool empty = std::find(shape_.begin(), shape_.end(), std::size_t{0}) != shape_.end();

@@ -9,6 +9,7 @@
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/output_target.h"
 #include "tools/support/hdf5/hdf5_library.h"
+#include "tools/support/hdf5/open_mark.h"
 
 namespace sprung::support {
 
@@ -45,6 +46,20 @@ struct Hdf5Writer::Array {
 
 namespace {
 
+// Nothing of the file's structure goes to the disk between two flushes: what an earlier flush has written
+// stays readable until the next.
+void hold_structure_between_flushes(hid_t access) {
+  const std::string_view what = "HDF5's cache cannot be set";
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  hdf5::check(H5Pget_mdc_config(access, &cache), what);
+  cache.evictions_enabled = false;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  hdf5::check(H5Pset_mdc_config(access, &cache), what);
+}
+
 // HDF5 truncates before it takes its lock, so check_temporary has to come first.
 Hdf5Handle create_file(const fs::path& temporary) {
   const std::string_view what = "cannot be written";
@@ -52,6 +67,7 @@ Hdf5Handle create_file(const fs::path& temporary) {
   // Format 1.10: its structure carries checksums too, and other programs have read it since 2016.
   hdf5::check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), what);
   hdf5::check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
+  hold_structure_between_flushes(access.get());
   const Hdf5Handle creation = hdf5::make_properties(H5P_FILE_CREATE);
   return hdf5::own(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
 }
@@ -88,16 +104,19 @@ void reject_nul(std::string_view text, const std::string& place) {
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(fs::path target, fs::path temporary)
+Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
     : target_(std::move(target)),
-      temporary_(temporary.empty() ? fs::path(target_.string() + ".tmp") : temporary) {
-  if (folder_of(temporary_).lexically_normal() != folder_of(target_).lexically_normal()) {
-    throw std::invalid_argument(fmt::format("Hdf5Writer: temporary '{}' is not in the folder of '{}'",
-                                            temporary_.string(), target_.string()));
+      temporary_(temporary_name(target_)),
+      partial_(std::move(partial)),
+      name_(temporary_) {
+  if (!partial_.empty() && folder_of(partial_).lexically_normal() != folder_of(target_).lexically_normal()) {
+    throw std::invalid_argument(fmt::format("Hdf5Writer: partial file '{}' is not in the folder of '{}'",
+                                            partial_.string(), target_.string()));
   }
   hdf5::initialize();
   check_target(target_);
   check_temporary(target_, temporary_);
+  if (!partial_.empty()) check_temporary(target_, partial_);
   attempt([this] { file_ = create_file(temporary_); });
 }
 
@@ -263,11 +282,31 @@ void Hdf5Writer::write_pending() {
 void Hdf5Writer::flush() {
   attempt([this] {
     write_pending();
+    hdf5::set_open_mark(file_.get());
     hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
   });
 }
 
+void Hdf5Writer::move_to(const fs::path& name) {
+  if (name == name_) return;
+  std::error_code error;
+  fs::rename(name_, name, error);
+  if (error)
+    throw InputError({.path = target_.string()}, fmt::format("cannot be written: {}", error.message()));
+  name_ = name;
+}
+
+void Hdf5Writer::checkpoint() {
+  if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::checkpoint: the partial file has no name");
+  attempt([this] { write_pending(); });  // what fails here leaves the last checkpoint as it was
+  move_to(temporary_);
+  flush();
+  attempt([this] { hdf5::clear_open_mark(file_.get()); });
+  move_to(partial_);
+}
+
 void Hdf5Writer::close() {
+  move_to(temporary_);
   flush();
   growing_.clear();
   attempt([this] {
@@ -280,18 +319,27 @@ void Hdf5Writer::commit() {
   close();
   rename_to_target(temporary_, target_);
   finished_ = true;
+  std::error_code ignored;
+  if (!partial_.empty()) fs::remove(partial_, ignored);
 }
 
-void Hdf5Writer::keep_temporary() {
+void Hdf5Writer::keep_partial() {
+  if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::keep_partial: the partial file has no name");
   close();
+  move_to(partial_);
   finished_ = true;
 }
 
-// Removes the temporary file, then closes its identifiers. After a failed write HDF5 still holds data, and
-// these closes fail again. Their errors are dropped; the descriptor of the file is closed nevertheless.
+// Removes the file, unless a checkpoint has left it readable, then closes its identifiers. After a failed
+// write HDF5 still holds data, and these closes fail again. Their errors are dropped; the descriptor of the
+// file is closed nevertheless. HDF5's further writes to a readable file are discarded.
 void Hdf5Writer::abandon() noexcept {
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  if (name_ == partial_) {
+    hdf5::discard_further_writes(file_.get());
+  } else {
+    fs::remove(name_, ignored);
+  }
   growing_.clear();
   file_.reset();
 }

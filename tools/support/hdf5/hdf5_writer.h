@@ -25,11 +25,13 @@ namespace sprung::support {
 /// that do not fit the shape is a mistake of the caller: std::invalid_argument.
 class Hdf5Writer {
  public:
-  /// @param target     final name; an existing file of this name stays unchanged until `commit`
-  /// @param temporary  name to write under, in the same folder; "" for `target` + ".tmp"
+  /// @param target   final name; an existing file of this name stays unchanged until `commit`. The file is
+  ///                 written as `target` + ".tmp".
+  /// @param partial  name for the results before the file is complete, in the same folder; "" for none.
+  ///                 `commit` removes a file of this name that an earlier program has left.
   /// @throws InputError if the folder is missing, the target is not a regular file, or another program is
   /// writing it
-  explicit Hdf5Writer(std::filesystem::path target, std::filesystem::path temporary = {});
+  explicit Hdf5Writer(std::filesystem::path target, std::filesystem::path partial = {});
   Hdf5Writer(Hdf5Writer&&) = delete;
   ~Hdf5Writer();
 
@@ -62,16 +64,21 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
-  /// @return valid until `commit` or `keep_temporary`
+  /// @return valid until `commit` or `keep_partial`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
   /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
   void flush();  ///< writes all appended rows to the file
 
-  void commit();  ///< closes, syncs and renames to the target
-  /// Closes the file and leaves it under the temporary name (an interrupted run).
-  void keep_temporary();
+  /// All that was appended can be read from here on under the partial name, even if the program is killed.
+  /// While it goes on writing, the file has the partial name except during the next call: whoever finds a
+  /// file of that name finds it readable.
+  void checkpoint();
+
+  void commit();        ///< closes, syncs and renames to the target
+  void keep_partial();  ///< closes the file and leaves it under the partial name (an interrupted run)
   const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& partial() const { return partial_; }
 
  private:
   struct Array;
@@ -83,10 +90,12 @@ class Hdf5Writer {
   void prepare_dataset(const std::string& path);
   Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
   void write_pending();
+  void move_to(const std::filesystem::path& name);
   void close();
   void abandon() noexcept;
 
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_, temporary_, partial_;
+  std::filesystem::path name_;  // of the file as it is now: the temporary or the partial one
   Hdf5Handle file_;
   std::set<std::string> objects_;  // paths of the groups and datasets made
   std::map<std::string, Hdf5GrowingDataset> growing_;

@@ -37,14 +37,21 @@ struct TomlNode {
   struct Array {
     std::vector<TomlNode> items;
   };
+  struct Entry;
   struct Table {
-    std::vector<std::pair<std::string, TomlNode>> entries;  ///< in the order of the file
-    mutable std::vector<std::string> asked;                 ///< keys that the program has looked up
+    std::vector<Entry> entries;              ///< in the order of the file
+    mutable std::vector<std::string> asked;  ///< keys that the program has looked up
   };
   SourceLocation location;      ///< of the value
   SourceLocation key_location;  ///< of its key; of the value itself for array elements
   std::string key;  ///< full key, with the 0-based position of array elements: "forces.2.stiffness"
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
+};
+
+/// A key of a table with its value; clang cannot have a std::pair in its place.
+struct TomlNode::Entry {
+  std::string key;
+  TomlNode node;
 };
 
 class TomlTable;

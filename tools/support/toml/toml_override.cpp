@@ -85,7 +85,7 @@ TomlNode parse_value(std::string_view text, const SourceLocation& location) {
   try {
     TomlNode root = parse_toml(fmt::format("{} = {}", kName, text), location.path);
     auto& entries = std::get<TomlNode::Table>(root.value).entries;
-    if (entries.size() == 1 && entries.front().first == kName) return std::move(entries.front().second);
+    if (entries.size() == 1 && entries.front().key == kName) return std::move(entries.front().node);
   } catch (const InputError&) {
     constexpr std::string_view kNotBare = "\"'[]{}\n";
     if (text.find_first_of(kNotBare) == std::string_view::npos) {
@@ -150,7 +150,8 @@ TomlNode& find_or_make_entry(TomlNode& node, TomlNode::Table& table, const std::
   made.key_location = location;
   made.key = join_key(node.key, name);
   made.value = TomlNode::Table{};
-  return table.entries.emplace_back(name, std::move(made)).second;
+  table.entries.push_back({name, std::move(made)});
+  return table.entries.back().node;
 }
 
 TomlNode& descend(TomlNode& node, const KeyPart& part, const SourceLocation& location) {

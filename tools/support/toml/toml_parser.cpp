@@ -55,12 +55,12 @@ class Converter {
     TomlNode::Table result;
     for (auto&& [key, node] : table) {
       const SourceLocation key_location = place(key.source().begin, parent.location);
-      result.entries.emplace_back(std::string(key.str()),
-                                  convert(node, join_key(parent.key, key.str()), key_location));
+      result.entries.push_back({.key = std::string(key.str()),
+                                .node = convert(node, join_key(parent.key, key.str()), key_location)});
     }
     std::stable_sort(result.entries.begin(), result.entries.end(), [](const auto& a, const auto& b) {
-      const SourceLocation& first = a.second.key_location;
-      const SourceLocation& second = b.second.key_location;
+      const SourceLocation& first = a.node.key_location;
+      const SourceLocation& second = b.node.key_location;
       return first.line != second.line ? first.line < second.line : first.column < second.column;
     });
     return result;
