@@ -47,8 +47,8 @@ struct JointDescription {
   std::string kind;  ///< the file's `type`
   PointReference a, b;
   support::SourceLocation location;
-  std::optional<RelativeCoordinate>
-      coordinate;               ///< that prescribed motion may drive; none if nothing is free
+  /// The coordinate that prescribed motion may drive; none if nothing is free.
+  std::optional<RelativeCoordinate> coordinate;
   bool needs_distance = false;  ///< its two points must not coincide
   JointParameters parameters;
 };

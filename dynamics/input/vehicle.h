@@ -18,8 +18,7 @@ namespace sprung::dynamics {
 /// A named point of a body, or of the ground.
 struct PointDescription {
   std::string name;
-  std::string
-      node;  ///< named node of the superelement that it is fixed to; if empty, fixed to the body frame
+  std::string node;  ///< named node that it is fixed to; if empty, it is fixed to the body frame
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< from the frame's origin or the node, body axes [m]
   support::SourceLocation location;
 };
@@ -49,8 +48,8 @@ struct Vehicle {
   std::vector<JointDescription> joints;
   std::vector<MotionDescription> motions;
   std::vector<ForceDescription> forces;
-  std::vector<PointReference>
-      monitor;  ///< points whose motion is reported; every body's origin if the file has none
+  /// Points whose motion is reported; every body's origin if the file has none.
+  std::vector<PointReference> monitor;
   std::map<std::string, reduce::Superelement> superelements;
 
   const BodyDescription* find_body(const std::string& body_name) const;  ///< nullptr if there is none

@@ -22,8 +22,8 @@ class CoordinateJoint final : public Joint {
   struct Parts {
     std::string_view kind;
     std::vector<Held> held;  ///< 1 to 3
-    std::optional<RelativeCoordinate>
-        coordinate;                          ///< free or driven; none where the joint leaves nothing free
+    /// The free or driven coordinate; none if the joint leaves nothing free.
+    std::optional<RelativeCoordinate> coordinate;
     std::vector<Parameter> parameters = {};  ///< for results files
     Drawing drawing = Drawing::kPin;
     bool is_motion = false;  ///< prescribed motion: the first held coordinate is driven
