@@ -17,8 +17,8 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kPanelTolerance = 1e-7;  // error of a panel, of the whole mean square
-constexpr double kNegligibleShare =
-    1e-18;  // mean square that counts as zero, of the largest in the same unit
+// Mean square that counts as zero, relative to the largest in the same unit.
+constexpr double kNegligibleShare = 1e-18;
 constexpr double kPanelsPerDecade = 6.0;
 constexpr double kMostDelays = 20000.0;  // panels for the delay between the wheels
 
