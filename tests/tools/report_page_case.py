@@ -15,6 +15,11 @@ MODELS = ROOT / "dynamics/models"
 PICTURES = Path(os.environ.get("SPRUNG_SCREENSHOTS", tempfile.gettempdir()))
 BLACK, BLUE = (0x11, 0x11, 0x11), (0x00, 0x72, 0xB2)  # of the first and the second run on light paper
 OFF_ROAD, GROUND = (0xC2, 0x41, 0x0C), (0xE7, 0xE2, 0xD8)
+ALL_CONTROLS = (
+    "[...document.querySelectorAll('select, input, button, summary, a[href]')]"
+    ".filter((one) => !one.matches('.skip, .dygraph-roller'))"
+)
+SPANS = "linked.map((one) => one.graph.xAxisRange())"
 SIZES = {"desktop": (1400, 900), "phone": (390, 844)}
 
 
@@ -74,3 +79,19 @@ class PageTestCase(unittest.TestCase):
             "for (const kind of ['input', 'change']) s.dispatchEvent(new Event(kind, {bubbles: true})); })()"
         )
         page.settle()
+
+    def check_alive(self, page):
+        """Checks that diagrams zoom and time runs."""
+        page.click("[data-zoom=all]")
+        page.click("[data-zoom=in]")
+        spans = page.evaluate(SPANS)
+        for span in spans:
+            np.testing.assert_allclose(span, spans[0], atol=1e-9)
+        self.assertAlmostEqual(spans[0][1] - spans[0][0], 2.5, places=6)
+        page.click("[data-zoom=all]")
+        before = page.evaluate("clock.time")
+        page.click("#play")
+        page.wait_until(f"clock.time !== {before}")
+        page.click("#play")
+        self.assertEqual(page.evaluate("player.playing"), False)
+        self.assertEqual(page.problems(), [])

@@ -227,6 +227,51 @@ class ReportPage(PageTestCase):
         self.set_time(page, 0.001)
         self.assertGreater(np.count_nonzero(is_colour(page.picture(selector="#scene"), BLACK)), 1000)
 
+    def test_the_page_warns_of_what_the_program_warned_of(self):
+        page = self.open()
+        for index, (name, mode) in enumerate((("rigid", 1), ("2 modes", 3))):
+            self.assertIn(f"modes are missing: chassis.mode {mode}", self.printed[name])
+            for section in ("summary", "modes"):
+                texts = page.evaluate(
+                    f"[...document.querySelectorAll('[data-warnings={section}] li')].map((one) => one.textContent)"
+                )
+                self.assertTrue(texts[index].startswith(f"{name}: modes are missing: chassis.mode {mode}"), texts)
+        marked = page.evaluate(
+            "[...document.querySelectorAll('#summary-table th.group')].filter((one) =>"
+            "one.textContent.includes('⚠')).map((one) => one.firstChild.textContent)"
+        )
+        self.assertEqual(marked, ["chassis.origin", "chassis.seat"])
+
+    def test_the_lowest_value_stands_beside_the_highest(self):
+        page = self.open()
+        names = page.evaluate(
+            "[...document.querySelectorAll('#summary-table tbody tr')].map((one) => one.textContent)"
+        )
+        for what in ("displacement", "acceleration"):
+            for end in ("highest", "lowest"):
+                self.assertEqual(sum(one.startswith(f"{what}, {end}") for one in names), 4, names)
+
+    def test_the_scene_fits_the_vehicle(self):
+        for size, least in (("desktop", 0.45), ("phone", 0.4)):
+            with self.subTest(size):
+                page = self.open(size=size)
+                self.choose(page, "other-run", -1)
+                drawn = is_colour(page.picture(selector="#scene"), BLUE, 0.1)
+                height, width = (np.ptp(np.flatnonzero(np.any(drawn, axis=axis))) for axis in (1, 0))
+                self.assertGreater(height, least * drawn.shape[0])
+                self.assertGreater(width, 0.7 * drawn.shape[1])
+
+    def test_values_under_the_mouse_have_their_unit_and_frequencies_that_crowd_are_not_all_named(self):
+        page = self.open()
+        place = page.find("#history-charts figure:nth-child(2) .plot")
+        page.call("Input.dispatchMouseEvent", type="mouseMoved", x=place[0], y=place[1])
+        page.settle()
+        legend = page.evaluate("document.querySelector('#history-charts figure:nth-child(2) .legend').textContent")
+        self.assertRegex(legend, r"^\d\.\d{3} srigid: \S+ m/s²2 modes: \S+ m/s²$")
+        named, modes = page.evaluate("[spectrumNamed, data.runs.map((run) => run.vehicleModes.table.length)]")
+        for some, count in zip(named, modes):  # two pairs of modes lie within 1 % of each other
+            self.assertTrue(2 <= some <= count - 2, (named, modes))
+
     def test_two_vehicles_and_hostile_names_on_one_page(self):
         label = "</script><b onclick>\"'&Ü"
         self.drive("examples/quarter_car_run.toml", "car")

@@ -9,7 +9,15 @@ import unittest
 
 import h5py
 import numpy as np
-from synthetic_results import HEAVE, NUM_SAMPLES, STATIC_LOAD, write_results, write_superelement
+from synthetic_results import (
+    HEAVE,
+    NUM_SAMPLES,
+    STATIC_LOAD,
+    write_results,
+    write_series,
+    write_superelement,
+    write_texts,
+)
 from tool_test_case import ROOT, ToolTestCase, run_program
 
 from sprung_tools.report.packing import find_kept
@@ -49,6 +57,21 @@ class Report(ToolTestCase):
         self.assertNotRegex(text, r'(?i)<(script|link|img|iframe)[^>]*\b(src|href)="(?!data:)')
         self.assertNotRegex(text, r"(?i)@import|\burl\((?!['\"]?data:)")
         self.assertNotIn("sourceMappingURL", text)
+
+    def test_the_points_stand_in_the_order_of_the_vehicle_file(self):
+        with h5py.File(self.folder / "rigid.h5", "a") as file:
+            for point in ("chassis.front_end", "chassis.seat"):
+                group = file.require_group(f"summary/points/{point}")
+                group.attrs.update({"acceleration_max": 2.0, "acceleration_min": -1.0})
+            write_series(file, "model/equilibrium/points/chassis.front_end", np.array((1.675, 0.975)), "m")
+            write_texts(file, "model/resolved/settings/output_points", ["chassis.seat", "chassis.front_end"])
+        _, data = self.report("rigid.h5")
+        rows = [(row["of"], row["name"]) for row in data["runs"][0]["statistics"]]
+        self.assertEqual(
+            [row for row in rows if "acceleration" in row[1]],
+            [(point, f"acceleration, {what}") for point in ("chassis.seat", "chassis.front_end")
+             for what in ("highest", "lowest")],
+        )  # fmt: skip
 
     def test_histories_are_the_results_with_the_units_of_the_file(self):
         _, data = self.report("a=rigid.h5", "b=soft.h5", "--show", "chosen=points/chassis.seat/position.x")

@@ -2,7 +2,8 @@
 for each output."""
 
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.plots.response_picture import make_response_figure, open_responses
+from sprung_tools.plots.response_picture import make_response_figure
+from sprung_tools.runs.labelled_responses import open_responses
 from sprung_tools.runs.labelled_runs import shown_quantities
 from sprung_tools.terminal.program import make_parser
 

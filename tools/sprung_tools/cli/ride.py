@@ -8,14 +8,18 @@ The span of time is that of the run file's [statistics], or the one given. Vibra
 static equilibrium, compression is positive. Loads are those of all parallel members together. A tyre is also without
 load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
 of -y. With --superelements the tool also computes the bending moment of bodies that a run took as rigid, from the
-forces on them."""
+forces on them. Of a response file with the spectra on a random road (sprung-dynamics response), the tool prints the
+r.m.s. values and the absorbed power of the linear vehicle."""
 
 import os
 from collections.abc import Iterator, Sequence
 
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
-from sprung_tools.runs.labelled_runs import Run, open_runs
+from sprung_tools.runs.labelled_responses import Response, open_responses
+from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
 from sprung_tools.runs.ride_assessment import calc_assessment
 from sprung_tools.runs.ride_measures import (
     Bending,
@@ -28,12 +32,14 @@ from sprung_tools.runs.ride_measures import (
     list_seats,
     read_window,
 )
+from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
            "total", "absorbed W")  # fmt: skip
+LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch", "total", "absorbed W")
 TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
@@ -72,6 +78,27 @@ def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Seque
             numbers = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
                        more.total, more.power)  # fmt: skip
             yield (point_name(point), run.label, *(f"{value:.4g}" for value in numbers))
+
+
+def make_linear_rows(responses: Sequence[Response], wanted: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of linear vehicles on a random road. wanted: points, all of the files if there is none."""
+    for point in wanted or list(dict.fromkeys(name for response in responses for name in list_points(response))):
+        for response in responses:
+            one = calc_linear_assessment(response, point)
+            numbers = (one.rms, one.vertical, one.fore_aft, one.pitch, one.total, one.power)
+            yield (point, response.label, *(f"{value:.4g}" for value in numbers))
+
+
+def part_files(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Parts files `[LABEL=]FILE` into results of runs and responses."""
+    runs, responses = [], []
+    for argument in arguments:
+        try:
+            open_hdf5(split_label(argument)[1], RESPONSE).close()
+            responses.append(argument)
+        except InputError:  # whatever else is wrong with it, open_runs() tells
+            runs.append(argument)
+    return runs, responses
 
 
 def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
@@ -120,7 +147,9 @@ def make_bending_rows(
 
 def main() -> int:
     parser = make_parser(__doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat")
-    parser.add_argument("runs", metavar="[LABEL=]FILE", nargs="+", help="results file, and its name in the tables")
+    parser.add_argument(
+        "runs", metavar="[LABEL=]FILE", nargs="+", help="results or response file, and its name in the tables"
+    )
     parser.add_argument(
         "--points", nargs="+", metavar="BODY.POINT", default=(),
         help="points whose vibration is judged, BODY.center_of_mass for a centre of mass (default: seats and their "
@@ -134,16 +163,23 @@ def main() -> int:
         help="folder of the superelement files, for the moments of bodies taken as rigid",
     )
     arguments = parser.parse_args()
-    runs = open_runs(arguments.runs)
+    files, response_files = part_files(arguments.runs)
+    runs, responses = open_runs(files), open_responses(response_files)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
-    tables = (
-        (COMFORT, make_comfort_rows(runs, find_points(runs, arguments.points), windows)),
-        (TRAVEL, make_travel_rows(runs, windows)),
-        (CONTACT, make_contact_rows(runs, windows)),
-        (BENDING, make_bending_rows(runs, windows, arguments.superelements)),
-    )
+    tables: list[tuple[Sequence[str], Iterator[tuple[str, ...]]]]
+    tables = [(LINEAR, make_linear_rows(responses, arguments.points))]
+    if runs:
+        tables += [
+            (COMFORT, make_comfort_rows(runs, find_points(runs, arguments.points), windows)),
+            (TRAVEL, make_travel_rows(runs, windows)),
+            (CONTACT, make_contact_rows(runs, windows)),
+            (BENDING, make_bending_rows(runs, windows, arguments.superelements)),
+        ]
     spans = ", ".join(f"{run.label} {start:g} to {end:g} s" for run, (start, end) in zip(runs, windows))
-    text = [f"statistics over: {spans}"]
+    text = [f"statistics over: {spans}"] if runs else []
+    for response in responses:
+        low, high = response.frequency[0], response.frequency[-1]
+        text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     for headings, rows in tables:
         cells = list(rows)
         if cells:

@@ -97,10 +97,15 @@ def calc_assessment(results: ResultsFile, point: str, window: Span, vibration: V
     fore_aft, vertical, pitch = (calc_rms(one[inside]) for one in (felt.fore_aft, felt.vertical, felt.pitch))
     power = calc_absorbed_power(results.series(f"{point}/acceleration.y")[0], step)[inside]
     return Assessment(
-        fore_aft, vertical, pitch, float(np.sqrt(fore_aft**2 + vertical**2 + (PITCH * pitch) ** 2)),
+        fore_aft, vertical, pitch, calc_total(fore_aft, vertical, pitch),
         float(np.max(felt.running[inside])), calc_dose(felt.vertical[inside], step),
         float(np.max(np.abs(felt.vertical[inside]))) / vertical if vertical > 0.0 else 0.0, float(np.mean(power)),
     )  # fmt: skip
+
+
+def calc_total(fore_aft: float, vertical: float, pitch: float) -> float:
+    """The total of weighted r.m.s. values by (1)."""
+    return float(np.sqrt(fore_aft**2 + vertical**2 + (PITCH * pitch) ** 2))
 
 
 def calc_bands(results: ResultsFile, point: str, window: Span) -> Floats:

@@ -11,7 +11,7 @@ from sprung_tools.model.force_channels import CONTACT, read_force_channel
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.mode_history import read_neglected
 
-# The limits at which sprung-dynamics itself warns; report_controls_test.py compares the warnings.
+# The limits at which sprung-dynamics itself warns; report_page_test.py compares the warnings.
 TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration (dynamics/output/run_report.cpp)
 ALARMING_CLOSURE = 1e-3  # relative (dynamics/program/run_command.cpp)
 NEARLY = 0.9  # of the run's largest acceleration

@@ -1,0 +1,60 @@
+"""How the vibration of a linear vehicle on a random road is judged at a seat, from the spectra of its response.
+
+For a stationary random vibration of one-sided spectral density S, a filter H gives
+
+    r.m.s. = √(∫ |H|² S df)                                                                             (1)
+
+by the trapezoidal rule over the frequencies of the file. The measures of single shocks (MTVV, vibration dose, crest
+factor) belong to a time history, not to a spectrum.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import ComplexNumbers, Floats
+from sprung_tools.runs.labelled_responses import Response
+from sprung_tools.runs.ride_assessment import calc_total
+from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
+from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
+
+
+class LinearAssessment(NamedTuple):
+    """The measures of a point: r.m.s. of the vertical acceleration, weighted r.m.s. values, their total, absorbed
+    power."""
+
+    rms: float  # m/s²
+    fore_aft: float  # m/s²
+    vertical: float  # m/s²
+    pitch: float  # rad/s²
+    total: float  # m/s²
+    power: float  # W
+
+
+def calc_filtered_rms(frequency: Floats, density: Floats, response: ComplexNumbers) -> float:
+    """The r.m.s. by (1)."""
+    return float(np.sqrt(np.trapz(np.abs(response) ** 2 * density, frequency)))
+
+
+def calc_linear_assessment(response: Response, point: str) -> LinearAssessment:
+    """The measures of a point BODY.POINT. InputError if the file has not its accelerations, or has no spectra."""
+    frequency = response.frequency
+    along, up, turn = (
+        response.values(f"points/{point}/acceleration.{axis}", is_spectrum=True)[0] for axis in ("x", "y", "angle")
+    )
+    fore_aft, vertical, pitch = (
+        calc_filtered_rms(frequency, density, calc_weighting(weighting, frequency))
+        for density, weighting in ((along, WD), (up, WK), (turn, WE))
+    )
+    power = calc_filtered_rms(frequency, up, FEET_PER_METRE * calc_response(frequency)) ** 2
+    rms = calc_filtered_rms(frequency, up, np.ones_like(frequency, dtype=complex))
+    return LinearAssessment(rms, fore_aft, vertical, pitch, calc_total(fore_aft, vertical, pitch), power)
+
+
+def list_points(response: Response) -> list[str]:
+    """The points BODY.POINT of whose accelerations a response file has the spectra."""
+    ending = "/acceleration.y"
+    return [
+        name.removeprefix("points/").removesuffix(ending)
+        for name in response.names() if name.startswith("points/") and name.endswith(ending)
+    ]  # fmt: skip
