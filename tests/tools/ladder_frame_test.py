@@ -89,7 +89,8 @@ class Ladder(StarterCase):
 
     def test_rails_that_come_nearer_are_projected_and_the_angle_is_said(self):
         def narrow(text):
-            return text.replace("GRID,5,,4.2,0.4", "GRID,5,,4.2,0.3").replace("GRID,105,,4.2,-0.4", "GRID,105,,4.2,-0.3")
+            old, new = "GRID,105,,4.2,-0.4", "GRID,105,,4.2,-0.3"
+            return text.replace("GRID,5,,4.2,0.4", "GRID,5,,4.2,0.3").replace(old, new)
 
         told, _ = self.convert_text("a.bdf", write_ladder(narrow), "--plane", "xz", "--unite-rails")
         self.assertIn("the angle of rails to the plane, up to 4.8°", told)  # atan(0.1 / 1.2) = 4.76°

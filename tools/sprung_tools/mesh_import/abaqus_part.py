@@ -93,12 +93,12 @@ class Part:
         ids: list[int] = []
         for line, fields in block.data:
             node = read_integer(block, line, fields[0])
-            place = [read_real(block, line, text) for text in fields[1:4] if text]
-            if len(place) < 2:
-                block.fail(f"node {node} has {len(place)} coordinates, expected 2 or 3: truncated?", line)
+            place = [read_real(block, line, text) if text else 0.0 for text in fields[1:4]]
+            if not any(fields[1:4]):
+                block.fail(f"node {node} has no coordinates: truncated?", line)
             if node in ids[-1:]:
                 block.fail(f"node {node} is defined twice", line)
-            x, y, z = (*place, 0.0)[:3]
+            x, y, z = (*place, 0.0, 0.0)[:3]
             self.add_node(block, line, node, (x, y, z))
             ids.append(node)
         if block.parameters.get("NSET"):

@@ -27,7 +27,8 @@ class CoordinateSystems:
         """Takes in a card; CORD1… may define two systems."""
         for first in (0, 4) if card.name[4] == "1" and card.field(4) else (0,):
             number = card.integer(first, "coordinate system")
-            if number in self._cards or number <= 0:
+            known, _ = self._cards.get(number, (card, first))
+            if known.fields != card.fields or number <= 0:
                 card.fail(f"coordinate system {number} is defined twice" if number > 0 else "numbers begin at 1")
             self._cards[number] = (card, first)
 

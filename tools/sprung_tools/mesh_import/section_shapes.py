@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 from sprung_tools.mesh_import.frame_properties import Shape
 
+LARGEST = 1e30  # length that a section may have, in any unit: its fourth power is still a number
+
 
 class Rectangle(NamedTuple):
     """A part of a section, with sides along width and height; a hole has a negative sign."""
@@ -21,7 +23,7 @@ def combine(parts: Sequence[Rectangle]) -> Shape:
     """The shape of several rectangles about their common centroid. ValueError if a side or the area is not
     positive."""
     for part in parts:
-        if not (part.width > 0.0 and part.height > 0.0):
+        if not (0.0 < part.width < LARGEST and 0.0 < part.height < LARGEST):
             raise ValueError(f"has a part of {part.width:g} by {part.height:g}")
     areas = [part.sign * part.width * part.height for part in parts]
     area = sum(areas)
@@ -74,7 +76,7 @@ def turn(shape: Shape) -> Shape:
 
 def make_tube(outer: float, inner: float = 0.0) -> Shape:
     """A ring, or a disc; outer, inner: radii. ValueError if they are not in order."""
-    if not 0.0 <= inner < outer:
+    if not 0.0 <= inner < outer < LARGEST:
         raise ValueError(f"has the radii {outer:g} and {inner:g}")
     moment = math.pi * (outer**4 - inner**4) / 4.0
     return Shape(math.pi * (outer**2 - inner**2), moment, moment)
@@ -82,7 +84,7 @@ def make_tube(outer: float, inner: float = 0.0) -> Shape:
 
 def make_ellipse(width: float, height: float) -> Shape:
     """A solid ellipse with the axes width and height. ValueError if they are not positive."""
-    if not (width > 0.0 and height > 0.0):
+    if not (0.0 < width < LARGEST and 0.0 < height < LARGEST):
         raise ValueError(f"has the axes {width:g} and {height:g}")
     area = math.pi * width * height / 4.0
     return Shape(area, area * height**2 / 16.0, area * width**2 / 16.0)

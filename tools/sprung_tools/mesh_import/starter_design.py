@@ -6,6 +6,7 @@ are left out, so that sprung-reduce refuses the design until somebody gives them
 """
 
 import json
+import math
 import os
 from collections.abc import Iterable
 
@@ -86,8 +87,9 @@ def name_material(name: str) -> str:
 
 def format_number(key: str, value: float | None, unit: str) -> str:
     """A key with its number; as a comment where it is not known."""
-    if value is None:
-        return f"# {key} =   # {unit}: the source does not say"
+    if value is None or not math.isfinite(value):
+        why = "the source does not say" if value is None else "the source's number is too large"
+        return f"# {key} =   # {unit}: {why}"
     return f"{key} = {float(value)!r}"
 
 
