@@ -11,11 +11,10 @@ import numpy as np
 from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape
 from sprung_tools.mesh_import.nastran_cards import Card
 from sprung_tools.mesh_import.section_shapes import (
-    Rectangle,
-    combine,
     make_box,
     make_channel,
     make_i,
+    make_pair,
     make_rectangle,
     make_tube,
     turn,
@@ -34,14 +33,11 @@ SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
     "T": (4, lambda width, height, flange, web: make_i(height, 0.0, width, web, 0.0, flange)),
     "T2": (4, lambda width, height, flange, web: make_i(height, width, 0.0, web, flange, 0.0)),
     "T1": (4, lambda width, height, flange, web: turn(make_i(height + flange, width, 0.0, web, flange, 0.0))),
-    "H": (4, lambda inner, legs, height, bar: combine([
-        Rectangle(inner, bar), Rectangle(legs / 2, height, -(inner + legs / 2) / 2),
-        Rectangle(legs / 2, height, (inner + legs / 2) / 2),
-    ])),
+    "H": (4, lambda inner, legs, height, bar: make_pair(inner, bar, legs / 2, height)),
     "CHAN": (4, make_channel),
     "CHAN1": (4, lambda out, web, inner, height: make_channel(out + web, height, web, (height - inner) / 2)),
     "CHAN2": (4, lambda leg, plate, height, width: turn(make_channel(height, width, plate, leg))),
-    "CROSS": (4, lambda out, upright, height, bar: combine([Rectangle(upright, height), Rectangle(out, bar)])),
+    "CROSS": (4, lambda out, upright, height, bar: make_pair(upright, height, out / 2, bar)),
 }  # fmt: skip
 SECTION_CARDS = {"PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE"}
 MATERIAL_CARDS = {"MAT1"}

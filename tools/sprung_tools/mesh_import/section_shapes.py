@@ -69,6 +69,13 @@ def make_channel(width: float, height: float, web: float, flange: float) -> Shap
     return combine([Rectangle(width, height), hole])
 
 
+def make_pair(width: float, height: float, side_width: float, side_height: float) -> Shape:
+    """A rectangle with two others at its sides: an H, or a cross."""
+    aside = (width + side_width) / 2.0
+    sides = [Rectangle(side_width, side_height, w) for w in (-aside, aside)]
+    return combine([Rectangle(width, height), *sides])
+
+
 def turn(shape: Shape) -> Shape:
     """The shape turned by a quarter: its width becomes its height."""
     return Shape(shape.area, shape.ww, shape.hh, -shape.hw)

@@ -1,0 +1,105 @@
+"""Reading Abaqus and CalculiX decks: assemblies, generated nodes, and sections, against numbers worked out by hand."""
+
+import unittest
+
+import numpy as np
+from small_decks import ABAQUS
+from tool_test_case import ToolTestCase
+
+from sprung_tools.mesh_import.abaqus_deck import read_abaqus
+
+# A leg of 2 m along x, of two lines; its second instance stands upright at x = 3: moved by (3, 0), then turned by 90°
+# about the line through (3, 0) along z.
+PART = (
+    "*PART, NAME=LEG\n*NODE\n1, 0., 0.\n2, 1., 0.\n3, 2., 0.\n*ELEMENT, TYPE=B23, ELSET=ALL\n1, 1, 2\n2, 2, 3\n"
+    "*NSET, NSET=TIP\n3\n*BEAM SECTION, SECTION=RECT, ELSET=ALL, MATERIAL=M\n0.1, 0.2\n*END PART\n"
+)
+ASSEMBLY = (
+    "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=LEG\n*END INSTANCE\n*INSTANCE, NAME=L-2, PART=LEG\n3., 0., 0.\n"
+    "3., 0., 0., 3., 0., 1., 90.\n*END INSTANCE\n{sets}*END ASSEMBLY\n*MATERIAL, NAME=m\n*ELASTIC\n2.1e11, 0.3\n"
+)
+
+
+class Reading(ToolTestCase):
+    """Decks that are written to a file and read."""
+
+    def read(self, text, name="a.inp"):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return read_abaqus(str(self.folder / name))
+
+    def find_shape(self, section):
+        """The shape of a section that all elements have."""
+        return self.read(f"{ABAQUS}{section}").sections[0].shape
+
+    def test_a_moved_and_turned_instance_is_in_its_place_with_numbers_of_its_own(self):
+        mesh = self.read(PART + ASSEMBLY.format(sets=""))
+        self.assertEqual(mesh.node_ids.tolist(), [1, 2, 3, 1001, 1002, 1003])
+        np.testing.assert_allclose(mesh.positions[3:], [[3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 2.0, 0.0]], atol=1e-15)
+        self.assertEqual(mesh.line_ids.tolist(), [1, 2, 1001, 1002])
+        both = (mesh.element_sets, mesh.node_sets)
+        lines, nodes = ({name: one.tolist() for name, one in sets.items()} for sets in both)
+        self.assertEqual(lines, {"L-1.ALL": [0, 1], "L-2.ALL": [2, 3]})
+        self.assertEqual(nodes, {"L-1.TIP": [2], "L-2.TIP": [5]})
+        # The height is normal to the line in the plane, since the 1-direction is the plane's normal.
+        np.testing.assert_allclose(np.abs(mesh.heights), [[0, 1, 0]] * 2 + [[1, 0, 0]] * 2, atol=1e-15)
+        self.assertIn("which are now larger (L-2: 1000 and 1000)", " ".join(mesh.left_behind))
+
+    def test_an_assembly_names_nodes_and_sets_of_its_instances(self):
+        sets = "*NSET, NSET=A\nL-1.3, L-2.1\n*NSET, NSET=B, INSTANCE=L-2\n2, TIP\n*NSET, NSET=C\nL-1.TIP, A\n"
+        sets += "*ELSET, ELSET=D, INSTANCE=L-2, GENERATE\n1, 2\n"
+        mesh = self.read(PART + ASSEMBLY.format(sets=sets))
+        found = {name: mesh.node_ids[nodes].tolist() for name, nodes in mesh.node_sets.items()}
+        self.assertEqual((found["A"], found["B"], found["C"]), ([3, 1001], [1002, 1003], [3, 1001]))
+        self.assertEqual(mesh.element_sets["D"].tolist(), [2, 3])
+        (self.folder / "b.inp").write_text(PART + ASSEMBLY.format(sets="*NSET, NSET=A\nL-3.1\n"), encoding="utf-8")
+        process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+        self.assert_refuses(process, "names the instance 'L-3', which is not there")
+
+    def test_nodes_and_elements_are_generated(self):
+        nodes = "*NODE\n1, 0., 1.\n9, 8., 5.\n*NGEN, NSET=ALL\n1, 9, 2\n"
+        mesh = self.read(nodes + "*ELEMENT, TYPE=B31\n1, 1, 3\n*ELGEN, ELSET=E\n1, 4, 2, 10\n")
+        self.assertEqual(mesh.node_ids.tolist(), [1, 3, 5, 7, 9])
+        np.testing.assert_allclose(mesh.positions[:, 0], [0, 2, 4, 6, 8])
+        np.testing.assert_allclose(mesh.positions[:, 1], [1, 2, 3, 4, 5])
+        self.assertEqual(mesh.line_ids.tolist(), [1, 11, 21, 31])
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [1, 2], [2, 3], [3, 4]])
+        self.assertEqual(mesh.element_sets["E"].tolist(), [0, 1, 2, 3])
+
+    def test_a_line_of_three_nodes_is_two_lines_in_each_of_its_sets(self):
+        text = ABAQUS[: ABAQUS.index("*ELEMENT")] + "*ELEMENT, TYPE=B32, ELSET=A\n5, 1, 2, 3\n*ELSET, ELSET=B\n5\n"
+        mesh = self.read(text)
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [1, 2]])
+        self.assertEqual(mesh.line_ids.tolist(), [5, 6])
+        self.assertEqual([mesh.element_sets[name].tolist() for name in ("A", "B")], [[0, 1], [0, 1]])
+
+    def test_shapes_of_beam_section(self):
+        for section, expected in (
+            # The width lies along the 1-direction; hh is I11.
+            ("RECT\n2., 3.", (6.0, 2 * 27 / 12, 3 * 8 / 12)),
+            ("BOX\n4., 6., .5, 1., .5, 1.", (12.0, (4 * 216 - 3 * 64) / 12, (6 * 64 - 4 * 27) / 12)),
+            ("PIPE\n2., 1.", (3 * np.pi, 15 * np.pi / 4, 15 * np.pi / 4)),
+            ("CIRC\n2.", (4 * np.pi, 4 * np.pi, 4 * np.pi)),
+            ("CIRC\n4., 2.", (2 * np.pi, np.pi * 4 * 8 / 64, np.pi * 2 * 64 / 64)),
+            ("I\n3., 6., 4., 4., 1., 1., 1.", (12.0, (4 * 216 - 3 * 64) / 12, (2 * 64 + 4 * 1) / 12)),
+            ("GENERAL\n2., 3., 0.5, 4., 1.", (2.0, 3.0, 4.0)),
+        ):
+            with self.subTest(section):
+                shape = self.find_shape(f"*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION={section}\n")
+                np.testing.assert_allclose((shape.area, shape.hh, shape.ww), expected, rtol=1e-13)
+
+    def test_a_general_section_has_its_own_material(self):
+        text = "*BEAM GENERAL SECTION, ELSET=A, DENSITY=7.8, SECTION=RECT\n2., 3.\n0., 0., 1.\n2.6, 1.\n"
+        (material,) = self.read(ABAQUS + text).materials.values()
+        self.assertEqual((material.youngs_modulus, material.density), (2.6, 7.8))
+        self.assertAlmostEqual(material.poissons_ratio, 0.3)  # 2.6 / (2 · 1) − 1
+
+    def test_masses_and_moments_of_inertia_of_points(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
+        gifts = "*MASS, ELSET=P\n5.,\n*ROTARY INERTIA, ELSET=R\n1., 2., 3., 4., 5., 6.\n"
+        mass, inertia = self.read(ABAQUS + points + gifts).point_masses
+        self.assertEqual((mass.node, mass.mass, inertia.node, inertia.mass), (2, 5.0, 2, 0.0))
+        np.testing.assert_array_equal(inertia.inertia, [[1, 4, 5], [4, 2, 6], [5, 6, 3]])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,114 @@
+"""Reading Nastran decks: positions, defaults, and sections, against numbers worked out by hand."""
+
+import unittest
+
+import numpy as np
+from small_decks import NASTRAN
+from tool_test_case import ToolTestCase
+
+from sprung_tools.mesh_import.frame_properties import Shape
+from sprung_tools.mesh_import.nastran_deck import read_nastran
+
+BAR = "CBAR,1,1,1,2,0.,1.,0.\n"
+ROOT_HALF = np.sqrt(0.5)
+
+
+class Reading(ToolTestCase):
+    """Decks that are written to a file and read."""
+
+    def read(self, text, name="a.bdf"):
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return read_nastran(str(self.folder / name))
+
+    def test_blank_coordinates_are_zero(self):
+        mesh = self.read(f"BEGIN BULK\nGRID,1\nGRID,2,,,3.,\n{BAR}ENDDATA\n")
+        np.testing.assert_array_equal(mesh.positions, [[0.0, 0.0, 0.0], [0.0, 3.0, 0.0]])
+
+    def test_a_punch_file_has_neither_begin_nor_end(self):
+        text = f"GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n{BAR}"
+        mesh = self.read(text)
+        self.assertEqual(len(mesh.lines), 1)
+        self.assertIn("no ENDDATA ends the deck, as in punch files: is the file whole?", mesh.left_behind)
+        (self.folder / "a.pch").write_text(text, encoding="utf-8")
+        process = self.run_tool("convert_mesh", "a.pch", "a.msh")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertIn("no ENDDATA", process.stdout)
+
+    def test_an_included_file_takes_its_place(self):
+        (self.folder / "nodes.bdf").write_text("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n", encoding="utf-8")
+        mesh = self.read(f"BEGIN BULK\nINCLUDE 'nodes.bdf'\n{BAR}ENDDATA\n")
+        self.assertEqual(mesh.node_ids.tolist(), [1, 2])
+        (self.folder / "b.bdf").write_text("INCLUDE 'none.bdf'\n", encoding="utf-8")
+        process = self.run_tool("convert_mesh", "b.bdf", "a.msh")
+        self.assert_refuses(process, "b.bdf:1: error: INCLUDE: there is no file")
+
+    def test_nodes_in_turned_cylindrical_and_spherical_systems_are_where_they_are(self):
+        # System 1 has its origin at (1, 2, 3), z along the basic x, and x along the basic y, so that y lies along z.
+        systems = "CORD2R,1,0,1.,2.,3.,2.,2.,3.\n,1.,3.,3.\nCORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        systems += "CORD2S,3,0,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+        nodes = "GRID,1,1,4.,5.,6.\nGRID,2,2,2.,90.,7.\nGRID,3,3,2.,90.,45.\nGRID,4,3,2.,45.,90.\n"
+        mesh = self.read(f"BEGIN BULK\n{systems}{nodes}{BAR}ENDDATA\n")
+        root = 2.0 * ROOT_HALF
+        expected = [[7.0, 6.0, 8.0], [8.0, 2.0, 5.0], [root, root, 0.0], [0.0, root, root]]
+        np.testing.assert_allclose(mesh.positions, expected, atol=1e-14)
+
+    def test_a_system_by_three_nodes_and_the_default_system_of_nodes(self):
+        corners = "GRID,11,0,5.,0.,0.\nGRID,12,0,5.,1.,0.\nGRID,13,0,5.,0.,1.\n"  # z along y, x along z, so y along x
+        deck = f"BEGIN BULK\nGRDSET,,4\nCORD1R,4,11,12,13\n{corners}GRID,1,,1.,2.,3.\nGRID,2,0,0.,0.,0.\n{BAR}ENDDATA\n"
+        np.testing.assert_allclose(self.read(deck).positions[0], [7.0, 3.0, 1.0], atol=1e-14)
+
+    def test_property_and_orientation_may_come_from_baror(self):
+        deck = NASTRAN.replace("CBAR,1,1,1,2,0.,1.,0.", "BAROR,,7,,,0.,0.,1.\nCBAR,1,,1,2")
+        mesh = self.read(deck)
+        self.assertEqual(list(mesh.element_sets), ["property_7"])
+        np.testing.assert_array_equal(mesh.heights, [[0.0, 0.0, 1.0]])
+
+    def test_an_orientation_by_a_node_and_one_in_a_node_s_own_system(self):
+        by_node = NASTRAN.replace("GRID,2", "GRID,3,,0.,0.,9.\nGRID,2").replace("1,2,0.,1.,0.", "1,2,3")
+        np.testing.assert_array_equal(self.read(by_node).heights, [[0.0, 0.0, 9.0]])
+        turned = "CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nGRID,1,,0.,0.,0.,5\n"  # its x lies along the basic y
+        own = NASTRAN.replace("GRID,1,,0.,0.,0.\n", turned).replace("1,2,0.,1.,0.", "1,2,1.,0.,0.")
+        np.testing.assert_allclose(self.read(own).heights, [[0.0, 1.0, 0.0]], atol=1e-15)
+
+    def read_shape(self, card):
+        """The shape of a property."""
+        return self.read(NASTRAN.replace("ENDDATA", f"{card}\nENDDATA")).sections[0].shape
+
+    def assert_shape(self, card, area, hh, ww):
+        shape = self.read_shape(card)
+        np.testing.assert_allclose((shape.area, shape.hh, shape.ww), (area, hh, ww), rtol=1e-13)
+
+    def test_shapes_of_pbarl(self):
+        # Worked out as differences of rectangles, or by the parallel axis theorem.
+        self.assert_shape("PBARL,1,1,,BAR\n,2.,3.", 6.0, 2 * 27 / 12, 3 * 8 / 12)
+        self.assert_shape("PBARL,1,1,,BOX\n,4.,6.,1.,.5", 24 - 12, (4 * 216 - 3 * 64) / 12, (6 * 64 - 4 * 27) / 12)
+        self.assert_shape("PBARL,1,1,,BOX1\n,4.,6.,1.,1.,.5,.5", 12.0, (4 * 216 - 3 * 64) / 12, (6 * 64 - 4 * 27) / 12)
+        self.assert_shape("PBARL,1,1,,I\n,6.,4.,4.,1.,1.,1.", 12.0, (4 * 216 - 3 * 64) / 12, (2 * 64 + 4 * 1) / 12)
+        self.assert_shape("PBARL,1,1,,I1\n,3.,1.,4.,6.", 12.0, (4 * 216 - 3 * 64) / 12, (2 * 64 + 4 * 1) / 12)
+        self.assert_shape("PBARL,1,1,,H\n,3.,1.,4.,2.", 10.0, (1 * 64 + 3 * 8) / 12, (4 * 64 - 2 * 27) / 12)
+        # A cross of an upright 1 × 5 and two arms 1 × 1: Nastran gives both arms' length together.
+        self.assert_shape("PBARL,1,1,,CROSS\n,2.,1.,5.,1.", 7.0, (125 + 2) / 12, (4 * 1 + 1 * 27) / 12)
+        self.assert_shape("PBARL,1,1,,TUBE\n,2.,1.", 3 * np.pi, 15 * np.pi / 4, 15 * np.pi / 4)
+        self.assert_shape("PBARL,1,1,,TUBE2\n,2.,1.", 3 * np.pi, 15 * np.pi / 4, 15 * np.pi / 4)
+        self.assert_shape("PBARL,1,1,,ROD\n,2.", 4 * np.pi, 4 * np.pi, 4 * np.pi)
+
+    def test_shapes_without_a_horizontal_axis_of_symmetry(self):
+        # A T of a flange 4 × 1 over a web 1 × 4: its centroid is 1.25 from either part's middle.
+        tee = (8.0, (4 * 1 + 1 * 64) / 12 + 8 * 1.25**2, (1 * 64 + 4 * 1) / 12)
+        self.assert_shape("PBARL,1,1,,T\n,4.,5.,1.,1.", *tee)
+        self.assert_shape("PBARL,1,1,,T2\n,4.,5.,1.,1.", *tee)
+        self.assert_shape("PBARL,1,1,,T1\n,4.,4.,1.,1.", tee[0], tee[2], tee[1])
+        # A channel: web 1 × 6, two flanges 2 × 1 beside it; the middles are 1.5 apart.
+        channel = (10.0, (3 * 216 - 2 * 64) / 12, (6 * 1 + 2 * 8) / 12 + 6 * 4 / 10 * 1.5**2)
+        self.assert_shape("PBARL,1,1,,CHAN\n,3.,6.,1.,1.", *channel)
+        self.assert_shape("PBARL,1,1,,CHAN1\n,2.,1.,4.,6.", *channel)
+        self.assert_shape("PBARL,1,1,,CHAN2\n,1.,1.,3.,6.", channel[0], channel[2], channel[1])
+
+    def test_general_properties(self):
+        self.assertEqual(self.read_shape("PBAR,1,1,2.,3.,4.\n,\n,,,.5"), Shape(2.0, 3.0, 4.0, -0.5))
+        self.assertEqual(self.read_shape("PBEAM,1,1,2.,3.,4.,.5"), Shape(2.0, 3.0, 4.0, -0.5))
+        self.assertIsNone(self.read_shape("PBARL,1,1,,TUBE\n,1.,2."))
+
+
+if __name__ == "__main__":
+    unittest.main()
