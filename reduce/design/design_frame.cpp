@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 #include <set>
+#include <string_view>
 
 #include "fem/gmsh_mesher.h"
 #include "reduce/design/design.h"
@@ -152,11 +153,24 @@ DesignFrame read_lines(const TomlTable& root, const Points& points, const Sectio
   return frame;
 }
 
+// Whether a text of gmsh's language has a statement that begins with this word: at the start of a line or
+// after a semicolon.
+bool has_statement(std::string_view text, std::string_view word) {
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (end < text.size() && is_of_name(text[end])) continue;
+    const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\f\v");
+    if (before == text.npos || text[before] == '\n' || text[before] == ';') return true;
+  }
+  return false;
+}
+
 // A file that pulls in others would change without a sign of it: hashes are kept of the files a design names.
 void check_self_contained(const std::filesystem::path& path) {
   if (path.extension() != ".geo") return;
-  static const std::regex kPullsIn(R"((^|\n|;)\s*(Include|Merge)\b)");
-  if (std::regex_search(support::read_text_file(path), kPullsIn)) {
+  const std::string text = support::read_text_file(path);
+  if (has_statement(text, "Include") || has_statement(text, "Merge")) {
     throw InputError({.path = path.string()},
                      "reads another file by Include or Merge; put everything in one file, so "
                      "that a change of it is noticed");

@@ -305,6 +305,11 @@ TEST_CASE("faults between a design and its gmsh file are named") {
   CHECK_THAT(geo_fault("\"tip\"", "\"quarter\""), Contains("point 'quarter' is named in 'bar.geo' already"));
   CHECK_THAT(geo_fault("Point(1)", "Include \"other.geo\";\nPoint(1)"),
              Contains("reads another file by Include or Merge"));
+  CHECK_THAT(geo_fault("Point(1)", "a = 1;  Merge \"other.msh\";\nPoint(1)"),
+             Contains("reads another file by Include or Merge"));
+  // A name that begins like the statement, and a comment.
+  write("bar.geo", "IncludedLength = 1; // Include nothing\n" + std::string(kGeo));
+  CHECK_NOTHROW(read(kMeshDesign));
   std::filesystem::remove("bar.geo");
   CHECK_THAT(message_of<InputError>([] { read(kMeshDesign); }), Contains("bar.geo: error: cannot be read"));
 }
