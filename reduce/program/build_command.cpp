@@ -106,6 +106,9 @@ int run_build(const BuildOptions& options) {
     const fs::path output = options.output_dir / (design.stem().string() + ".h5");
     try {
       build_one(design, output, options);
+    } catch (const support::Interrupted&) {
+      throw support::Interrupted(
+          fmt::format("while {} was built; the files made so far are whole", design.string()));
     } catch (const InputError& error) {
       report_failure(error.what());
       if (code == support::kGood) code = support::kBadInput;
