@@ -20,8 +20,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Steps times coordinates between two checkpoints: the model's own measure of time, so that equal runs have
-// equal checkpoints.
+// Steps and outputs, times coordinates, between two checkpoints: the model's own measure of time, so that
+// equal runs have equal checkpoints.
 constexpr double kWorkBetweenCheckpoints = 2e6;
 
 TransientOptions make_options(const Run& run) {
@@ -89,14 +89,15 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
                               support::ProgressBar& progress, RunStatistics& statistics,
                               ResultsWriter* writer) {
   double time_reached = 0.0;
+  double work = 0.0;  // since the last checkpoint
   options.on_output = [&](const Snapshot& snapshot) {
+    work += prepared.model.num_coordinates;
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
   };
-  double work = 0.0;  // since the last checkpoint
   options.on_step = [&](double time) {
     time_reached = time;
     work += prepared.model.num_coordinates;

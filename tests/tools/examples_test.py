@@ -131,7 +131,7 @@ class BashTools(Examples):
 class Completeness(ToolTestCase):
     def test_every_program_in_the_folder_is_here(self):
         programs = {path.name for path in TOOLS.iterdir() if path.is_file() and os.access(path, os.X_OK)}
-        self.assertEqual(programs, {*WRITTEN, *SCRIPTS, "paper_figures", "run-truck", "benchmark"})
+        self.assertEqual(programs, {*WRITTEN, *SCRIPTS, "paper_figures", "run-truck", "benchmark", "fuzz"})
 
 
 if __name__ == "__main__":

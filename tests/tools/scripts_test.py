@@ -7,7 +7,7 @@ import unittest
 from synthetic_results import write_superelement
 from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
-BASH = ("setup", "build", "test", "run-truck")
+BASH = ("setup", "build", "test", "run-truck", "fuzz")
 PYTHON = (
     "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride",
     "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
