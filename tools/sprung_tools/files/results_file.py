@@ -101,7 +101,10 @@ class ResultsFile:
             return np.zeros(0, dtype=int)
         name = f"bodies/{body}/modal/mode_number"
         numbers, _ = read_numbers(self.file, name)
-        shape = self.file.shape(f"model/superelements/{self.superelement(body)}/shapes") or (0, 0, 0)
+        shapes = f"model/superelements/{self.superelement(body)}/shapes"
+        shape = self.file.shape(shapes)
+        if not shape:
+            raise InputError(f"{self.path}: error: no dataset '{shapes}'")
         if not np.all(np.isin(numbers, np.arange(1, shape[-1] + 1))):
             raise InputError(
                 f"{self.path}: error: dataset '{name}' holds numbers that are not those of a mode, 1 to {shape[-1]}"
