@@ -43,6 +43,12 @@ class ReportPage(PageTestCase):
         page.picture(PICTURES / "smallest.png")
         self.assertEqual(page.problems(), [])
 
+    def test_the_tables_of_both_runs_fit_the_telephone(self):
+        page = self.open(size="phone")
+        for table in ("summary-table", "ride-table", "load-table"):
+            around, inside = page.box(f".scroll:has(#{table})"), page.box(f"#{table} thead th:last-child")
+            self.assertLessEqual(inside[0] + inside[2], around[0] + around[2] + 0.5, table)
+
     def test_every_diagram_shows_both_runs(self):
         page = self.open()
         places = page.evaluate(

@@ -58,6 +58,12 @@ class Report(ToolTestCase):
         self.assertNotRegex(text, r"(?i)@import|\burl\((?!['\"]?data:)")
         self.assertNotIn("sourceMappingURL", text)
 
+    def test_where_samples_are_too_few_the_page_says_why_the_vibration_is_not_judged(self):
+        _, data = self.report("rigid.h5")
+        ride = data["runs"][0]["ride"]
+        self.assertIn("a sample every 5 ms is too few", ride["problem"])
+        self.assertEqual((ride["points"], [one["name"] for one in ride["tyres"]]), ([], ["front_tyre"]))
+
     def test_the_points_stand_in_the_order_of_the_vehicle_file(self):
         with h5py.File(self.folder / "rigid.h5", "a") as file:
             for point in ("chassis.front_end", "chassis.seat"):

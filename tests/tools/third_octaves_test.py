@@ -18,8 +18,8 @@ class ThirdOctaves(unittest.TestCase):
         step = 1e-3
         time = np.arange(0.0, 60.0, step)
         settled = time >= 40.0
-        for band, frequency in enumerate(NOMINAL):
-            with self.subTest(frequency=frequency):
+        for band in (0, 1, 9, 16, 22):
+            with self.subTest(frequency=NOMINAL[band]):
                 exact = 10.0 ** ((band - 3) / 10.0)
                 found = calc_third_octaves(np.sqrt(2.0) * 1.5 * np.sin(2.0 * np.pi * exact * time), step, settled)
                 self.assertEqual(found.size, len(NOMINAL))

@@ -41,12 +41,13 @@ def list_ride_channels(vibrations: dict[str, Vibration]) -> list[Channel]:
 
 
 def name_of(point: str) -> str:
+    """The name of a point on the page: `points/chassis.seat` → `chassis.seat`."""
     return point.removeprefix("points/")
 
 
 def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: str) -> Packed | None:
     """The measures of one run; None for a mechanism, which has neither tyres nor a seat. problem: why the vibration
-    cannot be judged."""
+    cannot be judged, or empty."""
     tyres, springs = find_forces(results, "wheel"), find_forces(results, "spring")
     if not tyres and not list_seats(results):
         return None
@@ -58,17 +59,18 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
             "name": name_of(point), **found._asdict(), "words": describe_comfort(found.total),
             "bands": clean(calc_bands(results, point, window)),
         })  # fmt: skip
-    travels = []
-    for name in springs:
-        try:
-            travels.append({"name": name, **calc_travel(results, name, window)._asdict()})
-        except InputError:  # an element without a deflection of its own
-            continue
-    contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
+    travels: list[Packed] = []
+    contacts: list[Packed] = []
+    try:
+        travels = [{"name": name, **calc_travel(results, name, window)._asdict()} for name in springs]
+        contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
+    except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
+        problem = problem or str(error)
     return {"window": window, "problem": problem, "points": points, "travel": travels, "tyres": contacts}
 
 
 def clean(values: Floats) -> list[float]:
+    """Numbers with six digits, which are enough to draw them."""
     return [float(f"{value:.6g}") for value in values]
 
 

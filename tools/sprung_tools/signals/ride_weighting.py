@@ -75,9 +75,9 @@ def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting 
     return apply_response(acceleration, step, lambda frequency: calc_weighting(weighting, frequency))
 
 
-def apply_response(values: Floats, step: float, response: Response, settling: float = SETTLING) -> Floats:
-    """What a linear filter at rest makes of a signal [n]. settling: how long its response takes to fade [s]."""
-    size = values.size + int(np.ceil(settling / step))
+def apply_response(values: Floats, step: float, response: Response) -> Floats:
+    """What a linear filter at rest makes of a signal [n]."""
+    size = values.size + int(np.ceil(SETTLING / step))
     transform = np.fft.rfft(values, size) * response(np.fft.rfftfreq(size, step))
     return np.fft.irfft(transform, size)[: values.size]
 

@@ -13,7 +13,6 @@ no longer has it: there a band counts by its weighting.
 import numpy as np
 
 from sprung_tools.files.array_types import ComplexNumbers, Flags, Floats
-from sprung_tools.signals.ride_weighting import apply_response
 from sprung_tools.signals.spectra import calc_rms
 
 BANDS = np.arange(-3, 20)  # 10^(n/10) Hz: the bands from 0.5 to 80 Hz
@@ -21,17 +20,20 @@ NOMINAL = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 1
            50.0, 63.0, 80.0)  # fmt: skip
 PROFICIENCY = {"1 min": 2.8, "25 min": 1.8, "1 h": 1.18, "4 h": 0.53, "8 h": 0.315, "24 h": 0.14}  # m/s², 4 to 8 Hz
 COMFORT = 3.15  # by which the proficiency boundary is divided
-FADING = 60.0  # s, of the narrowest band's response
+FADING = 60.0  # s of rest appended to a signal, in which the response of the narrowest band fades
+ROUND = 4096  # a length of signals that is a multiple of this is transformed fast
 BOUNDED = (1.0, 80.0)  # Hz, where there is a boundary
 
 
 def calc_third_octaves(values: Floats, step: float, inside: Flags) -> Floats:
     """The r.m.s. of some samples `inside` of a signal [n], filtered by (1), in the bands of NOMINAL [23]. The signal
     was 0 before. step: between samples [s]."""
+    size = ROUND * int(np.ceil((values.size + FADING / step) / ROUND))
+    transform, frequency = np.fft.rfft(values, size), np.fft.rfftfreq(size, step)
     found = []
     for centre in 10.0 ** (BANDS / 10.0):
-        filtered = apply_response(values, step, lambda frequency: calc_band(frequency, centre), FADING)
-        found.append(calc_rms(filtered[inside]))
+        filtered = np.fft.irfft(transform * calc_band(frequency, centre), size)
+        found.append(calc_rms(filtered[: values.size][inside]))
     return np.array(found)
 
 

@@ -127,9 +127,9 @@ function fillExtremes(found) {
         element("td", {class: "number"}, `${format(extreme.place, 3)} m`), element("td", {}, button)));
     }
   }
-  byId("load-table").replaceChildren(element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "extreme over the run"),
+  byId("load-table").replaceChildren(element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "extreme"),
     element("th", {class: "number", scope: "col"}, "value"), element("th", {class: "number", scope: "col"}, "where"),
-    element("th", {scope: "col"}, "when (press to see)"))), body);
+    element("th", {scope: "col"}, "when"))), body);
 }
 
 function writeLoadsCsv() {
