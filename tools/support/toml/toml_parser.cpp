@@ -1,7 +1,19 @@
 #include "tools/support/toml/toml_parser.h"
 
 #include <fmt/format.h>
+
+// toml++ asserts what a document may break (`[=]`), before it looks for the fault and tells it: its assertion
+// is left out in every build, so that the fault is told. In an optimised build it would be a promise to the
+// compiler.
+#ifdef NDEBUG
+#undef NDEBUG
+#define SPRUNG_NDEBUG
+#endif
+#define TOML_ASSERT(expression) static_assert(true)
 #include <toml++/toml.h>
+#ifdef SPRUNG_NDEBUG
+#define NDEBUG
+#endif
 
 #include <algorithm>
 
