@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t\r,";
 constexpr double kLevel = 1e-9;  // m, largest height that TableRoad accepts as 0
+// m; within these the slopes and curvatures of the spline are finite.
+constexpr double kLargest = 1e9, kNearest = 1e-9;
 
 struct RoadPoints {
   std::vector<double> distance, height;
@@ -59,6 +61,11 @@ void read_line(std::string_view line, support::SourceLocation location, RoadPoin
     throw support::InputError(location,
                               "a line has two numbers, a distance and a height [m]; there is more here");
   }
+  if (!(std::abs(distance) <= kLargest && std::abs(height) <= kLargest)) {
+    throw support::InputError(
+        location, fmt::format("distances and heights must be within ±{:g} m, got {} and {}", kLargest,
+                              distance, height));
+  }
   if (points.distance.empty() && !(std::abs(height) <= kLevel)) {
     throw support::InputError(
         location, fmt::format("the first height must be 0 m, as the road before it, got {}", height));
@@ -66,6 +73,11 @@ void read_line(std::string_view line, support::SourceLocation location, RoadPoin
   if (!points.distance.empty() && !(distance > points.distance.back())) {
     throw support::InputError(location, fmt::format("the distance must ascend, got {} m after {} m", distance,
                                                     points.distance.back()));
+  }
+  if (!points.distance.empty() && !(distance - points.distance.back() >= kNearest)) {
+    throw support::InputError(
+        location, fmt::format("the distance must ascend by at least {:g} m, got {} m after {} m", kNearest,
+                              distance, points.distance.back()));
   }
   points.distance.push_back(distance);
   points.height.push_back(height);

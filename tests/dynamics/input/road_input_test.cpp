@@ -88,6 +88,11 @@ TEST_CASE("A road table may begin with the mark of byte order that spreadsheets 
 TEST_CASE("A fault in a road table is found at its line and column") {
   CHECK(error_of_table("0 0\n1 0.1m\n") ==
         "roads/field.txt:2:3: error: the height must be a finite number [m], got '0.1m'");
+  // Sizes of which no spline can be computed, found by road_fuzz.
+  CHECK(error_of_table("0 0\n1 1e308\n")
+            .find("distances and heights must be within ±1e+09 m, got 1 and 1e+308") != std::string::npos);
+  CHECK(error_of_table("0 0\n1e-300 1\n").find("the distance must ascend by at least 1e-09 m") !=
+        std::string::npos);
   CHECK(error_of_table("0 0\n1\n") ==
         "roads/field.txt:2:2: error: the height [m] is missing; a line is a distance and a height");
   CHECK(
