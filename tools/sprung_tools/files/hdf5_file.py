@@ -10,6 +10,7 @@ import h5py
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError, WrongFormatError
+from sprung_tools.files.last_read import note_file
 from sprung_tools.files.results_layout import RESULTS_LAYOUT
 from sprung_tools.files.stored_file import H5PY_ERRORS, StoredFile
 from sprung_tools.files.superelement_layout import RESPONSE_LAYOUT, SUPERELEMENT_LAYOUT
@@ -33,6 +34,7 @@ def open_hdf5(path: str | Path, wanted_format: str) -> StoredFile:
         raise InputError(f"{path}: error: is a folder, expected a {wanted_format} file")
     if os.path.getsize(path) == 0:
         raise InputError(f"{path}: error: the file is empty")
+    note_file(str(path))
     try:
         file = StoredFile(h5py.File(path, "r"), LAYOUTS[wanted_format])
     except H5PY_ERRORS as error:

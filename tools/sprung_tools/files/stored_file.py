@@ -14,6 +14,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
+from sprung_tools.files.last_read import note_file
 from sprung_tools.files.layout import Layout, Numbers, Size, Texts, fill_pattern
 
 # What h5py makes of the faults that HDF5 finds in a file: it has no error of its own.
@@ -151,6 +152,7 @@ class StoredFile:
     def _find(self, name: str) -> h5py.Group | h5py.Dataset | None:
         """The object of a path; None if a name on the way is not there. A name that is there and leads nowhere is an
         error."""
+        note_file(self.filename)
         found = self._file
         for part in filter(None, name.split("/")):
             with reading(self.filename, f"'{name}'"):

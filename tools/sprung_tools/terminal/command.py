@@ -2,8 +2,10 @@
 
 import importlib
 import sys
+from functools import partial
 from typing import NoReturn
 
+from sprung_tools.terminal.guarded_process import run_guarded
 from sprung_tools.terminal.program import run_tool
 
 # The Debian package of each module that is not Python's own.
@@ -16,6 +18,11 @@ PACKAGES = {
 
 
 def run_command(name: str) -> NoReturn:
+    """Runs main() of sprung_tools/cli/NAME.py in a process of its own, and exits."""
+    run_guarded(partial(load_and_run, name))
+
+
+def load_and_run(name: str) -> NoReturn:
     """Runs main() of sprung_tools/cli/NAME.py, and exits. If a module is missing, it prints a line on stderr and exits
     with code 2."""
     try:
