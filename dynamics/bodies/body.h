@@ -33,11 +33,14 @@ struct Body {
 
   double mass = 0.0;                                       ///< [kg]
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]
-  double second_moment = 0.0;       ///< J₀ = ∫(x² + y²) dm about the frame's origin [kg·m²]
-  Eigen::Matrix2Xd P;               ///< ∫φ dm, 2×n
-  Eigen::RowVectorXd c;             ///< ∫(x φ_y − y φ_x) dm, 1×n
-  Eigen::RowVectorXd d;             ///< ∫(x φ_x + y φ_y) dm, 1×n
-  Eigen::MatrixXd M_ff;             ///< ∫φᵀφ dm with rotary inertia, n×n
+  double second_moment = 0.0;  ///< J₀ = ∫(x² + y²) dm about the frame's origin [kg·m²]
+  Eigen::Matrix2Xd P;          ///< ∫φ dm, 2×n
+  Eigen::RowVectorXd c;        ///< ∫(x φ_y − y φ_x) dm, 1×n
+  Eigen::RowVectorXd d;        ///< ∫(x φ_x + y φ_y) dm, 1×n
+  Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm with rotary inertia, n×n
+  /// Mass of each mode where the body is free: with it, damping 2 ζ ω m is that of the ratio ζ. 1 for modes
+  /// of the free body, the diagonal of M_ff for clamped ones. n
+  Eigen::VectorXd modal_mass;
   Eigen::MatrixXd M_tt;             ///< the translational part of M_ff, n×n
   Eigen::MatrixXd B;                ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
   Eigen::MatrixXd stiffness;        ///< n×n
