@@ -1,7 +1,6 @@
 #include "reduce/basis/fixed_interface_basis.h"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/QR>
 
 #include "reduce/modes/dense_eigen_solver.h"
 #include "reduce/modes/held_node.h"
@@ -64,31 +63,34 @@ struct Components {
   Eigen::Index num_constraint = 0;
 };
 
-// Whether a rigid motion is left that moves no interface freedom. Rotation is measured by the body's radius.
-void require_held(const Partition& partition, const RigidMotions& rigid) {
+// Displacements of the interface, unit vectors, that complement its rigid motions. Rotation is measured by the
+// body's radius.
+Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions& rigid) {
   Eigen::MatrixXd motion = rigid.shapes(partition.interface, Eigen::all);
   motion.col(2) /= rigid.shapes.col(2).cwiseAbs().maxCoeff();
   const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(motion.transpose() * motion);
-  if (values.minCoeff() > kDependent * values.maxCoeff()) return;
-  throw NumericalError(
-      "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; "
-      "name "
-      "more of them in [interface], or take the basis \"free\"");
+  if (!(values.minCoeff() > kDependent * values.maxCoeff())) {
+    throw NumericalError(
+        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; name "
+        "more of them in [interface], or take the basis \"free\"");
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motion);
+  const Eigen::MatrixXd directions = qr.householderQ();
+  return directions.rightCols(directions.cols() - 3);
 }
 
 Components make_components(const Eigen::SparseMatrix<double>& stiffness,
                            const Eigen::SparseMatrix<double>& mass, const Partition& partition,
-                           double highest_hz) {
-  const auto b = static_cast<Eigen::Index>(partition.interface.size());
+                           const Eigen::MatrixXd& deformations, double highest_hz) {
+  const Eigen::Index b = deformations.cols();
   Components components{.shapes = Eigen::MatrixXd::Zero(stiffness.rows(), b), .num_constraint = b};
-  for (Eigen::Index j = 0; j < b; ++j)
-    components.shapes(partition.interface[static_cast<std::size_t>(j)], j) = 1.0;
+  components.shapes(partition.interface, Eigen::all) = deformations;
   if (partition.inner.empty()) return components;
   const ModalProblem held{.stiffness = take_inner_rows(stiffness, partition, false),
                           .mass = take_inner_rows(mass, partition, false)};
   const StiffnessFactor factor(held.stiffness);
-  const Eigen::MatrixXd coupling = take_inner_rows(stiffness, partition, true);
-  components.shapes(partition.inner, Eigen::all) = -factor.solve(coupling);
+  const Eigen::MatrixXd loads = take_inner_rows(stiffness, partition, true) * deformations;
+  if (b > 0) components.shapes(partition.inner, Eigen::all) = -factor.solve(loads);
   const ModesBelow modes = calc_modes_below(held, kBandMargin * highest_hz);
   const Eigen::Index q = modes.pairs.omega_squared.size();
   components.shapes.conservativeResize(Eigen::NoChange, b + q);
@@ -99,11 +101,7 @@ Components make_components(const Eigen::SparseMatrix<double>& stiffness,
 
 // Combinations of the columns that are not dependent, as amplitudes of the columns.
 Eigen::MatrixXd find_independent(const Eigen::MatrixXd& energy) {
-  const double largest = energy.diagonal().maxCoeff();
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(energy.rows());  // 0: a column that holds no energy
-  for (Eigen::Index i = 0; i < scale.size(); ++i) {
-    if (energy(i, i) > kDependent * kDependent * largest) scale(i) = 1.0 / std::sqrt(energy(i, i));
-  }
+  const Eigen::VectorXd scale = energy.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = support::solve_symmetric(scale.asDiagonal() * energy * scale.asDiagonal());
   if (!pairs) throw NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
   const Eigen::Index dropped = (pairs->values.array() < kDependent).count();
@@ -131,8 +129,13 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
                                          const Eigen::SparseMatrix<double>& stiffness,
                                          const Eigen::SparseMatrix<double>& mass) {
   const Partition partition = make_partition(stiffness.rows(), request.interface);
-  require_held(partition, rigid);
-  const Components components = make_components(stiffness, mass, partition, request.highest_hz);
+  const Components components =
+      make_components(stiffness, mass, partition, find_deformations(partition, rigid), request.highest_hz);
+  if (components.shapes.cols() == 0) {
+    throw NumericalError(
+        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the interface only "
+        "holds it; ask for a higher highest_frequency");
+  }
   const Eigen::MatrixXd at_reference = components.shapes.middleRows(3 * rigid.reference_node, 3);
   const Eigen::MatrixXd shapes =
       remove_node(Eigen::MatrixXd(components.shapes - rigid.shapes * at_reference), rigid.reference_node);

@@ -15,7 +15,7 @@ namespace sprung::reduce {
 /// @param problem, modes  of the free body (free_body.h), and its modes below kBandMargin ·
 /// request.highest_hz
 /// @param stiffness, mass  3N×3N, of the free frame
-/// @throws support::NumericalError if the interface freedoms do not hold the body
+/// @throws support::NumericalError if the interface freedoms do not hold the body, or no vector is left
 /// Checked by tests/reduce/basis/fixed_interface_basis_test.cpp
 FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const StiffnessFactor& factor,
                                          const ModesBelow& modes, const BasisRequest& request,

@@ -77,8 +77,10 @@ TEST_CASE(
     fem::BeamModel model = half;
     const auto interface = testing::make_interface(model, {testing::find_node_at(model, {weld_at, 0.0})});
     Design design = testing::make_design(model, {1.0, 0.0}, {});
+    // Modes of the held body converge by their number alone: they get a band eight times as wide.
+    const double highest_hz = (basis == BasisKind::kFree ? 1.05 : 8.4) * expected(2);
     design.reduction = {
-        .basis = basis, .highest_hz = 1.05 * expected(2), .tolerance = 1e-3, .interface = interface};
+        .basis = basis, .highest_hz = highest_hz, .tolerance = 1e-3, .interface = interface};
     const Superelement body = make_superelement(design);
     CHECK(body.num_modes() <= 8);
     return testing::make_reduced_body(body, interface);
