@@ -63,15 +63,16 @@ struct Components {
   Eigen::Index num_constraint = 0;
 };
 
-// Displacements of the interface, unit vectors, that complement its rigid motions. Rotation is measured by the
-// body's radius.
+// Displacements of the interface, unit vectors, that complement its rigid motions. Rotation is measured by
+// the body's radius.
 Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions& rigid) {
   Eigen::MatrixXd motion = rigid.shapes(partition.interface, Eigen::all);
   motion.col(2) /= rigid.shapes.col(2).cwiseAbs().maxCoeff();
   const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(motion.transpose() * motion);
   if (!(values.minCoeff() > kDependent * values.maxCoeff())) {
     throw NumericalError(
-        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; name "
+        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; "
+        "name "
         "more of them in [interface], or take the basis \"free\"");
   }
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motion);
@@ -133,7 +134,8 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
       make_components(stiffness, mass, partition, find_deformations(partition, rigid), request.highest_hz);
   if (components.shapes.cols() == 0) {
     throw NumericalError(
-        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the interface only "
+        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the interface "
+        "only "
         "holds it; ask for a higher highest_frequency");
   }
   const Eigen::MatrixXd at_reference = components.shapes.middleRows(3 * rigid.reference_node, 3);

@@ -79,8 +79,7 @@ TEST_CASE(
     Design design = testing::make_design(model, {1.0, 0.0}, {});
     // Modes of the held body converge by their number alone: they get a band eight times as wide.
     const double highest_hz = (basis == BasisKind::kFree ? 1.05 : 8.4) * expected(2);
-    design.reduction = {
-        .basis = basis, .highest_hz = highest_hz, .tolerance = 1e-3, .interface = interface};
+    design.reduction = {.basis = basis, .highest_hz = highest_hz, .tolerance = 1e-3, .interface = interface};
     const Superelement body = make_superelement(design);
     CHECK(body.num_modes() <= 8);
     return testing::make_reduced_body(body, interface);

@@ -2,10 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
-#include "reduce/modes/free_body.h"
-#include "reduce/reduction/body_basis.h"
 #include "tests/catch.h"
 #include "tests/reduce/certificate/certified_frame.h"
 
@@ -13,8 +10,6 @@ namespace sprung::reduce {
 namespace {
 
 using testing::CertifiedFrame;
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // The flexibility is solved from the full model; D is made from products of the basis.
 TEST_CASE("the true error lies between D and D/(1 − s/λ_c), damped and undamped") {
