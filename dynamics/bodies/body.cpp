@@ -60,6 +60,9 @@ Body make_flexible_body(const std::string& name, const reduce::Superelement& sup
   body.c = inertia.c(columns);
   body.d = inertia.d(columns);
   body.M_ff = select(inertia.M_ff, columns);
+  body.modal_mass = superelement.has_free_basis()
+                        ? Eigen::VectorXd::Ones(static_cast<Eigen::Index>(columns.size()))
+                        : Eigen::VectorXd(body.M_ff.diagonal());
   body.M_tt = select(inertia.phi_x_phi_x, columns) + select(inertia.phi_y_phi_y, columns);
   body.B = select(inertia.B, columns);
   body.stiffness = select(superelement.stiffness, columns);

@@ -27,6 +27,9 @@ struct Body {
   Eigen::RowVectorXd c;        ///< ∫(x φ_y − y φ_x) dm, 1×n
   Eigen::RowVectorXd d;        ///< ∫(x φ_x + y φ_y) dm, 1×n
   Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm with rotary inertia, n×n
+  /// Mass of each mode where the body is free: with it, damping 2 ζ ω m is that of the ratio ζ. 1 for modes
+  /// of the free body, the diagonal of M_ff for clamped ones. n
+  Eigen::VectorXd modal_mass;
   Eigen::MatrixXd M_tt;        ///< the translational part of M_ff, n×n
   Eigen::MatrixXd B;           ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
   Eigen::MatrixXd stiffness;   ///< n×n

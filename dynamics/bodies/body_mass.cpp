@@ -1,8 +1,10 @@
 #include "dynamics/bodies/body_mass.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/eigenproblems.h"
 
 namespace sprung::dynamics {
 
@@ -20,6 +22,19 @@ bool is_diagonal(const Eigen::MatrixXd& matrix) {
   return true;
 }
 
+// G of M_ff⁻¹ = I − G Gᵀ (bodies, eq. 13); without columns where M_ff is of another kind.
+Eigen::MatrixXd factorise_inverse(const Eigen::MatrixXd& M_ff) {
+  const Eigen::Index n = M_ff.rows();
+  const auto pairs = support::solve_symmetric(M_ff - Eigen::MatrixXd::Identity(n, n));
+  if (!pairs) return Eigen::MatrixXd(n, 0);
+  const Eigen::VectorXd& values = pairs->values;  // ascending
+  const double rounding = kRounding * std::max(1.0, values.cwiseAbs().maxCoeff());
+  const Eigen::Index rank = (values.array() > rounding).count();
+  if (rank > 3 || values.minCoeff() < -rounding) return Eigen::MatrixXd(n, 0);
+  const Eigen::VectorXd shares = (values.tail(rank).array() / (1.0 + values.tail(rank).array())).sqrt();
+  return pairs->vectors.rightCols(rank) * shares.asDiagonal();
+}
+
 }  // namespace
 
 BodyMass::BodyMass(const Body& body)
@@ -28,7 +43,8 @@ BodyMass::BodyMass(const Body& body)
       diagonal_(is_diagonal(body.M_ff)) {
   const Eigen::Index n = body.num_modes();
   diagonal_inverse_ = body.M_ff.diagonal().cwiseInverse();
-  if (!diagonal_)
+  if (!diagonal_) inverse_factor_ = factorise_inverse(body.M_ff);
+  if (!diagonal_ && inverse_factor_.cols() == 0)
     M_ff_inverse_ = support::solve_positive_definite(body.M_ff, Eigen::MatrixXd::Identity(n, n));
   M_ = Eigen::MatrixXd::Zero(3 + n, 3 + n);
   M_.bottomRightCorner(n, n) = body.M_ff;
@@ -43,12 +59,33 @@ BodyMass::BodyMass(const Body& body)
   }
 }
 
+// rows ← rows M_ff⁻¹, where M_ff is not diagonal. @param rows  k×n
+void BodyMass::multiply_inverse(Eigen::Ref<Eigen::MatrixXd> rows) const {
+  if (inverse_factor_.cols() == 0) {
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      modal_work_ = rows.row(i).transpose();
+      rows.row(i).transpose().noalias() = M_ff_inverse_.lazyProduct(modal_work_);
+    }
+    return;
+  }
+  for (Eigen::Index j = 0; j < inverse_factor_.cols(); ++j) {
+    const Eigen::Ref<const Eigen::VectorXd> G = inverse_factor_.col(j);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const double amount = rows.row(i).dot(G);
+      rows.row(i) -= amount * G.transpose();
+    }
+  }
+}
+
 // Scalars are read one at a time: a vector load of two scalars that have just been stored singly is slow.
 void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   if (constant_) return;
   update_mass_matrix(*body_, rotation, eta, M_);
   const Eigen::Index n = body_->num_modes();
-  if (!diagonal_) W_.noalias() = M_.topRightCorner(3, n).lazyProduct(M_ff_inverse_);
+  if (!diagonal_) {
+    W_ = M_.topRightCorner(3, n);
+    multiply_inverse(W_);
+  }
   double xx = M_(0, 0), xy = M_(1, 0), yy = M_(1, 1), xt = M_(2, 0), yt = M_(2, 1), tt = M_(2, 2);  // C
   for (Eigen::Index k = 0; k < n; ++k) {
     const double* H = M_.col(3 + k).data();
@@ -89,8 +126,7 @@ void BodyMass::solve_coupled(double* x) const {
     if (diagonal_) modal[k] *= diagonal_inverse_[k];
   }
   if (diagonal_) return;
-  modal_work_ = Eigen::Map<const Eigen::VectorXd>(modal, n);
-  Eigen::Map<Eigen::VectorXd>(modal, n).noalias() = M_ff_inverse_.lazyProduct(modal_work_);
+  multiply_inverse(Eigen::Map<Eigen::MatrixXd>(modal, 1, n));
 }
 
 void BodyMass::reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U,
@@ -106,8 +142,8 @@ void BodyMass::reduce_modal_part(const double* upper, const double* lower, Eigen
   }
   for (int i = 0; i < 3; ++i) U[i] = y[i];
   if (diagonal_) return;
-  Eigen::Map<Eigen::Matrix2Xd>(V[3].data(), 2, n).noalias() =
-      Eigen::Map<const Eigen::Matrix2Xd>(U[3].data(), 2, n).lazyProduct(M_ff_inverse_);
+  for (Eigen::Index k = 0; k < n; ++k) V[3 + k] = U[3 + k];
+  multiply_inverse(Eigen::Map<Eigen::MatrixXd>(V[3].data(), 2, n));
 }
 
 }  // namespace sprung::dynamics

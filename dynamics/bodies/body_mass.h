@@ -51,6 +51,7 @@ class BodyMass {
 
  private:
   void solve_coupled(double* x) const;
+  void multiply_inverse(Eigen::Ref<Eigen::MatrixXd> rows) const;
   void reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U,
                          Eigen::Vector2d* V) const;
 
@@ -58,7 +59,8 @@ class BodyMass {
   bool constant_;
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
-  Eigen::MatrixXd M_ff_inverse_;  // used if M_ff is not diagonal
+  Eigen::MatrixXd inverse_factor_;  // G of M_ff⁻¹ = I − G Gᵀ, n×r: where M_ff is I and a part of rank r ≤ 3
+  Eigen::MatrixXd M_ff_inverse_;  // used where it is neither
   Eigen::MatrixXd M_;
   Eigen::Matrix3Xd W_;  // H M_ff⁻¹
   Eigen::Matrix3d C_inverse_;

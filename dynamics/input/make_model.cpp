@@ -17,7 +17,7 @@ const std::vector<int>& modes_of(const ModeSelection& selection, const std::stri
   return found == selection.end() ? kNone : found->second;
 }
 
-// D = diag(2 ζ ω m), with ω m = √(k m) of each mode.
+// D = diag(2 ζ ω m), with ω m = √(k m) of each mode of the body.
 void replace_damping(Body& body, const std::vector<double>& ratios) {
   if (ratios.size() != 1 && ratios.size() != body.mode_numbers.size()) {
     throw std::invalid_argument(fmt::format("make_model: damping of '{}' must be 1 or {} ratios, got {}",
@@ -26,7 +26,7 @@ void replace_damping(Body& body, const std::vector<double>& ratios) {
   body.damping.setZero();
   for (int k = 0; k < body.num_modes(); ++k) {
     const double ratio = ratios[ratios.size() == 1 ? 0 : static_cast<std::size_t>(k)];
-    body.damping(k, k) = 2.0 * ratio * std::sqrt(body.stiffness(k, k) * body.M_ff(k, k));
+    body.damping(k, k) = 2.0 * ratio * std::sqrt(body.stiffness(k, k) * body.modal_mass[k]);
   }
 }
 

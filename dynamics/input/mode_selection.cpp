@@ -34,9 +34,13 @@ ModeRequest read_mode_request(const support::TomlValue& value) {
     request.kind = ModeRequest::Kind::kAll;
   } else if (value.is_string() && value.string() == "auto") {
     request.kind = ModeRequest::Kind::kAuto;
+  } else if (value.is_string() && value.string() == "certified") {
+    request.kind = ModeRequest::Kind::kCertified;
   } else {
-    throw value.error(fmt::format("must be a number of modes, a list of mode numbers, \"all\" or \"auto\"{}",
-                                  value.is_string() ? fmt::format(", got \"{}\"", value.string()) : ""));
+    throw value.error(
+        fmt::format("must be a number of modes, a list of mode numbers, \"all\", \"auto\" or "
+                    "\"certified\"{}",
+                    value.is_string() ? fmt::format(", got \"{}\"", value.string()) : ""));
   }
   return request;
 }
@@ -72,9 +76,22 @@ std::vector<int> resolve_count(const ModeRequest& request, const reduce::Superel
   return numbers;
 }
 
+// A basis is certified as a whole: its bound is that of all its vectors.
+void require_certificate(const ModeRequest& request, const reduce::Superelement& superelement) {
+  if (superelement.certificate && superelement.certificate->is_bounded()) return;
+  const std::string reason = superelement.certificate
+                                 ? fmt::format("whose certificate has no bound up to {:.6g} Hz",
+                                               superelement.certificate->highest_hz)
+                                 : "which has no certificate";
+  refuse(request.location, request.key,
+         fmt::format("asks for the certified basis of superelement '{}', {}; make it with the basis \"free\"",
+                     superelement.name, reason));
+}
+
 std::vector<int> resolve_request(const ModeRequest& request, const reduce::Superelement& superelement) {
   const int available = superelement.num_modes();
-  if (request.kind == ModeRequest::Kind::kAll || request.kind == ModeRequest::Kind::kAuto) {
+  if (request.kind == ModeRequest::Kind::kCertified) require_certificate(request, superelement);
+  if (request.kind != ModeRequest::Kind::kCount && request.kind != ModeRequest::Kind::kNumbers) {
     std::vector<int> numbers(static_cast<std::size_t>(available));
     std::iota(numbers.begin(), numbers.end(), 1);
     return numbers;

@@ -21,7 +21,7 @@ struct ModeChoiceSettings {
 
 /// A value of `[modes]` in a run file, as read without the superelement.
 struct ModeRequest {
-  enum class Kind { kCount, kNumbers, kAll, kAuto };
+  enum class Kind { kCount, kNumbers, kAll, kAuto, kCertified };
   Kind kind = Kind::kCount;
   int count = 0;             ///< for kCount, of the lowest modes
   std::vector<int> numbers;  ///< for kNumbers, ascending, from 1
@@ -39,7 +39,8 @@ struct DampingRequest {
 using ModeRequests = std::map<std::string, ModeRequest>;        ///< by body
 using DampingRequests = std::map<std::string, DampingRequest>;  ///< by body
 
-/// Reads `[modes]`: for each body a count, a list of mode numbers, "all" or "auto".
+/// Reads `[modes]`: for each body a count, a list of mode numbers, "all", "auto" or
+/// "certified".
 /// Checked by tests/dynamics/input/mode_selection_test.cpp
 ModeRequests read_modes(const support::TomlTable& table);
 /// Reads `[mode_choice]`.
@@ -57,10 +58,11 @@ const reduce::Superelement& find_superelement(const std::string& body_name, cons
                                               const Vehicle& vehicle);
 
 /// The modes that the requests select for this vehicle, without rigid bodies. "auto" selects all modes, as
-/// candidates for the choice.
+/// candidates for the choice. "certified" selects all that the certificate is about.
 /// @throws support::InputError at the request if there is no such body, it has no superelement or fewer
 /// modes,
-///         or a count would select only some modes of equal frequency (explicit numbers may)
+///         or a count would select only some modes of equal frequency (explicit numbers may);
+///         for "certified" if the certificate has no bound
 /// Checked by tests/dynamics/input/mode_selection_test.cpp
 ModeSelection resolve_modes(const ModeRequests& requests, const Vehicle& vehicle);
 /// The damping ratios that the requests give, without bodies that keep their superelement's damping. For a

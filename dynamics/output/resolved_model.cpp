@@ -60,9 +60,9 @@ void write_modes_of(support::Hdf5Writer& file, const std::string& group, const B
     if (adaptivity != nullptr && adaptivity->changes) {
       active[static_cast<std::size_t>(k)] = adaptivity->active[coordinate] ? 1 : 0;
     }
-    const double omega = std::sqrt(body.stiffness(k, k) / body.M_ff(k, k));
+    const double omega = std::sqrt(body.stiffness(k, k) / body.modal_mass[k]);
     frequency[k] = omega / (2.0 * std::acos(-1.0));
-    ratio[k] = 0.5 * body.damping(k, k) / (omega * body.M_ff(k, k));
+    ratio[k] = 0.5 * body.damping(k, k) / (omega * body.modal_mass[k]);
   }
   const std::vector<std::int64_t> numbers(body.mode_numbers.begin(), body.mode_numbers.end());
   file.write(group + "/mode_number", numbers);

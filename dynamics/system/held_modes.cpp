@@ -60,6 +60,7 @@ Body hold(const Body& full, const Split& split) {
   body.c = full.c(active) + eta.transpose() * full.B(held, active);
   body.d = full.d(active) + eta.transpose() * full.M_tt(held, active);
   body.M_ff = full.M_ff(active, active);
+  body.modal_mass = full.modal_mass(active);
   body.M_tt = full.M_tt(active, active);
   body.B = full.B(active, active);
   body.stiffness = full.stiffness(active, active);

@@ -56,14 +56,19 @@ ModeNumbers read_numbers(const TomlValue& value) {
   return wanted;
 }
 
-WantedModes read_modes(const TomlTable& table) {
-  expect_keys(table, {"count", "highest_frequency", "all", "numbers", "damping_ratio"});
+// Whether a design says which modes it wants, as the basis "clamped" needs it.
+bool has_wanted_modes(const TomlTable& table) {
+  return table.has("count") || table.has("highest_frequency") || table.has("all") || table.has("numbers");
+}
+
+WantedModes read_modes(const TomlTable& table, bool has_reduction) {
   const auto count = table.find("count"), highest = table.find("highest_frequency");
   const auto all = table.find("all"), numbers = table.find("numbers");
   const int given = (count ? 1 : 0) + (highest ? 1 : 0) + (all ? 1 : 0) + (numbers ? 1 : 0);
   if (given != 1) {
     throw table.error(fmt::format(
-        "has {} of the keys 'count', 'highest_frequency', 'all' and 'numbers', expected one", given));
+        "has {} of the keys 'count', 'highest_frequency', 'all' and 'numbers', expected one{}", given,
+        has_reduction ? " for the basis \"clamped\"" : ", or a table [reduction] beside it"));
   }
   if (count) {
     return {.wanted = ModeCount{static_cast<int>(count->integer(1, 1'000'000))}, .where = count->location()};
@@ -81,6 +86,26 @@ void read_damping(const TomlTable& table, Design& design) {
   const support::Quantity range{.unit = "of critical", .at_least = 0.0, .at_most = 1.0};
   design.damping_where = ratio.location();
   design.damping_ratio = ratio.is_array() ? ratio.numbers(range) : std::vector<double>{ratio.number(range)};
+  const auto residual = table.find("residual_damping_ratio");
+  if (!residual) return;
+  if (design.reduction.basis != BasisKind::kFree) {
+    throw residual->error("belongs to the basis \"free\" alone, which has residual vectors");
+  }
+  design.residual_damping_ratio = residual->number(range);
+}
+
+// The modes of the basis "clamped"; the others take what their band needs.
+void read_wanted_modes(const TomlTable& root, const TomlTable& table, Design& design) {
+  if (design.reduction.basis == BasisKind::kClamped) {
+    design.modes = read_modes(table, root.has("reduction"));
+    return;
+  }
+  for (const char* key : {"count", "highest_frequency", "all", "numbers"}) {
+    if (const auto found = table.find(key)) {
+      throw found->error(
+          "belongs to the basis \"clamped\"; the others take what [reduction] highest_frequency needs");
+    }
+  }
 }
 
 }  // namespace
@@ -93,7 +118,7 @@ Design read_design(const std::filesystem::path& path) {
   const support::TomlDocument document = support::TomlDocument::read(path);
   const TomlTable root = document.root();
   expect_keys(root, {"name", "theory", "rotary_inertia", "materials", "sections", "points", "lines", "mesh",
-                     "point_masses", "reference", "modes"});
+                     "point_masses", "reference", "modes", "interface", "reduction"});
   Design design;
   design.name = root.string_or("name", path.stem().string());
   if (design.name.empty()) throw root.at("name").error("is empty");
@@ -106,7 +131,10 @@ Design read_design(const std::filesystem::path& path) {
   read_point_masses(root, design.model);
   design.reference_node = read_reference(root, design.model.mesh);
   const TomlTable modes = root.at("modes").table();
-  design.modes = read_modes(modes);
+  expect_keys(modes,
+              {"count", "highest_frequency", "all", "numbers", "damping_ratio", "residual_damping_ratio"});
+  design.reduction = read_reduction(root, design.model.mesh, design.reference_node, has_wanted_modes(modes));
+  read_wanted_modes(root, modes, design);
   read_damping(modes, design);
   design.provenance = {.design_text = document.text(),
                        .design_hash = support::sha256(document.text()),

@@ -1,23 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fem/beam_model.h"
+#include "reduce/design/design_reduction.h"
 #include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
 
-/// What stage one starts from: a frame, where it is held, and the modes wanted.
+/// What stage one starts from: a frame, its reference node, and the basis wanted.
 struct Design {
   std::string name;
   fem::BeamModel model;
-  int reference_node = 0;  ///< 0-based; held, and the origin of the body frame
-  WantedModes modes;
-  std::vector<double> damping_ratio;  ///< of critical: one for all modes, or one for each
+  int reference_node = 0;  ///< 0-based; the origin of the body frame, where clamped modes are held
+  Reduction reduction = {};
+  WantedModes modes = {};                             ///< of the basis kClamped
+  std::vector<double> damping_ratio;                  ///< of critical: one for all modes, or one for each
+  std::optional<double> residual_damping_ratio = {};  ///< of the basis kFree; none: the one of all modes
   support::SourceLocation damping_where = {};
   Provenance provenance;
 };
@@ -36,6 +40,6 @@ std::string calc_file_hash(const std::filesystem::path& path);
 
 /// Increased whenever the same design gives other numbers than before. Files of an earlier revision are made
 /// again.
-inline constexpr std::int64_t kAlgorithmRevision = 2;
+inline constexpr std::int64_t kAlgorithmRevision = 3;
 
 }  // namespace sprung::reduce

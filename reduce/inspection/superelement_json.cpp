@@ -14,6 +14,7 @@ Json make_modes_list(const Superelement& s) {
   Json items = Json::array();
   for (Eigen::Index i = 0; i < s.num_modes(); ++i) {
     items.push_back({{"mode", i + 1},
+                     {"vector", s.kind_of(static_cast<int>(i))},
                      {"frequency_hz", s.frequency_hz(i)},
                      {"damping_ratio", s.damping_ratio(i)},
                      {"cluster", s.cluster(i)},
@@ -45,6 +46,36 @@ Json make_checks_list(std::span<const CheckResult> checks) {
                      {"passed", check.passed()}});
   }
   return items;
+}
+
+// null stands for an error without bound, and for a frequency that there is not.
+Json make_share(double share) {
+  return share >= kUnbounded ? Json() : Json(share);
+}
+
+Json make_certificate(const Superelement& s) {
+  if (!s.certificate) return {};
+  const Certificate& certificate = *s.certificate;
+  Json modes = Json::array(), interface = Json::array();
+  for (Eigen::Index i = 0; i < certificate.free_hz.size(); ++i) {
+    modes.push_back(
+        {{"frequency_hz", certificate.free_hz(i)}, {"error", make_share(certificate.free_error(i))}});
+  }
+  for (const InterfaceError& one : certificate.interface) {
+    interface.push_back({{"point", s.points[static_cast<std::size_t>(one.point)].name},
+                         {"freedom", freedom_name(one.freedom)},
+                         {"static_flexibility", one.static_flexibility},
+                         {"static_error", one.static_error},
+                         {"error", make_share(one.error)},
+                         {"worst_hz", one.error >= kUnbounded ? Json() : Json(one.worst_hz)}});
+  }
+  return {{"highest_hz", certificate.highest_hz},
+          {"tolerance", certificate.tolerance},
+          {"cutoff_hz", certificate.cutoff_hz > 0.0 ? Json(certificate.cutoff_hz) : Json()},
+          {"rounding_floor", certificate.rounding_floor},
+          {"error", make_share(certificate.largest_error())},
+          {"free_modes", modes},
+          {"interface", interface}};
 }
 
 Json make_provenance(const Superelement& s) {
@@ -81,6 +112,7 @@ std::string format_superelement_json(const Superelement& s, std::span<const Chec
        {"inertia_reference_kg_m2", s.inertia.second_moment},
        {"modes", make_modes_list(s)},
        {"points", make_points_list(s)},
+       {"certificate", make_certificate(s)},
        {"checks", make_checks_list(checks)},
        {"provenance", make_provenance(s)},
        {"content_sha256", s.content_hash}});

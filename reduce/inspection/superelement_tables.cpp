@@ -96,19 +96,27 @@ std::string format_summary(const Superelement& s) {
 
 std::string format_modes(const Superelement& s) {
   const ModeKinds kinds = calc_mode_kinds(s);
-  TextTable table({"mode", "frequency Hz", "damping %", "cluster", "kind", "axial energy %", "mass x %",
-                   "mass y %", "inertia %"});
+  TextTable table({"mode", "vector", "frequency Hz", "damping %", "cluster", "kind", "axial energy %",
+                   "mass x %", "mass y %", "inertia %"});
   for (Eigen::Index i = 0; i < s.num_modes(); ++i) {
-    table.add_row({fmt::format("{}", i + 1), fmt::format("{:.4f}", s.frequency_hz(i)),
+    table.add_row({fmt::format("{}", i + 1), s.kind_of(static_cast<int>(i)),
+                   fmt::format("{:.4f}", s.frequency_hz(i)),
                    fmt::format("{:.3g}", 100.0 * s.damping_ratio(i)), fmt::format("{}", s.cluster(i)),
                    format_kind(kinds.axial_share(i)), format_percent(std::abs(kinds.axial_share(i))),
                    format_percent(kinds.effective_mass(0, i)), format_percent(kinds.effective_mass(1, i)),
                    format_percent(kinds.effective_mass(2, i))});
   }
   const Eigen::Vector3d sum = kinds.effective_mass.rowwise().sum();
-  table.add_row(
-      {"", "", "", "", "sum", "", format_percent(sum(0)), format_percent(sum(1)), format_percent(sum(2))});
-  return table.str();
+  table.add_row({"", "", "", "", "", "sum", "", format_percent(sum(0)), format_percent(sum(1)),
+                 format_percent(sum(2))});
+  std::string text = table.str();
+  if (s.has_free_basis()) {
+    text +=
+        "A free vector is a mode of the free body. The frequency of a residual or constraint vector, and of "
+        "the\n"
+        "vectors of a fixed interface, is that of the vector alone and no frequency of the body.\n";
+  }
+  return text;
 }
 
 std::string format_checks(std::span<const CheckResult> checks) {

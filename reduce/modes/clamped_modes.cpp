@@ -33,7 +33,8 @@ EigenPairs solve_all(const ModalProblem& problem) {
         "refine the mesh less",
         kMaxDenseSize, problem.size()));
   }
-  return solve_dense(problem.stiffness, problem.mass);
+  return solve_dense(problem.stiffness,
+                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())));
 }
 
 // A frequency squared between two modes: in the middle of the gap, but beyond everything that would belong to

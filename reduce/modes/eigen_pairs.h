@@ -8,12 +8,22 @@
 namespace sprung::reduce {
 
 /// Stiffness and mass of a held frame: its assembled matrices without the freedoms of the reference node, in
-/// mesh order. Both n×n, symmetric and positive definite.
+/// mesh order. Both n×n, symmetric and positive definite. The elastic motion of a free frame has the same
+/// stiffness, and the mass M − Q Qᵀ (reduce/basis, eq. 2).
 struct ModalProblem {
   Eigen::SparseMatrix<double> stiffness;  ///< K [N/m, N, N·m]
   Eigen::SparseMatrix<double> mass;       ///< M [kg, kg·m, kg·m²]
+  Eigen::MatrixXd rigid_share = {};       ///< Q, n×3 of a free frame, empty of a held one [√kg, √kg·m]
 
   Eigen::Index size() const { return stiffness.rows(); }
+  bool is_free() const { return rigid_share.size() > 0; }
+
+  /// (M − Q Qᵀ) x.  @param x  n×k
+  Eigen::MatrixXd times_mass(const Eigen::MatrixXd& x) const {
+    Eigen::MatrixXd y = mass * x;
+    if (is_free()) y -= rigid_share * (rigid_share.transpose() * x);
+    return y;
+  }
 };
 
 /// Solutions of K φ = ω² M φ, ascending. k of them.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "tools/support/errors/numerical_error.h"
 
@@ -17,15 +18,41 @@ namespace {
 // solution whose residual is small shows that it did not.
 constexpr double kResidualTolerance = 1e-6;
 
+// K − σM of a held frame. Of a free one K − σM + σQQᵀ, with three more unknowns y = Qᵀx in place of the full
+// matrix QQᵀ; their own entries −σ are three negative ones.
+Eigen::SparseMatrix<double> make_shifted(const ModalProblem& problem, double omega_squared) {
+  const Eigen::SparseMatrix<double> held = problem.stiffness - omega_squared * problem.mass;
+  if (!problem.is_free()) return held;
+  const auto n = static_cast<int>(problem.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index column = 0; column < held.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(held, column); entry; ++entry) {
+      entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(entry.col()), entry.value());
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const double value = omega_squared * problem.rigid_share(i, j);
+      entries.emplace_back(i, n + j, value);
+      entries.emplace_back(n + j, i, value);
+    }
+    entries.emplace_back(n + j, n + j, -omega_squared);
+  }
+  Eigen::SparseMatrix<double> shifted(n + 3, n + 3);
+  shifted.setFromTriplets(entries.begin(), entries.end());
+  return shifted;
+}
+
 }  // namespace
 
 int count_modes_below(const ModalProblem& problem, double omega_squared) {
-  const Eigen::SparseMatrix<double> shifted = problem.stiffness - omega_squared * problem.mass;
+  const Eigen::SparseMatrix<double> shifted = make_shifted(problem, omega_squared);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(shifted);
   double residual = std::numeric_limits<double>::infinity();
   if (factors.info() == Eigen::Success && factors.vectorD().allFinite()) {
     // A load on every freedom, scaled by the diagonal so that forces and moments weigh alike.
-    const Eigen::VectorXd load = problem.stiffness.diagonal().cwiseSqrt();
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(shifted.rows());
+    load.head(problem.size()) = problem.stiffness.diagonal().cwiseSqrt();
     const Eigen::VectorXd x = factors.solve(load);
     const Eigen::VectorXd scale = shifted.cwiseAbs() * x.cwiseAbs() + load;
     residual = (shifted * x - load).cwiseAbs().cwiseQuotient(scale).maxCoeff();
@@ -39,7 +66,8 @@ int count_modes_below(const ModalProblem& problem, double omega_squared) {
         "count of modes below {:.9g} Hz: K − σM could not be factored, {}; ask for another number of modes",
         std::sqrt(omega_squared) / (2.0 * std::numbers::pi), fault));
   }
-  return static_cast<int>((factors.vectorD().array() < 0.0).count());
+  const int num_rigid = problem.is_free() ? 3 : 0;
+  return static_cast<int>((factors.vectorD().array() < 0.0).count()) - num_rigid;
 }
 
 }  // namespace sprung::reduce

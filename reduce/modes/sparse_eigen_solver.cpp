@@ -42,15 +42,20 @@ class InverseStiffness {
 class MassProduct {
  public:
   using Scalar = double;
-  explicit MassProduct(const Eigen::SparseMatrix<double>& mass) : mass_(&mass) {}
-  Eigen::Index rows() const { return mass_->rows(); }
-  Eigen::Index cols() const { return mass_->cols(); }
+  explicit MassProduct(const ModalProblem& problem) : problem_(&problem) {}
+  Eigen::Index rows() const { return problem_->size(); }
+  Eigen::Index cols() const { return problem_->size(); }
   void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, rows()) = *mass_ * Eigen::Map<const Eigen::VectorXd>(x, rows());
+    const Eigen::Map<const Eigen::VectorXd> given(x, rows());
+    Eigen::Map<Eigen::VectorXd> product(y, rows());
+    product = problem_->mass * given;
+    if (!problem_->is_free()) return;
+    const Eigen::Vector3d rigid = problem_->rigid_share.transpose() * given;
+    product.noalias() -= problem_->rigid_share * rigid;
   }
 
  private:
-  const Eigen::SparseMatrix<double>* mass_;
+  const ModalProblem* problem_;
 };
 
 // Uniform on −½ … ½, the same on every machine.
@@ -62,21 +67,21 @@ Eigen::VectorXd make_random_vector(Eigen::Index size, std::uint64_t seed) {
 }
 
 // ω² of the lowest mode, roughly: two steps of inverse iteration.
-double estimate_lowest(const Factor& factor, const Eigen::SparseMatrix<double>& mass,
-                       const Eigen::VectorXd& start) {
-  Eigen::VectorXd x = factor.solve(mass * start);
-  x /= std::sqrt(x.dot(mass * x));
-  const Eigen::VectorXd y = factor.solve(mass * x);
-  return 1.0 / y.dot(mass * x);
+double estimate_lowest(const Factor& factor, const ModalProblem& problem, const Eigen::VectorXd& start) {
+  Eigen::VectorXd x = factor.solve(problem.times_mass(start).col(0));
+  x /= std::sqrt(x.dot(problem.times_mass(x).col(0)));
+  const Eigen::VectorXd inertia = problem.times_mass(x);
+  const Eigen::VectorXd y = factor.solve(inertia);
+  return 1.0 / y.dot(inertia);
 }
 
 // One step of subspace iteration and a Rayleigh–Ritz projection in the flipped form: takes the iteration's
 // error of 1e-12 down to rounding, and gives M-orthonormal vectors.
 EigenPairs polish(const Factor& factor, const ModalProblem& problem, const EigenPairs& rough) {
-  const Eigen::MatrixXd loads = problem.mass * (rough.vectors * rough.omega_squared.asDiagonal());
+  const Eigen::MatrixXd loads = problem.times_mass(rough.vectors * rough.omega_squared.asDiagonal());
   const Eigen::MatrixXd Y = factor.solve(loads);
   const Eigen::MatrixXd stiffness = Y.transpose() * loads;
-  const Eigen::MatrixXd mass = Y.transpose() * (problem.mass * Y);
+  const Eigen::MatrixXd mass = Y.transpose() * problem.times_mass(Y);
   const EigenPairs ritz =
       solve_dense(0.5 * (stiffness + stiffness.transpose()), 0.5 * (mass + mass.transpose()));
   return {.omega_squared = ritz.omega_squared, .vectors = Y * ritz.vectors};
@@ -98,9 +103,9 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
         "that differ by many orders of magnitude");
   }
   const Eigen::VectorXd start = make_random_vector(n, seed);
-  const double scale = estimate_lowest(factor, problem.mass, start);
+  const double scale = estimate_lowest(factor, problem, start);
   InverseStiffness inverse(factor, scale);
-  MassProduct mass(problem.mass);
+  MassProduct mass(problem);
   const Eigen::Index basis_size = std::min<Eigen::Index>(n, std::max<Eigen::Index>(3 * num_pairs, 20));
   Spectra::SymGEigsShiftSolver<InverseStiffness, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
       inverse, mass, num_pairs, basis_size, 0.0);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "reduce/design/design.h"
+#include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_tables.h"
 #include "reduce/program/commands.h"
@@ -52,8 +53,7 @@ void make_folder(const fs::path& folder) {
 }
 
 std::string describe(const Superelement& s) {
-  return fmt::format("{} elements, {} freedoms, {} modes from {:.4f} to {:.4f} Hz", s.elements.cols(),
-                     s.num_elastic_dofs, s.num_modes(), s.frequency_hz(0), s.frequency_hz(s.num_modes() - 1));
+  return fmt::format("{} elements, {} freedoms, {}", s.elements.cols(), s.num_elastic_dofs, format_basis(s));
 }
 
 // Why the file is to be made, "" if it is up to date.
@@ -83,6 +83,8 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   write_superelement(made, output);
   const Superelement written = read_superelement(output);
   report(options, fmt::format("{}: {}", output.string(), describe(written)));
+  const std::string certificate = format_certificate_line(written);
+  if (!certificate.empty()) report(options, fmt::format("{}: {}", output.string(), certificate));
   if (previous.superelement && !options.quiet) {
     fmt::print("{}", format_comparison(compare_modes(*previous.superelement, written)));
   }

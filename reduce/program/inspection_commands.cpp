@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_json.h"
 #include "reduce/inspection/superelement_tables.h"
@@ -35,7 +36,12 @@ int run_info(const std::filesystem::path& path, bool json) {
   if (json) {
     fmt::print("{}", format_superelement_json(superelement, checks));
   } else {
-    fmt::print("{}\n{}\n{}", format_summary(superelement), format_modes(superelement), format_checks(checks));
+    const std::string parts[] = {format_summary(superelement), format_modes(superelement),
+                                 format_free_damping(superelement), format_certificate(superelement)};
+    for (const std::string& part : parts) {
+      if (!part.empty()) fmt::print("{}\n", part);
+    }
+    fmt::print("{}", format_checks(checks));
   }
   return support::kGood;
 }

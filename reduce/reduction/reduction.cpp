@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
-#include <cmath>
+#include <algorithm>
 #include <numbers>
 
 #include "fem/assembly.h"
-#include "reduce/modes/canonical_basis.h"
-#include "reduce/modes/clusters.h"
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/rounding_error.h"
-#include "reduce/reduction/distance_weighted_mass.h"
+#include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/inertia_invariants.h"
 #include "reduce/reduction/reference_stiffness.h"
 #include "reduce/reduction/superelement_checks.h"
@@ -23,48 +19,6 @@ namespace {
 
 using support::InputError;
 using support::NumericalError;
-
-constexpr double kResidualTolerance = 1e-6;
-
-void check_rounding(double error, double frequency_hz) {
-  if (error <= kMaxRoundingError) return;
-  throw NumericalError(fmt::format(
-      "rounding spoils the lowest mode ({:.6g} Hz): its estimated relative error in ω² is {:.2g}, accepted "
-      "is {:.0e}; refine the mesh less (the error grows with the fourth power of the number of elements)",
-      frequency_hz, error, kMaxRoundingError));
-}
-
-// The canonical modes of the request.
-struct Basis {
-  Eigen::VectorXi cluster;    // n
-  Eigen::MatrixXd shapes;     // 3N×n
-  Eigen::MatrixXd stiffness;  // n×n, diagonal but for what a cluster's frequencies differ by
-};
-
-Basis make_basis(const ClampedModes& modes, const std::vector<int>& columns, const BasisFrame& frame,
-                 int reference_node) {
-  const Eigen::MatrixXd shapes = insert_node(modes.pairs.vectors, reference_node);
-  const Eigen::MatrixXd rotation = calc_canonical_rotation(shapes, modes.cluster, frame);
-  const Eigen::MatrixXd chosen = rotation(Eigen::all, columns);
-  const Eigen::MatrixXd stiffness = chosen.transpose() * modes.pairs.omega_squared.asDiagonal() * chosen;
-  return {.cluster = modes.cluster(columns),
-          .shapes = shapes * chosen,
-          .stiffness = 0.5 * (stiffness + stiffness.transpose())};
-}
-
-// The largest ‖φ − K⁻¹(M Φ S)‖ in the norm of strain energy, relative: it weighs what a mode holds of lower
-// and of higher modes alike.
-double calc_residual(const ModalProblem& problem, const Eigen::MatrixXd& vectors,
-                     const Eigen::MatrixXd& stiffness) {
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(problem.stiffness);
-  const Eigen::MatrixXd error = vectors - factor.solve(problem.mass * vectors * stiffness);
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < error.cols(); ++i) {
-    const double energy = std::abs(error.col(i).dot(problem.stiffness * error.col(i)));
-    largest = std::max(largest, std::sqrt(energy / stiffness(i, i)));
-  }
-  return largest;
-}
 
 Eigen::MatrixXd calc_mode_resultants(const fem::BeamModel& model, const Eigen::MatrixXd& shapes) {
   const int num_elements = model.mesh.num_elements();
@@ -79,26 +33,29 @@ Eigen::MatrixXd calc_mode_resultants(const fem::BeamModel& model, const Eigen::M
   return resultants;
 }
 
-Eigen::VectorXd expand_damping(const Design& design, Eigen::Index num_modes) {
-  if (design.damping_ratio.size() == 1)
-    return Eigen::VectorXd::Constant(num_modes, design.damping_ratio.front());
-  if (static_cast<Eigen::Index>(design.damping_ratio.size()) == num_modes) {
-    return Eigen::Map<const Eigen::VectorXd>(design.damping_ratio.data(), num_modes);
+// One ratio for each vector: of a free basis those of the free modes, then that of the residual vectors.
+Eigen::VectorXd expand_damping(const Design& design, const std::vector<std::string>& kind) {
+  const auto num_vectors = static_cast<Eigen::Index>(kind.size());
+  const auto num_residual = static_cast<Eigen::Index>(std::count(kind.begin(), kind.end(), kResidualVector));
+  const Eigen::Index num_modes = num_vectors - num_residual;
+  const std::vector<double>& given = design.damping_ratio;
+  if (given.size() != 1 && static_cast<Eigen::Index>(given.size()) != num_modes) {
+    throw InputError(
+        design.damping_where,
+        fmt::format("{} damping ratios for {} modes; give one, or one for each", given.size(), num_modes));
   }
-  throw InputError(design.damping_where,
-                   fmt::format("{} damping ratios for {} modes; give one, or one for each",
-                               design.damping_ratio.size(), num_modes));
-}
-
-// Members of a cluster have one frequency: the root of the mean square.
-Eigen::VectorXd calc_frequencies(const Basis& basis) {
-  Eigen::VectorXd frequency_hz(basis.cluster.size());
-  for (ModeRange range; range.begin < frequency_hz.size(); range.begin = range.end) {
-    range = find_cluster_of(basis.cluster, range.begin);
-    const double mean = basis.stiffness.diagonal().segment(range.begin, range.size()).mean();
-    frequency_hz.segment(range.begin, range.size()).setConstant(std::sqrt(mean) / (2.0 * std::numbers::pi));
+  if (given.size() != 1 && num_residual > 0 && !design.residual_damping_ratio) {
+    throw InputError(
+        design.damping_where,
+        fmt::format("is a list for the {} free modes, and says nothing of the {} residual vectors; give "
+                    "'residual_damping_ratio' beside it",
+                    num_modes, num_residual));
   }
-  return frequency_hz;
+  Eigen::VectorXd ratios =
+      Eigen::VectorXd::Constant(num_vectors, design.residual_damping_ratio.value_or(given[0]));
+  for (Eigen::Index i = 0; i < num_modes; ++i)
+    ratios(i) = given[given.size() == 1 ? 0 : static_cast<std::size_t>(i)];
+  return ratios;
 }
 
 void copy_mesh(const fem::Mesh& mesh, const Eigen::Matrix2Xd& node_positions, Superelement& s) {
@@ -113,23 +70,16 @@ void copy_mesh(const fem::Mesh& mesh, const Eigen::Matrix2Xd& node_positions, Su
   }
 }
 
-// The checks for which the finite element model is needed.
-std::vector<CheckResult> check_modes(const ModalProblem& problem, const ClampedModes& modes,
-                                     int reference_node, double rounding, const Superelement& s) {
-  const Eigen::MatrixXd held = remove_node(s.shapes, reference_node);
-  const auto num_found = static_cast<double>(modes.pairs.omega_squared.size());
-  return {{.name = "modes missing below the highest one",
-           .value = std::abs(static_cast<double>(modes.num_below) - num_found),
-           .tolerance = 0.0},
-          {.name = kRoundingCheck, .value = rounding, .tolerance = kMaxRoundingError},
-          {.name = "residual of the modes",
-           .value = calc_residual(problem, held, s.stiffness),
-           .tolerance = kResidualTolerance}};
-}
-
 void require_checks(const std::vector<CheckResult>& checks) {
   for (const CheckResult& check : checks) {
     if (check.passed()) continue;
+    if (check.name == kMassConditionCheck) {
+      throw NumericalError(fmt::format(
+          "the reference node is held too softly: in some mode nearly all of the body moves rigidly "
+          "against it (condition of the mass matrix of frame and modes {:.3g}, tolerance {:.3g}); take a "
+          "stiffer reference node, or the basis \"free\"",
+          check.value, check.tolerance));
+    }
     throw NumericalError(
         fmt::format("the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; refine the "
                     "mesh less or ask for fewer modes",
@@ -147,27 +97,18 @@ ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options) {
   const fem::BeamModel& model = design.model;
   const Eigen::Vector2d origin = model.mesh.node_positions.col(design.reference_node);
-  const Eigen::Matrix2Xd node_positions = model.mesh.node_positions.colwise() - origin;
-  const ModalProblem problem = make_modal_problem(model, design.reference_node);
-  const int num_needed = calc_num_modes_needed(design.modes, problem, options);
-  const ClampedModes modes = calc_clamped_modes(problem, num_needed, options);
-  const double rounding =
-      estimate_rounding_error(problem.stiffness, modes.pairs.vectors.col(0), modes.pairs.omega_squared(0));
-  check_rounding(rounding, std::sqrt(modes.pairs.omega_squared(0)) / (2.0 * std::numbers::pi));
-  const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
-
+  const BodyMatrices matrices = make_body_matrices(design);
   const fem::MassMoments moments = fem::calc_mass_moments(model, origin);
-  const BasisFrame frame =
-      make_basis_frame(moments, node_positions, calc_distance_weighted_mass(model, origin));
-  const Basis basis = make_basis(modes, columns, frame, design.reference_node);
+  const BodyBasis basis = make_body_basis(design, matrices, moments, options);
 
   Superelement s;
   s.name = design.name;
-  copy_mesh(model.mesh, node_positions, s);
-  s.num_elastic_dofs = problem.size();
+  copy_mesh(model.mesh, matrices.node_positions, s);
+  s.num_elastic_dofs = matrices.held.size();
   s.frequency_hz = calc_frequencies(basis);
-  s.damping_ratio = expand_damping(design, basis.shapes.cols());
+  s.damping_ratio = expand_damping(design, basis.kind);
   s.cluster = basis.cluster;
+  s.kind = basis.kind;
   s.shapes = basis.shapes;
   s.inertia = calc_inertia_invariants(moments, basis.shapes);
   s.stiffness = basis.stiffness;
@@ -175,10 +116,11 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
   s.resultants = calc_mode_resultants(model, basis.shapes);
   s.geometric_stiffness =
-      calc_reference_stiffness(model, design.reference_node, problem.stiffness, moments, basis.shapes);
+      calc_reference_stiffness(model, design.reference_node, matrices.held.stiffness, moments, basis.shapes);
+  s.certificate = basis.certificate;
   s.provenance = design.provenance;
 
-  s.checks = check_modes(problem, modes, design.reference_node, rounding, s);
+  s.checks = basis.checks;
   for (const CheckResult& check : check_superelement(s)) s.checks.push_back(check);
   require_checks(s.checks);
   return s;

@@ -7,6 +7,7 @@
 #include "reduce/modes/clusters.h"
 #include "reduce/reduction/element_work.h"
 #include "reduce/reduction/inertia_invariants.h"
+#include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
 
 namespace sprung::reduce {
@@ -24,9 +25,32 @@ Eigen::MatrixXd scale_by_frequencies(const Eigen::MatrixXd& matrix, const Eigen:
   return omega.cwiseInverse().asDiagonal() * matrix * omega.cwiseInverse().asDiagonal();
 }
 
+// Momentum and angular momentum of the modes, and the rigid body's mass matrix, about the reference node.
+struct RigidShare {
+  Eigen::MatrixXd momenta;  // H, 3×n
+  Eigen::Matrix3d mass;     // M_r
+};
+
+RigidShare calc_rigid_share(const InertiaInvariants& inertia) {
+  RigidShare share{.momenta = Eigen::MatrixXd(3, inertia.P.cols()), .mass = Eigen::Matrix3d::Zero()};
+  share.momenta << inertia.P, inertia.c;
+  share.mass.diagonal() << inertia.mass, inertia.mass, inertia.second_moment;
+  share.mass(0, 2) = share.mass(2, 0) = -inertia.first_moment.y();
+  share.mass(1, 2) = share.mass(2, 1) = inertia.first_moment.x();
+  return share;
+}
+
+// M_ff = I of clamped modes; of the others M_ff − HᵀM_r⁻¹H = I, by the scale of M_ff (reduce/basis, eq. 3).
 CheckResult check_orthogonality(const Superelement& s) {
   const Eigen::Index n = s.frequency_hz.size();
-  const double of_shapes = (s.inertia.M_ff - Eigen::MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff();
+  Eigen::MatrixXd error = s.inertia.M_ff - Eigen::MatrixXd::Identity(n, n);
+  if (s.has_free_basis()) {
+    const RigidShare share = calc_rigid_share(s.inertia);
+    error -= share.momenta.transpose() * support::solve_positive_definite(share.mass, share.momenta);
+    const Eigen::VectorXd scale = s.inertia.M_ff.diagonal().cwiseSqrt().cwiseInverse();
+    error = scale.asDiagonal() * error * scale.asDiagonal();
+  }
+  const double of_shapes = error.cwiseAbs().maxCoeff();
   const double of_matrix = (s.mass - s.inertia.M_ff).cwiseAbs().maxCoeff();
   return {.name = "orthogonality of the modes", .value = std::max(of_shapes, of_matrix), .tolerance = 1e-9};
 }
@@ -84,7 +108,7 @@ CheckResult check_mass_matrix(const Superelement& s) {
   const Eigen::MatrixXd scaled = scale.asDiagonal() * mass * scale.asDiagonal();
   const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(scaled);
   const double smallest = values.minCoeff();
-  return {.name = "condition of the mass matrix of frame and modes",
+  return {.name = kMassConditionCheck,
           .value = smallest > 0.0 ? values.maxCoeff() / smallest : kFailed,
           .tolerance = 1e10};
 }
@@ -100,16 +124,42 @@ CheckResult check_held_node(const Superelement& s) {
           .tolerance = 1e-12};
 }
 
+double find_rounding(const Superelement& s) {
+  for (const CheckResult& check : s.checks) {
+    if (check.name == kRoundingCheck) return check.value;
+  }
+  return 0.0;
+}
+
 CheckResult check_work(const Superelement& s) {
   const ElementWork work = calc_element_work(s);
   const Eigen::MatrixXd error = scale_by_frequencies(work.axial + work.bending - s.stiffness, calc_omega(s));
-  double rounding = 0.0;
-  for (const CheckResult& check : s.checks) {
-    if (check.name == kRoundingCheck) rounding = check.value;
-  }
   return {.name = "work of the resultants against stiffness",
           .value = error.cwiseAbs().maxCoeff(),
-          .tolerance = 1e-9 + 100.0 * rounding};
+          .tolerance = 1e-9 + 100.0 * find_rounding(s)};
+}
+
+// The static flexibility that the vectors have at the interface, against the certificate's
+// (reduce/certificate, eq. 9).
+CheckResult check_flexibility(const Superelement& s) {
+  const RigidShare share = calc_rigid_share(s.inertia);
+  const Eigen::MatrixXd acceleration = support::solve_positive_definite(share.mass, share.momenta);
+  double largest = 0.0;
+  for (const InterfaceError& one : s.certificate->interface) {
+    const int node = s.points[static_cast<std::size_t>(one.point)].node;
+    const Eigen::Vector2d r = s.node_positions.col(node);
+    const Eigen::Matrix3d rigid{{1.0, 0.0, -r.y()}, {0.0, 1.0, r.x()}, {0.0, 0.0, 1.0}};
+    const Eigen::VectorXd shape =
+        (s.shapes.row(3 * node + one.freedom) - rigid.row(one.freedom) * acceleration).transpose();
+    const double found = shape.dot(support::solve_positive_definite(s.stiffness, shape).col(0));
+    const double expected = one.static_flexibility * (1.0 - one.static_error);
+    if (one.static_flexibility > 0.0) {
+      largest = std::max(largest, std::abs(found - expected) / one.static_flexibility);
+    }
+  }
+  return {.name = "static flexibility against the certificate",
+          .value = largest,
+          .tolerance = 1e-8 + 100.0 * find_rounding(s)};
 }
 
 // No load between an element's ends: N and Q constant, M' = −Q.
@@ -137,11 +187,13 @@ CheckResult check_equilibrium(const Superelement& s) {
 }  // namespace
 
 std::vector<CheckResult> check_superelement(const Superelement& superelement) {
-  return {check_orthogonality(superelement),      check_stiffness(superelement, true),
-          check_stiffness(superelement, false),   check_damping(superelement),
-          check_components(superelement.inertia), check_mass_matrix(superelement),
-          check_held_node(superelement),          check_work(superelement),
-          check_equilibrium(superelement)};
+  std::vector<CheckResult> checks{check_orthogonality(superelement),      check_stiffness(superelement, true),
+                                  check_stiffness(superelement, false),   check_damping(superelement),
+                                  check_components(superelement.inertia), check_mass_matrix(superelement),
+                                  check_held_node(superelement),          check_work(superelement),
+                                  check_equilibrium(superelement)};
+  if (superelement.certificate) checks.push_back(check_flexibility(superelement));
+  return checks;
 }
 
 }  // namespace sprung::reduce

@@ -10,10 +10,12 @@ namespace sprung::reduce {
 /// Name of a check recorded when the file is made. The tolerance of another check depends on its value.
 inline constexpr const char* kRoundingCheck = "rounding error of the lowest ω²";
 
+inline constexpr const char* kMassConditionCheck = "condition of the mass matrix of frame and modes";
+
 /// Makes every check for which a superelement alone is enough (reduce, "Checks"): orthogonality of
 /// the modes, stiffness and damping against the frequencies, the inertia integrals against their components,
-/// definiteness of the mass matrix of frame and modes together, the held node, and the resultants against the
-/// stiffness and in equilibrium.
+/// definiteness of the mass matrix of frame and modes together, the held node, the resultants against the
+/// stiffness and in equilibrium, and the static flexibility of the interface against the certificate.
 ///
 /// @param superelement  without a fault (superelement_fault.h)
 /// Checked by tests/reduce/reduction/superelement_checks_test.cpp

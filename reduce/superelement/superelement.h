@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reduce/superelement/certificate.h"
+
 namespace sprung::reduce {
 
 /// Integrals of positions r = (x, y) and mode shapes φ over the mass of a body, in the body frame (reduce,
@@ -21,7 +23,7 @@ struct InertiaInvariants {
   Eigen::Matrix2Xd P;          ///< ∫φ dm, 2×n; mode columns in m per unit modal coordinate
   Eigen::RowVectorXd c;        ///< ∫(x φ_y − y φ_x) dm, 1×n: momentum about the origin
   Eigen::RowVectorXd d;        ///< ∫(x φ_x + y φ_y) dm, 1×n
-  Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm, n×n, symmetric (identity for mass-normalised modes)
+  Eigen::MatrixXd M_ff;        ///< ∫φᵀφ dm, n×n, symmetric (identity for modes of the held body)
   Eigen::MatrixXd B;           ///< ∫(φ_xᵀφ_y − φ_yᵀφ_x) dm, n×n, skew
 
   // The same integrals by component, without rotary inertia. Files of other programs can be made from them.
@@ -70,7 +72,8 @@ struct Provenance {
 
 /// A flexible body reduced to its modes: what stage one writes and stage two loads. SI units; the origin of
 /// the body frame is the reference node. n modes, N nodes, E elements. The modes do not move the reference
-/// node; they are mass-normalised, in ascending frequency, in the canonical basis (reduce, "One basis").
+/// node; they are mass-normalised (those of a free body for its elastic motion, reduce/basis, eq. 3), in
+/// ascending frequency, in the canonical basis (reduce, "One basis").
 struct Superelement {
   std::string name;
 
@@ -83,6 +86,7 @@ struct Superelement {
   Eigen::VectorXd frequency_hz;   ///< n
   Eigen::VectorXd damping_ratio;  ///< n, of critical
   Eigen::VectorXi cluster;        ///< n, 1-based; modes of equal frequency share a number
+  std::vector<std::string> kind;  ///< n, what each vector is; none in files before version 3: all clamped
   Eigen::MatrixXd
       shapes;  ///< 3N×n, rows (x [m], y [m], rotation [rad]) of each node, per unit modal coordinate
   std::int64_t num_elastic_dofs = 0;  ///< freedoms of the finite element model without the reference node's
@@ -92,6 +96,7 @@ struct Superelement {
   Eigen::MatrixXd resultants;  ///< 6E×n per unit modal coordinate: N [N], Q [N], M [N·m] at the first, then
                                ///< the second end of each element
   std::optional<GeometricStiffness> geometric_stiffness;  ///< none in files of version 1
+  std::optional<Certificate> certificate;                 ///< none in files before version 3
 
   std::vector<CheckResult> checks;
   Provenance provenance;
@@ -99,16 +104,22 @@ struct Superelement {
 
   int num_modes() const { return static_cast<int>(frequency_hz.size()); }
   int num_nodes() const { return static_cast<int>(node_ids.size()); }
+  /// What a vector of the basis is, also where the file does not say it. @param mode 0-based
+  std::string kind_of(int mode) const;
+  /// Whether the vectors are normalised for the elastic motion of the free body, so that a damping ratio is
+  /// that of the free body.
+  bool has_free_basis() const;
 };
 
 /// The file format (reduce/superelement/superelement.md): its name, and its versions, all of which are read.
 inline constexpr std::string_view kSuperelementFormat = "sprung-superelement";
 inline constexpr std::int64_t kFirstVersion = 1;
-inline constexpr std::int64_t kStiffeningVersion = 2;                     ///< brought the geometric stiffness
-inline constexpr std::int64_t kSuperelementVersion = kStiffeningVersion;  ///< the newest
+inline constexpr std::int64_t kStiffeningVersion = 2;   ///< brought the geometric stiffness
+inline constexpr std::int64_t kCertificateVersion = 3;  ///< brought kinds of vectors and the certificate
+inline constexpr std::int64_t kSuperelementVersion = kCertificateVersion;  ///< the newest
 
-/// Writes the file whole or not at all. Equal superelements give equal bytes. Without geometric stiffness it
-/// is a file of version 1.
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without a certificate it
+/// is a file of version 2, without geometric stiffness of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

@@ -99,6 +99,10 @@ Fault check_field(const SuperelementField& field, const FieldValue& value,
 Fault check_counts(const Superelement& s) {
   if (s.num_nodes() < 1) return make_fault("/nodes/id", "has no nodes");
   if (s.num_modes() < 1) return make_fault("/modes/frequency", "has no modes");
+  if (!s.kind.empty() && !s.certificate) return make_fault("/modes/kind", "stands without a certificate");
+  if (s.certificate && !s.geometric_stiffness) {
+    return make_fault("/certificate", "stands without the geometric stiffness of version 2");
+  }
   if (!s.geometric_stiffness) return {};
   const int m = s.geometric_stiffness->num_modes();
   if (m < 1 || m > s.num_modes()) {
@@ -151,6 +155,27 @@ Fault check_modes(const Superelement& s) {
                     s.num_modes());
 }
 
+Fault check_certificate(const Superelement& s) {
+  static const std::set<std::string> kKinds{kFreeVector, kResidualVector, kClampedVector, kConstraintVector};
+  for (std::size_t i = 0; i < s.kind.size(); ++i) {
+    if (kKinds.count(s.kind[i]) == 0) {
+      return make_fault("/modes/kind", "is '{}' for mode {}, expected free, residual, clamped or constraint",
+                        s.kind[i], i + 1);
+    }
+  }
+  if (!s.certificate) return {};
+  for (const InterfaceError& one : s.certificate->interface) {
+    if (one.point >= static_cast<int>(s.points.size())) {
+      return make_fault("/certificate/interface_point", "is {}, expected 0 … {}", one.point,
+                        static_cast<int>(s.points.size()) - 1);
+    }
+    if (one.freedom > 2) {
+      return make_fault("/certificate/interface_freedom", "is {}, expected 0, 1 or 2", one.freedom);
+    }
+  }
+  return {};
+}
+
 // About the centre of mass J₀ − |S₀|²/m, which no body has below zero (but for rounding).
 Fault check_second_moment(const InertiaInvariants& inertia) {
   const double steiner = inertia.first_moment.squaredNorm() / inertia.mass;
@@ -172,6 +197,7 @@ std::optional<SuperelementFault> find_fault(const Superelement& superelement) {
   }
   if (Fault fault = check_nodes(superelement)) return fault;
   if (Fault fault = check_modes(superelement)) return fault;
+  if (Fault fault = check_certificate(superelement)) return fault;
   return check_second_moment(superelement.inertia);
 }
 

@@ -10,6 +10,8 @@ namespace {
 using support::RowMatrix;
 using I = InertiaInvariants;
 using G = GeometricStiffness;
+using C = Certificate;
+using E = InterfaceError;
 using S = Superelement;
 
 // Each type of member as a value of the file, and back.
@@ -130,10 +132,30 @@ constexpr FieldMember column = {
       for (std::size_t i = 0; i < values.size(); ++i) (s.*List)[i].*Member = values[i];
     }};
 
+template <auto Part, auto List, auto Member>
+constexpr FieldMember column_of_optional = {
+    [](const S& s) {
+      std::vector<std::remove_cvref_t<decltype(((*(s.*Part)).*List).front().*Member)>> values;
+      for (const auto& record : (*(s.*Part)).*List) values.push_back(record.*Member);
+      return pack(values);
+    },
+    [](S& s, const FieldValue& value) {
+      if (!(s.*Part)) (s.*Part).emplace();
+      auto& list = (*(s.*Part)).*List;
+      std::vector<std::remove_cvref_t<decltype(list.front().*Member)>> values;
+      unpack(value, values);
+      list.resize(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) list[i].*Member = values[i];
+    }};
+
 template <auto Member>
 constexpr FieldMember inertia = member_of<&S::inertia, Member>;
 template <auto Member>
 constexpr FieldMember stiffening = member_of_optional<&S::geometric_stiffness, Member>;
+template <auto Member>
+constexpr FieldMember certificate = member_of_optional<&S::certificate, Member>;
+template <auto Member>
+constexpr FieldMember interface = column_of_optional<&S::certificate, &C::interface, Member>;
 
 constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a row of the file
     [](const S& s) { return pack(s.node_positions.transpose()); },
@@ -141,6 +163,8 @@ constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a
 
 constexpr std::string_view kShapeUnit = "m, m, rad per unit modal coordinate (m·√kg)";
 constexpr std::string_view kResultantUnit = "N, N, N·m per unit modal coordinate (m·√kg)";
+constexpr std::string_view kFlexibilityUnit = "m/N; rad/(N·m) of a rotation";
+constexpr std::string_view kSoftLoadUnit = "1/√kg; 1/(m·√kg) of a rotation";
 constexpr std::string_view kLoadUnit = "1/(kg·m), 1/(kg·m), 1/(kg·m^2)";
 
 using enum FieldType;
@@ -158,6 +182,7 @@ constexpr SuperelementField kFields[] = {
     {"/modes/frequency", kReals, "n", "Hz", member<&S::frequency_hz>, kPositive},
     {"/modes/damping_ratio", kReals, "n", "1", member<&S::damping_ratio>, kNotNegative},
     {"/modes/cluster", kIntegers, "n", "", member<&S::cluster>, kIndex, kRows},
+    {"/modes/kind", kTexts, "n", "", member<&S::kind>, kAny, kWhole, kCertificateVersion},
     {"/modes/shape", kReals, "N×3×n", kShapeUnit, member<&S::shapes>},
     {"/matrices/stiffness", kReals, "n×n", "1/s^2", member<&S::stiffness>, kPositiveDefinite},
     {"/matrices/mass", kReals, "n×n", "1", member<&S::mass>, kPositiveDefinite},
@@ -182,6 +207,19 @@ constexpr SuperelementField kFields[] = {
     {"/stiffening/angular_acceleration", kReals, "m×m", "1", stiffening<&G::angular_acceleration>, kSymmetric, kWhole, kStiffeningVersion},
     {"/stiffening/acceleration", kMatrices, "2×m×m", "1/m", stiffening<&G::acceleration>, kSymmetric, kWhole, kStiffeningVersion},
     {"/stiffening/point_load", kMatrices, "3p×m×m", kLoadUnit, stiffening<&G::point_loads>, kSymmetric, kWhole, kStiffeningVersion},
+    {"/certificate/highest_frequency", kReals, "1", "Hz", certificate<&C::highest_hz>, kPositive, kWhole, kCertificateVersion},
+    {"/certificate/tolerance", kReals, "1", "1", certificate<&C::tolerance>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/cutoff_frequency", kReals, "1", "Hz", certificate<&C::cutoff_hz>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/rounding_floor", kReals, "1", "1", certificate<&C::rounding_floor>, kPositive, kWhole, kCertificateVersion},
+    {"/certificate/free_frequency", kReals, "k", "Hz", certificate<&C::free_hz>, kPositive, kWhole, kCertificateVersion},
+    {"/certificate/free_frequency_error", kReals, "k", "1", certificate<&C::free_error>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/interface_point", kIntegers, "b", "", interface<&E::point>, kIndex, kWhole, kCertificateVersion},
+    {"/certificate/interface_freedom", kIntegers, "b", "", interface<&E::freedom>, kIndex, kWhole, kCertificateVersion},
+    {"/certificate/static_flexibility", kReals, "b", kFlexibilityUnit, interface<&E::static_flexibility>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/static_error", kReals, "b", "1", interface<&E::static_error>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/error", kReals, "b", "1", interface<&E::error>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/worst_frequency", kReals, "b", "Hz", interface<&E::worst_hz>, kNotNegative, kWhole, kCertificateVersion},
+    {"/certificate/soft_load", kReals, "q×b", kSoftLoadUnit, certificate<&C::soft_loads>, kAny, kWhole, kCertificateVersion},
     {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
     {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
     {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
@@ -219,6 +257,7 @@ std::vector<SuperelementField> superelement_fields(std::int64_t version) {
 }
 
 std::int64_t find_version(const Superelement& superelement) {
+  if (superelement.certificate && superelement.geometric_stiffness) return kCertificateVersion;
   return superelement.geometric_stiffness ? kStiffeningVersion : kFirstVersion;
 }
 
@@ -229,6 +268,9 @@ FieldCounts count_parts(const Superelement& s) {
           {'p', static_cast<std::int64_t>(s.points.size())},
           {'n', s.num_modes()},
           {'m', s.geometric_stiffness ? s.geometric_stiffness->num_modes() : 0},
+          {'k', s.certificate ? s.certificate->free_hz.size() : 0},
+          {'b', s.certificate ? static_cast<std::int64_t>(s.certificate->interface.size()) : 0},
+          {'q', s.certificate ? s.certificate->soft_loads.rows() : 0},
           {'c', static_cast<std::int64_t>(s.checks.size())},
           {'f', static_cast<std::int64_t>(s.provenance.input_names.size())}};
 }

@@ -67,11 +67,15 @@ TEST_CASE("Modes that the superelement lacks are refused") {
 
 TEST_CASE("Selections of wrong type, or of unknown or rigid bodies, are refused") {
   CHECK(error_of("frame = \"some\"") ==
-        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\" or "
-        "\"auto\", got \"some\"");
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\", "
+        "\"auto\" or \"certified\", got \"some\"");
   CHECK(error_of("frame = 2.5") ==
-        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\" or "
-        "\"auto\"");
+        "run.toml:2:9: error: 'modes.frame' must be a number of modes, a list of mode numbers, \"all\", "
+        "\"auto\" or \"certified\"");
+  CHECK(
+      error_of("frame = \"certified\"") ==
+      "run.toml:2:9: error: 'modes.frame' asks for the certified basis of superelement 'frame', which has no "
+      "certificate; make it with the basis \"free\"");
   CHECK(error_of("frime = 2") ==
         "run.toml:2:9: error: 'modes.frime' is about no body of the vehicle: there is no 'frime' (did you "
         "mean 'frame'?)");

@@ -26,7 +26,7 @@ SOURCE = Path()
 class ProgramTest(ProgramTestCase):
     def setUp(self):
         super().setUp()
-        for name in ("chassis.toml", "long_arm.toml"):
+        for name in ("chassis.toml", "chassis_certified.toml", "long_arm.toml"):
             shutil.copy(SOURCE / "meshes/truck" / name, self.folder / name)
         for name in ("ladder_frame.toml", "ladder_frame.geo"):
             shutil.copy(SOURCE / "meshes/examples" / name, self.folder / name)
@@ -64,6 +64,29 @@ class ProgramTest(ProgramTestCase):
         self.assertNotIn("building", result.stdout)
         after = {name: (self.folder / "out" / name).stat().st_mtime_ns for name in self.files()}
         self.assertEqual(before, after)
+
+    # 9.7219 Hz is the free beam's first frequency: 22.373/2π √(EI/mL⁴).
+    def test_a_certified_basis_is_told_with_its_bound_and_checked(self):
+        result = self.build("chassis_certified.toml")
+        self.assertIn("36 freedoms, 5 free modes from 9.7219 to 87.0238 Hz, 10 residual vectors", result.stdout)
+        self.assertRegex(
+            result.stdout, r"interface flexibility within 0\.77 % up to 60 Hz \(proved\); worst: \w+_pivot y at 60 Hz"
+        )
+        path = self.folder / "out/chassis_certified.h5"
+        self.assertEqual(self.run_program("check", path).returncode, 0)
+        info = self.run_program("info", path).stdout
+        for text in ("residual", "no frequency of the body", "error in the band %", "front_spring rotation"):
+            self.assertIn(text, info)
+        certificate = json.loads(self.run_program("info", path, "--json").stdout)["certificate"]
+        self.assertEqual(len(certificate["interface"]), 13)
+        self.assertLess(certificate["error"], certificate["tolerance"])
+
+    def test_a_clamped_basis_is_told_how_poor_it_is(self):
+        self.change("chassis.toml", "all = true", "count = 8")
+        result = self.build("chassis.toml")
+        self.assertRegex(result.stdout, r"interface flexibility without a bound up to [\d.]+ Hz: the free mode at 9\.7")
+        info = self.run_program("info", self.folder / "out/chassis.h5").stdout
+        self.assertIn("What the damping of the clamped modes is on the free body", info)
 
     def test_same_input_gives_same_bytes_whatever_the_folder(self):
         self.build("chassis.toml", "ladder_frame.toml")

@@ -1,6 +1,7 @@
 #include "reduce/superelement/superelement_fields.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -78,7 +79,10 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(superelement_fields(0).empty());
   CHECK(superelement_fields(1).size() == 36);
   CHECK(superelement_fields(2).size() == 40);
+  CHECK(superelement_fields(3).size() == 54);
   Superelement body = testing::make_two_armed_body();
+  CHECK(find_version(body) == 3);
+  body.certificate.reset();
   CHECK(find_version(body) == 2);
   body.geometric_stiffness.reset();
   CHECK(find_version(body) == 1);
@@ -139,7 +143,7 @@ TEST_CASE("a value that violates the rule of its field is a fault") {
       }
     }
   }
-  CHECK(num_rules == 14);
+  CHECK(num_rules == 24);
 }
 
 TEST_CASE("a matrix or list of another size is a fault") {
@@ -148,11 +152,12 @@ TEST_CASE("a matrix or list of another size is a fault") {
   for (const SuperelementField& field : superelement_fields()) {
     FieldValue value = field.member.get(body);
     // Counts, columns of a list, and what has one size always.
-    const bool is_count = field.path == "/nodes/id" || field.path == "/elements/node" ||
-                          field.path == "/modes/frequency" || field.path == "/stiffening/centrifugal" ||
-                          field.path == "/provenance/input_name";
+    const bool is_count =
+        field.path == "/nodes/id" || field.path == "/elements/node" || field.path == "/modes/frequency" ||
+        field.path == "/stiffening/centrifugal" || field.path == "/provenance/input_name" ||
+        field.path == "/certificate/free_frequency" || field.path == "/certificate/soft_load";
     const bool is_column = field.path.starts_with("/points") || field.path.starts_with("/checks") ||
-                           field.path == "/nodes/position";
+                           field.path == "/nodes/position" || field.shape == "b";
     if (is_count || is_column || field.shape == "1" || field.shape == "2") continue;
     ++num_changed;
     CAPTURE(field.path);
@@ -169,6 +174,25 @@ TEST_CASE("a matrix or list of another size is a fault") {
     CHECK_THAT(find_fault_with(field, value), StartsWith(std::string(field.path) + " has "));
   }
   CHECK(num_changed > 20);
+}
+
+TEST_CASE("what contradicts the certificate is a fault") {
+  const auto fault_of = [](const std::function<void(Superelement&)>& change) {
+    Superelement body = testing::make_two_armed_body();
+    change(body);
+    const std::optional<SuperelementFault> fault = find_fault(body);
+    return fault ? fault->dataset + " " + fault->message : "none";
+  };
+  CHECK(fault_of([](Superelement& s) { s.kind[1] = "bent"; }) ==
+        "/modes/kind is 'bent' for mode 2, expected free, residual, clamped or constraint");
+  CHECK(fault_of([](Superelement& s) { s.certificate.reset(); }) ==
+        "/modes/kind stands without a certificate");
+  CHECK(fault_of([](Superelement& s) { s.geometric_stiffness.reset(); }) ==
+        "/certificate stands without the geometric stiffness of version 2");
+  CHECK(fault_of([](Superelement& s) { s.certificate->interface[0].point = 2; }) ==
+        "/certificate/interface_point is 2, expected 0 … 1");
+  CHECK(fault_of([](Superelement& s) { s.certificate->interface[0].freedom = 3; }) ==
+        "/certificate/interface_freedom is 3, expected 0, 1 or 2");
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "reduce/certificate/certify.h"
+#include "reduce/modes/modes_below.h"
+#include "reduce/superelement/certificate.h"
+
+namespace sprung::reduce {
+
+/// Vectors that a body's elastic motion is reduced to, in ascending ω². They are those of the held frame, n
+/// values each, and normalised for the elastic motion of the free body (reduce/basis, eq. 3).
+struct FreeBodyBasis {
+  EigenPairs vectors;             ///< m
+  std::vector<std::string> kind;  ///< m (superelement/certificate.h)
+  Certificate certificate;
+};
+
+/// What a basis has to serve.
+struct BasisRequest {
+  std::vector<InterfaceFreedom> interface;
+  Eigen::MatrixXd loads;      ///< of the interface: unit loads, balanced, n×b
+  double highest_hz = 0.0;    ///< the end of the band
+  double tolerance = 0.01;    ///< share of the static flexibility that may be missing
+  bool all_residual = false;  ///< the static response to every load, whatever the tolerance
+  double rounding = 0.0;      ///< relative rounding error of the lowest ω² (rounding_error.h)
+};
+
+/// The free modes that a band needs are those below this multiple of its end.
+inline constexpr double kBandMargin = 1.5;
+
+}  // namespace sprung::reduce

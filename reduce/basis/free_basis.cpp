@@ -1,0 +1,88 @@
+#include "reduce/basis/free_basis.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reduce/certificate/band_errors.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kTie = 1e-6;         // shares nearer than this count as equal: the first load is taken
+constexpr double kDependent = 1e-10;  // share at rest below which a load adds no direction
+
+// The static response to every load, in their order.
+void add_all(InterfaceResidual& residual) {
+  for (Eigen::Index load = 0; load < residual.num_loads(); ++load) {
+    const double missing = residual.calc_errors(0.0, residual.calc_amplitudes(0.0))(load);
+    if (missing > kDependent * residual.static_flexibility()(load))
+      residual.add(residual.make_vector(load, 0.0));
+  }
+}
+
+// The first of the loads with the largest share.
+Eigen::Index find_worst(const Eigen::VectorXd& shares) {
+  const double largest = shares.maxCoeff();
+  Eigen::Index worst = 0;
+  while (shares(worst) < (1.0 - kTie) * largest) ++worst;
+  return worst;
+}
+
+void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,
+                         Eigen::Index most) {
+  while (residual.num_loads() > 0) {
+    const BandErrors errors = calc_band_errors(residual, highest, cutoff);
+    const Eigen::VectorXd shares = errors.error.cwiseQuotient(
+        residual.static_flexibility().cwiseMax(std::numeric_limits<double>::min()));
+    const Eigen::Index worst = find_worst(shares);
+    if (shares(worst) <= tolerance) return;
+    if (residual.num_vectors() >= most) {
+      throw support::NumericalError(
+          fmt::format("the basis misses {:.3g} of an interface flexibility with {} residual vectors, "
+                      "tolerance {:.3g}: rounding "
+                      "keeps it from getting better; ask for a larger tolerance",
+                      shares(worst), residual.num_vectors(), tolerance));
+    }
+    residual.add(residual.make_vector(worst, errors.worst_omega_squared(worst)));
+  }
+}
+
+}  // namespace
+
+FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor& factor,
+                              const ModesBelow& modes, const BasisRequest& request) {
+  const CertificateRequest certificate{.interface = request.interface,
+                                       .highest_hz = request.highest_hz,
+                                       .tolerance = request.tolerance,
+                                       .free_modes = modes.pairs,
+                                       .next_omega_squared = modes.next_omega_squared,
+                                       .holds_free_modes = true,
+                                       .is_complete = modes.pairs.omega_squared.size() == problem.size(),
+                                       .rounding = request.rounding};
+  InterfaceResidual residual(problem, factor, modes.pairs, request.loads);
+  const Eigen::Index k = modes.pairs.omega_squared.size();
+  if (!std::isinf(modes.next_omega_squared)) {
+    if (request.all_residual) add_all(residual);
+    const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
+    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k);
+  }
+  const EigenPairs ritz = residual.ritz();
+  const Eigen::Index m = ritz.omega_squared.size();
+  FreeBodyBasis basis;
+  basis.vectors = {.omega_squared = Eigen::VectorXd(k + m),
+                   .vectors = Eigen::MatrixXd(problem.size(), k + m)};
+  basis.vectors.omega_squared << modes.pairs.omega_squared, ritz.omega_squared;
+  if (k > 0) basis.vectors.vectors.leftCols(k) = modes.pairs.vectors;
+  if (m > 0) basis.vectors.vectors.rightCols(m) = ritz.vectors;
+  basis.kind.assign(static_cast<std::size_t>(k), kFreeVector);
+  basis.kind.insert(basis.kind.end(), static_cast<std::size_t>(m), kResidualVector);
+  basis.certificate = calc_certificate(residual, certificate);
+  return basis;
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,130 @@
+#include "reduce/certificate/certify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "reduce/certificate/band_errors.h"
+#include "tools/support/dense/eigenproblems.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr Eigen::Index kMostSoftLoads = 200;  // b above which no soft twin is made: it takes b×b matrices
+
+double as_hz(double omega_squared) {
+  return std::sqrt(omega_squared) / kTwoPi;
+}
+
+// A load that deforms nothing has no share.
+double calc_share(double error, double flexibility) {
+  return flexibility > 0.0 ? error / flexibility : 0.0;
+}
+
+// λ and x of a symmetric matrix.
+support::SymmetricEigenpairs solve(const Eigen::MatrixXd& matrix) {
+  const auto pairs = support::solve_symmetric(matrix);
+  if (!pairs) throw support::NumericalError("certificate: the error of the interface has no eigenvalues");
+  return *pairs;
+}
+
+// The part of a symmetric matrix with positive eigenvalues.
+Eigen::MatrixXd calc_positive_part(const Eigen::MatrixXd& matrix) {
+  const support::SymmetricEigenpairs pairs = solve(matrix);
+  return pairs.vectors * pairs.values.cwiseMax(0.0).asDiagonal() * pairs.vectors.transpose();
+}
+
+// A matrix that is nowhere in the band below D, in the sense of quadratic forms: with the amplitudes of a
+// part's middle, D is convex in s, so that it is enough to be above it at both ends.
+Eigen::MatrixXd calc_upper_error(const InterfaceResidual& residual, const std::vector<BandPart>& parts) {
+  Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(residual.num_loads(), residual.num_loads());
+  for (const BandPart& part : parts) {
+    const Eigen::MatrixXd y = residual.calc_amplitudes(0.5 * (part.begin + part.end));
+    for (const double s : {part.begin, part.end}) {
+      upper += calc_positive_part(residual.calc_error_matrix(s, y) - upper);
+    }
+  }
+  return upper;
+}
+
+// F of Fᵀ F = λ_c D̄ with unit loads scaled to equal flexibility, without what is rounding.
+Eigen::MatrixXd calc_soft_loads(const InterfaceResidual& residual, const std::vector<BandPart>& parts,
+                                double cutoff) {
+  const double tiny = std::numeric_limits<double>::min();
+  const Eigen::VectorXd scale = residual.static_flexibility().cwiseMax(tiny).cwiseSqrt();
+  const Eigen::MatrixXd upper = calc_upper_error(residual, parts);
+  const Eigen::MatrixXd scaled =
+      scale.cwiseInverse().asDiagonal() * upper * scale.cwiseInverse().asDiagonal();
+  const support::SymmetricEigenpairs pairs = solve(scaled);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = pairs.values.size(); i-- > 0;) {
+    if (pairs.values(i) > 1e-14) kept.push_back(i);
+  }
+  Eigen::MatrixXd loads(kept.size(), scale.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    loads.row(static_cast<Eigen::Index>(i)) = std::sqrt(cutoff * pairs.values(kept[i])) *
+                                              pairs.vectors.col(kept[i]).cwiseProduct(scale).transpose();
+  }
+  return loads;
+}
+
+// Relative errors of the free frequencies in the basis.
+Eigen::VectorXd calc_frequency_errors(const InterfaceResidual& residual, const CertificateRequest& request) {
+  const Eigen::Index k = request.free_modes.omega_squared.size();
+  if (request.holds_free_modes || request.is_complete) return Eigen::VectorXd::Zero(k);
+  const Eigen::VectorXd found = residual.ritz().omega_squared;
+  Eigen::VectorXd errors = Eigen::VectorXd::Constant(k, kUnbounded);
+  for (Eigen::Index i = 0; i < std::min(k, found.size()); ++i) {
+    errors(i) = std::abs(std::sqrt(found(i) / request.free_modes.omega_squared(i)) - 1.0);
+  }
+  return errors;
+}
+
+}  // namespace
+
+double calc_cutoff(const CertificateRequest& request) {
+  if (request.is_complete) return std::numeric_limits<double>::infinity();
+  if (request.holds_free_modes || request.free_modes.omega_squared.size() == 0) {
+    return request.next_omega_squared;
+  }
+  return request.free_modes.omega_squared(0);
+}
+
+Certificate calc_certificate(const InterfaceResidual& residual, const CertificateRequest& request) {
+  const double cutoff = calc_cutoff(request), highest = std::pow(kTwoPi * request.highest_hz, 2);
+  Certificate certificate;
+  certificate.highest_hz = request.highest_hz;
+  certificate.tolerance = request.tolerance;
+  certificate.cutoff_hz = std::isinf(cutoff) ? 0.0 : as_hz(cutoff);
+  certificate.rounding_floor = std::max(kRoundingFloor, request.rounding);
+  certificate.free_hz = request.free_modes.omega_squared.cwiseSqrt() / kTwoPi;
+  certificate.free_error = calc_frequency_errors(residual, request);
+  const Eigen::Index b = residual.num_loads();
+  const Eigen::VectorXd& flexibility = residual.static_flexibility();
+  Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(b);
+  const bool bounded = cutoff > highest, misses = b > 0 && !std::isinf(cutoff);
+  BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .parts = {}};
+  if (misses) at_rest = residual.calc_errors(0.0, residual.calc_amplitudes(0.0));
+  if (bounded && misses) band = calc_band_errors(residual, highest, cutoff);
+  certificate.soft_loads.resize(0, b);
+  if (bounded && misses && b <= kMostSoftLoads) {
+    certificate.soft_loads = calc_soft_loads(residual, band.parts, cutoff);
+  }
+  for (Eigen::Index j = 0; j < b; ++j) {
+    const InterfaceFreedom& freedom = request.interface[static_cast<std::size_t>(j)];
+    certificate.interface.push_back(
+        {.point = freedom.point,
+         .freedom = freedom.freedom,
+         .static_flexibility = flexibility(j),
+         .static_error = calc_share(at_rest(j), flexibility(j)),
+         .error = bounded ? calc_share(band.error(j), flexibility(j)) : kUnbounded,
+         .worst_hz = bounded ? as_hz(band.worst_omega_squared(j)) : 0.0});
+  }
+  return certificate;
+}
+
+}  // namespace sprung::reduce

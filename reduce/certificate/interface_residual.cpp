@@ -1,0 +1,150 @@
+#include "reduce/certificate/interface_residual.h"
+
+#include <complex>
+
+#include "reduce/modes/dense_eigen_solver.h"
+#include "tools/support/dense/dense_solvers.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+Eigen::MatrixXd symmetrise(const Eigen::MatrixXd& matrix) {
+  return 0.5 * (matrix + matrix.transpose());
+}
+
+// [A b; bᵀ c] in place of A.
+void border(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& side, const Eigen::MatrixXd& corner) {
+  const Eigen::Index old = matrix.rows(), added = corner.rows();
+  matrix.conservativeResize(old + added, old + added);
+  matrix.topRightCorner(old, added) = side;
+  matrix.bottomLeftCorner(added, old) = side.transpose();
+  matrix.bottomRightCorner(added, added) = symmetrise(corner);
+}
+
+void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+  matrix.conservativeResize(columns.rows(), matrix.cols() + columns.cols());
+  matrix.rightCols(columns.cols()) = columns;
+}
+
+}  // namespace
+
+InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor,
+                                     const EigenPairs& exact, const Eigen::MatrixXd& loads)
+    : problem_(&problem), factor_(&factor), exact_(exact.vectors) {
+  const Eigen::Index n = problem.size(), b = loads.cols();
+  if (exact_.cols() == 0) exact_.resize(n, 0);
+  exact_momenta_ = exact_.cols() > 0 ? problem.times_mass(exact_) : exact_;
+  const Eigen::MatrixXd share = exact_.transpose() * loads;
+  loads_ = loads - exact_momenta_ * share;
+  flexible_ = b > 0 ? factor.solve(loads_) : Eigen::MatrixXd(n, 0);
+  load_work_ = loads_.cwiseProduct(flexible_).colwise().sum();
+  static_flexibility_ = load_work_;
+  for (Eigen::Index i = 0; i < exact_.cols(); ++i) {
+    static_flexibility_ += share.row(i).cwiseAbs2().transpose() / exact.omega_squared(i);
+  }
+  vectors_.resize(n, 0);
+  second_.resize(n, 0);
+  BU_.resize(b, 0);
+  BT_.resize(b, 0);
+  update_ritz();
+}
+
+void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
+  Eigen::MatrixXd added = vectors - exact_ * (exact_momenta_.transpose() * vectors);
+  for (Eigen::Index i = 0; i < added.cols(); ++i) {
+    added.col(i) /= std::sqrt(added.col(i).dot(problem_->stiffness * added.col(i)));
+  }
+  if (num_vectors() > 0) {  // what is new of them; twice, against rounding
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::MatrixXd coupling = vectors_.transpose() * (problem_->stiffness * added);
+      added -= vectors_ * support::solve_positive_definite(UKU_, coupling);
+    }
+    for (Eigen::Index i = 0; i < added.cols(); ++i) {
+      added.col(i) /= std::sqrt(added.col(i).dot(problem_->stiffness * added.col(i)));
+    }
+  }
+  const Eigen::MatrixXd momenta = problem_->times_mass(added);
+  const Eigen::MatrixXd second = factor_->solve(momenta);
+  const Eigen::MatrixXd forces = problem_->stiffness * added;
+  border(UKU_, vectors_.transpose() * forces, added.transpose() * forces);
+  border(UMU_, vectors_.transpose() * momenta, added.transpose() * momenta);
+  border(TMU_, second_.transpose() * momenta, second.transpose() * momenta);
+  append_columns(BU_, loads_.transpose() * added);
+  append_columns(BT_, loads_.transpose() * second);
+  append_columns(vectors_, added);
+  append_columns(second_, second);
+  update_ritz();
+}
+
+void InterfaceResidual::update_ritz() {
+  if (num_vectors() == 0) {
+    omega_squared_.resize(0);
+    rotation_.resize(0, 0);
+    ritz_TMU_.resize(0, 0);
+    ritz_BU_ = BU_;
+    ritz_BT_ = BT_;
+    return;
+  }
+  const EigenPairs pairs = solve_dense(UKU_, UMU_);
+  omega_squared_ = pairs.omega_squared;
+  rotation_ = pairs.vectors;
+  ritz_TMU_ = rotation_.transpose() * TMU_ * rotation_;
+  ritz_BU_ = BU_ * rotation_;
+  ritz_BT_ = BT_ * rotation_;
+}
+
+EigenPairs InterfaceResidual::ritz() const {
+  return {.omega_squared = omega_squared_, .vectors = vectors_ * rotation_};
+}
+
+Eigen::MatrixXd InterfaceResidual::calc_amplitudes(double s) const {
+  const Eigen::VectorXd inverse = (omega_squared_.array() - s).inverse();
+  return inverse.asDiagonal() * ritz_BU_.transpose();
+}
+
+// r = B_X − (K − sM)Uy, of which K⁻¹r = Z − Uy + sTy.
+Eigen::VectorXd InterfaceResidual::calc_errors(double s, const Eigen::MatrixXd& y) const {
+  Eigen::VectorXd errors = load_work_;
+  for (Eigen::Index j = 0; j < errors.size() && num_vectors() > 0; ++j) {
+    const Eigen::VectorXd amplitudes = y.col(j);
+    const double linear = (s * ritz_BT_.row(j) - ritz_BU_.row(j)).dot(amplitudes.transpose());
+    const double square =
+        amplitudes.dot((omega_squared_.array() - 2.0 * s).matrix().cwiseProduct(amplitudes)) +
+        s * s * amplitudes.dot(ritz_TMU_ * amplitudes);
+    errors(j) += 2.0 * linear + square;
+  }
+  return errors.cwiseMax(0.0);
+}
+
+Eigen::VectorXd InterfaceResidual::calc_damped_errors(double s, double loss_factor) const {
+  const std::complex<double> factor(1.0, loss_factor);
+  Eigen::VectorXd errors = load_work_;
+  for (Eigen::Index j = 0; j < errors.size() && num_vectors() > 0; ++j) {
+    const Eigen::VectorXcd y =
+        ritz_BU_.row(j).transpose().array() / (factor * omega_squared_.array() - std::complex<double>(s));
+    const Eigen::VectorXcd row = (s * ritz_BT_.row(j) - factor * ritz_BU_.row(j)).transpose();
+    const double linear = (row.transpose() * y).value().real();
+    const Eigen::VectorXd diagonal = std::norm(factor) * omega_squared_.array() - 2.0 * s;
+    const double square = y.cwiseAbs2().dot(diagonal) + s * s * y.dot(ritz_TMU_ * y).real();
+    errors(j) += 2.0 * linear + square;
+  }
+  return errors.cwiseMax(0.0);
+}
+
+Eigen::MatrixXd InterfaceResidual::calc_error_matrix(double s, const Eigen::MatrixXd& y) const {
+  const Eigen::MatrixXd load_work = symmetrise(loads_.transpose() * flexible_);
+  if (num_vectors() == 0) return load_work;
+  const Eigen::MatrixXd linear = (s * ritz_BT_ - ritz_BU_) * y;
+  Eigen::MatrixXd middle = s * s * ritz_TMU_;
+  middle.diagonal() += (omega_squared_.array() - 2.0 * s).matrix();
+  return symmetrise(load_work + linear + linear.transpose() + y.transpose() * middle * y);
+}
+
+Eigen::VectorXd InterfaceResidual::make_vector(Eigen::Index load, double s) const {
+  if (num_vectors() == 0) return flexible_.col(load);
+  const Eigen::VectorXd y = rotation_ * calc_amplitudes(s).col(load);
+  return flexible_.col(load) - vectors_ * y + s * (second_ * y);
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,53 @@
+#include "reduce/modes/modes_below.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "reduce/modes/clusters.h"
+#include "reduce/modes/eigenvalue_count.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+// The count, a little higher where a mode is so near that the matrix is singular to rounding.
+int count_below(const ModalProblem& problem, double omega_squared) {
+  constexpr int kAttempts = 4;
+  for (int attempt = 1; attempt < kAttempts; ++attempt) {
+    try {
+      return count_modes_below(problem, omega_squared);
+    } catch (const support::NumericalError&) {
+      omega_squared *= 1.0 + 1e-4 * attempt;
+    }
+  }
+  return count_modes_below(problem, omega_squared);
+}
+
+}  // namespace
+
+ModesBelow calc_modes_below(const ModalProblem& problem, double frequency_hz,
+                            const ClampedModeOptions& options) {
+  const auto n = static_cast<int>(problem.size());
+  const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  int wanted = count_below(problem, omega * omega);
+  while (true) {
+    const ClampedModes found = calc_clamped_modes(problem, std::min(wanted + 1, n), options);
+    const auto num_found = static_cast<int>(found.cluster.size());
+    const auto end = wanted == 0 ? 0 : static_cast<int>(find_cluster_of(found.cluster, wanted - 1).end);
+    if (end == num_found && num_found < n) {  // the next one was of the same cluster
+      wanted = end;
+      continue;
+    }
+    ModesBelow below;
+    below.pairs = {.omega_squared = found.pairs.omega_squared.head(end),
+                   .vectors = found.pairs.vectors.leftCols(end)};
+    below.cluster = found.cluster.head(end);
+    if (end < num_found) below.next_omega_squared = found.pairs.omega_squared(end);
+    below.proof_hz = found.proof_hz;
+    below.num_missing = found.num_below - num_found;
+    return below;
+  }
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,15 @@
+#include "reduce/modes/stiffness_factor.h"
+
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+
+StiffnessFactor::StiffnessFactor(const Eigen::SparseMatrix<double>& stiffness) : factor_(stiffness) {
+  if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0.0) return;
+  throw support::NumericalError(
+      "the stiffness matrix is not positive definite to rounding: a part of the frame moves without any "
+      "force "
+      "(an internal mechanism), the mesh is too fine, or sections differ by many orders of magnitude");
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,205 @@
+#include "reduce/reduction/body_basis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fem/assembly.h"
+#include "reduce/basis/fixed_interface_basis.h"
+#include "reduce/basis/free_basis.h"
+#include "reduce/certificate/certify.h"
+#include "reduce/modes/canonical_basis.h"
+#include "reduce/modes/clusters.h"
+#include "reduce/modes/held_node.h"
+#include "reduce/modes/rounding_error.h"
+#include "reduce/reduction/distance_weighted_mass.h"
+#include "reduce/reduction/mechanism.h"
+#include "reduce/reduction/superelement_checks.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kResidualTolerance = 1e-6;
+// The band of a clamped basis that names none: up to this mode's frequency, by the margin of free modes.
+constexpr Eigen::Index kBandMode = 20;
+
+double as_hz(double omega_squared) {
+  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
+}
+
+// Vectors of the held frame, in the canonical basis of their clusters.
+struct CanonicalVectors {
+  Eigen::MatrixXd vectors;    // (3N−3)×n
+  Eigen::MatrixXd stiffness;  // n×n
+};
+
+CanonicalVectors make_canonical(const EigenPairs& pairs, const Eigen::VectorXi& cluster,
+                                const std::vector<int>& columns, const Eigen::MatrixXd& shapes,
+                                const BasisFrame& frame) {
+  const Eigen::MatrixXd rotation = calc_canonical_rotation(shapes, cluster, frame);
+  const Eigen::MatrixXd chosen = rotation(Eigen::all, columns);
+  const Eigen::MatrixXd stiffness = chosen.transpose() * pairs.omega_squared.asDiagonal() * chosen;
+  return {.vectors = pairs.vectors * chosen, .stiffness = 0.5 * (stiffness + stiffness.transpose())};
+}
+
+// The largest ‖φ − K⁻¹(M Φ S)‖ in the norm of strain energy, relative: it weighs what a mode holds of lower
+// and of higher modes alike.
+double calc_residual(const ModalProblem& problem, const StiffnessFactor& factor,
+                     const Eigen::MatrixXd& vectors, const Eigen::MatrixXd& stiffness) {
+  double largest = 0.0;
+  if (vectors.cols() == 0) return largest;
+  const Eigen::MatrixXd error = vectors - factor.solve(problem.times_mass(vectors * stiffness));
+  for (Eigen::Index i = 0; i < error.cols(); ++i) {
+    const double energy = std::abs(error.col(i).dot(problem.stiffness * error.col(i)));
+    largest = std::max(largest, std::sqrt(energy / stiffness(i, i)));
+  }
+  return largest;
+}
+
+std::vector<CheckResult> make_model_checks(int num_missing, double rounding, double residual) {
+  return {
+      {.name = "modes missing below the highest one", .value = std::abs(num_missing) * 1.0, .tolerance = 0.0},
+      {.name = kRoundingCheck, .value = rounding, .tolerance = kMaxRoundingError},
+      {.name = "residual of the modes", .value = residual, .tolerance = kResidualTolerance}};
+}
+
+// A band that the modes stored can be judged by.
+double choose_band(const Design& design, const EigenPairs& stored) {
+  if (design.reduction.highest_hz) return *design.reduction.highest_hz;
+  const Eigen::Index last = std::min(stored.omega_squared.size(), kBandMode) - 1;
+  return as_hz(stored.omega_squared(last)) / kBandMargin;
+}
+
+BasisRequest make_request(const Design& design, const BodyMatrices& matrices, double highest_hz) {
+  BasisRequest request{.interface = design.reduction.interface,
+                       .loads = {},
+                       .highest_hz = highest_hz,
+                       .tolerance = design.reduction.tolerance,
+                       .all_residual = design.reduction.all_residual};
+  const auto num_nodes = static_cast<int>(matrices.node_positions.cols());
+  request.loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, request.interface));
+  return request;
+}
+
+Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, const StiffnessFactor& factor,
+                            const EigenPairs& stored, double rounding, const ClampedModeOptions& options) {
+  const BasisRequest request = make_request(design, matrices, choose_band(design, stored));
+  const ModesBelow free = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
+  InterfaceResidual residual(matrices.free, factor, {}, request.loads);
+  const bool is_complete = stored.vectors.cols() == matrices.held.size();
+  if (!is_complete) residual.add(stored.vectors);
+  return calc_certificate(residual, {.interface = request.interface,
+                                     .highest_hz = request.highest_hz,
+                                     .free_modes = free.pairs,
+                                     .next_omega_squared = free.next_omega_squared,
+                                     .is_complete = is_complete,
+                                     .rounding = rounding});
+}
+
+BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
+                             const StiffnessFactor& factor, const BasisFrame& frame,
+                             const ClampedModeOptions& options) {
+  const int num_needed = calc_num_modes_needed(design.modes, matrices.held, options);
+  const ClampedModes modes = calc_clamped_modes(matrices.held, num_needed, options);
+  const double rounding = estimate_rounding_error(matrices.held.stiffness, modes.pairs.vectors.col(0),
+                                                  modes.pairs.omega_squared(0));
+  check_rounding(design, insert_node(modes.pairs.vectors.leftCols(1), design.reference_node), rounding,
+                 as_hz(modes.pairs.omega_squared(0)));
+  const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
+  const CanonicalVectors canonical = make_canonical(
+      modes.pairs, modes.cluster, columns, insert_node(modes.pairs.vectors, design.reference_node), frame);
+  BodyBasis basis;
+  basis.shapes = insert_node(canonical.vectors, design.reference_node);
+  basis.cluster = modes.cluster(columns);
+  basis.stiffness = canonical.stiffness;
+  basis.kind.assign(columns.size(), kClampedVector);
+  basis.checks =
+      make_model_checks(modes.num_below - static_cast<int>(modes.cluster.size()), rounding,
+                        calc_residual(matrices.held, factor, canonical.vectors, canonical.stiffness));
+  basis.certificate = certify_clamped(
+      design, matrices, factor,
+      {.omega_squared = canonical.stiffness.diagonal(), .vectors = canonical.vectors}, rounding, options);
+  return basis;
+}
+
+BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrices,
+                               const StiffnessFactor& factor, const BasisFrame& frame,
+                               const ClampedModeOptions& options) {
+  BasisRequest request = make_request(design, matrices, *design.reduction.highest_hz);
+  const ModesBelow modes = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
+  const ModesBelow& lowest =
+      modes.cluster.size() > 0
+          ? modes
+          : calc_modes_below(matrices.free, 1.01 * as_hz(modes.next_omega_squared), options);
+  const Eigen::VectorXd first = lowest.pairs.vectors.col(0);
+  const double lowest_omega_squared = lowest.pairs.omega_squared(0);
+  request.rounding = estimate_rounding_error(matrices.free.stiffness, first, lowest_omega_squared);
+  check_rounding(design, insert_node(Eigen::MatrixXd(first), design.reference_node), request.rounding,
+                 as_hz(lowest_omega_squared));
+  const bool is_free = design.reduction.basis == BasisKind::kFree;
+  const FreeBodyBasis found =
+      is_free ? make_free_basis(matrices.free, factor, modes, request)
+              : make_fixed_interface_basis(matrices.free, factor, modes, request, matrices.rigid,
+                                           matrices.full.stiffness, matrices.full.mass);
+  BodyBasis basis;
+  basis.cluster = find_clusters(found.vectors.omega_squared);
+  std::vector<int> columns(found.kind.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = static_cast<int>(i);
+  const CanonicalVectors canonical = make_canonical(
+      found.vectors, basis.cluster, columns,
+      remove_momentum(matrices.rigid, insert_node(found.vectors.vectors, design.reference_node)), frame);
+  basis.shapes = insert_node(canonical.vectors, design.reference_node);
+  basis.stiffness = canonical.stiffness;
+  basis.kind = found.kind;
+  basis.certificate = found.certificate;
+  const Eigen::Index k = is_free ? modes.cluster.size() : 0;
+  basis.checks = make_model_checks(modes.num_missing, request.rounding,
+                                   calc_residual(matrices.free, factor, canonical.vectors.leftCols(k),
+                                                 canonical.stiffness.topLeftCorner(k, k)));
+  if (is_free) {
+    basis.checks.push_back({.name = "certified error of the interface flexibility",
+                            .value = basis.certificate.largest_error(),
+                            .tolerance = basis.certificate.tolerance});
+  }
+  return basis;
+}
+
+}  // namespace
+
+BodyMatrices make_body_matrices(const Design& design) {
+  BodyMatrices matrices;
+  matrices.full = fem::assemble(design.model);
+  matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
+                   .mass = remove_node(matrices.full.mass, design.reference_node)};
+  const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
+  matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
+  matrices.rigid = calc_rigid_motions(matrices.node_positions, matrices.full.mass, design.reference_node);
+  matrices.free = make_free_problem(matrices.held, matrices.rigid);
+  return matrices;
+}
+
+BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, const fem::MassMoments& moments,
+                          const ClampedModeOptions& options) {
+  const Eigen::Vector2d origin = design.model.mesh.node_positions.col(design.reference_node);
+  const BasisFrame frame =
+      make_basis_frame(moments, matrices.node_positions, calc_distance_weighted_mass(design.model, origin));
+  const StiffnessFactor factor(matrices.held.stiffness);
+  return design.reduction.basis == BasisKind::kClamped
+             ? make_clamped_basis(design, matrices, factor, frame, options)
+             : make_interface_basis(design, matrices, factor, frame, options);
+}
+
+Eigen::VectorXd calc_frequencies(const BodyBasis& basis) {
+  Eigen::VectorXd frequency_hz(basis.cluster.size());
+  for (ModeRange range; range.begin < frequency_hz.size(); range.begin = range.end) {
+    range = find_cluster_of(basis.cluster, range.begin);
+    const double mean = basis.stiffness.diagonal().segment(range.begin, range.size()).mean();
+    frequency_hz.segment(range.begin, range.size()).setConstant(as_hz(mean));
+  }
+  return frequency_hz;
+}
+
+}  // namespace sprung::reduce

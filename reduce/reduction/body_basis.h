@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fem/assembly.h"
+#include "fem/mass_moments.h"
+#include "reduce/design/design.h"
+#include "reduce/modes/clamped_modes.h"
+#include "reduce/modes/free_body.h"
+#include "reduce/superelement/superelement.h"
+
+namespace sprung::reduce {
+
+/// The matrices of a design's frame, held at the reference node and free.
+struct BodyMatrices {
+  fem::AssembledMatrices full;  ///< 3N×3N
+  ModalProblem held;            ///< without the reference node's freedoms
+  ModalProblem free;            ///< elastic motion of the free body (free_body.h)
+  RigidMotions rigid;
+  Eigen::Matrix2Xd node_positions;  ///< 2×N, from the reference node [m]
+};
+BodyMatrices make_body_matrices(const Design& design);
+
+/// The vectors that a body is reduced to, in the canonical basis, and what was proved of them.
+struct BodyBasis {
+  Eigen::MatrixXd shapes;     ///< 3N×n; the reference node does not move
+  Eigen::VectorXi cluster;    ///< n
+  Eigen::MatrixXd stiffness;  ///< n×n, diagonal but for what a cluster's frequencies differ by
+  std::vector<std::string> kind;
+  Certificate certificate;
+  std::vector<CheckResult> checks;  ///< those that need the finite element model
+};
+
+/// Makes the basis that a design asks for, with its certificate.
+/// @throws support::InputError, support::NumericalError  as make_superelement
+BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, const fem::MassMoments& moments,
+                          const ClampedModeOptions& options);
+
+/// The frequencies of a basis: members of a cluster have one, the root of the mean square. @return n [Hz]
+Eigen::VectorXd calc_frequencies(const BodyBasis& basis);
+
+}  // namespace sprung::reduce

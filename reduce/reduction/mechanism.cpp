@@ -1,0 +1,53 @@
+#include "reduce/reduction/mechanism.h"
+
+#include <fmt/format.h>
+
+#include "fem/beam_element.h"
+#include "reduce/modes/rounding_error.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+constexpr double kMostOfTheEnergy = 0.9;
+
+// Strain energy of each element, but for a factor.
+Eigen::VectorXd calc_energies(const fem::BeamModel& model, const Eigen::MatrixXd& shape) {
+  Eigen::VectorXd energies(model.mesh.num_elements());
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
+    Eigen::VectorXd ends(6);
+    ends << shape.middleRows<3>(3 * nodes.first), shape.middleRows<3>(3 * nodes.second);
+    energies(e) = ends.dot(fem::calc_stiffness(fem::make_element(model, e)) * ends);
+  }
+  return energies;
+}
+
+}  // namespace
+
+void check_rounding(const Design& design, const Eigen::MatrixXd& shape, double error, double frequency_hz) {
+  if (error <= kMaxRoundingError) return;
+  const Eigen::VectorXd energies = calc_energies(design.model, shape);
+  Eigen::Index softest = 0;
+  const double largest = energies.maxCoeff(&softest);
+  if (design.model.mesh.num_elements() > 2 && largest > kMostOfTheEnergy * energies.sum()) {
+    const fem::Mesh& mesh = design.model.mesh;
+    const fem::Mesh::Element& element = mesh.elements[static_cast<std::size_t>(softest)];
+    throw support::NumericalError(
+        fmt::format("the body has an internal mechanism: it gives way at {:.3g} Hz in the element of section "
+                    "'{}' from {} to {}, "
+                    "so softly that rounding spoils the mode (relative error of ω² {:.2g}, accepted is "
+                    "{:.0e}); make it two "
+                    "bodies with a joint, or stiffen the section",
+                    frequency_hz, mesh.section_names[static_cast<std::size_t>(element.section)],
+                    fem::describe_node(mesh, element.first), fem::describe_node(mesh, element.second), error,
+                    kMaxRoundingError));
+  }
+  throw support::NumericalError(fmt::format(
+      "rounding spoils the lowest mode ({:.6g} Hz): its estimated relative error in ω² is {:.2g}, accepted "
+      "is {:.0e}; refine the mesh less (the error grows with the fourth power of the number of elements)",
+      frequency_hz, error, kMaxRoundingError));
+}
+
+}  // namespace sprung::reduce

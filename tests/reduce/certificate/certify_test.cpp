@@ -1,0 +1,156 @@
+#include "reduce/certificate/certify.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reduce/certificate/band_errors.h"
+#include "reduce/reduction/reduction.h"
+#include "tests/catch.h"
+#include "tests/reduce/certificate/certified_frame.h"
+#include "tests/reduce/test_bodies.h"
+
+namespace sprung::reduce {
+namespace {
+
+using testing::CertifiedFrame;
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// A file's certificate against the flexibility of the full model, which is solved directly, less that of the
+// file's values, over the whole band.
+void check_certificate(std::uint64_t seed, int num_frequencies) {
+  const Design design = testing::make_random_design(seed, seed % 2 == 0 ? 0.01 : 0.1);
+  const Superelement body = make_superelement(design);
+  const Certificate& certificate = *body.certificate;
+  const testing::FreeBodyTruth truth(design.model);
+  const auto b = static_cast<Eigen::Index>(certificate.interface.size());
+  Eigen::VectorXd bound(b), flexibility(b), largest = Eigen::VectorXd::Zero(b);
+  for (Eigen::Index j = 0; j < b; ++j) {
+    const InterfaceError& one = certificate.interface[static_cast<std::size_t>(j)];
+    flexibility(j) = one.static_flexibility;
+    bound(j) = one.error * one.static_flexibility;
+  }
+  for (int step = 1; step <= num_frequencies; ++step) {
+    const double s = std::pow(kTwoPi * certificate.highest_hz * step / num_frequencies, 2);
+    const Eigen::VectorXd error = truth.calc_flexibility(s, design.reduction.interface).real().diagonal() -
+                                  testing::calc_flexibility(body, s).diagonal();
+    // Near a resonance of the body the flexibility is large, and so is its rounding.
+    const Eigen::VectorXd rounding =
+        1e-8 * flexibility + 1e-9 * testing::calc_flexibility(body, s).diagonal().cwiseAbs();
+    INFO("seed " << seed << ", step " << step);
+    CHECK((bound - error + rounding).minCoeff() >= 0.0);
+    CHECK((error + rounding).minCoeff() >= 0.0);
+    largest = largest.cwiseMax(error);
+  }
+  CHECK(certificate.largest_error() <= certificate.tolerance);
+  if (certificate.cutoff_hz < 1.7 * certificate.highest_hz) return;
+  const auto worst = static_cast<Eigen::Index>(certificate.find_worst());
+  CHECK(bound(worst) <= 1.6 * largest(worst) + 1e-7 * flexibility(worst));
+}
+
+TEST_CASE("over the band the certificate is above the true error, by less than 1.6 where λ_c is far") {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) check_certificate(seed, 20);
+}
+
+TEST_CASE("the certificate is above the true error on 200 random frames", "[.][by-hand]") {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) check_certificate(seed, 60);
+}
+
+TEST_CASE("the bound over a band is at least that of every frequency in it, and nearly one of them") {
+  for (const std::uint64_t seed : {1, 3, 10}) {
+    const CertifiedFrame frame(seed, 4);
+    const BandErrors band = calc_band_errors(*frame.residual, frame.highest, frame.cutoff);
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(frame.loads.cols());
+    for (int step = 0; step <= 500; ++step) {
+      const double s = frame.highest * step / 500.0;
+      const Eigen::VectorXd D = frame.residual->calc_errors(s, frame.residual->calc_amplitudes(s));
+      largest = largest.cwiseMax(D / (1.0 - s / frame.cutoff));
+    }
+    CHECK((band.error - largest).minCoeff() >= -1e-12 * largest.maxCoeff());
+    const Eigen::VectorXd negligible = 1e-9 * frame.residual->static_flexibility();
+    CHECK((1.03 * largest + negligible - band.error).minCoeff() >= 0.0);
+  }
+  const CertifiedFrame frame(1, 0);
+  CHECK_THROWS_AS(calc_band_errors(*frame.residual, frame.cutoff, frame.cutoff), std::invalid_argument);
+}
+
+// The certificate of a basis that lacks one of its vectors.
+TEST_CASE("a basis without one of its vectors has a larger certificate") {
+  const CertifiedFrame whole(2, 5);
+  const double certified = calc_certificate(*whole.residual, whole.make_request()).largest_error();
+  const EigenPairs vectors = whole.residual->ritz();
+  for (Eigen::Index left_out = 0; left_out < vectors.vectors.cols(); ++left_out) {
+    InterfaceResidual residual(whole.matrices.free, *whole.factor, whole.modes.pairs, whole.loads);
+    for (Eigen::Index i = 0; i < vectors.vectors.cols(); ++i) {
+      if (i != left_out) residual.add(vectors.vectors.col(i));
+    }
+    CHECK(calc_certificate(residual, whole.make_request()).largest_error() > certified);
+  }
+}
+
+TEST_CASE(
+    "a basis that holds a free mode of the band at another frequency has no bound, and says how far off") {
+  Design design = testing::make_random_design(4, 0.01);
+  design.reduction.basis = BasisKind::kClamped;
+  design.modes = {.wanted = ModeCount{8}};
+  const Eigen::VectorXd expected = testing::FreeBodyTruth(design.model).calc_frequencies();
+  design.reduction.highest_hz = 0.5 * (expected(1) + expected(2));
+  const Certificate certificate = *make_superelement(design).certificate;
+  CHECK_FALSE(certificate.is_bounded());
+  CHECK(certificate.soft_loads.rows() == 0);
+  REQUIRE(certificate.free_hz.size() >= 2);
+  CHECK((certificate.free_hz.cwiseQuotient(expected.head(certificate.free_hz.size())).array() - 1.0)
+            .abs()
+            .maxCoeff() < 1e-9);
+  CHECK(certificate.free_error(0) > 1e-6);
+  // At rest the error is exact for every basis.
+  const Superelement body = make_superelement(design);
+  const Eigen::VectorXd missing =
+      testing::FreeBodyTruth(design.model).calc_flexibility_at_rest(design.reduction.interface).diagonal() -
+      testing::calc_flexibility(body, 0.0).diagonal();
+  for (std::size_t j = 0; j < certificate.interface.size(); ++j) {
+    const InterfaceError& one = certificate.interface[j];
+    CHECK(one.static_error * one.static_flexibility ==
+          Approx(missing(static_cast<Eigen::Index>(j))).epsilon(1e-6));
+  }
+  // Below its lowest free mode it has a bound.
+  design.reduction.highest_hz = 0.5 * expected(0);
+  CHECK(make_superelement(design).certificate->is_bounded());
+}
+
+// H_r + Fᵀ(λ_c − s)⁻¹F − H has no negative eigenvalue, H from the full model.
+TEST_CASE("the soft twin is softer than the body all over the band") {
+  for (const std::uint64_t seed : {0, 5, 11}) {
+    const Design design = testing::make_random_design(seed, 0.05);
+    const Superelement body = make_superelement(design);
+    const Eigen::MatrixXd& F = body.certificate->soft_loads;
+    REQUIRE(F.rows() > 0);
+    const testing::FreeBodyTruth truth(design.model);
+    const double cutoff = std::pow(kTwoPi * body.certificate->cutoff_hz, 2);
+    for (int step = 0; step <= 20; ++step) {
+      const double s = std::pow(kTwoPi * body.certificate->highest_hz * step / 20.0, 2);
+      const Eigen::MatrixXd H = truth.calc_flexibility(s, design.reduction.interface).real();
+      const Eigen::MatrixXd soft = testing::calc_flexibility(body, s) + F.transpose() * F / (cutoff - s);
+      const Eigen::VectorXd scale = H.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+      const Eigen::MatrixXd difference =
+          scale.asDiagonal() * (soft - 0.5 * (H + H.transpose())) * scale.asDiagonal();
+      const Eigen::MatrixXd symmetric = 0.5 * (difference + difference.transpose());
+      CHECK(symmetric.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-7);
+    }
+  }
+}
+
+TEST_CASE("a basis with all motions of the model misses nothing") {
+  Design design = testing::make_random_design(7, 0.01);
+  design.reduction.basis = BasisKind::kClamped;
+  design.modes = {.wanted = AllModes{}};
+  const Certificate certificate = *make_superelement(design).certificate;
+  CHECK(certificate.largest_error() == 0.0);
+  CHECK(certificate.cutoff_hz == 0.0);
+  CHECK(certificate.free_error.maxCoeff() == 0.0);
+}
+
+}  // namespace
+}  // namespace sprung::reduce

@@ -1,0 +1,38 @@
+#include "reduce/reduction/mechanism.h"
+
+#include "reduce/reduction/reduction.h"
+#include "tests/catch.h"
+#include "tests/reduce/free_body_truth.h"
+#include "tests/reduce/test_bodies.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::reduce {
+namespace {
+
+// Two stiff beams joined by an element that hardly bends back.
+Design make_hinged(double bending) {
+  fem::BeamModel model = testing::make_model({testing::make_section(), testing::make_section()});
+  model.sections[1].bending_rigidity *= bending;
+  testing::add_line(model, {0.0, 0.0}, {1.0, 0.0}, 4, 0);
+  testing::add_line(model, {1.0, 0.0}, {1.05, 0.0}, 1, 1);
+  testing::add_line(model, {1.05, 0.0}, {2.0, 0.3}, 4, 0);
+  const auto interface = testing::make_interface(model, {testing::find_node_at(model, {2.0, 0.3})});
+  Design design = testing::make_design(model, {0.0, 0.0}, {});
+  design.reduction = {.basis = BasisKind::kFree, .highest_hz = 50.0, .interface = interface};
+  return design;
+}
+
+TEST_CASE("an element that gives way without force is named as an internal mechanism") {
+  const std::string message =
+      testing::message_of<support::NumericalError>([] { make_superelement(make_hinged(1e-13)); });
+  CHECK_THAT(message, Contains("internal mechanism"));
+}
+
+TEST_CASE("a body that is soft at one place, but not to rounding, is reduced") {
+  const Superelement body = make_superelement(make_hinged(1e-4));
+  CHECK(body.kind.front() == kFreeVector);
+  CHECK(body.certificate->largest_error() <= body.certificate->tolerance);
+}
+
+}  // namespace
+}  // namespace sprung::reduce
