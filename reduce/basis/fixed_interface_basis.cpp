@@ -13,7 +13,8 @@ namespace {
 
 using support::NumericalError;
 
-constexpr double kDependent = 1e-10;  // eigenvalue of the Gram matrix below which a direction is dropped
+constexpr double kDependentDirection =
+    1e-10;  // eigenvalue of the Gram matrix below which a direction is dropped
 
 // Freedoms of the frame: those of the interface, and the others.
 struct Partition {
@@ -69,7 +70,7 @@ Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions
   Eigen::MatrixXd motion = rigid.shapes(partition.interface, Eigen::all);
   motion.col(2) /= rigid.shapes.col(2).cwiseAbs().maxCoeff();
   const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(motion.transpose() * motion);
-  if (!(values.minCoeff() > kDependent * values.maxCoeff())) {
+  if (!(values.minCoeff() > kDependentDirection * values.maxCoeff())) {
     throw NumericalError(
         "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; "
         "name "
@@ -105,7 +106,7 @@ Eigen::MatrixXd find_independent(const Eigen::MatrixXd& energy) {
   const Eigen::VectorXd scale = energy.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = support::solve_symmetric(scale.asDiagonal() * energy * scale.asDiagonal());
   if (!pairs) throw NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
-  const Eigen::Index dropped = (pairs->values.array() < kDependent).count();
+  const Eigen::Index dropped = (pairs->values.array() < kDependentDirection).count();
   return scale.asDiagonal() * pairs->vectors.rightCols(energy.rows() - dropped);
 }
 

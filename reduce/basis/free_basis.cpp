@@ -13,14 +13,14 @@ namespace sprung::reduce {
 
 namespace {
 
-constexpr double kTie = 1e-6;         // shares nearer than this count as equal: the first load is taken
-constexpr double kDependent = 1e-10;  // share at rest below which a load adds no direction
+constexpr double kTie = 1e-6;  // shares nearer than this count as equal: the first load is taken
+constexpr double kNegligibleMissing = 1e-10;  // share at rest below which a load adds no direction
 
 // The static response to every load, in their order.
 void add_all(InterfaceResidual& residual) {
   for (Eigen::Index load = 0; load < residual.num_loads(); ++load) {
     const double missing = residual.calc_errors(0.0, residual.calc_amplitudes(0.0))(load);
-    if (missing > kDependent * residual.static_flexibility()(load))
+    if (missing > kNegligibleMissing * residual.static_flexibility()(load))
       residual.add(residual.make_vector(load, 0.0));
   }
 }
