@@ -1,10 +1,9 @@
 #include "reduce/basis/fixed_interface_basis.h"
 
-#include <Eigen/QR>
-
 #include "reduce/modes/dense_eigen_solver.h"
 #include "reduce/modes/held_node.h"
 #include "tools/support/dense/eigenproblems.h"
+#include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -13,7 +12,8 @@ namespace {
 
 using support::NumericalError;
 
-constexpr double kDependentDirection =
+constexpr double kSmallestHold = 1e-6;  // singular value of the rigid motions at an interface that holds
+constexpr double kDependentVector =
     1e-10;  // eigenvalue of the Gram matrix below which a direction is dropped
 
 // Freedoms of the frame: those of the interface, and the others.
@@ -69,16 +69,14 @@ struct Components {
 Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions& rigid) {
   Eigen::MatrixXd motion = rigid.shapes(partition.interface, Eigen::all);
   motion.col(2) /= rigid.shapes.col(2).cwiseAbs().maxCoeff();
-  const Eigen::VectorXd values = support::calc_symmetric_eigenvalues(motion.transpose() * motion);
-  if (!(values.minCoeff() > kDependentDirection * values.maxCoeff())) {
+  const support::SingularPairs pairs = support::calc_left_singular_pairs(motion);
+  if (pairs.values.size() < 3 || !(pairs.values(2) > kSmallestHold * pairs.values(0))) {
     throw NumericalError(
         "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; "
         "name "
         "more of them in [interface], or take the basis \"free\"");
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motion);
-  const Eigen::MatrixXd directions = qr.householderQ();
-  return directions.rightCols(directions.cols() - 3);
+  return pairs.vectors.rightCols(pairs.vectors.cols() - 3);
 }
 
 Components make_components(const Eigen::SparseMatrix<double>& stiffness,
@@ -106,7 +104,7 @@ Eigen::MatrixXd find_independent(const Eigen::MatrixXd& energy) {
   const Eigen::VectorXd scale = energy.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = support::solve_symmetric(scale.asDiagonal() * energy * scale.asDiagonal());
   if (!pairs) throw NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
-  const Eigen::Index dropped = (pairs->values.array() < kDependentDirection).count();
+  const Eigen::Index dropped = (pairs->values.array() < kDependentVector).count();
   return scale.asDiagonal() * pairs->vectors.rightCols(energy.rows() - dropped);
 }
 

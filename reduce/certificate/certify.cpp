@@ -16,10 +16,6 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr Eigen::Index kMostSoftLoads = 200;  // b above which no soft twin is made: it takes b×b matrices
 
-double as_hz(double omega_squared) {
-  return std::sqrt(omega_squared) / kTwoPi;
-}
-
 // A load that deforms nothing has no share.
 double calc_share(double error, double flexibility) {
   return flexibility > 0.0 ? error / flexibility : 0.0;
@@ -99,7 +95,7 @@ Certificate calc_certificate(const InterfaceResidual& residual, const Certificat
   Certificate certificate;
   certificate.highest_hz = request.highest_hz;
   certificate.tolerance = request.tolerance;
-  certificate.cutoff_hz = std::isinf(cutoff) ? 0.0 : as_hz(cutoff);
+  certificate.cutoff_hz = std::isinf(cutoff) ? 0.0 : calc_frequency_hz(cutoff);
   certificate.rounding_floor = std::max(kRoundingFloor, request.rounding);
   certificate.free_hz = request.free_modes.omega_squared.cwiseSqrt() / kTwoPi;
   certificate.free_error = calc_frequency_errors(residual, request);
@@ -122,7 +118,7 @@ Certificate calc_certificate(const InterfaceResidual& residual, const Certificat
          .static_flexibility = flexibility(j),
          .static_error = calc_share(at_rest(j), flexibility(j)),
          .error = bounded ? calc_share(band.error(j), flexibility(j)) : kUnbounded,
-         .worst_hz = bounded ? as_hz(band.worst_omega_squared(j)) : 0.0});
+         .worst_hz = bounded ? calc_frequency_hz(band.worst_omega_squared(j)) : 0.0});
   }
   return certificate;
 }

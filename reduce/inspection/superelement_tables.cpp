@@ -67,6 +67,9 @@ ModeKinds calc_mode_kinds(const Superelement& s) {
   kinds.effective_mass.resize(3, s.num_modes());
   kinds.effective_mass.topRows(2) = s.inertia.P.cwiseAbs2() / s.inertia.mass;
   kinds.effective_mass.row(2) = s.inertia.c.cwiseAbs2() / s.inertia.second_moment;
+  // A vector of a free body carries its own modal mass; it is 1 for clamped modes.
+  const Eigen::VectorXd modal_mass = s.inertia.M_ff.diagonal();
+  kinds.effective_mass = kinds.effective_mass * modal_mass.cwiseInverse().asDiagonal();
   return kinds;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "fem/assembly.h"
 #include "reduce/basis/fixed_interface_basis.h"
@@ -25,10 +24,6 @@ namespace {
 constexpr double kResidualTolerance = 1e-6;
 // The band of a clamped basis that names none: up to this mode's frequency, by the margin of free modes.
 constexpr Eigen::Index kBandMode = 20;
-
-double as_hz(double omega_squared) {
-  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
-}
 
 // Vectors of the held frame, in the canonical basis of their clusters.
 struct CanonicalVectors {
@@ -70,7 +65,7 @@ std::vector<CheckResult> make_model_checks(int num_missing, double rounding, dou
 double choose_band(const Design& design, const EigenPairs& stored) {
   if (design.reduction.highest_hz) return *design.reduction.highest_hz;
   const Eigen::Index last = std::min(stored.omega_squared.size(), kBandMode) - 1;
-  return as_hz(stored.omega_squared(last)) / kBandMargin;
+  return calc_frequency_hz(stored.omega_squared(last)) / kBandMargin;
 }
 
 BasisRequest make_request(const Design& design, const BodyMatrices& matrices, double highest_hz) {
@@ -107,7 +102,7 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
   const double rounding = estimate_rounding_error(matrices.held.stiffness, modes.pairs.vectors.col(0),
                                                   modes.pairs.omega_squared(0));
   check_rounding(design, insert_node(modes.pairs.vectors.leftCols(1), design.reference_node), rounding,
-                 as_hz(modes.pairs.omega_squared(0)));
+                 calc_frequency_hz(modes.pairs.omega_squared(0)));
   const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
   const CanonicalVectors canonical = make_canonical(
       modes.pairs, modes.cluster, columns, insert_node(modes.pairs.vectors, design.reference_node), frame);
@@ -133,12 +128,12 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
   const ModesBelow& lowest =
       modes.cluster.size() > 0
           ? modes
-          : calc_modes_below(matrices.free, 1.01 * as_hz(modes.next_omega_squared), options);
+          : calc_modes_below(matrices.free, 1.01 * calc_frequency_hz(modes.next_omega_squared), options);
   const Eigen::VectorXd first = lowest.pairs.vectors.col(0);
   const double lowest_omega_squared = lowest.pairs.omega_squared(0);
   request.rounding = estimate_rounding_error(matrices.free.stiffness, first, lowest_omega_squared);
   check_rounding(design, insert_node(Eigen::MatrixXd(first), design.reference_node), request.rounding,
-                 as_hz(lowest_omega_squared));
+                 calc_frequency_hz(lowest_omega_squared));
   const bool is_free = design.reduction.basis == BasisKind::kFree;
   const FreeBodyBasis found =
       is_free ? make_free_basis(matrices.free, factor, modes, request)
@@ -197,7 +192,7 @@ Eigen::VectorXd calc_frequencies(const BodyBasis& basis) {
   for (ModeRange range; range.begin < frequency_hz.size(); range.begin = range.end) {
     range = find_cluster_of(basis.cluster, range.begin);
     const double mean = basis.stiffness.diagonal().segment(range.begin, range.size()).mean();
-    frequency_hz.segment(range.begin, range.size()).setConstant(as_hz(mean));
+    frequency_hz.segment(range.begin, range.size()).setConstant(calc_frequency_hz(mean));
   }
   return frequency_hz;
 }
