@@ -116,7 +116,7 @@ std::vector<std::string> find_kinds(const Eigen::MatrixXd& amplitudes, const Eig
     const Eigen::VectorXd part = amplitudes.col(i).head(num_constraint);
     const double constraint = part.dot(energy.topLeftCorner(num_constraint, num_constraint) * part);
     const double all = amplitudes.col(i).dot(energy * amplitudes.col(i));
-    kinds.emplace_back(constraint > 0.5 * all ? kConstraintVector : kClampedVector);
+    kinds.emplace_back(constraint > 0.5 * all ? kConstraintVector : kFixedInterfaceVector);
   }
   return kinds;
 }

@@ -58,9 +58,10 @@ std::string format_basis(const Superelement& s) {
     return fmt::format("{} modes from {:.4f} to {:.4f} Hz", s.num_modes(), s.frequency_hz(0),
                        s.frequency_hz(s.num_modes() - 1));
   }
-  if (const int constraint = count(kConstraintVector); constraint > 0) {
-    return fmt::format("{} vectors of fixed interface, mainly {} constraint and {} clamped", s.num_modes(),
-                       constraint, count(kClampedVector));
+  const int constraint = count(kConstraintVector), fixed = count(kFixedInterfaceVector);
+  if (constraint + fixed > 0) {
+    return fmt::format("{} vectors of fixed interface, mainly {} constraint and {} held at the interface",
+                       s.num_modes(), constraint, fixed);
   }
   const int num_free = count(kFreeVector), last = last_mode(kFreeVector);
   const std::string free =

@@ -7,10 +7,12 @@
 namespace sprung::reduce {
 
 /// What a vector of a basis is (reduce/basis, "Kinds of vectors"). Only of a free mode, and of a mode of the
-/// held body, the frequency is one that the body has.
-inline constexpr const char* kFreeVector = "free";              ///< mode of the free body
-inline constexpr const char* kResidualVector = "residual";      ///< response to interface loads
-inline constexpr const char* kClampedVector = "clamped";        ///< mode of the held body
+/// body held at its reference node, the frequency is one that the body has.
+inline constexpr const char* kFreeVector = "free";          ///< mode of the free body
+inline constexpr const char* kResidualVector = "residual";  ///< response to interface loads
+inline constexpr const char* kClampedVector = "clamped";    ///< mode of the body held at its reference node
+inline constexpr const char* kFixedInterfaceVector =
+    "fixed-interface";                                          ///< mode of the body held at its interface
 inline constexpr const char* kConstraintVector = "constraint";  ///< response to interface displacements
 
 /// Stands for an error that has no bound, which a file cannot hold otherwise.

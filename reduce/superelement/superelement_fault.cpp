@@ -156,11 +156,14 @@ Fault check_modes(const Superelement& s) {
 }
 
 Fault check_certificate(const Superelement& s) {
-  static const std::set<std::string> kKinds{kFreeVector, kResidualVector, kClampedVector, kConstraintVector};
+  static const std::set<std::string> kKinds{kFreeVector, kResidualVector, kClampedVector,
+                                            kFixedInterfaceVector, kConstraintVector};
   for (std::size_t i = 0; i < s.kind.size(); ++i) {
     if (kKinds.count(s.kind[i]) == 0) {
-      return make_fault("/modes/kind", "is '{}' for mode {}, expected free, residual, clamped or constraint",
-                        s.kind[i], i + 1);
+      return make_fault(
+          "/modes/kind",
+          "is '{}' for mode {}, expected free, residual, clamped, fixed-interface or constraint", s.kind[i],
+          i + 1);
     }
   }
   if (!s.certificate) return {};

@@ -51,7 +51,7 @@ TEST_CASE("a basis of fixed interface is exact at rest under loads in equilibriu
       CHECK(check.passed());
     }
     for (int i = 0; i < body.num_modes(); ++i) {
-      CHECK((body.kind_of(i) == kConstraintVector || body.kind_of(i) == kClampedVector));
+      CHECK((body.kind_of(i) == kConstraintVector || body.kind_of(i) == kFixedInterfaceVector));
     }
   }
 }

@@ -163,7 +163,9 @@ TEST_CASE("a matrix or list of another size is a fault") {
     CAPTURE(field.path);
     if (!value.reals.empty()) {
       support::RowMatrix& last = value.reals.back();
-      if (last.rows() == 1 || last.rows() == 2) {
+      if (last.cols() == 1) {
+        last.conservativeResize(last.rows() + 1, Eigen::NoChange);
+      } else if (last.rows() == 1 || last.rows() == 2) {
         last.conservativeResize(Eigen::NoChange, last.cols() - 1);
       } else {
         last.conservativeResize(last.rows() - 1, Eigen::NoChange);
@@ -184,7 +186,7 @@ TEST_CASE("what contradicts the certificate is a fault") {
     return fault ? fault->dataset + " " + fault->message : "none";
   };
   CHECK(fault_of([](Superelement& s) { s.kind[1] = "bent"; }) ==
-        "/modes/kind is 'bent' for mode 2, expected free, residual, clamped or constraint");
+        "/modes/kind is 'bent' for mode 2, expected free, residual, clamped, fixed-interface or constraint");
   CHECK(fault_of([](Superelement& s) { s.certificate.reset(); }) ==
         "/modes/kind stands without a certificate");
   CHECK(fault_of([](Superelement& s) { s.geometric_stiffness.reset(); }) ==
