@@ -126,10 +126,7 @@ class Browser:
             page.call(f"{domain}.enable")
         page.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
         page.resize(width, height, touch)
-        page.call(
-            "Emulation.setEmulatedMedia",
-            features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}],
-        )
+        page.set_media(dark)
         answer = page.call("Page.navigate", url=Path(path).resolve().as_uri())
         if "errorText" in answer:
             raise RuntimeError(f"{path}: {answer['errorText']}")
@@ -245,7 +242,7 @@ class Page:
 
     def wait_for_download(self):
         """Waits frame by frame until a file is saved. RuntimeError after a great many frames."""
-        for _ in range(10000):
+        for _ in range(3000):
             for place, event in enumerate(self.browser.events):
                 if event.get("method") == "Browser.downloadProgress" and event["params"]["state"] != "inProgress":
                     del self.browser.events[place]
@@ -257,9 +254,15 @@ class Page:
 
     def prefer(self, dark):
         """Switches the system's colour scheme while the page is open."""
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.call("Emulation.setEmulatedMedia", features=[scheme])
+        self.set_media(dark)
         self.settle()
+
+    def set_media(self, dark):
+        """A colour scheme, and no smooth scrolling, during which a click would miss."""
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call(
+            "Emulation.setEmulatedMedia", features=[scheme, {"name": "prefers-reduced-motion", "value": "reduce"}]
+        )
 
     def problems(self):
         """What the page logged as errors or warnings, threw, or asked of the network: texts."""
