@@ -17,6 +17,12 @@ CERTIFIED = (
 )  # fmt: skip
 
 
+def keep_up_to_60_hz(values, step=1e-3):
+    spectrum = np.fft.rfft(values)
+    spectrum[np.fft.rfftfreq(len(values), step) > 60.0] = 0.0
+    return np.fft.irfft(spectrum, len(values))
+
+
 class CertifiedChassis(VerificationCase):
     def truck_modes(self, *arguments):
         return self.modes(BUMP, *arguments, superelements=TRUCK_SUPERELEMENTS)[0]
@@ -33,12 +39,17 @@ class CertifiedChassis(VerificationCase):
         certified = self.truck_modes(*CERTIFIED)
         self.assert_close(certified[: in_band.sum()], truth[in_band], relative=1e-3)
 
-    def test_a_run_over_the_bump_is_that_of_the_full_model(self):
-        truth = self.run_truck(*ALL)["points/chassis.seat/acceleration"][:, 1]
-        results = self.run_truck(*CERTIFIED)
-        certified = results["points/chassis.seat/acceleration"][:, 1]
-        self.assertLess(np.std(certified - truth), 0.02 * np.std(truth))
-        self.assertLess(results.summary["energy_closure"], 1e-3)
+    # Without damping, since a ratio of clamped modes is another one of free modes; in the certified band.
+    def test_a_run_over_the_bump_is_that_of_the_full_model_up_to_60_hz(self):
+        undamped = ("--set", "modal_damping.chassis=0")
+        truth = self.run_truck(*ALL, *undamped)
+        certified = self.run_truck(*CERTIFIED, *undamped)
+        for quantity, share in (("position", 1e-3), ("acceleration", 0.02)):
+            expected, found = (
+                keep_up_to_60_hz(results[f"points/chassis.seat/{quantity}"][:, 1]) for results in (truth, certified)
+            )
+            self.assertLess(np.std(found - expected), share * np.std(expected))
+        self.assertLess(certified.summary["energy_closure"], 1e-3)
 
     def test_a_number_takes_the_free_modes_first(self):
         results = self.run_truck(*CERTIFIED[:2], "--set", "modes.chassis=5")
