@@ -219,9 +219,18 @@ class Page:
         self.evaluate(
             f"document.querySelector({json.dumps(selector)}).scrollIntoView({{block: 'center', behavior: 'instant'}})"
         )
-        self.settle()
+        self.wait_until_still(selector)
         x, y, width, height = self.box(selector)
         return x + share[0] * width - self.evaluate("scrollX"), y + share[1] * height - self.evaluate("scrollY")
+
+    def wait_until_still(self, selector):
+        """Waits until an element has stood in its place for some frames: diagrams are redrawn after a choice."""
+        self.evaluate(
+            "new Promise((done) => { let last = '', still = 0; const look = () => {"
+            f"const box = JSON.stringify(document.querySelector({json.dumps(selector)}).getBoundingClientRect());"
+            "still = box === last ? still + 1 : 0; last = box;"
+            "if (still >= 5) done(true); else requestAnimationFrame(look); }; look(); })"
+        )
 
     def click(self, selector, share=(0.5, 0.5), times=1):
         """Clicks an element with the mouse, once or several times in a row."""
