@@ -2,6 +2,7 @@
 """Mechanisms of rigid bodies: the examples, each against numbers from elsewhere."""
 
 import os
+import subprocess
 import unittest
 
 import h5py
@@ -254,6 +255,20 @@ class GeneralizedAlpha(VerificationCase):
              "--set", "integrator.method=generalized-alpha", "--set", "integrator.spectral_radius=1.0"])
         self.assertEqual(process.returncode, 3, process.stderr)
         self.assertIn("nothing damps the joints' forces", process.stderr)
+
+
+class UntrustedRun(VerificationCase):
+    def test_a_run_whose_energies_do_not_close_ends_with_exit_code_1_and_its_results(self):
+        # The pendulum with a step that is twenty times too long.
+        process = subprocess.run(
+            [os.environ["SPRUNG_DYNAMICS"], "run", str(EXAMPLES / "pendulum_run.toml"), "--quiet", "-o", "results.h5",
+             "--set", 'integrator.method="generalized-alpha"', "--set", "integrator.fixed_step=0.05"],
+            cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
+        )
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("do not trust this run", process.stderr)
+        self.assertIn("energy balance", process.stdout)
+        self.assertTrue((self.folder / "results.h5").is_file())
 
 
 if __name__ == "__main__":
