@@ -205,8 +205,7 @@ void check_counts(const MshDeclaration& declared, const GmshContents& contents) 
     const std::string warning = find_logged("Warning");
     throw Refusal(
         fmt::format("the file declares {} {}, but {} could be read: it is truncated, or some belong to no "
-                    "element or have "
-                    "the same number{}{}",
+                    "element or have the same number{}{}",
                     expected, what, read, warning.empty() ? "" : "; gmsh: ", warning));
   };
   check("nodes", declared.num_nodes, contents.nodes.size());

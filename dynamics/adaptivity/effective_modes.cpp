@@ -1,8 +1,9 @@
 #include "dynamics/adaptivity/effective_modes.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::dynamics {
 
@@ -35,7 +36,6 @@ EffectiveModes::EffectiveModes(const FullSmallMotion& motion, const std::vector<
 Eigen::MatrixXd EffectiveModes::calc_directions(const std::vector<bool>& is_active) const {
   const Eigen::MatrixXd& mass = motion_->motion().mass;
   const std::vector<Eigen::Index> giving = motion_->find_free(is_active);
-  const Eigen::LLT<Eigen::MatrixXd> factor(mass(giving, giving));
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mass.rows(), static_cast<Eigen::Index>(modes_.size()));
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     if (own_[j] < 0) continue;
@@ -46,8 +46,7 @@ Eigen::MatrixXd EffectiveModes::calc_directions(const std::vector<bool>& is_acti
       x.col(column) = -mass.col(own_[j]);
     }
   }
-  Eigen::MatrixXd part = x(giving, Eigen::all);
-  if (!giving.empty()) factor.solveInPlace(part);
+  const Eigen::MatrixXd part = support::solve_positive_definite(mass(giving, giving), x(giving, Eigen::all));
   x.setZero();
   x(giving, Eigen::all) = part;
   for (std::size_t j = 0; j < modes_.size(); ++j) {

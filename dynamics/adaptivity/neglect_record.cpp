@@ -9,13 +9,13 @@ NeglectRecord::NeglectRecord(const ModeIndicator& indicator, double start_time)
 }
 
 void NeglectRecord::add_step(const ModeIndicator& indicator, const std::vector<ModeAmplitude>& largest) {
-  const auto raise = [&](double value, Peak& peak) {
+  const auto record_peak = [&](double value, Peak& peak) {
     if (value > peak.value) peak = {.value = value, .time = indicator.time()};
   };
   for (std::size_t j = 0; j < peaks_.size(); ++j) {
-    raise(indicator.calc_deflection(j, largest[j]), peaks_[j].deflection);
+    record_peak(indicator.calc_deflection(j, largest[j]), peaks_[j].deflection);
     for (std::size_t i = 0; i < peaks_[j].acceleration.size(); ++i) {
-      raise(indicator.calc_acceleration(j, i, largest[j]), peaks_[j].acceleration[i]);
+      record_peak(indicator.calc_acceleration(j, i, largest[j]), peaks_[j].acceleration[i]);
     }
   }
 }

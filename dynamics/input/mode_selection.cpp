@@ -65,8 +65,7 @@ std::vector<int> resolve_count(const ModeRequest& request, const reduce::Superel
     if (last != request.count) {
       refuse(request.location, request.key,
              fmt::format("is {}, which separates modes {} to {} of one frequency, {:.6g} Hz; take {} or {} "
-                         "modes, or list "
-                         "their numbers",
+                         "modes, or list their numbers",
                          request.count, first, last, superelement.frequency_hz[request.count - 1], first - 1,
                          last));
     }

@@ -130,8 +130,7 @@ void check_masses(const Vehicle& vehicle) {
       throw support::InputError(
           body.mass_location,
           fmt::format("'bodies.{}.mass' is {:g} kg, where half of the bodies have {} {:g} kg: more than a "
-                      "factor of {:g} "
-                      "apart they cannot be calculated together",
+                      "factor of {:g} apart they cannot be calculated together",
                       body.name, body.mass, ratio > 1.0 ? "at most" : "at least", *middle, kMostRatio));
     }
     const double radius = std::sqrt(body.inertia / body.mass);
@@ -139,8 +138,7 @@ void check_masses(const Vehicle& vehicle) {
       throw support::InputError(
           body.inertia_location,
           fmt::format("'bodies.{}.inertia' is {:g} kg·m², which for a mass of {:g} kg is a radius of "
-                      "gyration of {:g} m; "
-                      "expected {:g} to {:g} m",
+                      "gyration of {:g} m; expected {:g} to {:g} m",
                       body.name, body.inertia, body.mass, radius, 1.0 / kMostRadius, kMostRadius));
     }
   }

@@ -1,7 +1,5 @@
 #include "dynamics/integration/stepping_options.h"
 
-#include <stdexcept>
-
 namespace sprung::dynamics {
 
 SteppingMethod default_method(int num_freedoms) {
@@ -10,19 +8,18 @@ SteppingMethod default_method(int num_freedoms) {
                                                                   : SteppingMethod::kAdams;
 }
 
-Integrator::Options integrator_options(const SteppingOptions& options) {
-  const double tolerance = options.relative_tolerance;
-  switch (options.method) {
+std::optional<Integrator::Method> find_integrator(SteppingMethod method) {
+  switch (method) {
     case SteppingMethod::kExponential:
-      return {.method = Integrator::Method::kExponential, .relative_tolerance = tolerance};
+      return Integrator::Method::kExponential;
     case SteppingMethod::kAdams:
-      return {.method = Integrator::Method::kAdams, .relative_tolerance = tolerance};
+      return Integrator::Method::kAdams;
     case SteppingMethod::kBdf:
-      return {.method = Integrator::Method::kBdf, .relative_tolerance = tolerance};
+      return Integrator::Method::kBdf;
     case SteppingMethod::kGeneralizedAlpha:
       break;
   }
-  throw std::invalid_argument("integrator_options: generalized-alpha integrates the constrained system");
+  return std::nullopt;
 }
 
 }  // namespace sprung::dynamics

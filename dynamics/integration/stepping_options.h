@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "dynamics/integration/integrator.h"
@@ -35,7 +36,7 @@ struct SteppingOptions {
 /// the exponential method cost more than the equations.
 SteppingMethod default_method(int num_freedoms);
 
-/// @throws std::invalid_argument for generalized-α, which is no integrator of ordinary differential equations
-Integrator::Options integrator_options(const SteppingOptions& options);
+/// The integrator of ordinary differential equations that a method is; none for generalized-α.
+std::optional<Integrator::Method> find_integrator(SteppingMethod method);
 
 }  // namespace sprung::dynamics

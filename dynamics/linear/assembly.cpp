@@ -60,9 +60,8 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
   const std::size_t joint = joint_of_constraint(model, static_cast<int>(worst));
   throw support::InputError(
       model.joints[joint]->location,
-      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} {} apart; joints "
-                  "that stay open: "
-                  "{}; check positions, angles and points of the bodies they join",
+      fmt::format("the joints cannot be closed from the given positions: '{}' stays {:.3g} {} apart; "
+                  "joints that stay open: {}; check positions, angles and points of the bodies they join",
                   model.joints[joint]->name, std::abs(phi[worst]),
                   model.joints[joint]->constraint_unit(static_cast<int>(worst) - model.joint_rows[joint]),
                   name_constraints(model, open)));

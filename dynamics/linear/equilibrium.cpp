@@ -131,8 +131,8 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   const NeutralDirection direction = describe(model, system.directions * modal.modes.vectors.col(worst));
   throw support::NumericalError(
       fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
-                  "(tolerance {:.0e}); what "
-                  "keeps moving: {}; check that something holds it against gravity, and the start position",
+                  "(tolerance {:.0e}); what keeps moving: {}; check that something holds it against "
+                  "gravity, and the start position",
                   kMaxNewtonIterations, last_step, least, direction.description));
 }
 

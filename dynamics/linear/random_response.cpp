@@ -76,8 +76,7 @@ std::vector<double> find_panel_ends(const RoadSpectrum& road, double speed, cons
   }
   throw support::NumericalError(fmt::format(
       "random response: the mean square does not converge near {:.6g} Hz, where a mode at {:.6g} Hz has "
-      "{:.1e} of "
-      "critical damping; give it damping, or leave it outside of the range of frequencies",
+      "{:.1e} of critical damping; give it damping, or leave it outside of the range of frequencies",
       frequency_hz, nearest.imag() / (2.0 * std::numbers::pi), -nearest.real() / std::abs(nearest)));
 }
 

@@ -4,160 +4,92 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kThreshold = 0.1;    // smallest pivot, relative to the largest entry of its row
 constexpr double kPivotDecay = 0.02;  // relative to its first size: with a smaller pivot, all are chosen anew
-constexpr int kNumRowsSearched = 4;   // rows with the fewest entries, among which a pivot is chosen
 
-}  // namespace
+// Steps of the elimination at which the rows and columns of the matrix have their pivots.
+struct StepsOfPivots {
+  std::vector<int> rows, columns;
 
-// What elimination has left of the matrix while pivots are chosen: the active submatrix.
-struct SparseLu::ActiveSubmatrix {
-  std::vector<std::map<int, double>> rows;  // by column
-  std::vector<std::set<int>> columns;       // rows with an entry there
-  std::set<std::pair<std::size_t, int>> rows_by_count;
-
-  ActiveSubmatrix(int size, const std::vector<Position>& entries, std::span<const double> values)
-      : rows(static_cast<std::size_t>(size)), columns(static_cast<std::size_t>(size)) {
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      row(entries[k].row)[entries[k].column] += values[k];
-      column(entries[k].column).insert(entries[k].row);
+  explicit StepsOfPivots(const std::vector<Pivot>& order) : rows(order.size()), columns(order.size()) {
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      rows[static_cast<std::size_t>(order[k].row)] = static_cast<int>(k);
+      columns[static_cast<std::size_t>(order[k].column)] = static_cast<int>(k);
     }
-    for (int i = 0; i < size; ++i) rows_by_count.emplace(row(i).size(), i);
   }
-  std::map<int, double>& row(int i) { return rows[static_cast<std::size_t>(i)]; }
-  std::set<int>& column(int j) { return columns[static_cast<std::size_t>(j)]; }
-
-  Position choose() {
-    Position best{-1, -1};
-    std::size_t least_cost = 0;
-    double best_size = -1.0;
-    int searched = 0;
-    for (const auto& [count, i] : rows_by_count) {
-      if (++searched > kNumRowsSearched && best.row >= 0) break;
-      double largest = 0.0;
-      for (const auto& [j, value] : row(i)) largest = std::max(largest, std::abs(value));
-      for (const auto& [j, value] : row(i)) {
-        if (!(std::abs(value) >= kThreshold * largest)) continue;
-        const std::size_t cost = (count - 1) * (column(j).size() - 1);
-        if (best.row >= 0 && (cost > least_cost || (cost == least_cost && std::abs(value) <= best_size)))
-          continue;
-        best = {i, j};
-        least_cost = cost;
-        best_size = std::abs(value);
-      }
-    }
-    // No entry passes if the values are NaN. Any pivot will do: the result is NaN.
-    if (best.row < 0)
-      best = {rows_by_count.begin()->second, row(rows_by_count.begin()->second).begin()->first};
-    return best;
-  }
-
-  void eliminate(const Position& pivot) {
-    const std::map<int, double> pivot_row = std::move(row(pivot.row));
-    rows_by_count.erase({pivot_row.size(), pivot.row});
-    for (const auto& [j, value] : pivot_row) column(j).erase(pivot.row);
-    for (const int i : column(pivot.column)) {
-      std::map<int, double>& target = row(i);
-      rows_by_count.erase({target.size(), i});
-      const double factor = target[pivot.column] / pivot_row.at(pivot.column);
-      target.erase(pivot.column);
-      for (const auto& [j, value] : pivot_row) {
-        if (j == pivot.column) continue;
-        target[j] -= factor * value;
-        column(j).insert(i);
-      }
-      rows_by_count.emplace(target.size(), i);
-    }
-    column(pivot.column).clear();
-  }
+  int of_row(int i) const { return rows[static_cast<std::size_t>(i)]; }
+  int of_column(int j) const { return columns[static_cast<std::size_t>(j)]; }
 };
 
-SparseLu::SparseLu(int size, std::vector<Position> entries)
-    : size_(size), entries_(std::move(entries)), work_(static_cast<std::size_t>(size)) {}
-
-void SparseLu::choose_pivots(std::span<const double> values) {
-  const auto size = static_cast<std::size_t>(size_);
-  std::vector<int> step_of_row(size), step_of_column(size);
-  std::vector<std::vector<int>> upper(size), lower(size);  // of each step: columns and rows of A
-  std::vector<std::vector<Product>> forward(size);
-  steps_.clear();
-  ActiveSubmatrix matrix(size_, entries_, values);
-  int num_factors = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    const Position pivot = matrix.choose();
-    for (const auto& [j, value] : matrix.row(pivot.row)) {
-      if (j != pivot.column) upper[k].push_back(j);
-    }
-    for (const int i : matrix.column(pivot.column)) {
-      if (i != pivot.row) lower[k].push_back(i);
-    }
-    step_of_row[static_cast<std::size_t>(pivot.row)] = static_cast<int>(k);
-    step_of_column[static_cast<std::size_t>(pivot.column)] = static_cast<int>(k);
-    steps_.push_back({.first = num_factors,
-                      .num_upper = static_cast<int>(upper[k].size()),
-                      .num_lower = static_cast<int>(lower[k].size()),
-                      .row = pivot.row,
-                      .column = pivot.column});
-    num_factors += 1 + steps_.back().num_upper + steps_.back().num_lower;
-    matrix.eliminate(pivot);
-  }
-
-  // An entry is stored with the step of its row or of its column, whichever comes first.
-  factors_.assign(static_cast<std::size_t>(num_factors), 0.0);
-  forward_.clear();
-  upper_columns_.clear();
-  std::map<std::pair<int, int>, int> places;  // by steps of row and column
-  for (std::size_t k = 0; k < size; ++k) {
-    const int step = static_cast<int>(k);
-    int place = steps_[k].first;
-    places[{step, step}] = place++;
-    for (const int j : upper[k]) {
-      const int column = step_of_column[static_cast<std::size_t>(j)];
-      upper_columns_.push_back(column);
-      places[{step, column}] = place++;
-    }
-    for (const int i : lower[k]) {
-      const int row = step_of_row[static_cast<std::size_t>(i)];
-      forward[static_cast<std::size_t>(row)].push_back({step, place});
-      places[{row, step}] = place++;
-    }
-  }
-  for (std::size_t k = 0; k < size; ++k) {
-    forward_.insert(forward_.end(), forward[k].begin(), forward[k].end());
-    steps_[k].end_of_forward = static_cast<int>(forward_.size());
-  }
-  places_.clear();
-  for (const Position& entry : entries_) {
-    places_.push_back(places.at({step_of_row[static_cast<std::size_t>(entry.row)],
-                                 step_of_column[static_cast<std::size_t>(entry.column)]}));
-  }
-  targets_.clear();
-  for (std::size_t k = 0; k < size; ++k) {
-    for (const int i : lower[k]) {
-      for (const int j : upper[k]) {
-        targets_.push_back(places.at(
-            {step_of_row[static_cast<std::size_t>(i)], step_of_column[static_cast<std::size_t>(j)]}));
-      }
-    }
-  }
-  // The sign of the permutation from the steps' rows to their columns: each cycle of even length reverses it.
-  permutation_sign_ = 1.0;
-  std::vector<bool> seen(size, false);
-  for (std::size_t start = 0; start < size; ++start) {
+// Sign of the permutation from the pivots' rows to their columns: each cycle of even length reverses it.
+double calc_permutation_sign(const std::vector<Pivot>& order, const StepsOfPivots& steps) {
+  double sign = 1.0;
+  std::vector<bool> seen(order.size(), false);
+  for (std::size_t start = 0; start < order.size(); ++start) {
     int length = 0;
     for (std::size_t i = start; !seen[i]; ++length) {
       seen[i] = true;
-      i = static_cast<std::size_t>(steps_[static_cast<std::size_t>(step_of_row[i])].column);
+      i = static_cast<std::size_t>(order[static_cast<std::size_t>(steps.rows[i])].column);
     }
-    if (length > 0 && length % 2 == 0) permutation_sign_ = -permutation_sign_;
+    if (length > 0 && length % 2 == 0) sign = -sign;
   }
+  return sign;
+}
+
+}  // namespace
+
+SparseLu::SparseLu(int size, std::vector<MatrixPosition> entries)
+    : size_(size), entries_(std::move(entries)), work_(static_cast<std::size_t>(size)) {}
+
+void SparseLu::choose_pivots(std::span<const double> values) {
+  const std::vector<Pivot> order = choose_pivot_order(size_, entries_, values);
+  const StepsOfPivots steps(order);
+  // An entry is stored with the step of its row or of its column, whichever comes first.
+  std::map<std::pair<int, int>, int> places;                // by steps of row and column
+  std::vector<std::vector<Product>> forward(order.size());  // rows of L
+  steps_.clear();
+  upper_columns_.clear();
+  int place = 0;
+  for (int k = 0; k < size_; ++k) {
+    const Pivot& pivot = order[static_cast<std::size_t>(k)];
+    steps_.push_back({.first = place,
+                      .num_upper = static_cast<int>(pivot.upper.size()),
+                      .num_lower = static_cast<int>(pivot.lower.size()),
+                      .row = pivot.row,
+                      .column = pivot.column});
+    places[{k, k}] = place++;
+    for (const int j : pivot.upper) {
+      upper_columns_.push_back(steps.of_column(j));
+      places[{k, steps.of_column(j)}] = place++;
+    }
+    for (const int i : pivot.lower) {
+      forward[static_cast<std::size_t>(steps.of_row(i))].push_back({k, place});
+      places[{steps.of_row(i), k}] = place++;
+    }
+  }
+  factors_.assign(static_cast<std::size_t>(place), 0.0);
+  forward_.clear();
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    forward_.insert(forward_.end(), forward[k].begin(), forward[k].end());
+    steps_[k].end_of_forward = static_cast<int>(forward_.size());
+  }
+  const auto find_place = [&](int row, int column) {
+    return places.at({steps.of_row(row), steps.of_column(column)});
+  };
+  places_.clear();
+  for (const MatrixPosition& entry : entries_) places_.push_back(find_place(entry.row, entry.column));
+  targets_.clear();
+  for (const Pivot& pivot : order) {
+    for (const int i : pivot.lower) {
+      for (const int j : pivot.upper) targets_.push_back(find_place(i, j));
+    }
+  }
+  permutation_sign_ = calc_permutation_sign(order, steps);
 }
 
 void SparseLu::load(std::span<const double> values) {

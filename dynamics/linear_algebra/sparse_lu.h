@@ -3,22 +3,20 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/linear_algebra/pivot_order.h"
+
 namespace sprung::dynamics {
 
 /// LU factors of a square sparse matrix whose values change while its pattern stays. The products of the
 /// elimination are listed once. After that, factorising and solving are plain loops over contiguous storage,
 /// whose work grows with the entries of the factors.
 ///
-/// Pivots are chosen for little fill-in among entries that are not small in their row (Markowitz's rule with
-/// a threshold). They are chosen for the first values, and again when one of them has become small compared
-/// with its first size. Source: [Duff, Erisman & Reid 2017], §§5.2, 7.2, 10.2
+/// Pivots are chosen for the first values, and again when one of them has become small compared with its
+/// first size. Source: [Duff, Erisman & Reid 2017], §10.2
 class SparseLu {
  public:
-  struct Position {
-    int row, column;
-  };
   /// @param entries  the pattern; the values of entries at one position are added
-  SparseLu(int size, std::vector<Position> entries);
+  SparseLu(int size, std::vector<MatrixPosition> entries);
 
   int size() const { return size_; }
   /// Allocates memory only when pivots are chosen. A zero pivot gives infinities, which the caller finds in
@@ -44,14 +42,13 @@ class SparseLu {
   struct Product {
     int step, place;
   };
-  struct ActiveSubmatrix;
 
   void choose_pivots(std::span<const double> values);
   void load(std::span<const double> values);
   bool eliminate();
 
   int size_;
-  std::vector<Position> entries_;
+  std::vector<MatrixPosition> entries_;
   std::vector<Step> steps_;
   std::vector<int> places_;  // of A's entries in factors_
   std::vector<int>

@@ -102,9 +102,8 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
   if (!(forcing.duration > 0.0) || !(forcing.speed >= 0.0) || !(settling >= 0.0) || !(highest > 0.0) ||
       !(fineness >= 2.0)) {
     throw std::invalid_argument(
-        fmt::format("calc_forcing_spectrum: needs duration > 0 s, speed >= 0 m/s, settling >= 0 s, highest > "
-                    "0 Hz, fineness >= 2; "
-                    "got {}, {}, {}, {}, {}",
+        fmt::format("calc_forcing_spectrum: needs duration > 0 s, speed >= 0 m/s, settling >= 0 s, highest "
+                    "> 0 Hz, fineness >= 2; got {}, {}, {}, {}, {}",
                     forcing.duration, forcing.speed, settling, highest, fineness));
   }
   ForcingSpectrum spectrum;

@@ -34,14 +34,14 @@ struct ForcingSpectrum {
 /// @param highest   frequency of the lines, > 0 [Hz]
 /// @param fineness  number of samples, of the least number that the highest line needs, ≥ 2
 /// @throws std::invalid_argument for values outside these ranges
-/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
+/// Checked by tests/dynamics/mode_choice/forcing_spectrum_test.cpp
 ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownForcing& forcing,
                                       double settling, double highest, double fineness = 8.0);
 
 /// Time after which the road is level under all wheels, at most the duration of the run [s]. With forces in
 /// time it is the duration of the run.
 /// @param settling  added where the road ends at another height than it begins
-/// Checked by tests/dynamics/mode_choice/forcing_duration_test.cpp
+/// Checked by tests/dynamics/mode_choice/forcing_spectrum_test.cpp
 double calc_forcing_duration(const LinearVehicle& vehicle, const KnownForcing& forcing, double settling);
 
 /// Time in which the slowest of the damped motions about the equilibrium decays to a hundredth, at most
@@ -53,7 +53,7 @@ double calc_settling_time(const LinearVehicle& vehicle, double longest);
 /// @param n      number of times, a power of two > 2m
 /// @return n
 /// @throws std::invalid_argument if n is too small
-/// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
+/// Checked by tests/dynamics/mode_choice/forcing_spectrum_test.cpp
 Eigen::VectorXd calc_history(const Eigen::Ref<const Eigen::RowVectorXcd>& lines, Eigen::Index n);
 /// Values of two series by one transform: the first as real, the second as imaginary part.
 Eigen::VectorXcd calc_histories(const Eigen::Ref<const Eigen::RowVectorXcd>& lines,

@@ -58,9 +58,8 @@ void check_steady(const Run& run, const Model& model, const Equilibrium& equilib
   if (is_steady(model, equilibrium.motion, equilibrium.q)) return;
   throw support::InputError(
       run.start_location,
-      "'start' can be \"steady\" only where the moving system sees the same forces "
-      "at all times: not with weight on a rotating system, springs to the ground, or a motion "
-      "whose rate changes");
+      "'start' can be \"steady\" only where the moving system sees the same forces at all times: not with "
+      "weight on a rotating system, springs to the ground, or a motion whose rate changes");
 }
 
 // Activates the modes that have a velocity at the start, because a held mode has none.

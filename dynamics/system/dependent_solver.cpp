@@ -79,7 +79,7 @@ const DependentSolver::DiagonalBlock& DependentSolver::add_block(const std::vect
   for (const int row : group) block.columns.push_back(form.column_of_row[static_cast<std::size_t>(row)]);
   std::sort(block.columns.begin(), block.columns.end());
   const int size = static_cast<int>(group.size());
-  std::vector<SparseLu::Position> positions;
+  std::vector<MatrixPosition> positions;
   for (int i = 0; i < size; ++i) {
     for (const PatternEntry& entry : rows[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])]) {
       const auto found = std::lower_bound(block.columns.begin(), block.columns.end(), entry.column);

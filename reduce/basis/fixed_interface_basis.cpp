@@ -72,9 +72,8 @@ Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions
   const support::SingularPairs pairs = support::calc_left_singular_pairs(motion);
   if (pairs.values.size() < 3 || !(pairs.values(2) > kSmallestHold * pairs.values(0))) {
     throw NumericalError(
-        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a whole; "
-        "name "
-        "more of them in [interface], or take the basis \"free\"");
+        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a "
+        "whole; name more of them in [interface], or take the basis \"free\"");
   }
   return pairs.vectors.rightCols(pairs.vectors.cols() - 3);
 }
@@ -133,9 +132,8 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
       make_components(stiffness, mass, partition, find_deformations(partition, rigid), request.highest_hz);
   if (components.shapes.cols() == 0) {
     throw NumericalError(
-        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the interface "
-        "only "
-        "holds it; ask for a higher highest_frequency");
+        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the "
+        "interface only holds it; ask for a higher highest_frequency");
   }
   const Eigen::MatrixXd at_reference = components.shapes.middleRows(3 * rigid.reference_node, 3);
   const Eigen::MatrixXd shapes =

@@ -44,8 +44,7 @@ void add_until_certified(InterfaceResidual& residual, double highest, double cut
     if (residual.num_vectors() >= most) {
       throw support::NumericalError(
           fmt::format("the basis misses {:.3g} of an interface flexibility with {} residual vectors, "
-                      "tolerance {:.3g}: rounding "
-                      "keeps it from getting better; ask for a larger tolerance",
+                      "tolerance {:.3g}: rounding keeps it from getting better; ask for a larger tolerance",
                       shares(worst), residual.num_vectors(), tolerance));
     }
     residual.add(residual.make_vector(worst, errors.worst_omega_squared(worst)));

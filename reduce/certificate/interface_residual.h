@@ -57,7 +57,7 @@ class InterfaceResidual {
   const StiffnessFactor* factor_;
   Eigen::MatrixXd exact_, exact_momenta_;  // n×k: Φ, (M − QQᵀ)Φ
   Eigen::MatrixXd flexible_;               // Z = K⁻¹B_X, n×b
-  Eigen::VectorXd load_work_;              // diagonal of B_XᵀZ
+  Eigen::MatrixXd load_work_;              // B_XᵀZ, b×b
   Eigen::VectorXd static_flexibility_;
   Eigen::MatrixXd vectors_, second_;  // U, T = K⁻¹(M − QQᵀ)U, n×m
   Eigen::MatrixXd loads_;             // B_X

@@ -115,9 +115,8 @@ Reduction read_reduction(const TomlTable& root, const fem::Mesh& mesh, int refer
   table->at("highest_frequency");  // says which key is missing
   if (reduction.interface.empty()) {
     throw table->error(
-        "asks for a basis for interface loads, but no point except the reference has a name; name points, or "
-        "the "
-        "reference itself in [interface]");
+        "asks for a basis for interface loads, but no point except the reference has a name; name points, "
+        "or the reference itself in [interface]");
   }
   return reduction;
 }

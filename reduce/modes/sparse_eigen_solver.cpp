@@ -98,9 +98,8 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
   const Factor factor(problem.stiffness);
   if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) {
     throw support::NumericalError(
-        "modes: the stiffness matrix is not positive definite to rounding; refine the mesh less, or look for "
-        "sections "
-        "that differ by many orders of magnitude");
+        "modes: the stiffness matrix is not positive definite to rounding; refine the mesh less, or look "
+        "for sections that differ by many orders of magnitude");
   }
   const Eigen::VectorXd start = make_random_vector(n, seed);
   const double scale = estimate_lowest(factor, problem, start);

@@ -8,8 +8,7 @@ StiffnessFactor::StiffnessFactor(const Eigen::SparseMatrix<double>& stiffness) :
   if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0.0) return;
   throw support::NumericalError(
       "the stiffness matrix is not positive definite to rounding: a part of the frame moves without any "
-      "force "
-      "(an internal mechanism), the mesh is too fine, or sections differ by many orders of magnitude");
+      "force (an internal mechanism), the mesh is too fine, or sections differ by many orders of magnitude");
 }
 
 }  // namespace sprung::reduce

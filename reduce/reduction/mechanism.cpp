@@ -35,11 +35,10 @@ void check_rounding(const Design& design, const Eigen::MatrixXd& shape, double e
     const fem::Mesh& mesh = design.model.mesh;
     const fem::Mesh::Element& element = mesh.elements[static_cast<std::size_t>(softest)];
     throw support::NumericalError(
-        fmt::format("the body has an internal mechanism: it gives way at {:.3g} Hz in the element of section "
-                    "'{}' from {} to {}, "
-                    "so softly that rounding spoils the mode (relative error of ω² {:.2g}, accepted is "
-                    "{:.0e}); make it two "
-                    "bodies with a joint, or stiffen the section",
+        fmt::format("the body has an internal mechanism: it gives way at {:.3g} Hz in the element of "
+                    "section '{}' from {} to {}, so softly that rounding spoils the mode (relative error "
+                    "of ω² {:.2g}, accepted is {:.0e}); make it two bodies with a joint, or stiffen the "
+                    "section",
                     frequency_hz, mesh.section_names[static_cast<std::size_t>(element.section)],
                     fem::describe_node(mesh, element.first), fem::describe_node(mesh, element.second), error,
                     kMaxRoundingError));

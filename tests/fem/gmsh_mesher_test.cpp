@@ -260,13 +260,11 @@ TEST_CASE("A mesh that declares more than gmsh reads is refused") {
   // gmsh ignores these two without a message
   CHECK(message_of_text("short.msh", test::replace(test::replace(text, "$Nodes\n9\n", "$Nodes\n10\n"),
                                                    "$EndNodes", "12 5.1 2.2 0.7\n$EndNodes")) ==
-        "short.msh: error: the file declares 10 nodes, but 9 could be read: it is truncated, or some belong "
-        "to no "
-        "element or have the same number");
+        "short.msh: error: the file declares 10 nodes, but 9 could be read: it is truncated, or some "
+        "belong to no element or have the same number");
   CHECK(short_message("\n4 1 2 1 1 4 5", "\n3 1 2 1 1 4 5") ==
         "short.msh: error: the file declares 11 elements, but 10 could be read: it is truncated, or some "
-        "belong to no "
-        "element or have the same number");
+        "belong to no element or have the same number");
 }
 
 TEST_CASE("Physical groups decide the section of each element") {
@@ -280,8 +278,7 @@ TEST_CASE("Physical groups decide the section of each element") {
 
   CHECK(message_of_text("none.msh", test::replace(text, "4 1 2 1 1 4 5", "4 1 2 0 1 4 5")) ==
         "none.msh: error: line element 4 of curve 1, from node 4 to node 5, is in no physical curve, which "
-        "would name its "
-        "section");
+        "would name its section");
   CHECK(message_of_text("unnamed.msh", test::replace(text, "4 1 2 1 1 4 5", "4 1 2 9 1 4 5")) ==
         "unnamed.msh: error: physical curve 9 has no name, which would name its section");
 

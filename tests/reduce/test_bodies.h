@@ -42,6 +42,8 @@ Superelement make_two_armed_body();
 
 /// A file's bytes; empty if there is none.
 std::string read_bytes(const std::filesystem::path& path);
+/// Writes or replaces a file.
+void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// The largest difference between two superelements of one frame in frequency (relative), inertia invariants
 /// and the shapes at the nodes at equal places, each by its own scale.

@@ -19,6 +19,7 @@
 #include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
 #include "dynamics/integration/touch_search.h"
+#include "tools/support/dense/vector_span.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -48,10 +49,6 @@ int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void*
   const auto* callback = static_cast<Callback*>(data);
   const std::span<double> result(switches, static_cast<std::size_t>(callback->system->num_switches()));
   return callback->system->calc_switches(time, values(y), result) ? 0 : -1;
-}
-
-std::span<double> span_of(Eigen::VectorXd& x) {
-  return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
 int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
@@ -90,13 +87,11 @@ std::string name_of(int code) {
 std::string explain_stop(int code) {
   switch (code) {
     case CV_TOO_MUCH_ACC:
-      return "the relative tolerance is finer than rounding allows this method; try a larger one, or method "
-             "= "
-             "\"exponential\"";
+      return "the relative tolerance is finer than rounding allows this method; try a larger one, or "
+             "method = \"exponential\"";
     case CV_CONV_FAILURE:
-      return "the iteration of a step does not converge; look at forces and positions just before that time, "
-             "and where "
-             "springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
+      return "the iteration of a step does not converge; look at forces and positions just before that "
+             "time, and where springs or dampers are stiff try method = \"exponential\" or \"bdf\"";
     case CV_ERR_FAILURE:
       return "the step has become too short; look at forces and positions just before that time, which may "
              "be a singular one";
@@ -201,7 +196,7 @@ void CvodeIntegrator::start(double time, std::span<const double> y, double end_t
 
 void CvodeIntegrator::calc_switches(double time, std::span<const double> y, Eigen::VectorXd& switches) {
   if (switches.size() == 0) return;
-  if (memory_->callback.system->calc_switches(time, y, span_of(switches))) return;
+  if (memory_->callback.system->calc_switches(time, y, support::as_span(switches))) return;
   throw_stopped(time, "no positions can be found there");
 }
 
@@ -218,8 +213,8 @@ bool CvodeIntegrator::locate_touch(double from) {
   bool has_left = false;  // the end of the step
   const auto evaluate_at = [&](double place, Eigen::VectorXd& switches) {
     has_left = true;
-    interpolate(from + place * length, span_of(memory.between));
-    calc_switches(from + place * length, span_of(memory.between), switches);
+    interpolate(from + place * length, support::as_span(memory.between));
+    calc_switches(from + place * length, support::as_span(memory.between), switches);
   };
   const auto search = [&] {
     return memory.touch_search.find(memory.begin_switches, memory.end_switches, length, tolerance,

@@ -153,8 +153,7 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
       throw_stopped(time_, std::string("the step has become too short; look at forces and positions just "
-                                       "before that time, which may be "
-                                       "a singular one") +
+                                       "before that time, which may be a singular one") +
                                remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {

@@ -63,8 +63,7 @@ TEST_CASE("A driven length varies, or keeps its initial value for an equilibrium
 TEST_CASE("Impossible joints are refused at their location") {
   CHECK(error_of("type = \"revolut\"") ==
         "j.toml:5:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
-        "\"distance\", "
-        "\"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
+        "\"distance\", \"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
   CHECK(error_of("type = \"translational\"\naxis = [0.0, 0.0]") ==
         "j.toml:6:8: error: 'joints.0.axis' must be a direction [x, y], got [0, 0]");
   CHECK(error_of("type = \"pin-in-slot\"") == "j.toml:1:1: error: missing key 'axis' in 'joints.0'");

@@ -44,9 +44,8 @@ TEST_CASE("Modes are selected by a count, by numbers or all of them") {
 
 TEST_CASE("A count does not separate modes of equal frequency, numbers may") {
   CHECK(error_of("frame = 1") ==
-        "run.toml:2:9: error: 'modes.frame' is 1, which separates modes 1 to 2 of one frequency, 5 Hz; take "
-        "0 or "
-        "2 modes, or list their numbers");
+        "run.toml:2:9: error: 'modes.frame' is 1, which separates modes 1 to 2 of one frequency, 5 Hz; "
+        "take 0 or 2 modes, or list their numbers");
   CHECK(select("frame = [1]").at("frame") == std::vector<int>{1});
 }
 

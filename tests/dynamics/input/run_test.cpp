@@ -124,8 +124,7 @@ TEST_CASE("Initial motion of missing bodies or modes is refused") {
         "available modes, got 2");
   CHECK(input_error_of([&] { dynamics::make_start_velocities(read(kText), cart, rigid); }) ==
         "runs/first.toml:31:1: error: 'initial.frame.modal_rate' must be one number for each of the 0 "
-        "available "
-        "modes, got 2");
+        "available modes, got 2");
   const dynamics::Run other = read(test::with_change(kText, "[initial.frame]", "[initial.frome]"));
   CHECK(
       input_error_of([&] { dynamics::make_start_velocities(other, cart, rigid); }) ==
@@ -149,21 +148,18 @@ TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refu
   CHECK(error_of("vehicle = \"cart.toml\"\n", "") == "runs/first.toml: error: missing key 'vehicle'");
   CHECK(error_of("duration = 5.0\n", "") == "runs/first.toml: error: missing key 'duration'");
   CHECK(error_of("[modes]", "[adaptivity.available]\nframe = \"auto\"\n[modes]") ==
-        "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of mode "
-        "numbers or "
-        "\"all\"; \"auto\" chooses from what is available, in [modes]");
+        "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of "
+        "mode numbers or \"all\"; \"auto\" chooses from what is available, in [modes]");
   CHECK(error_of("speed =", "sped =") ==
         "runs/first.toml:2:1: error: unknown key 'sped' (did you mean 'speed'?)");
   CHECK(error_of("speed = 3.0", "speed = \"3 m/s\"") ==
         "runs/first.toml:2:9: error: 'speed' must be a number [m/s], got a string \"3 m/s\"");
   CHECK(error_of("start = \"as-given\"", "start = \"as_given\"") ==
-        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got a "
-        "string "
-        "\"as_given\" (did you mean 'as-given'?)");
+        "runs/first.toml:5:9: error: 'start' must be one of \"equilibrium\", \"steady\", \"as-given\"; got "
+        "a string \"as_given\" (did you mean 'as-given'?)");
   CHECK(error_of("method = \"bdf\"", "method = \"bfd\"") ==
         "runs/first.toml:24:10: error: 'integrator.method' must be one of \"exponential\", "
-        "\"generalized-alpha\", \"adams\", \"bdf\"; got "
-        "a string \"bfd\" (did you mean 'bdf'?)");
+        "\"generalized-alpha\", \"adams\", \"bdf\"; got a string \"bfd\" (did you mean 'bdf'?)");
   CHECK(error_of("from = 0.5", "form = 0.5") ==
         "runs/first.toml:14:1: error: unknown key 'form' in 'statistics' (did you mean 'from'?)");
   CHECK(error_of("largest_step", "max_step") ==

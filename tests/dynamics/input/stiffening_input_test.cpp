@@ -47,12 +47,10 @@ TEST_CASE("Impossible stiffening is refused") {
   const dynamics::ModeSelection selection{{"frame", {1, 2, 4}}};
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_cart()); }) ==
         "run.toml:2:9: error: 'stiffening.frame' needs the geometric stiffness of superelement 'frame', "
-        "whose file is "
-        "of version 1 and has none; build it again from its design with sprung-reduce build");
+        "whose file is of version 1 and has none; build it again from its design with sprung-reduce build");
   CHECK(input_error_of([&] { resolve("frame = true", selection, read_stiffening_cart(3)); }) ==
         "run.toml:2:9: error: 'stiffening.frame' cannot be true with mode 4: superelement 'frame' has "
-        "geometric "
-        "stiffness of its lowest 3 modes");
+        "geometric stiffness of its lowest 3 modes");
   CHECK(input_error_of([&] { resolve("arm = true", selection, read_cart()); }) ==
         "run.toml:2:7: error: 'stiffening.arm' is about the modes of body 'arm', which has no superelement");
   CHECK(input_error_of([&] { resolve("frame = 1", selection, read_cart()); }).find("run.toml:2:9: error:") ==

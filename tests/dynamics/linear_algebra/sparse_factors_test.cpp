@@ -23,15 +23,14 @@ using Eigen::VectorXd;
 namespace {
 
 // A permuted diagonal, which makes it regular, with scattered entries around it.
-std::vector<dynamics::SparseLu::Position> scattered_pattern(int size) {
-  std::vector<dynamics::SparseLu::Position> pattern;
+std::vector<dynamics::MatrixPosition> scattered_pattern(int size) {
+  std::vector<dynamics::MatrixPosition> pattern;
   for (int i = 0; i < size; ++i) pattern.push_back({i, (7 * i + 3) % size});
   for (int i = 0; i < 2 * size; ++i) pattern.push_back({(5 * i + 1) % size, (11 * i * i + i) % size});
   return pattern;
 }
 
-MatrixXd make_dense(int size, const std::vector<dynamics::SparseLu::Position>& pattern,
-                    const VectorXd& values) {
+MatrixXd make_dense(int size, const std::vector<dynamics::MatrixPosition>& pattern, const VectorXd& values) {
   MatrixXd matrix = MatrixXd::Zero(size, size);
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     matrix(pattern[k].row, pattern[k].column) += values[static_cast<Eigen::Index>(k)];
@@ -44,7 +43,7 @@ MatrixXd make_dense(int size, const std::vector<dynamics::SparseLu::Position>& p
 TEST_CASE("Sparse LU solves, with new values too, and has the determinant with its sign", "[system]") {
   test::RandomNumbers random(5);
   for (const int size : {1, 2, 5, 20}) {
-    const std::vector<dynamics::SparseLu::Position> pattern = scattered_pattern(size);
+    const std::vector<dynamics::MatrixPosition> pattern = scattered_pattern(size);
     dynamics::SparseLu lu(size, pattern);
     for (int i = 0; i < 20; ++i) {
       VectorXd values = random.vector(static_cast<int>(pattern.size()), 1.0);

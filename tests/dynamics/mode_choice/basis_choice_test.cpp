@@ -12,7 +12,6 @@
 #include "dynamics/joints/coordinate_joint.h"
 #include "dynamics/mode_choice/held_response.h"
 #include "dynamics/mode_choice/neglect_measure.h"
-#include "dynamics/road/bump_road.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/small_models.h"
@@ -312,42 +311,7 @@ TEST_CASE("Holding modes has the effect of leaving them out of the equations", "
   }
 }
 
-TEST_CASE("The forcing's lines are the closed transform of a bump, and their sum is the road", "[choice]") {
-  HeldBeam beam(kOneSided);
-  dynamics::number_model(beam.model);
-  const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
-  const dynamics::BumpRoad road(
-      {.shape = dynamics::BumpShape::kHalfSine, .start = 1.0, .length = 0.4, .height = 0.2});
-  const dynamics::ForcingSpectrum forcing =
-      dynamics::calc_forcing_spectrum(vehicle, {.road = &road, .speed = 4.0, .duration = 1.0}, 0.5, 60.0);
-  CHECK(forcing.period == 1.5);
-  // ∫ sin(πt/τ) e^{−iωt} dt over its half wave, τ = 0.1 s, from t = 0.25 s on. The sum over samples differs
-  // by the kinks' lines beyond the highest frequency sampled: (60/480)² of their own.
-  const double tau = 0.1;
-  for (const Eigen::Index line : {0, 6, 40}) {
-    const double omega = 2.0 * pi * forcing.frequency(line);
-    const std::complex<double> i(0.0, 1.0);
-    const std::complex<double> closed = 0.2 * std::exp(-i * omega * 0.25) * (pi / tau) *
-                                        (1.0 + std::exp(-i * omega * tau)) /
-                                        (std::pow(pi / tau, 2) - omega * omega);
-    CHECK(std::abs(forcing.period * forcing.road[line] - closed) < 1e-4 * 0.2 * tau);
-  }
-  const Eigen::Index n = 512;
-  const VectorXd history = dynamics::calc_history(forcing.road.transpose(), n);
-  double worst = 0.0;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    worst = std::max(worst, std::abs(history[j] - road.height(4.0 * 1.5 * static_cast<double>(j) / n)));
-  }
-  CHECK(worst < 0.02 * 0.2);  // what is above 60 Hz: the kinks are rounded
-}
-
-TEST_CASE("A wrong forcing or tolerance is the caller's mistake", "[choice]") {
+TEST_CASE("A wrong tolerance is the caller's mistake", "[choice]") {
   HeldBeam beam(kOneSided);
   CHECK_THROWS_WITH(beam.choose(1.0), Contains("choose_basis: tolerance must be from 0 to below 1, got 1"));
-  const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
-  CHECK_THROWS_WITH(
-      dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 1.0, .duration = 0.0}, 1.0, 9.0),
-      Contains("needs duration > 0 s"));
-  CHECK_THROWS_WITH(dynamics::calc_history(Eigen::RowVectorXcd::Zero(4), 8),
-                    Contains("8 times are too few for 4"));
 }

@@ -4,7 +4,6 @@
 #include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
 
 #include "reduce/design/design.h"
 #include "reduce/reduction/reduction.h"
@@ -22,12 +21,6 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kDesigns{"meshes/examples/square_frame.toml", "meshes/examples/four_arms.toml",
                                         "meshes/truck/chassis.toml", "meshes/truck/long_arm.toml"};
 const fs::path kMutant = "mutant.toml";
-
-std::string read_text(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 // A message that shows a number which is none tells nobody what to do.
 bool shows_no_number(const std::string& message) {
@@ -58,7 +51,8 @@ std::map<std::string, int> classify_mutants(std::uint64_t seed, int count) {
   sprung::test::Mutations mutations(seed);
   std::map<std::string, int> outcomes;
   for (int i = 0; i < count; ++i) {
-    const std::string whole = read_text(testing::source_path(kDesigns[static_cast<std::size_t>(i) % 4]));
+    const std::string whole =
+        testing::read_bytes(testing::source_path(kDesigns[static_cast<std::size_t>(i) % 4]));
     const std::string mutant = i / 4 % 2 == 0 ? mutations.change_numbers(whole) : mutations.damage(whole);
     // Meshes so fine that they take minutes are sound.
     static const std::regex kFine(R"(elements *= *\d\d\d)");

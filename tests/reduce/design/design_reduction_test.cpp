@@ -1,7 +1,5 @@
 #include "reduce/design/design_reduction.h"
 
-#include <fstream>
-
 #include "reduce/design/design.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
@@ -34,7 +32,7 @@ point = "middle"
 )";
 
 Design read(const std::string& rest) {
-  std::ofstream("frame.toml", std::ios::binary) << kFrame << rest;
+  testing::write_text("frame.toml", kFrame + rest);
   return read_design("frame.toml");
 }
 

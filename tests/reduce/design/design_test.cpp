@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
@@ -55,12 +54,8 @@ count = 5
 damping_ratio = 0.015
 )";
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
 Design read(const std::string& text) {
-  write("portal.toml", text);
+  testing::write_text("portal.toml", text);
   return read_design("portal.toml");
 }
 
@@ -278,7 +273,7 @@ Physical Curve("thin") = {2};
 )";
 
 TEST_CASE("a gmsh file gives mesh, sections and points, and its hash is kept") {
-  write("bar.geo", kGeo);
+  testing::write_text("bar.geo", kGeo);
   const Design design = read(kMeshDesign);
   CHECK(design.model.mesh.num_elements() == 6);
   CHECK(design.provenance.input_names == std::vector<std::string>{"bar.geo"});
@@ -294,7 +289,7 @@ TEST_CASE("faults between a design and its gmsh file are named") {
   const auto geo_fault = [](const std::string& from, const std::string& to) {
     std::string text = kGeo;
     text.replace(text.find(from), from.size(), to);
-    write("bar.geo", text);
+    testing::write_text("bar.geo", text);
     return message_of<InputError>([] { read(kMeshDesign); });
   };
   CHECK_THAT(
@@ -308,7 +303,7 @@ TEST_CASE("faults between a design and its gmsh file are named") {
   CHECK_THAT(geo_fault("Point(1)", "a = 1;  Merge \"other.msh\";\nPoint(1)"),
              Contains("reads another file by Include or Merge"));
   // A name that begins like the statement, and a comment.
-  write("bar.geo", "IncludedLength = 1; // Include nothing\n" + std::string(kGeo));
+  testing::write_text("bar.geo", "IncludedLength = 1; // Include nothing\n" + std::string(kGeo));
   CHECK_NOTHROW(read(kMeshDesign));
   std::filesystem::remove("bar.geo");
   CHECK_THAT(message_of<InputError>([] { read(kMeshDesign); }), Contains("bar.geo: error: cannot be read"));

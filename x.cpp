@@ -1,0 +1,3 @@
+#include <Eigen/Dense>
+using M=Eigen::MatrixXd; using C=Eigen::MatrixXcd; using V=Eigen::VectorXd;
+
