@@ -77,13 +77,13 @@ struct ActiveSubmatrix {
 
 }  // namespace
 
-std::vector<Pivot> choose_pivot_order(int size, const std::vector<MatrixPosition>& entries,
-                                      std::span<const double> values) {
-  std::vector<Pivot> order;
+std::vector<EliminationStep> choose_pivot_order(int size, const std::vector<MatrixPosition>& entries,
+                                                std::span<const double> values) {
+  std::vector<EliminationStep> order;
   ActiveSubmatrix matrix(size, entries, values);
   while (static_cast<int>(order.size()) < size) {
     const MatrixPosition position = matrix.choose();
-    Pivot pivot{.row = position.row, .column = position.column, .upper = {}, .lower = {}};
+    EliminationStep pivot{.row = position.row, .column = position.column, .upper = {}, .lower = {}};
     for (const auto& [j, value] : matrix.row(position.row)) {
       if (j != position.column) pivot.upper.push_back(j);
     }

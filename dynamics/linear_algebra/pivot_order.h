@@ -10,7 +10,7 @@ struct MatrixPosition {
 };
 
 /// One step of an elimination: its pivot, and the other entries of the pivot's row and column at that step.
-struct Pivot {
+struct EliminationStep {
   int row, column;         ///< of the matrix
   std::vector<int> upper;  ///< columns of the entries in the pivot's row
   std::vector<int> lower;  ///< rows of the entries in the pivot's column
@@ -22,7 +22,7 @@ struct Pivot {
 /// @param values   one for each entry
 /// @return one for each row; any where the values are not numbers
 /// Checked by tests/dynamics/linear_algebra/sparse_factors_test.cpp
-std::vector<Pivot> choose_pivot_order(int size, const std::vector<MatrixPosition>& entries,
-                                      std::span<const double> values);
+std::vector<EliminationStep> choose_pivot_order(int size, const std::vector<MatrixPosition>& entries,
+                                                std::span<const double> values);
 
 }  // namespace sprung::dynamics

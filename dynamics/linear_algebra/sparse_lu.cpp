@@ -16,7 +16,8 @@ constexpr double kPivotDecay = 0.02;  // relative to its first size: with a smal
 struct StepsOfPivots {
   std::vector<int> rows, columns;
 
-  explicit StepsOfPivots(const std::vector<Pivot>& order) : rows(order.size()), columns(order.size()) {
+  explicit StepsOfPivots(const std::vector<EliminationStep>& order)
+      : rows(order.size()), columns(order.size()) {
     for (std::size_t k = 0; k < order.size(); ++k) {
       rows[static_cast<std::size_t>(order[k].row)] = static_cast<int>(k);
       columns[static_cast<std::size_t>(order[k].column)] = static_cast<int>(k);
@@ -27,7 +28,7 @@ struct StepsOfPivots {
 };
 
 // Sign of the permutation from the pivots' rows to their columns: each cycle of even length reverses it.
-double calc_permutation_sign(const std::vector<Pivot>& order, const StepsOfPivots& steps) {
+double calc_permutation_sign(const std::vector<EliminationStep>& order, const StepsOfPivots& steps) {
   double sign = 1.0;
   std::vector<bool> seen(order.size(), false);
   for (std::size_t start = 0; start < order.size(); ++start) {
@@ -47,7 +48,7 @@ SparseLu::SparseLu(int size, std::vector<MatrixPosition> entries)
     : size_(size), entries_(std::move(entries)), work_(static_cast<std::size_t>(size)) {}
 
 void SparseLu::choose_pivots(std::span<const double> values) {
-  const std::vector<Pivot> order = choose_pivot_order(size_, entries_, values);
+  const std::vector<EliminationStep> order = choose_pivot_order(size_, entries_, values);
   const StepsOfPivots steps(order);
   // An entry is stored with the step of its row or of its column, whichever comes first.
   std::map<std::pair<int, int>, int> places;                // by steps of row and column
@@ -56,7 +57,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
   upper_columns_.clear();
   int place = 0;
   for (int k = 0; k < size_; ++k) {
-    const Pivot& pivot = order[static_cast<std::size_t>(k)];
+    const EliminationStep& pivot = order[static_cast<std::size_t>(k)];
     steps_.push_back({.first = place,
                       .num_upper = static_cast<int>(pivot.upper.size()),
                       .num_lower = static_cast<int>(pivot.lower.size()),
@@ -84,7 +85,7 @@ void SparseLu::choose_pivots(std::span<const double> values) {
   places_.clear();
   for (const MatrixPosition& entry : entries_) places_.push_back(find_place(entry.row, entry.column));
   targets_.clear();
-  for (const Pivot& pivot : order) {
+  for (const EliminationStep& pivot : order) {
     for (const int i : pivot.lower) {
       for (const int j : pivot.upper) targets_.push_back(find_place(i, j));
     }

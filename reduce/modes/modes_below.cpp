@@ -13,8 +13,8 @@ namespace {
 
 // The count, a little higher where a mode is so near that the matrix is singular to rounding.
 int count_below(const ModalProblem& problem, double omega_squared) {
-  constexpr int kAttempts = 4;
-  for (int attempt = 1; attempt < kAttempts; ++attempt) {
+  constexpr int kSearches = 4;
+  for (int attempt = 1; attempt < kSearches; ++attempt) {
     try {
       return count_modes_below(problem, omega_squared);
     } catch (const support::NumericalError&) {
