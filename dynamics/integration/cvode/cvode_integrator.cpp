@@ -24,6 +24,12 @@
 
 namespace sprung::dynamics {
 
+// What CVODE's callbacks are given.
+struct CvodeCallback {
+  OdeSystem* system;
+  double relative_tolerance;
+};
+
 namespace {
 
 // Steps below this mean that the solution cannot be continued: without a limit CVODE creeps towards a
@@ -35,24 +41,19 @@ std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
 }
 
-struct Callback {
-  OdeSystem* system;
-  double relative_tolerance;
-};
-
 int evaluate_derivative(sunrealtype time, N_Vector y, N_Vector y_dot, void* data) {
-  const auto* callback = static_cast<Callback*>(data);
+  const auto* callback = static_cast<CvodeCallback*>(data);
   return callback->system->calc_derivative(time, values(y), values(y_dot)) ? 0 : 1;
 }
 
 int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void* data) {
-  const auto* callback = static_cast<Callback*>(data);
+  const auto* callback = static_cast<CvodeCallback*>(data);
   const std::span<double> result(switches, static_cast<std::size_t>(callback->system->num_switches()));
   return callback->system->calc_switches(time, values(y), result) ? 0 : -1;
 }
 
 int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
-  const auto* callback = static_cast<Callback*>(data);
+  const auto* callback = static_cast<CvodeCallback*>(data);
   callback->system->calc_error_scales(values(y), values(weights));
   for (double& w : values(weights)) {
     if (!(w > 0.0)) return -1;
@@ -115,7 +116,7 @@ struct CvodeIntegrator::Memory {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear_solver = nullptr;
   SUNNonlinearSolver nonlinear_solver = nullptr;
-  Callback callback;
+  CvodeCallback callback;
   bool started = false;
   TouchSearch touch_search{0};
   Eigen::VectorXd begin_switches, end_switches;  // at the ends of the step
