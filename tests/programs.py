@@ -17,7 +17,7 @@ PREFIXES = ("LC_", "PYTHON", "MATPLOTLIB", "MPL")
 SINGLE = ("LANG", "LANGUAGE", "COLUMNS", "LINES", "NO_COLOR", "FORCE_COLOR", "CLICOLOR_FORCE", "SOURCE_DATE_EPOCH")
 # What a Python tool may print on stderr if it takes long: its progress, and Matplotlib's first look at the fonts.
 SIGNS_OF_LIFE = re.compile(
-    r"[\w ]+: \d+ %, \d+ s left|Matplotlib is building the font cache; this may take a moment\."
+    r"[\w ]+: \d+ %, \d+ s left(, \d+ failed)?|Matplotlib is building the font cache; this may take a moment\."
 )
 
 

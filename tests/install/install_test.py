@@ -61,6 +61,13 @@ class Installed(unittest.TestCase):
         self.must_run(self.share / "tools/report", results, "-o", page, "--superelements", self.folder / "bodies")
         self.assertIn("dygraphs", page.read_text(encoding="utf-8"))
 
+    def test_the_example_study_finds_the_installed_programs(self):
+        study = self.share / "dynamics/models/examples/quarter_car_study.toml"
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("SPRUNG_")}
+        process = run(self.share / "tools/study", study, "-o", self.folder / "study", cwd=self.folder, env=environment)
+        self.assertEqual(process.returncode, 0, process.stdout)
+        self.assertIn("6 runs: 6 made, 0 kept from before, 0 failed", process.stdout)
+
     def test_every_tool_explains_itself(self):
         tools = sorted(path for path in (self.share / "tools").iterdir() if path.is_file())
         self.assertGreater(len(tools), 5)

@@ -24,6 +24,7 @@ WRITTEN = {
     "export_csv": ("bump.csv",), "report": ("report.html",), "export_paraview": ("modes.pvd", "bump.pvd"),
     "plot_response": ("response.png",),
     "plot_modes": ("choice.png", "bump_modes.png"),
+    "study": ("quarter_car_study/table.csv", "quarter_car_study/table.h5", "quarter_car_study/study.html"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
 CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
@@ -59,6 +60,7 @@ class PythonTools(Examples):
         cls.drive("select-modes", "terrain", "choice", 'modes.chassis="auto"')
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
+        shutil.copytree(ROOT / "dynamics/models/examples", cls.made / "dynamics/models/examples")
         shutil.copy(ROOT / "tests/tools/data/portal.bdf", cls.made / "frame.bdf")
 
     @classmethod

@@ -56,6 +56,13 @@ class ProgressOfWork(unittest.TestCase):
             ],
         )
 
+    def test_a_note_follows_the_time_left(self):
+        stream = io.StringIO()
+        with Progress("runs", 2, stream) as bar:
+            self.now += 20.0
+            bar.step(note=", 1 failed")
+        self.assertEqual(stream.getvalue(), "runs: 50 %, 20 s left, 1 failed\n")
+
     def test_short_work_is_silent_in_a_file(self):
         stream = io.StringIO()
         self.work(stream, 0.5)

@@ -10,7 +10,7 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 BASH = ("setup", "build", "test", "run-truck", "fuzz")
 PYTHON = (
     "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride",
-    "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
+    "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark", "study",
 )  # fmt: skip
 
 
@@ -63,6 +63,7 @@ class Scripts(ToolTestCase):
             ("matplotlib", "matplotlib.pyplot", "plot_results", ("--help",)),
             ("meshio", "meshio", "convert_mesh", ("frame.vtk", "frame.msh")),
             ("numpy", "numpy", "make_road.py", ("--help",)),
+            ("scipy", "scipy.stats", "study", ("--help",)),
         ):
             with self.subTest(module):
                 blocked = self.folder / module

@@ -11,32 +11,34 @@ of -y. With --superelements the tool also computes the bending moment of bodies 
 forces on them. Of a response file with the spectra on a random road (sprung-dynamics response), the tool prints the
 r.m.s. values and the absorbed power of the linear vehicle."""
 
-import os
+import argparse
+import json
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
-from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.runs.labelled_responses import Response, open_responses
 from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
-from sprung_tools.runs.ride_assessment import calc_assessment
-from sprung_tools.runs.ride_measures import (
-    Bending,
-    calc_bending,
-    calc_comfort,
-    calc_contact,
-    calc_travel,
-    find_forces,
-    find_largest_moment,
-    list_seats,
-    read_window,
+from sprung_tools.runs.measures import (
+    calc_measures,
+    describe_response,
+    describe_run,
+    find_bending,
+    find_points,
+    list_linear_objects,
+    list_objects,
+    pack_measures,
+    point_name,
 )
+from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel, find_forces, read_window
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
+JSON_FORMAT, JSON_VERSION = "sprung-measures", 1  # tools/README.md, "Measures"
 COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
            "total", "absorbed W")  # fmt: skip
 LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch", "total", "absorbed W")
@@ -44,29 +46,6 @@ TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "sto
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
 BENDING = ("body", "run", "largest moment kN m", "at x m", "at s")
-
-
-def find_points(runs: Sequence[Run], wanted: Sequence[str]) -> list[str]:
-    """The points to judge: those asked for; without any, every point called seat and the centre of mass of its body;
-    without seats, the centres of mass of all bodies. Returns groups such as `points/chassis.seat`.
-    """
-    results = runs[0].results
-    if not wanted:
-        seats = list_seats(results)
-        bodies = sorted({seat.split("/")[1].partition(".")[0] for seat in seats}) or results.names("bodies")
-        return seats + [f"bodies/{body}/center_of_mass" for body in bodies]
-    points = []
-    for name in wanted:
-        body, _, point = name.partition(".")
-        is_centre = point == "center_of_mass" and not results.has(f"points/{name}/acceleration")
-        points.append(f"bodies/{body}/center_of_mass" if is_centre else f"points/{name}")
-    return points
-
-
-def point_name(folder: str) -> str:
-    """The name of a point in the tables: `points/chassis.seat` → `chassis.seat`."""
-    group, name, *_ = folder.split("/")
-    return name if group == "points" else f"{name}.center_of_mass"
 
 
 def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
@@ -124,16 +103,6 @@ def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[
             )  # fmt: skip
 
 
-def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Bending | None:
-    """A body's largest moment; of a rigid body only if the folder of its superelement is given, else None."""
-    found = calc_bending(results, body, window)
-    name = results.superelement(body)
-    if found is not None or superelements is None or not name:
-        return found
-    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
-    return find_largest_moment(results, *moments, window)
-
-
 def make_bending_rows(
     runs: Sequence[Run], windows: Sequence[Span], superelements: str | None
 ) -> Iterator[tuple[str, ...]]:
@@ -145,7 +114,24 @@ def make_bending_rows(
                 yield body, run.label, f"{1e-3 * found.moment:.4g}", f"{found.station:.3f}", f"{found.time:.3f}"
 
 
-def main() -> int:
+def make_json(
+    runs: Sequence[Run], windows: Sequence[Span], responses: Sequence[Response], points: Sequence[str],
+    superelements: str | None,
+) -> str:  # fmt: skip
+    """All measures of runs and responses as JSON."""
+    packed: list[dict[str, Any]] = []
+    for run, window in zip(runs, windows):
+        objects = list_objects(run.results, window, points, superelements)
+        packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
+                       "measures": pack_measures(calc_measures(objects))})  # fmt: skip
+    for response in responses:
+        packed.append({"label": response.label, "file": response.file.filename, **describe_response(response),
+                       "measures": pack_measures(calc_measures(list_linear_objects(response, points)))})  # fmt: skip
+    return json.dumps({"format": JSON_FORMAT, "version": JSON_VERSION, "runs": packed}, indent=1, ensure_ascii=False,
+                      allow_nan=False)  # fmt: skip
+
+
+def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat")
     parser.add_argument(
         "runs", metavar="[LABEL=]FILE", nargs="+", help="results or response file, and its name in the tables"
@@ -162,15 +148,23 @@ def main() -> int:
         metavar="FOLDER",
         help="folder of the superelement files, for the moments of bodies taken as rigid",
     )
-    arguments = parser.parse_args()
+    parser.add_argument("--json", action="store_true", help="print one JSON object with all measures in SI units")
+    return parser.parse_args()
+
+
+def main() -> int:
+    arguments = parse_arguments()
     files, response_files = part_files(arguments.runs)
     runs, responses = open_runs(files), open_responses(response_files)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
+    if arguments.json:
+        print(make_json(runs, windows, responses, arguments.points, arguments.superelements))
+        return 0
     tables: list[tuple[Sequence[str], Iterator[tuple[str, ...]]]]
     tables = [(LINEAR, make_linear_rows(responses, arguments.points))]
     if runs:
         tables += [
-            (COMFORT, make_comfort_rows(runs, find_points(runs, arguments.points), windows)),
+            (COMFORT, make_comfort_rows(runs, find_points(runs[0].results, arguments.points), windows)),
             (TRAVEL, make_travel_rows(runs, windows)),
             (CONTACT, make_contact_rows(runs, windows)),
             (BENDING, make_bending_rows(runs, windows, arguments.superelements)),

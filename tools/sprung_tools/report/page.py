@@ -1,7 +1,6 @@
 """The page itself: the template, filled with styles, scripts and the data of the runs."""
 
 import html
-import json
 import os
 from collections.abc import Sequence
 
@@ -9,25 +8,16 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.ride import pack_boundaries
 from sprung_tools.report.run_data import pack_run
+from sprung_tools.report.template import WEB, fill_template, pack_json, read_asset
 from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.terminal.progress_bar import Progress
 
-WEB = os.path.join(os.path.dirname(os.path.realpath(__file__)), "web")
-SCRIPTS = ("common.js", "save.js", "tables.js", "charts.js", "histories.js", "ride.js", "frame_loads.js", "spectra.js",
-           "motion.js", "scene_view.js", "vehicle_drawing.js", "player.js", "vehicle_modes.js", "mode_amplitudes.js",
-           "page.js")  # fmt: skip
+SCRIPTS = ("common.js", "clock.js", "save.js", "tables.js", "charts.js", "histories.js", "ride.js", "frame_loads.js",
+           "spectra.js", "motion.js", "scene_view.js", "vehicle_drawing.js", "player.js", "vehicle_modes.js",
+           "mode_amplitudes.js", "page.js")  # fmt: skip
 DYGRAPHS = ("/usr/share/javascript/dygraphs", "/usr/share/nodejs/dygraphs/dist")
 LARGEST = 15e6  # bytes of a page; a larger one is drawn with fewer samples
 THINNINGS = ((4000, 6000), (2000, 3000), (1000, 1500), (500, 750))  # samples of a history, instants of the animation
-
-
-def read_asset(path: str) -> str:
-    """Reads a file of the page. InputError if it cannot be read."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            return file.read()
-    except OSError as error:
-        raise InputError(f"{path}: error: cannot read it ({error.strerror}); tools/setup installs dygraphs") from error
 
 
 def find_dygraphs() -> str:
@@ -41,24 +31,15 @@ def find_dygraphs() -> str:
 def make_page(title: str, data: Packed) -> str:
     """The page's text: the template, filled with styles, scripts and data."""
     library = find_dygraphs()
-    script = read_asset(os.path.join(library, "dygraph.min.js")).partition("\n//# sourceMappingURL")[0]
-    # "</script" would end a script element; "</" alone may be part of a regular expression. The data contain no "<" at
-    # all, because "<!--" and "<script" in a script element change where it ends.
     parts = {
         "TITLE": html.escape(title),
         "STYLE": read_asset(os.path.join(library, "dygraph.min.css")).partition("/*# sourceMappingURL")[0]
         + read_asset(os.path.join(WEB, "page.css")),
-        "LIBRARY": script.replace("</script", "<\\/script"),
-        "DATA": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "SCRIPT": "\n".join(read_asset(os.path.join(WEB, name)) for name in SCRIPTS).replace("</script", "<\\/script"),
+        "LIBRARY": read_asset(os.path.join(library, "dygraph.min.js")).partition("\n//# sourceMappingURL")[0],
+        "DATA": pack_json(data),
+        "SCRIPT": "\n".join(read_asset(os.path.join(WEB, name)) for name in SCRIPTS),
     }
-    page = read_asset(os.path.join(WEB, "page.html"))
-    for name, text in parts.items():
-        before, _, after = page.partition(f"@{name}@")
-        page = f"{before}\0{name}\0{after}"
-    for name, text in parts.items():  # in a second pass, so that a name within an inserted text is left alone
-        page = page.replace(f"\0{name}\0", text, 1)
-    return page
+    return fill_template(read_asset(os.path.join(WEB, "page.html")), parts)
 
 
 def make_small_page(

@@ -14,6 +14,7 @@ PACKAGES = {
     "matplotlib": "python3-matplotlib",
     "meshio": "python3-meshio",
     "numpy": "python3-numpy",
+    "scipy": "python3-scipy",
 }
 
 

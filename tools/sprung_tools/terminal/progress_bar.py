@@ -27,8 +27,8 @@ class Progress:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
-    def step(self, count: int = 1) -> None:
-        """Records that `count` more parts are done."""
+    def step(self, count: int = 1, note: str = "") -> None:
+        """Records that `count` more parts are done. note: follows the time left."""
         self.done += count
         now = time.monotonic()
         if now - self.shown < (BETWEEN_BARS if self.on_terminal else BETWEEN_LINES):
@@ -38,7 +38,7 @@ class Progress:
         share = self.done / self.total
         if self.on_terminal:
             bar = ("█" * round(WIDTH * share)).ljust(WIDTH, "░")
-            self.stream.write(f"\r{self.what} {bar} {100 * share:3.0f} %, {left:.0f} s left\x1b[K")
+            self.stream.write(f"\r{self.what} {bar} {100 * share:3.0f} %, {left:.0f} s left{note}\x1b[K")
         else:
-            self.stream.write(f"{self.what}: {100 * share:.0f} %, {left:.0f} s left\n")
+            self.stream.write(f"{self.what}: {100 * share:.0f} %, {left:.0f} s left{note}\n")
         self.stream.flush()

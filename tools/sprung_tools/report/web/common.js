@@ -1,5 +1,5 @@
 "use strict";
-// What all parts of the page share: the data, colours, units, numbers, and the one clock.
+// What all parts of a page share: the data, colours, units, numbers.
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
@@ -62,18 +62,6 @@ function fillSelect(select, options) {
     parent.append(element("option", {value}, label));
   }
 }
-
-/** The time shown by the animation and the diagrams' cursor [s]. */
-const clock = {
-  time: Math.min(...data.runs.map((run) => run.frames.first)),
-  first: Math.min(...data.runs.map((run) => run.frames.first)),
-  last: Math.max(...data.runs.map((run) => run.frames.last)),
-  listeners: [],
-  set(time) {
-    this.time = Math.min(Math.max(time, this.first), this.last);
-    for (const listener of this.listeners) listener(this.time);
-  },
-};
 
 /** A canvas made as sharp as the screen. Returns its context with units of CSS pixels, and its size. */
 function prepareCanvas(canvas, height) {

@@ -1,0 +1,124 @@
+"""`ride --json`: every measure of runs and responses under its name, with its unit, and the warnings beside them."""
+
+import json
+import re
+import unittest
+
+import h5py
+import numpy as np
+from ride_results import write_ride_results
+from tool_test_case import TOOLS, ToolTestCase
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.measures import UNITS_OF, calc_measures, list_history_objects, list_objects
+from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel
+
+WINDOW = (1.0, 3.0)
+
+
+def write_run(path, closure=1e-6):
+    """A run with known measures, a summary, and the energy balance as given."""
+    write_ride_results(path)
+    with h5py.File(path, "a") as file:
+        summary = file.create_group("summary")
+        summary.attrs.update({"energy_closure": closure, "steps": 12})
+        summary.create_group("points/body.seat").attrs.update({"displacement_max": 0.25, "acceleration_rms": 1.5})
+        for name in ("integrator", "adaptivity"):
+            settings = file.require_group(f"model/resolved/settings/{name}")
+            settings.attrs.update({"method": np.bytes_("adams"), "relative_tolerance": 1e-6, "largest_step": np.inf,
+                                   "enabled": 0})  # fmt: skip
+    return path
+
+
+class Json(ToolTestCase):
+    def read_json(self, *arguments):
+        process = self.run_tool("ride", *arguments, "--json")
+        self.assert_succeeds(process)
+        return json.loads(process.stdout)
+
+    def test_it_has_the_numbers_of_the_tables_under_their_names_with_units(self):
+        path = write_run(self.folder / "a.h5")
+        found = self.read_json("truck=a.h5")
+        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 1))
+        (run,) = found["runs"]
+        self.assertEqual((run["label"], run["file"], run["kind"], run["title"]), ("truck", "a.h5", "run", "synthetic"))
+        self.assertEqual(run["span"], {"from": 1.0, "to": 3.0, "unit": "s"})
+        with open_results(path) as results:
+            comfort = calc_comfort(results, "points/body.seat", WINDOW)
+            felt = calc_assessment(results, "points/body.seat", WINDOW)
+            travel, contact = calc_travel(results, "suspension", WINDOW), calc_contact(results, "tyre", WINDOW)
+            bending = calc_bending(results, "body", WINDOW)
+        expected = {
+            "points/body.seat/rms": (comfort.rms, "m/s^2"), "points/body.seat/peak": (comfort.peak, "m/s^2"),
+            "points/body.seat/wk_rms": (comfort.weighted_rms, "m/s^2"),
+            "points/body.seat/vdv": (comfort.dose, "m/s^1.75"),
+            "points/body.seat/mtvv": (felt.mtvv, "m/s^2"), "points/body.seat/crest_factor": (felt.crest, "1"),
+            "points/body.seat/wd_rms": (felt.fore_aft, "m/s^2"), "points/body.seat/we_rms": (felt.pitch, "rad/s^2"),
+            "points/body.seat/total": (felt.total, "m/s^2"), "points/body.seat/absorbed_power": (felt.power, "W"),
+            "suspensions/suspension/compression": (travel.compression, "m"),
+            "suspensions/suspension/rebound": (travel.rebound, "m"),
+            "suspensions/suspension/way_to_stop": (travel.whole, "m"),
+            "suspensions/suspension/stop_hits": (travel.hits, "1"),
+            "suspensions/suspension/time_on_stop": (travel.stopped, "s"),
+            "suspensions/link/way_to_stop": (None, "m"), "suspensions/link/stop_hits": (None, "1"),
+            "tyres/tyre/static_load": (contact.static, "N"), "tyres/tyre/greatest_load": (contact.greatest, "N"),
+            "tyres/tyre/dynamic_load_rms": (contact.dynamic_rms, "N"),
+            "tyres/tyre/time_off_ground": (contact.off_ground, "s"),
+            "tyres/tyre/time_without_load": (contact.unloaded, "s"),
+            "loads/body/moment": (bending.moment, "N m"), "loads/body/station": (0.25, "m"),
+            "loads/body/time": (bending.time, "s"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
+            "summary/points/body.seat/displacement_max": (0.25, "m"),
+            "summary/points/body.seat/acceleration_rms": (1.5, "m/s^2"),
+        }  # fmt: skip
+        for name, (value, unit) in expected.items():
+            self.assertEqual(run["measures"][name], {"value": value, "unit": unit}, name)
+        self.assertEqual(sum(name.startswith("points/body.seat/") for name in run["measures"]), 10)
+        self.assertEqual(sum(name.startswith("points/body.center_of_mass/") for name in run["measures"]), 10)
+
+    def test_points_and_span_are_those_asked_for(self):
+        write_run(self.folder / "a.h5")
+        (run,) = self.read_json("a.h5", "--points", "body.center_of_mass", "--from", "0.5")["runs"]
+        self.assertEqual(run["span"]["from"], 0.5)
+        points = {name.split("/")[1] for name in run["measures"] if name.startswith("points/")}
+        self.assertEqual(points, {"body.center_of_mass"})
+
+    def test_a_run_whose_energy_balance_does_not_close_has_not_converged_and_says_so(self):
+        write_run(self.folder / "good.h5")
+        write_run(self.folder / "bad.h5", closure=0.02)
+        good, bad = self.read_json("good.h5", "bad.h5")["runs"]
+        self.assertEqual((good["converged"], good["warnings"]), (True, []))
+        self.assertFalse(bad["converged"])
+        self.assertEqual(bad["warnings"][0]["concerns"], "summary")
+        self.assertIn("the energy balance does not close (relative 2.0e-02)", bad["warnings"][0]["text"])
+
+    def test_any_history_gives_its_extremes_its_mean_and_its_rms(self):
+        with open_results(write_run(self.folder / "a.h5")) as results:
+            wanted = ["histories/points/body.seat/acceleration.y/max", "histories/points/none/acceleration.y/max"]
+            found = calc_measures(list_history_objects(results, WINDOW, wanted))
+        values = {name.rpartition("/")[2]: one for name, one in found.items()}
+        # A sine of 2 m/s², ten periods of it
+        self.assertEqual({one.unit for one in values.values()}, {"m/s^2"})
+        for name, expected in (("min", -2.0), ("max", 2.0), ("mean", 0.0), ("rms", np.sqrt(2.0))):
+            self.assertAlmostEqual(values[name].value, expected, delta=1e-3)
+
+    def test_only_what_is_evaluated_is_computed(self):
+        with open_results(write_run(self.folder / "a.h5")) as results:
+            objects = list_objects(results, WINDOW, ["body.none"])
+            self.assertEqual(set(objects["tyres/tyre"]()), {f"tyres/tyre/{name}" for name in UNITS_OF["tyres"]})
+
+
+class Documentation(unittest.TestCase):
+    def test_the_readme_lists_every_measure_with_its_unit(self):
+        text = (TOOLS / "README.md").read_text(encoding="utf-8")
+        section = text.partition("\n## Measures\n")[2].partition("\n## ")[0]
+        listed = {}
+        for group, cell in re.findall(r"^\| `(\w+)/[^`]*` \| (.+) \|$", section, re.MULTILINE):
+            listed[group] = dict(re.findall(r"`(\w+)` \[([^\]]+)\]", cell))
+        plain = {"m/s^2": "m/s²", "m/s^1.75": "m/s^1.75", "rad/s^2": "rad/s²", "N m": "N·m"}
+        for group, units in UNITS_OF.items():
+            self.assertEqual(listed[group], {name: plain.get(unit, unit) for name, unit in units.items()})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,102 @@
+"""Runs a study: many runs of one run file with other parameters, on all processors.
+
+STUDY.toml says which keys change, how their values are chosen (a grid, lists, Latin hypercube or Sobol points), and
+which measures are taken; tools/README.md lists its keys. The folder gets the table (table.csv, table.h5) and a page
+(study.html) that opens in a browser without a network. The outcome of each run is kept as soon as the run ends: an
+interrupted study goes on where it was when the same command is given again, and a study with more values makes only the
+runs that are missing. A run that fails is a row with its error."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.whole_file import write_whole
+from sprung_tools.programs.finding import find_programs
+from sprung_tools.study.effects import Effect, calc_effects
+from sprung_tools.study.execution import Finished, Options, count_processors, run_study
+from sprung_tools.study.page import make_study_page
+from sprung_tools.study.sampling import is_balanced
+from sprung_tools.study.study_file import read_study
+from sprung_tools.study.table import find_missing, format_csv, make_hdf5, make_measure_columns
+from sprung_tools.terminal.program import make_parser
+from sprung_tools.terminal.text_table import format_table
+
+MOST_SHOWN = 12  # effects, errors
+
+
+def parse_arguments() -> argparse.Namespace:
+    parser = make_parser(__doc__, "tools/study dynamics/models/examples/quarter_car_study.toml -o quarter_car_study")
+    parser.add_argument("study", metavar="STUDY.toml", help="study file")
+    parser.add_argument(
+        "-o", "--output", required=True, type=Path, metavar="FOLDER", help="folder of the rows, the table and the page"
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=count_processors(), metavar="N",
+        help="runs at the same time (default: as many as there are processors)",
+    )  # fmt: skip
+    parser.add_argument("--retry-failed", action="store_true", help="make the runs again whose rows have an error")
+    parser.add_argument("--keep-results", action="store_true", help="keep the results files in FOLDER/results")
+    parser.add_argument(
+        "--programs", metavar="FOLDER",
+        help="build folder or installation with the programs (default: that of the installation, build/release, PATH)",
+    )  # fmt: skip
+    arguments = parser.parse_args()
+    if arguments.jobs < 1:
+        parser.error(f"--jobs must be at least 1, got {arguments.jobs}")
+    return arguments
+
+
+def format_effects(effects: list[Effect]) -> str:
+    """The largest effects as a table."""
+    largest = sorted(effects, key=lambda one: -one.share)[:MOST_SHOWN]
+    rows = [
+        (one.measure, one.parameter, f"{100.0 * one.share:.0f} %", f"{100.0 * one.chance:.0f} %") for one in largest
+    ]
+    return format_table(("measure", "parameter", "explains of the variation", "by chance"), sorted(rows))
+
+
+def format_errors(finished: Finished) -> list[str]:
+    """A line for each different error, with the number of its runs."""
+    counts: dict[str, list[int]] = {}
+    for number, row in enumerate(finished.rows, start=1):
+        if row.error:
+            counts.setdefault(row.error, []).append(number)
+    lines = []
+    for error, runs in counts.items():
+        others = f" and {len(runs) - 1} more" if len(runs) > 1 else ""
+        lines.append(f"run {runs[0]}{others}: {error}")
+    return lines[:MOST_SHOWN] + [f"… and {len(lines) - MOST_SHOWN} other errors"] * (len(lines) > MOST_SHOWN)
+
+
+def main() -> int:
+    arguments = parse_arguments()
+    study = read_study(arguments.study)
+    programs = find_programs(arguments.programs)
+    options = Options(arguments.output, arguments.jobs, arguments.retry_failed, arguments.keep_results)
+    if not is_balanced(study.sampling):
+        number = study.sampling.number
+        print(f"note: Sobol points are balanced where they are 1, 2, 4, 8, …; here {number}", file=sys.stderr)
+    try:
+        finished = run_study(study, programs, options)
+    except KeyboardInterrupt:
+        print(f"{options.folder}: the runs that have ended are kept; the same command goes on", file=sys.stderr)
+        raise
+    columns = make_measure_columns(finished)
+    effects = calc_effects(finished, columns)
+    write_whole(options.folder / "table.csv", format_csv(finished, columns))
+    write_whole(options.folder / "table.h5", make_hdf5(finished, columns))
+    write_whole(options.folder / "study.html", make_study_page(finished, columns, effects))
+    failed = sum(row.has_failed for row in finished.rows)
+    print(f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed")
+    for line in format_errors(finished):
+        print(line, file=sys.stderr)
+    for name in find_missing(finished, columns):
+        print(f"warning: no run has the measure {name}", file=sys.stderr)
+    if effects:
+        print(f"\n{format_effects(effects)}\n")
+    print(f"{options.folder / 'table.csv'}, table.h5")
+    print(f"Open it in a browser: {(options.folder / 'study.html').resolve().as_uri()}")
+    if failed == len(finished.rows):
+        raise InputError(f"{study.file.path}: error: all runs failed")
+    return 0

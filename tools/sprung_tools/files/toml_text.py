@@ -1,0 +1,32 @@
+"""Values as TOML text, for `--set` and for files that are made from others."""
+
+import json
+from typing import Any
+
+from sprung_tools.files.errors import InputError
+
+
+def format_value(value: Any) -> str:
+    """A value on one line. InputError for what TOML does not hold."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(format_value, value))}]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{format_key(key)} = {format_value(one)}" for key, one in value.items()) + " }"
+    raise InputError(f"error: {type(value).__name__} '{value}' is no value of a parameter")
+
+
+def format_key(key: str) -> str:
+    """A key, in quotes where it needs them."""
+    bare = key and all(letter.isascii() and (letter.isalnum() or letter in "_-") for letter in key)
+    return key if bare else format_value(key)
+
+
+def format_document(table: dict[str, Any]) -> str:
+    """A whole file: one line for each key of the root table."""
+    return "".join(f"{format_key(key)} = {format_value(value)}\n" for key, value in table.items())

@@ -1,0 +1,72 @@
+"""Starting a program and taking what it says."""
+
+import ctypes
+import os
+import signal
+import subprocess
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_text import format_value
+
+GOOD, CHECK_FAILED, BAD_INPUT, NO_CONVERGENCE, INTERRUPTED = 0, 1, 2, 3, 130  # exit codes (dynamics/README.md)
+PR_SET_PDEATHSIG = 1
+_libc = ctypes.CDLL(None)
+
+
+class Outcome(NamedTuple):
+    """How a program ended. exit_code: less than zero is minus the signal that ended it."""
+
+    exit_code: int
+    printed: str
+    complaints: str  # on stderr
+
+    @property
+    def error(self) -> str:
+        """Why it failed, in the program's words; empty if it did not."""
+        if self.exit_code == GOOD:
+            return ""
+        if self.exit_code < 0:
+            return f"ended by {signal.Signals(-self.exit_code).name}"
+        lines = [line for line in self.complaints.splitlines() if line.strip() and not line.startswith("warning: ")]
+        if self.exit_code == CHECK_FAILED and not lines:
+            lines = self.complaints.splitlines() or ["a check failed: do not trust the results"]
+        return "\n".join(lines) or f"exit code {self.exit_code}"
+
+
+def end_with_parent() -> None:
+    """Has the system end this process when its parent ends, however that happens."""
+    _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def call(command: Sequence[str | Path], folder: Path | None = None) -> Outcome:
+    """Runs a program to its end, in a folder if one is given. It ends with this process, if that ends before."""
+    words = [os.fspath(word) for word in command]
+    try:
+        done = subprocess.run(
+            words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
+            preexec_fn=end_with_parent, check=False,
+        )  # fmt: skip
+    except OSError as error:
+        raise InputError(f"{words[0]}: error: cannot be started ({error.strerror})") from error
+    return Outcome(done.returncode, done.stdout, done.stderr)
+
+
+def format_overrides(values: Mapping[str, Any]) -> list[str]:
+    """Keys and values as `--set` takes them: {"road.height": 0.1} → ["road.height=0.1"]."""
+    return [f"{key}={format_value(value)}" for key, value in values.items()]
+
+
+def make_command(
+    program: Path, verb: str, run: Path, superelements: Path | None = None, overrides: Iterable[str] = (),
+    output: Path | None = None,
+) -> list[str | Path]:  # fmt: skip
+    """The command line of sprung-dynamics, which prints JSON."""
+    command: list[str | Path] = [program, verb, run, "--json", "--quiet"]
+    if superelements is not None:
+        command += ["--superelements", superelements]
+    if output is not None:
+        command += ["-o", output]
+    return command + [word for override in overrides for word in ("--set", override)]

@@ -1,0 +1,238 @@
+"""All measures of a run or of a response under names of their own, with units: what `ride --json` prints, and what a
+study collects.
+
+A name is a path OBJECT/MEASURE such as `points/chassis.seat/wk_rms`; tools/README.md, "Measures", lists them all.
+"""
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import Any, NamedTuple
+
+from sprung_tools.files.hdf5_file import read_real, read_text, read_texts
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.files.stored_file import StoredFile
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.runs.labelled_responses import Response
+from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_measures import (
+    Bending,
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_travel,
+    find_forces,
+    find_largest_moment,
+    list_seats,
+)
+from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
+from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
+from sprung_tools.signals.spans import Span
+from sprung_tools.signals.spectra import calc_rms
+
+CENTRE = "center_of_mass"
+HISTORIES = "histories/"
+# The units of the measures of each kind of object; those of the summary follow from the ends of their names.
+POINT_UNITS = {
+    "rms": "m/s^2", "peak": "m/s^2", "wk_rms": "m/s^2", "vdv": "m/s^1.75", "mtvv": "m/s^2", "crest_factor": "1",
+    "wd_rms": "m/s^2", "we_rms": "rad/s^2", "total": "m/s^2", "absorbed_power": "W",
+}  # fmt: skip
+SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "stop_hits": "1", "time_on_stop": "s"}
+TYRE_UNITS = {
+    "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
+}  # fmt: skip
+LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s"}
+MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
+UNITS_OF = {"points": POINT_UNITS, "suspensions": SUSPENSION_UNITS, "tyres": TYRE_UNITS, "loads": LOAD_UNITS}
+
+
+class Measure(NamedTuple):
+    """A number with its unit; None where the object has no such value, as the way to a stop where there is no stop."""
+
+    value: float | None
+    unit: str
+
+
+Measures = dict[str, Measure]  # by name
+Objects = dict[str, Callable[[], Measures]]  # by name: computes the measures of the object
+
+
+def combine(name: str, units: dict[str, str], values: Iterable[float | None]) -> Measures:
+    """The measures of an object: its values in the order of the units."""
+    return {
+        f"{name}/{measure}": Measure(None if value is None else float(value), unit)
+        for (measure, unit), value in zip(units.items(), values, strict=True)
+    }
+
+
+def find_points(results: ResultsFile, wanted: Sequence[str] = ()) -> list[str]:
+    """The points to judge: those asked for; without any, every point called seat and the centre of mass of its body;
+    without seats, the centres of mass of all bodies. Returns groups such as `points/chassis.seat`.
+    """
+    if not wanted:
+        seats = list_seats(results)
+        bodies = sorted({seat.split("/")[1].partition(".")[0] for seat in seats}) or results.names("bodies")
+        return seats + [f"bodies/{body}/{CENTRE}" for body in bodies]
+    points = []
+    for name in wanted:
+        body, _, point = name.partition(".")
+        is_centre = point == CENTRE and not results.has(f"points/{name}/acceleration")
+        points.append(f"bodies/{body}/{CENTRE}" if is_centre else f"points/{name}")
+    return points
+
+
+def point_name(folder: str) -> str:
+    """The name of a point in tables: `points/chassis.seat` → `chassis.seat`."""
+    group, name, *_ = folder.split("/")
+    return name if group == "points" else f"{name}.{CENTRE}"
+
+
+def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Bending | None:
+    """A body's largest moment; of a rigid body only if the folder of its superelement is given, else None."""
+    found = calc_bending(results, body, window)
+    name = results.superelement(body)
+    if found is not None or superelements is None or not name:
+        return found
+    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
+    return find_largest_moment(results, *moments, window)
+
+
+def list_objects(
+    results: ResultsFile, window: Span, points: Sequence[str] = (), superelements: str | None = None
+) -> Objects:
+    """What a run has measures of. points: BODY.POINT to judge, as find_points() takes them; superelements: folder of
+    the superelement files, for the moments of rigid bodies."""
+    objects: Objects = {"summary": partial(read_summary, results)}
+    for folder in find_points(results, points):
+        name = f"points/{point_name(folder)}"
+        objects[name] = partial(measure_point, results, name, folder, window)
+    for force in find_forces(results, "spring"):
+        objects[f"suspensions/{force}"] = partial(measure_suspension, results, force, window)
+    for force in find_forces(results, "wheel"):
+        objects[f"tyres/{force}"] = partial(measure_tyre, results, force, window)
+    for body in results.names("bodies"):
+        objects[f"loads/{body}"] = partial(measure_loads, results, body, window, superelements)
+    return objects
+
+
+def measure_point(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
+    """The vibration of a point. folder: its group, `points/chassis.seat` for example."""
+    one, more = calc_comfort(results, folder, window), calc_assessment(results, folder, window)
+    values = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
+              more.total, more.power)  # fmt: skip
+    return combine(name, POINT_UNITS, values)
+
+
+def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measures:
+    """The travel of a suspension."""
+    one = calc_travel(results, name, window)
+    stopped = None if one.hits is None else one.stopped
+    values = (one.compression, one.rebound, one.whole, one.hits, stopped)
+    return combine(f"suspensions/{name}", SUSPENSION_UNITS, values)
+
+
+def measure_tyre(results: ResultsFile, name: str, window: Span) -> Measures:
+    """The loads of a tyre."""
+    one = calc_contact(results, name, window)
+    values = (one.static, one.greatest, one.dynamic_rms, one.off_ground, one.unloaded)
+    return combine(f"tyres/{name}", TYRE_UNITS, values)
+
+
+def measure_loads(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Measures:
+    """The largest bending moment of a body; none of a body without moments."""
+    found = find_bending(results, body, window, superelements)
+    return combine(f"loads/{body}", LOAD_UNITS, found) if found else {}
+
+
+def read_summary(results: ResultsFile) -> Measures:
+    """Everything in /summary, which sprung-dynamics computed."""
+    groups = {"summary": "", **{f"summary/points/{name}": "" for name in results.names("summary/points")}}
+    return {
+        f"{group}/{key}": Measure(read_real(results.file, group, key), MOTION_UNITS.get(key.partition("_")[0], "1"))
+        for group in groups if results.file.has_group(group) for key in results.file.attributes(group)
+    }  # fmt: skip
+
+
+def list_linear_objects(response: Response, points: Sequence[str] = ()) -> Objects:
+    """What the response of a linear vehicle on a random road has measures of: its points, and the r.m.s. of all
+    outputs. points: BODY.POINT to judge (default: all of the file)."""
+    objects: Objects = {}
+    for point in points or list_points(response):
+        objects[f"points/{point}"] = partial(measure_linear_point, response, point)
+    for output in response.names():
+        objects[f"outputs/{output}"] = partial(measure_output, response, output)
+    return objects
+
+
+def measure_linear_point(response: Response, point: str) -> Measures:
+    """The vibration of a point of the linear vehicle."""
+    one = calc_linear_assessment(response, point)
+    values = {"rms": one.rms, "wk_rms": one.vertical, "wd_rms": one.fore_aft, "we_rms": one.pitch, "total": one.total,
+              "absorbed_power": one.power}  # fmt: skip
+    return combine(f"points/{point}", {name: POINT_UNITS[name] for name in values}, values.values())
+
+
+def measure_output(response: Response, output: str) -> Measures:
+    """The r.m.s. of an output; none without a random road."""
+    group = f"outputs/{output}"
+    if "rms" not in response.file.attributes(group):
+        return {}
+    return {f"{group}/rms": Measure(response.rms(output), read_text(response.file, group, "unit"))}
+
+
+def calc_measures(objects: Objects) -> Measures:
+    """The measures of all objects."""
+    return {name: measure for calc in objects.values() for name, measure in calc().items()}
+
+
+def is_converged(results: ResultsFile) -> bool:
+    """Whether the energy balance of a run closes, as sprung-dynamics judges it for its exit code."""
+    return read_real(results.file, "summary", "energy_closure") <= ALARMING_CLOSURE
+
+
+def describe_run(results: ResultsFile, window: Span) -> dict[str, Any]:
+    """What stands beside the measures of a run in JSON."""
+    warnings = [{"concerns": one.section, "of": one.of, "text": one.text} for one in list_warnings(results)]
+    return {
+        "kind": "run", "title": results.title, "set": read_overrides(results.file),
+        "span": {"from": window[0], "to": window[1], "unit": "s"},
+        "converged": is_converged(results), "warnings": warnings,
+    }  # fmt: skip
+
+
+def describe_response(response: Response) -> dict[str, Any]:
+    """What stands beside the measures of a response in JSON."""
+    remarks = read_texts(response.file, "remarks") if response.file.has_dataset("remarks") else []
+    return {
+        "kind": "response", "title": read_text(response.file, "", "title", ""), "set": read_overrides(response.file),
+        "span": {"from": float(response.frequency[0]), "to": float(response.frequency[-1]), "unit": "Hz"},
+        "converged": True, "warnings": [{"concerns": "response", "of": (), "text": text} for text in remarks],
+    }  # fmt: skip
+
+
+def read_overrides(file: StoredFile) -> list[str]:
+    """What --set changed."""
+    name = "model/overrides"
+    return read_texts(file, name) if file.has_dataset(name) else []
+
+
+def pack_measures(measures: Measures) -> dict[str, dict[str, Any]]:
+    """Measures for JSON."""
+    return {name: one._asdict() for name, one in measures.items()}
+
+
+def list_history_objects(results: ResultsFile, window: Span, wanted: Iterable[str]) -> Objects:
+    """The objects `histories/QUANTITY` that names of measures mention; QUANTITY is any of the results file, as
+    ResultsFile.series() takes it."""
+    names = [name.rpartition("/")[0] for name in wanted if name.startswith(HISTORIES)]
+    there = [name for name in names if results.has(name.removeprefix(HISTORIES))]
+    return {name: partial(measure_history, results, name, window) for name in there}
+
+
+def measure_history(results: ResultsFile, name: str, window: Span) -> Measures:
+    """Lowest, highest, r.m.s. and mean value of a quantity over a span of time."""
+    values, unit = results.series(name.removeprefix(HISTORIES))
+    values = values[samples_between(results, *window)]
+    found = {"min": values.min(), "max": values.max(), "rms": calc_rms(values), "mean": values.mean()}
+    return combine(name, dict.fromkeys(found, unit), found.values())

@@ -1,0 +1,89 @@
+"""Stage one of a study: each design with the values of some of its parameters becomes one superelement, however many
+runs use it."""
+
+import hashlib
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_file import TomlFile
+from sprung_tools.files.toml_text import format_document
+from sprung_tools.files.whole_file import write_whole
+from sprung_tools.programs.calls import GOOD, call
+
+Table = dict[str, Any]
+
+
+class Variant(NamedTuple):
+    """A design as some runs use it. folder: holds NAME.toml and, once it is reduced, NAME.h5."""
+
+    name: str
+    folder: Path
+    text: str
+    mesh: Path | None  # a file that the design reads, beside the original one
+
+    @property
+    def superelement(self) -> Path:
+        """The file that sprung-reduce writes."""
+        return self.folder / f"{self.name}.h5"
+
+
+def make_variant(design: Path, changes: Mapping[str, Any], folder: Path) -> Variant:
+    """A design with some keys changed. folder: that of all variants. InputError if a key leads nowhere."""
+    file = TomlFile(design)
+    text = design.read_text(encoding="utf-8")
+    for key, value in changes.items():
+        set_value(file.data, key, value, design)
+    if changes:
+        text = f"# Made by tools/study from {design.name}.\n{format_document(file.data)}"
+    mesh_name = file.data.get("mesh")
+    mesh = design.parent / mesh_name if isinstance(mesh_name, str) else None
+    parts = [text.encode(), mesh.read_bytes() if mesh is not None and mesh.is_file() else b""]
+    return Variant(design.stem, folder / f"{design.stem}-{hash_parts(parts)[:16]}", text, mesh)
+
+
+def set_value(table: Table, path: str, value: Any, design: Path) -> None:
+    """Changes a value of a design. path: keys with dots between; an entry of a list goes by its number from 0.
+
+    Tables on the way that are not there are made. InputError if the path leads through something else."""
+    *way, last = path.split(".")
+    inside: Any = table
+    for key in way:
+        inside = inside.setdefault(key, {}) if isinstance(inside, dict) else find_entry(inside, key, path, design)
+    if isinstance(inside, dict):
+        inside[last] = value
+    else:
+        find_entry(inside, last, path, design)
+        inside[int(last)] = value
+
+
+def find_entry(entries: Any, key: str, path: str, design: Path) -> Any:
+    """The entry of a list. InputError if it is no list, or has no such entry."""
+    if not isinstance(entries, list):
+        raise InputError(f"{design}: error: '{path}' leads through a value at '{key}', expected a table")
+    if not key.isdecimal() or int(key) >= len(entries):
+        raise InputError(f"{design}: error: '{path}': '{key}' is no number of an entry, 0 to {len(entries) - 1}")
+    return entries[int(key)]
+
+
+def reduce_variant(program: Path, variant: Variant) -> str:
+    """Has sprung-reduce make the superelement of a variant, unless it is up to date. Returns the error, empty if all is
+    well."""
+    variant.folder.mkdir(parents=True, exist_ok=True)
+    design = variant.folder / f"{variant.name}.toml"
+    write_whole(design, variant.text)
+    if variant.mesh is not None and variant.mesh.is_file():
+        shutil.copyfile(variant.mesh, variant.folder / variant.mesh.name)
+    outcome = call([program, "build", design, "--output-dir", variant.folder, "--quiet"])
+    return outcome.error if outcome.exit_code != GOOD else ""
+
+
+def hash_parts(parts: list[bytes]) -> str:
+    """The SHA-256 of texts, each with its length before it."""
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(len(part).to_bytes(8, "little"))
+        digest.update(part)
+    return digest.hexdigest()

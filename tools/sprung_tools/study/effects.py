@@ -1,0 +1,79 @@
+"""Main effects: how much of the variation of a measure each parameter alone explains.
+
+The runs are put into groups, one for each value of the parameter, or one for each fifth of the runs in the order of its
+values where there are many. With the mean ȳ of all N runs, and the mean ȳ_g of the N_g runs of a group,
+
+    share = Σ_g N_g (ȳ_g − ȳ)² / Σ_i (y_i − ȳ)²                                                        (1)
+
+It is 1 where the parameter alone decides, and 0 where it has no effect on the mean. With few runs in a group it is too
+large: (G − 1)/(N − 1) is what G groups explain of pure chance on average.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.study.execution import Finished
+from sprung_tools.study.table import Column, format_cell
+
+MOST_VALUES = 12  # of a parameter that make a group each
+PARTS = 5
+
+
+class Effect(NamedTuple):
+    """The effect of a parameter on a measure. groups: their names; means: [groups]; counts: runs in each; share: by
+    (1), chance: its mean value if there is no effect."""
+
+    parameter: str
+    measure: str
+    groups: tuple[str, ...]
+    means: Floats
+    counts: Integers
+    share: float
+    chance: float
+
+
+def make_groups(values: list[Any]) -> tuple[Integers, list[str]]:
+    """The group of each run by the values of a parameter, and the names of the groups."""
+    distinct = list({format_cell(one): one for one in values}.items())
+    is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
+    if is_real:
+        distinct.sort(key=lambda one: float(one[1]))
+    if len(distinct) <= MOST_VALUES or not is_real:
+        names = [name for name, _ in distinct]
+        order = {name: number for number, name in enumerate(names)}
+        return np.array([order[format_cell(one)] for one in values], dtype=int), names
+    numbers = np.array(values, dtype=float)
+    limits = np.quantile(numbers, np.linspace(0.0, 1.0, PARTS + 1))
+    groups = np.clip(np.searchsorted(limits, numbers, side="right") - 1, 0, PARTS - 1)
+    names = [f"{low:.3g} to {high:.3g}" for low, high in zip(limits[:-1], limits[1:])]
+    return groups, names
+
+
+def calc_effects(finished: Finished, columns: list[Column]) -> list[Effect]:
+    """The effects of all parameters on all measures, from the runs that have the measure. Measures that do not vary
+    have none."""
+    effects = []
+    for number, parameter in enumerate(finished.study.parameters):
+        groups, names = make_groups([point[number] for point in finished.points])
+        for column in columns:
+            effect = calc_effect(parameter.name, column, groups, names)
+            if effect is not None:
+                effects.append(effect)
+    return effects
+
+
+def calc_effect(parameter: str, column: Column, groups: Integers, names: list[str]) -> Effect | None:
+    """The effect of one parameter on one measure; None if the measure does not vary."""
+    there = ~np.isnan(column.values)
+    values, groups = column.values[there], groups[there]
+    total = float(np.sum((values - np.mean(values)) ** 2)) if values.size else 0.0
+    if not total > 0.0:
+        return None
+    found = np.unique(groups)
+    means = np.array([np.mean(values[groups == one]) for one in found])
+    counts = np.array([np.count_nonzero(groups == one) for one in found])
+    share = float(np.sum(counts * (means - np.mean(values)) ** 2)) / total
+    chance = (found.size - 1) / (values.size - 1)
+    return Effect(parameter, column.name, tuple(names[one] for one in found), means, counts, share, chance)

@@ -1,0 +1,169 @@
+"""Making the runs of a study on all processors, and keeping each row as its run ends."""
+
+import multiprocessing
+import os
+import shutil
+import signal
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.programs.calls import BAD_INPUT, INTERRUPTED, call, end_with_parent, make_command
+from sprung_tools.programs.finding import Programs
+from sprung_tools.study.kept_rows import KeptRows, Row
+from sprung_tools.study.one_run import Setting, Task, make_and_keep
+from sprung_tools.study.plan import Planner, reduce_variants
+from sprung_tools.study.sampling import Point, make_points
+from sprung_tools.study.study_file import Study
+from sprung_tools.terminal.progress_bar import Progress
+
+QUEUED = 4  # tasks that wait for each process
+SCRATCH = "under_way"  # folder of what the runs under way write
+
+
+class Finished(NamedTuple):
+    """A study whose runs are made: its points, their tasks and rows; how many runs were made now, and how many rows
+    were there before."""
+
+    study: Study
+    points: list[Point]
+    tasks: list[Task]
+    rows: list[Row]
+    made: int
+    kept: int
+
+
+class Options(NamedTuple):
+    """How a study is made. retry: whether rows of failed runs are made again."""
+
+    folder: Path
+    jobs: int
+    retry: bool = False
+    keep_results: bool = False
+
+
+def run_study(study: Study, programs: Programs, options: Options) -> Finished:
+    """Makes the runs of a study whose rows are not in its folder. InputError for a fault of the study itself; a run
+    that fails is a row."""
+    points = make_points(study)
+    with KeptRows(options.folder) as kept, open_pool(options) as pool:
+        tasks = make_tasks(study, programs, options, points, pool)
+        results = options.folder / "results" if options.keep_results else None
+        setting = Setting(kept.path, programs.dynamics, study.command, study.run, study.measures,
+                          options.folder / SCRATCH, results)  # fmt: skip
+        if setting.results is not None:
+            setting.results.mkdir(exist_ok=True)
+        there = {task.hash: kept.rows[task.hash] for task in tasks if task.hash in kept.rows}
+        again = {one for one, row in there.items() if options.retry and row.has_failed}
+        missing = {
+            task.hash: task for task in tasks
+            if task.hash not in there or task.hash in again or not has_results(there[task.hash], setting)
+        }  # fmt: skip
+        if missing:
+            check_first(study, setting, tasks[0], points[0])
+            with Progress("runs", len(missing)) as progress:
+                make_runs(list(missing.values()), setting, pool, options.jobs, kept, progress)
+        rows = [kept.rows[task.hash] for task in tasks]
+    return Finished(study, points, tasks, rows, len(missing), len(tasks) - len(missing))
+
+
+def make_tasks(
+    study: Study, programs: Programs, options: Options, points: list[Point], pool: ProcessPoolExecutor
+) -> list[Task]:
+    """The tasks of all points, after stage one."""
+    planner = Planner(study, options.folder, programs)
+    drafts = [planner.draft(point) for point in points]
+    count = len({one.folder for draft in drafts for one in draft.variants.values()})
+    with Progress("designs", count) as progress:
+        failures = reduce_variants(programs, drafts, pool, progress.step)
+    return [planner.finish(draft, failures) for draft in drafts]
+
+
+def has_results(row: Row, setting: Setting) -> bool:
+    """Whether the results file of a row is there, if it is wanted."""
+    return setting.results is None or row.has_failed or (setting.results / f"{row.hash[:16]}.h5").is_file()
+
+
+def check_first(study: Study, setting: Setting, task: Task, point: Point) -> None:
+    """Tries the first run without making it. A key of --set that the program does not know is an InputError at its
+    place in the study file: it is a slip, which would make every run fail."""
+    if task.problem or study.command != "run":
+        return
+    folder = setting.scratch / "first"
+    folder.mkdir()
+    for file in task.superelements:
+        (folder / file.name).symlink_to(file.resolve())
+    command = make_command(setting.program, study.command, setting.run, folder, task.overrides)
+    outcome = call([*command, "--dry-run"])
+    before, _, what = outcome.error.partition(": error: ")
+    if outcome.exit_code != BAD_INPUT or not before.startswith("--set ") or not what.startswith("unknown key"):
+        return
+    number = before.removeprefix("--set ")
+    key = task.overrides[int(number) - 1].partition("=")[0] if number.isdecimal() else ""
+    for parameter, value in zip(study.parameters, point):
+        if key in parameter.settings(value):
+            name = "key" if len(parameter.keys) == 1 else "keys"
+            raise study.file.fail((*parameter.place, name), what, fragment=key)
+    raise study.file.fail(("set", *key.split(".")), what)
+
+
+def make_runs(
+    tasks: list[Task], setting: Setting, pool: ProcessPoolExecutor, jobs: int, kept: KeptRows, progress: Progress
+) -> None:
+    """Makes the runs. An interrupted run leaves no row."""
+    waiting: set[Future[Row]] = set()
+    failures = 0
+    left = iter(tasks)
+    try:
+        while True:
+            for task in left:
+                waiting.add(pool.submit(make_and_keep, task, setting))
+                if len(waiting) >= QUEUED * jobs:
+                    break
+            if not waiting:
+                return
+            done, waiting = wait(waiting, return_when=FIRST_COMPLETED)
+            for row in (one.result() for one in done):
+                if row.exit_code == INTERRUPTED:
+                    raise KeyboardInterrupt
+                kept.rows[row.hash] = row
+                failures += row.has_failed
+                progress.step(note=f", {failures} failed" if failures else "")
+    except BrokenProcessPool as error:
+        what = "a process of the study was ended from outside; started again, the study goes on"
+        raise InputError(f"{kept.path}: error: {what}") from error
+
+
+@contextmanager
+def open_pool(options: Options) -> Iterator[ProcessPoolExecutor]:
+    """A pool of processes that end, with the programs they run, when this process ends or the block is left by an
+    error; and an empty folder for what they write."""
+    scratch = options.folder / SCRATCH
+    shutil.rmtree(scratch, ignore_errors=True)  # of a study that was killed
+    scratch.mkdir()
+    pool = ProcessPoolExecutor(options.jobs, multiprocessing.get_context("fork"), prepare_process)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for child in multiprocessing.active_children():
+            child.kill()
+        raise
+    finally:
+        pool.shutdown()
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+def prepare_process() -> None:
+    """In each process of the pool: an interruption is the business of the parent, which ends this process."""
+    end_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def count_processors() -> int:
+    """The processors that this process may use."""
+    return len(os.sched_getaffinity(0))

@@ -1,0 +1,87 @@
+"""The outcomes of a study's runs, each on disk as soon as its run has ended: one line of JSON in FOLDER/rows.jsonl.
+
+A row is found by the hash of everything that its run read. A study that is started again therefore takes the rows that
+are there, also after its file has changed, and makes the runs that are missing.
+"""
+
+import fcntl
+import json
+import os
+from pathlib import Path
+from typing import IO, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.programs.calls import CHECK_FAILED, GOOD
+from sprung_tools.runs.measures import Measure, Measures
+
+ROWS = "rows.jsonl"
+
+
+class Row(NamedTuple):
+    """The outcome of a run. exit_code: the program's, or 2 where a measure cannot be computed; converged: whether the
+    energy balance closes."""
+
+    hash: str
+    exit_code: int
+    error: str
+    converged: bool
+    warnings: tuple[str, ...]
+    measures: Measures
+    seconds: float  # from the start of the run to its measures
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether there are no results. A run whose check failed has some."""
+        return self.exit_code not in (GOOD, CHECK_FAILED)
+
+
+class KeptRows:
+    """The file of rows, held for one study at a time. rows: by hash."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / ROWS
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._file: IO[str] = open(self.path, "a+", encoding="utf-8", errors="replace")
+        except OSError as error:
+            raise InputError(f"{self.path}: error: cannot be opened ({error.strerror})") from error
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            self._file.close()
+            raise InputError(f"{self.path}: error: another study is at work in this folder") from error
+        self._file.seek(0)
+        found = (parse_row(line) for line in self._file)
+        self.rows = {row.hash: row for row in found if row is not None}
+
+    def __enter__(self) -> "KeptRows":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+
+def keep_row(path: Path, row: Row) -> None:
+    """Adds a row to the file; when this returns, it is on the disk. Several processes may do so."""
+    measures = {name: list(one) for name, one in row.measures.items()}
+    line = json.dumps({**row._asdict(), "measures": measures}, ensure_ascii=False, allow_nan=False)
+    file = os.open(path, os.O_RDWR | os.O_APPEND)
+    try:
+        fcntl.lockf(file, fcntl.LOCK_EX)
+        end = os.lseek(file, 0, os.SEEK_END)
+        is_whole = end == 0 or os.pread(file, 1, end - 1) == b"\n"  # else a write was cut off there
+        os.write(file, ("" if is_whole else "\n").encode() + f"{line}\n".encode())
+        os.fsync(file)
+    finally:
+        os.close(file)
+
+
+def parse_row(line: str) -> Row | None:
+    """A row from its line; None for a line that was cut off, whose run is then made again."""
+    try:
+        values = json.loads(line)
+        values["warnings"] = tuple(values["warnings"])
+        values["measures"] = {name: Measure(*one) for name, one in values["measures"].items()}
+        return Row(**values)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return None

@@ -1,0 +1,164 @@
+"""One run of a study: it starts the program and takes the measures from what it wrote."""
+
+import json
+import math
+import os
+import tempfile
+import time
+from collections.abc import Iterator, Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
+from sprung_tools.files.results_file import open_results
+from sprung_tools.programs.calls import BAD_INPUT, CHECK_FAILED, GOOD, INTERRUPTED, Outcome, call, make_command
+from sprung_tools.runs.labelled_responses import Response
+from sprung_tools.runs.measures import (
+    Measure,
+    Measures,
+    Objects,
+    is_converged,
+    list_history_objects,
+    list_linear_objects,
+    list_objects,
+)
+from sprung_tools.runs.ride_measures import read_window
+from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.study.kept_rows import Row, keep_row
+
+PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
+
+
+class Task(NamedTuple):
+    """A run that is to be made. superelements: the files that it reads; problem: why it cannot be made, else empty."""
+
+    hash: str
+    overrides: tuple[str, ...]
+    superelements: tuple[Path, ...]
+    problem: str
+
+
+class Measured(NamedTuple):
+    """What is taken from a run: whether it converged, its warnings, its measures."""
+
+    converged: bool
+    warnings: tuple[str, ...]
+    measures: Measures
+
+
+class Setting(NamedTuple):
+    """What all runs of a study share. rows: the file of rows; scratch: a folder for files that do not stay; results:
+    the folder of the results files, if they are kept."""
+
+    rows: Path
+    program: Path
+    command: str
+    run: Path
+    measures: tuple[str, ...]
+    scratch: Path
+    results: Path | None
+
+    @property
+    def needs_file(self) -> bool:
+        """Whether measures are taken from a file, which modes and equilibrium do not write."""
+        wanted = self.results is not None or any(not name.startswith(PROGRAM) for name in self.measures)
+        return wanted and self.command in ("run", "response")
+
+
+def make_and_keep(task: Task, setting: Setting) -> Row:
+    """Makes a run, and keeps its row unless the run was interrupted."""
+    row = make_run(task, setting)
+    if row.exit_code != INTERRUPTED:
+        keep_row(setting.rows, row)
+    return row
+
+
+def make_run(task: Task, setting: Setting) -> Row:
+    """Makes a run, and measures it. Every failure is told in the row."""
+    began = time.monotonic()
+    if task.problem:
+        return Row(task.hash, BAD_INPUT, task.problem, False, (), {}, 0.0)
+    with tempfile.TemporaryDirectory(dir=setting.scratch) as name:
+        folder = Path(name)
+        (folder / "bodies").mkdir()
+        for file in task.superelements:
+            (folder / "bodies" / file.name).symlink_to(file.resolve())
+        output = folder / "results.h5" if setting.needs_file else None
+        outcome = call(
+            make_command(setting.program, setting.command, setting.run, folder / "bodies", task.overrides, output)
+        )
+        exit_code, error = outcome.exit_code, outcome.error
+        measured = Measured(False, (), {})
+        if exit_code in (GOOD, CHECK_FAILED):
+            try:
+                measured = measure(setting, outcome, output)
+                if output is not None and setting.results is not None:
+                    os.replace(output, setting.results / f"{task.hash[:16]}.h5")
+            except InputError as problem:
+                exit_code, error = BAD_INPUT, str(problem)
+        error = error.replace(f"{folder}/", "")  # so that the same error is the same text
+    return Row(task.hash, exit_code, error, *measured, time.monotonic() - began)
+
+
+def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured:
+    """Takes the measures of a run. InputError if one of them cannot be computed."""
+    wanted = [name for name in setting.measures if not name.startswith(PROGRAM)]
+    converged, measures = outcome.exit_code == GOOD, Measures()
+    warnings: tuple[str, ...] = ()
+    if output is not None and setting.command == "run":
+        with open_results(output) as results:
+            converged = is_converged(results)
+            warnings = tuple(dict.fromkeys(one.text for one in list_warnings(results)))
+            window = read_window(results)
+            objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
+            measures = pick(objects, wanted)
+    elif output is not None:
+        with open_hdf5(output, RESPONSE) as file:
+            response = Response("", file, read_numbers(file, "frequency")[0])
+            measures = pick(list_linear_objects(response, list_points(wanted)), wanted)
+    said = dict(flatten("program", read_json(outcome)))
+    measures |= {
+        name: Measure(value, "") for name, value in said.items()
+        if any(fnmatchcase(name, one) for one in setting.measures)
+    }  # fmt: skip
+    order = {name: number for number, name in enumerate(setting.measures)}
+    return Measured(converged, warnings, dict(sorted(measures.items(), key=lambda one: order.get(one[0], len(order)))))
+
+
+def list_points(wanted: Sequence[str]) -> list[str]:
+    """The points BODY.POINT that names of measures mention; none if one of them is a pattern, which then stands for
+    those that the tools choose."""
+    points = [name.split("/")[1] for name in wanted if name.startswith("points/")]
+    return [] if any("*" in point for point in points) else list(dict.fromkeys(points))
+
+
+def pick(objects: Objects, wanted: Sequence[str]) -> Measures:
+    """The measures whose names are wanted, from the objects that have some of them. Others are not computed."""
+    found: Measures = {}
+    for name, calc in objects.items():
+        if any(fnmatchcase(name, one.rpartition("/")[0]) or one.startswith(f"{name}/") for one in wanted):
+            measures = calc()
+            found |= {key: one for key, one in measures.items() if any(fnmatchcase(key, pattern) for pattern in wanted)}
+    return found
+
+
+def read_json(outcome: Outcome) -> Any:
+    """What the program printed. InputError if it is no JSON."""
+    try:
+        return json.loads(outcome.printed)
+    except ValueError as error:
+        raise InputError(f"error: the program printed no JSON ({error})") from error
+
+
+def flatten(path: str, value: Any) -> Iterator[tuple[str, float]]:
+    """The numbers in JSON, by paths; entries of lists go by their numbers from 1."""
+    if isinstance(value, dict):
+        for key, one in value.items():
+            yield from flatten(f"{path}/{key}", one)
+    elif isinstance(value, list):
+        for number, one in enumerate(value, start=1):
+            yield from flatten(f"{path}/{number}", one)
+    elif isinstance(value, (int, float)) and math.isfinite(value):
+        yield path, float(value)

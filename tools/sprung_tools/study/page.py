@@ -1,0 +1,66 @@
+"""The page of a study: scatter of any two columns, heat map, parallel coordinates, best runs, main effects. It is one
+file, which a browser opens without a network."""
+
+import html
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.report.template import WEB, fill_template, pack_json, read_asset
+from sprung_tools.study.effects import Effect
+from sprung_tools.study.execution import Finished
+from sprung_tools.study.table import Column, format_cell
+
+STUDY_WEB = os.path.join(os.path.dirname(os.path.realpath(__file__)), "web")
+SHARED_SCRIPTS = ("common.js", "save.js")  # of the report's page
+SCRIPTS = ("columns.js", "best.js", "scatter.js", "heat_map.js", "parallel.js", "effects.js", "study.js")
+
+
+def make_study_page(finished: Finished, columns: Sequence[Column], effects: Sequence[Effect]) -> str:
+    """The page's text."""
+    title = finished.study.file.path.stem
+    scripts = [os.path.join(WEB, name) for name in SHARED_SCRIPTS] + [os.path.join(STUDY_WEB, name) for name in SCRIPTS]
+    parts = {
+        "TITLE": html.escape(title),
+        "STYLE": read_asset(os.path.join(WEB, "page.css")) + read_asset(os.path.join(STUDY_WEB, "study.css")),
+        "DATA": pack_json(pack_study(title, finished, columns, effects)),
+        "SCRIPT": "\n".join(read_asset(path) for path in scripts),
+    }
+    return fill_template(read_asset(os.path.join(STUDY_WEB, "study.html")), parts)
+
+
+def pack_study(
+    title: str, finished: Finished, columns: Sequence[Column], effects: Sequence[Effect]
+) -> dict[str, Any]:  # fmt: skip
+    """The data of the page."""
+    parameters = [
+        {"name": one.name, "keys": one.keys, "values": [pack_value(point[number]) for point in finished.points]}
+        for number, one in enumerate(finished.study.parameters)
+    ]
+    measures = [{"name": one.name, "unit": one.unit, "values": pack_numbers(one.values)} for one in columns]
+    rows = [
+        {"exit": row.exit_code, "error": row.error, "warnings": row.warnings, "set": task.overrides}
+        for task, row in zip(finished.tasks, finished.rows)
+    ]
+    packed_effects = [
+        {**one._asdict(), "means": pack_numbers(one.means), "counts": one.counts.tolist()} for one in effects
+    ]
+    study = finished.study
+    return {
+        "title": title, "run": study.run.name, "command": study.command, "method": study.sampling.method,
+        "parameters": parameters, "measures": measures, "rows": rows, "effects": packed_effects,
+    }  # fmt: skip
+
+
+def pack_value(value: Any) -> float | str:
+    """A value of a parameter: a number, or a text that names a category."""
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return float(value) if is_number else format_cell(value)
+
+
+def pack_numbers(values: Floats) -> list[float | None]:
+    """Numbers with nine digits, which are enough to draw and compare them; None where there is none."""
+    return [None if np.isnan(one) else float(f"{one:.9g}") for one in values]

@@ -1,0 +1,169 @@
+"""The runs of a study: for each point what `--set` changes, which superelements and which road it uses, and the hash of
+everything that it reads."""
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_file import TomlFile
+from sprung_tools.programs.calls import format_overrides
+from sprung_tools.programs.finding import Programs
+from sprung_tools.study.designs import Variant, hash_parts, make_variant, reduce_variant
+from sprung_tools.study.one_run import Task
+from sprung_tools.study.random_roads import write_road
+from sprung_tools.study.sampling import Point
+from sprung_tools.study.study_file import DESIGN, ROAD, Study
+
+ROW_VERSION = 1  # counts up when the same input gives other rows
+
+
+class Draft(NamedTuple):
+    """A run before stage one. changed: of the run and vehicle file, without a random road."""
+
+    changed: dict[str, Any]
+    variants: dict[str, Variant]
+    road: dict[str, Any] | None
+    road_hash: str
+    problem: str
+
+
+class Planner:
+    """Makes the tasks of a study. folder: of the study, where variants of designs and roads are put."""
+
+    def __init__(self, study: Study, folder: Path, programs: Programs) -> None:
+        self.study, self.folder, self.programs = study, folder, programs
+        self._run = TomlFile(study.run)
+        self._hashes: dict[Path, str] = {}
+        self._superelements: dict[Path, set[str]] = {}  # vehicle file → names
+        self._variants: dict[str, Variant | InputError] = {}
+        self._roads: dict[str, tuple[dict[str, Any], str] | InputError] = {}
+
+    def draft(self, point: Point) -> Draft:
+        """What a point changes. A design or a road that cannot be made is the run's problem."""
+        changed = flatten_settings(self.study.overrides)
+        for parameter, value in zip(self.study.parameters, point):
+            changed |= parameter.settings(value)
+        road_changes = take_prefix(changed, ROAD) if self.study.random_road else {}
+        variants: dict[str, Variant] = {}
+        road, road_hash, problem = None, "", ""
+        try:
+            for name, design in self.study.designs.items():
+                variants[name] = self._make_variant(design, take_prefix(changed, f"{DESIGN}{name}."))
+            if self.study.random_road:
+                road, road_hash = self._make_road(self.study.random_road | road_changes)
+        except InputError as error:
+            problem = str(error)
+        return Draft(changed, variants, road, road_hash, problem)
+
+    def finish(self, draft: Draft, failures: Mapping[Path, str]) -> Task:
+        """The task of a run, after stage one. failures: folders of variants that could not be reduced, and why."""
+        problem = draft.problem or next(
+            (failures[one.folder] for one in draft.variants.values() if one.folder in failures), ""
+        )
+        overrides = format_overrides(draft.changed)
+        parts = [str(ROW_VERSION), self._hash(self.programs.dynamics), self.study.command, *self.study.measures,
+                 "overrides", *overrides, draft.road_hash, problem]  # fmt: skip
+        superelements: tuple[Path, ...] = ()
+        if not problem:
+            vehicle = self.study.run.parent / str(draft.changed.get("vehicle", self._run.data.get("vehicle", "")))
+            superelements = tuple(self._list_superelements(vehicle, draft))
+            for file in (self.study.run, vehicle, self._find_road(draft), *superelements):
+                parts += [file.name, self._hash(file)]
+        if draft.road is not None:
+            overrides += format_overrides({"road": draft.road})
+        return Task(hash_parts([part.encode() for part in parts]), tuple(overrides), superelements, problem)
+
+    def _make_variant(self, design: Path, changes: Mapping[str, Any]) -> Variant:
+        key = json.dumps([str(design), changes])
+        if key not in self._variants:
+            try:
+                self._variants[key] = make_variant(design, changes, self.folder / "designs")
+            except InputError as error:
+                self._variants[key] = error
+        return raise_error(self._variants[key])
+
+    def _make_road(self, settings: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
+        key = json.dumps(settings, sort_keys=True)
+        if key not in self._roads:
+            try:
+                self._roads[key] = write_road(settings, self.folder / "roads")
+            except InputError as error:
+                self._roads[key] = error
+        return raise_error(self._roads[key])
+
+    def _list_superelements(self, vehicle: Path, draft: Draft) -> list[Path]:
+        """The files of the superelements that a vehicle names: of the study's designs, else of its folder. A file that
+        is not there is left for the program to miss."""
+        if vehicle not in self._superelements:
+            bodies = TomlFile(vehicle).data.get("bodies", {})
+            self._superelements[vehicle] = set(find_superelements(bodies))
+        changed = {str(one) for key, one in draft.changed.items() if key.endswith(".superelement")}
+        files = []
+        for name in sorted(self._superelements[vehicle] | changed):
+            if name in draft.variants:
+                files.append(draft.variants[name].superelement)
+            elif self.study.superelements is not None and (self.study.superelements / f"{name}.h5").is_file():
+                files.append(self.study.superelements / f"{name}.h5")
+        return files
+
+    def _find_road(self, draft: Draft) -> Path:
+        """The file of the road; the run file itself if it has none."""
+        road = self._run.data.get("road")
+        name = draft.changed.get("road.file", road.get("file") if isinstance(road, dict) else None)
+        return self.study.run.parent / name if isinstance(name, str) else self.study.run
+
+    def _hash(self, path: Path) -> str:
+        if path not in self._hashes:
+            self._hashes[path] = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+        return self._hashes[path]
+
+
+def reduce_variants(
+    programs: Programs, drafts: Iterable[Draft], pool: Executor, report: Callable[[], None]
+) -> dict[Path, str]:
+    """Stage one for each distinct variant. report: called as each is done. Returns the folders of those that failed,
+    and why."""
+    variants = {one.folder: one for draft in drafts for one in draft.variants.values()}
+    waiting = {folder: pool.submit(reduce_variant, programs.reduce, one) for folder, one in variants.items()}
+    failures = {}
+    for folder, done in waiting.items():
+        error = done.result()
+        if error:
+            failures[folder] = error
+        report()
+    return failures
+
+
+def raise_error(value: Any) -> Any:
+    """A value; an InputError is raised instead."""
+    if isinstance(value, InputError):
+        raise value
+    return value
+
+
+def take_prefix(settings: dict[str, Any], prefix: str) -> dict[str, Any]:
+    """Takes the settings whose keys begin with a prefix, without it."""
+    found = [key for key in settings if key.startswith(prefix)]
+    return {key.removeprefix(prefix): settings.pop(key) for key in found}
+
+
+def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Tables in tables as keys with dots: {"road": {"height": 0.1}} → {"road.height": 0.1}."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            flat |= flatten_settings(value, f"{prefix}{key}.")
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat
+
+
+def find_superelements(bodies: Any) -> list[str]:
+    """The superelements that the bodies of a vehicle file name."""
+    tables = bodies.values() if isinstance(bodies, dict) else ()
+    names = (one.get("superelement") for one in tables if isinstance(one, dict))
+    return [name for name in names if isinstance(name, str)]

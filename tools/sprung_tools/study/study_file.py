@@ -1,0 +1,268 @@
+"""Reading a study file: what is run, which parameters change, what is measured. Its keys stand in tools/README.md,
+"Studies"."""
+
+import math
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.toml_file import Place, TomlFile
+
+GRID, LIST, LATIN, SOBOL = "grid", "list", "latin-hypercube", "sobol"
+METHODS = (GRID, LIST, LATIN, SOBOL)
+COMMANDS = ("run", "response", "modes", "equilibrium")
+LINEAR, LOGARITHMIC = "linear", "logarithmic"
+DESIGN, ROAD = "design.", "random_road."  # what the keys of designs and of the random road begin with
+ROOT_KEYS = ("run", "command", "superelements", "designs", "set", "measures", "sampling", "random_road", "parameters")
+SAMPLING_KEYS = ("method", "number", "seed")
+PARAMETER_KEYS = ("name", "key", "keys", "values", "from", "to", "number", "spacing", "crossed")
+ROAD_KEYS = ("class", "rms", "density", "band", "exponent", "length", "spacing", "ease", "start", "seed")
+MOST_RUNS = 1_000_000
+
+
+class Parameter(NamedTuple):
+    """A parameter of a study. Either it has values, or it lies from low to high."""
+
+    name: str
+    keys: tuple[str, ...]
+    values: tuple[Any, ...]
+    low: float
+    high: float
+    spacing: str
+    crossed: bool
+    place: Place
+
+    def settings(self, value: Any) -> dict[str, Any]:
+        """What a value gives to the parameter's keys: a list with one for each of several keys, else the same to
+        all."""
+        if len(self.keys) > 1 and isinstance(value, list):
+            return dict(zip(self.keys, value, strict=True))
+        return {key: value for key in self.keys}
+
+
+class Sampling(NamedTuple):
+    """How the points of a study are chosen. number, seed: of random points."""
+
+    method: str
+    number: int
+    seed: int
+
+
+class Study(NamedTuple):
+    """A study file. Paths are absolute."""
+
+    file: TomlFile
+    run: Path
+    command: str
+    superelements: Path | None
+    designs: dict[str, Path]  # name → design file
+    overrides: dict[str, Any]  # for all runs
+    measures: tuple[str, ...]
+    sampling: Sampling
+    random_road: dict[str, Any]
+    parameters: tuple[Parameter, ...]
+
+
+class Reader:
+    """A table of the file, whose values are taken with their types checked. Unknown keys are errors."""
+
+    def __init__(self, file: TomlFile, place: Place, table: Any, known: Iterable[str]) -> None:
+        self.file, self.place = file, place
+        if not isinstance(table, dict):
+            raise file.fail(place, f"'{place[-1]}' must be a table")
+        self.table: dict[str, Any] = table
+        for key in table:
+            if key not in known:
+                raise file.fail((*place, key), f"unknown key '{key}' (known keys: {', '.join(known)})")
+
+    def fail(self, key: str, expected: str) -> InputError:
+        """The error about a value."""
+        got = f", got {self.table[key]!r}" if key in self.table else " is missing"
+        return self.file.fail((*self.place, key), f"'{key}'{got}, expected {expected}")
+
+    def take(self, key: str, test: Callable[[Any], bool], expected: str, default: Any = None) -> Any:
+        """The value of a key; without a default it is required."""
+        if key not in self.table and default is not None:
+            return default
+        if key not in self.table or not test(self.table[key]):
+            raise self.fail(key, expected)
+        return self.table[key]
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """A text."""
+        value: str = self.take(key, lambda one: isinstance(one, str) and one != "", "a text", default)
+        return value
+
+    def choice(self, key: str, choices: tuple[str, ...], default: str) -> str:
+        """One of some texts."""
+        value: str = self.take(key, lambda one: one in choices, " or ".join(f'"{one}"' for one in choices), default)
+        return value
+
+    def real(self, key: str, default: float | None = None) -> float:
+        """A finite number."""
+        return float(self.take(key, is_number, "a number", default))
+
+    def whole(self, key: str, least: int, default: int | None = None) -> int:
+        """A whole number."""
+
+        def test(one: Any) -> bool:
+            return isinstance(one, int) and not isinstance(one, bool) and one >= least
+
+        value: int = self.take(key, test, f"a whole number of at least {least}", default)
+        return value
+
+    def flag(self, key: str) -> bool:
+        """true or false, which is the default."""
+        value: bool = self.take(key, lambda one: isinstance(one, bool), "true or false", False)
+        return value
+
+    def texts(self, key: str) -> tuple[str, ...]:
+        """A list of one or more different texts; empty without the key."""
+
+        def test(one: Any) -> bool:
+            return isinstance(one, list) and bool(one) and all(isinstance(part, str) and part for part in one)
+
+        values: tuple[str, ...] = tuple(self.take(key, test, "a list of texts", ()))
+        for number, value in enumerate(values):
+            if value in values[:number]:
+                raise self.file.fail((*self.place, key), f"'{value}' stands twice in '{key}'", fragment=value)
+        return values
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def read_study(path: str | Path) -> Study:
+    """Reads a study file. InputError `path:line:column: error: …` for everything wrong in it."""
+    file = TomlFile(path)
+    root = Reader(file, (), file.data, ROOT_KEYS)
+    folder = file.path.resolve().parent
+    run = find_file(root, folder, "run", root.text("run"))
+    designs: dict[str, Path] = {}
+    for name in root.texts("designs"):
+        design = find_file(root, folder, "designs", name)
+        if design.stem in designs:
+            raise file.fail(("designs",), f"two designs are called '{design.stem}'", fragment=name)
+        designs[design.stem] = design
+    superelements = folder / root.text("superelements") if "superelements" in root.table else None
+    if superelements is not None and not superelements.is_dir():
+        raise root.fail("superelements", f"a folder; there is no {superelements}")
+    measures = root.texts("measures")
+    for name in measures:
+        if "/" not in name:
+            raise file.fail(("measures",), f"'{name}' is no measure, expected OBJECT/MEASURE", fragment=name)
+    sampling = read_sampling(file)
+    parameters = read_parameters(file, sampling)
+    road = Reader(file, ("random_road",), file.data.get("random_road", {}), ROAD_KEYS).table
+    overrides = root.take("set", lambda one: isinstance(one, dict), "a table of keys and values", {})
+    study = Study(file, run, root.choice("command", COMMANDS, "run"), superelements, designs, overrides, measures,
+                  sampling, road, parameters)  # fmt: skip
+    check_keys(study)
+    return study
+
+
+def find_file(reader: Reader, folder: Path, key: str, name: str) -> Path:
+    """A file beside the study file. InputError if there is none."""
+    path = folder / name
+    if not path.is_file():
+        raise reader.file.fail((*reader.place, key), f"there is no file {path}", fragment=name)
+    return path
+
+
+def read_sampling(file: TomlFile) -> Sampling:
+    """Reads the table `sampling`."""
+    reader = Reader(file, ("sampling",), file.data.get("sampling", {}), SAMPLING_KEYS)
+    method = reader.choice("method", METHODS, GRID)
+    if method in (GRID, LIST):
+        for key in ("number", "seed"):
+            if key in reader.table:
+                raise reader.file.fail(("sampling", key), f"'{key}' has no effect with method \"{method}\"")
+        return Sampling(method, 0, 0)
+    return Sampling(method, reader.whole("number", 1), reader.whole("seed", 0, 1))
+
+
+def read_parameters(file: TomlFile, sampling: Sampling) -> tuple[Parameter, ...]:
+    """Reads the tables `parameters`."""
+    tables = file.data.get("parameters")
+    if not isinstance(tables, list) or not tables:
+        raise file.fail(("parameters",), "the study has no parameters: [[parameters]] is required")
+    parameters: list[Parameter] = []
+    for number, table in enumerate(tables):
+        one = read_parameter(Reader(file, ("parameters", number), table, PARAMETER_KEYS), sampling)
+        names, keys = ({other.name for other in parameters}, {key for other in parameters for key in other.keys})
+        if one.name in names or keys.intersection(one.keys):
+            what = f"two parameters are called '{one.name}'" if one.name in names else "another parameter sets it, too"
+            raise file.fail((*one.place, "name" if "name" in table else "key" if "key" in table else "keys"), what)
+        parameters.append(one)
+    if sampling.method == LIST:
+        lengths = [len(one.values) for one in parameters if not one.crossed]
+        for one in parameters:
+            if not one.crossed and len(one.values) != lengths[0]:
+                what = f"'{one.name}' has {len(one.values)} values, the first parameter has {lengths[0]}"
+                raise file.fail((*one.place, "values"), f'{what}: with method "list" they must be as many')
+    return tuple(parameters)
+
+
+def read_parameter(reader: Reader, sampling: Sampling) -> Parameter:
+    """Reads one of the tables `parameters`."""
+    if ("key" in reader.table) == ("keys" in reader.table):
+        raise reader.file.fail(reader.place, "a parameter needs one of 'key' and 'keys'")
+    keys = (reader.text("key"),) if "key" in reader.table else reader.texts("keys")
+    name, crossed = reader.text("name", keys[0]), reader.flag("crossed")
+    if "values" in reader.table:
+        for key in ("from", "to", "number", "spacing"):
+            if key in reader.table:
+                raise reader.file.fail((*reader.place, key), f"'{key}' has no effect beside 'values'")
+        values = reader.take("values", lambda one: isinstance(one, list) and bool(one), "a list of one value or more")
+        for value in values:
+            if len(keys) > 1 and isinstance(value, list) and len(value) != len(keys):
+                raise reader.fail("values", f"lists of {len(keys)} values, one for each of 'keys'")
+        return Parameter(name, keys, tuple(values), 0.0, 0.0, LINEAR, crossed, reader.place)
+    low, high = reader.real("from"), reader.real("to")
+    spacing = reader.choice("spacing", (LINEAR, LOGARITHMIC), LINEAR)
+    if not low < high:
+        raise reader.fail("to", f"more than 'from' = {low:g}")
+    if spacing == LOGARITHMIC and not low > 0.0:
+        raise reader.fail("from", "a number above 0 for logarithmic spacing")
+    if sampling.method in (GRID, LIST) or crossed:
+        number = reader.whole("number", 2)
+        if number > MOST_RUNS:
+            raise reader.fail("number", f"at most {MOST_RUNS}")
+        values = [place_between(low, high, spacing, k / (number - 1)) for k in range(number)]
+        return Parameter(name, keys, tuple(values), low, high, spacing, crossed, reader.place)
+    if "number" in reader.table:
+        what = f"'number' has no effect with method \"{sampling.method}\": the number of points stands in [sampling]"
+        raise reader.file.fail((*reader.place, "number"), what)
+    return Parameter(name, keys, (), low, high, spacing, crossed, reader.place)
+
+
+def place_between(low: float, high: float, spacing: str, share: float) -> float:
+    """The value at a share (0 to 1) of the way from low to high."""
+    if share in (0.0, 1.0):
+        return high if share else low
+    if spacing == LOGARITHMIC:
+        return low * math.exp(share * math.log(high / low))
+    return low + share * (high - low)
+
+
+def check_keys(study: Study) -> None:
+    """Throws InputError for keys of designs and of the random road that lead nowhere."""
+    for parameter in study.parameters:
+        at = (*parameter.place, "key")
+        if at not in study.file.places():
+            at = (*parameter.place, "keys")
+        for key in parameter.keys:
+            if key.startswith(DESIGN):
+                name, _, rest = key.removeprefix(DESIGN).partition(".")
+                if name not in study.designs or not rest:
+                    there = ", ".join(study.designs) or "none"
+                    raise study.file.fail(at, f"'{key}' is no key of a design (designs: {there})", fragment=key)
+            elif key.startswith(ROAD):
+                if key.removeprefix(ROAD) not in ROAD_KEYS:
+                    raise study.file.fail(at, f"'{key}' is unknown (keys of the random road: {', '.join(ROAD_KEYS)})",
+                                          fragment=key)  # fmt: skip
+                if not study.random_road:
+                    raise study.file.fail(at, f"'{key}' needs a table [random_road]", fragment=key)

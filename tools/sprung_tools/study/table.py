@@ -1,0 +1,108 @@
+"""The table of a study: a row for each run, with parameters, measures, exit code, error and hash; as CSV and HDF5
+(tools/README.md, "Studies")."""
+
+import csv
+import io
+from typing import Any, NamedTuple
+
+import h5py
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.files.toml_text import format_value
+from sprung_tools.study.execution import Finished
+
+FORMAT, VERSION = "sprung-study", 1
+
+
+class Column(NamedTuple):
+    """A column of numbers. values: [runs], NaN where a run has no such value; unit: empty if it is not known."""
+
+    name: str
+    unit: str
+    values: Floats
+
+
+def make_measure_columns(finished: Finished) -> list[Column]:
+    """The measures of all runs, each name once, in the order in which the runs have them."""
+    units: dict[str, str] = {}
+    for row in finished.rows:
+        for name, one in row.measures.items():
+            units.setdefault(name, one.unit)
+    columns = []
+    for name, unit in units.items():
+        found = [row.measures[name].value if name in row.measures else None for row in finished.rows]
+        columns.append(Column(name, unit, np.array([np.nan if one is None else one for one in found])))
+    return columns
+
+
+def find_missing(finished: Finished, columns: list[Column]) -> list[str]:
+    """The measures without a wildcard that the study asks for and no run has."""
+    there = {one.name for one in columns if not np.all(np.isnan(one.values))}
+    return [name for name in finished.study.measures if "*" not in name and name not in there]
+
+
+def format_cell(value: Any) -> str:
+    """A value of a parameter as a cell: texts without quotes."""
+    return value if isinstance(value, str) else format_value(value)
+
+
+def format_number(value: float) -> str:
+    """A number with all its digits; empty if it is not there."""
+    return "" if np.isnan(value) else repr(float(value))
+
+
+def format_csv(finished: Finished, columns: list[Column]) -> str:
+    """The table as CSV."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [one.name for one in finished.study.parameters]
+    headings = [f"{one.name} [{one.unit}]" if one.unit else one.name for one in columns]
+    writer.writerow(["run", *names, *headings, "exit_code", "converged", "warnings", "error", "set", "hash"])
+    for number, (point, task, row) in enumerate(zip(finished.points, finished.tasks, finished.rows)):
+        writer.writerow([
+            number + 1, *map(format_cell, point), *(format_number(one.values[number]) for one in columns),
+            row.exit_code, int(row.converged), "; ".join(row.warnings), row.error, " ".join(task.overrides), row.hash,
+        ])  # fmt: skip
+    return text.getvalue()
+
+
+def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
+    """The table as the bytes of an HDF5 file."""
+    memory = io.BytesIO()
+    with h5py.File(memory, "w") as file:
+        file.attrs.update({"format": np.bytes_(FORMAT), "version": VERSION, "units": np.bytes_("SI")})
+        for number, parameter in enumerate(finished.study.parameters):
+            values = [point[number] for point in finished.points]
+            is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
+            data = np.array(values, dtype=float) if is_real else encode_texts(map(format_cell, values))
+            dataset = write_dataset(file, f"parameters/{escape_name(parameter.name)}", data)
+            dataset.attrs["keys"] = encode_texts(parameter.keys)
+        for one in columns:
+            dataset = write_dataset(file, f"measures/{one.name}", one.values)
+            dataset.attrs["unit"] = np.bytes_(one.unit)
+        rows = finished.rows
+        write_dataset(file, "exit_code", np.array([row.exit_code for row in rows]))
+        write_dataset(file, "converged", np.array([int(row.converged) for row in rows]))
+        texts = {
+            "warnings": ["; ".join(row.warnings) for row in rows], "error": [row.error for row in rows],
+            "set": [" ".join(task.overrides) for task in finished.tasks], "hash": [row.hash for row in rows],
+        }  # fmt: skip
+        for name, values in texts.items():
+            write_dataset(file, name, encode_texts(values))
+    return memory.getvalue()
+
+
+def escape_name(name: str) -> str:
+    """A parameter's name as the name of a dataset, in which a slash would make a group."""
+    return name.replace("/", "_")
+
+
+def encode_texts(values: Any) -> Any:
+    """Texts as an array of UTF-8 strings."""
+    return np.array([one.encode("utf-8") for one in values] or [b""])
+
+
+def write_dataset(file: h5py.File, name: str, values: Any) -> h5py.Dataset:
+    """Writes a dataset as all files of the project have them: chunked, with checksums, without times."""
+    return file.create_dataset(name, data=values, chunks=True, fletcher32=True, track_times=False)

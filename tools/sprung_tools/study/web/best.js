@@ -1,0 +1,39 @@
+"use strict";
+// The best runs by a measure, and the runs that failed or were warned of.
+
+const MOST_BEST = 12, MOST_FAILURES = 50;
+
+function findBest(measure, order) {
+  return runsWith(measure).sort((a, b) => order * (measure.numbers[a] - measure.numbers[b])).slice(0, MOST_BEST);
+}
+
+function fillBest() {
+  const measure = columnOf(byId("best-measure"));
+  if (!measure) return;
+  const shown = [...parameterColumns, measure, ...measureColumns.filter((one) => one !== measure)];
+  const head = element("tr", {}, element("th", {}, "run"), ...shown.map((one) => element("th", {class: "number"}, titleOf(one))));
+  const rows = findBest(measure, Number(byId("best-order").value)).map((run) => {
+    const mark = data.rows[run].exit === 1 ? " !" : "";
+    const row = element("tr", {class: run === chosen.run ? "chosen" : "", "data-run": run}, element("th", {scope: "row"}, `${run + 1}${mark}`),
+      ...shown.map((one) => element("td", {class: "number"}, showValue(one, run))));
+    row.addEventListener("click", () => choose(run));
+    return row;
+  });
+  byId("best-table").replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
+}
+
+function fillFailures() {
+  const told = data.rows.map((row, run) => ({run, text: row.error || row.warnings.join("; "), bad: Boolean(row.error)})).filter((one) => one.text)
+    .sort((a, b) => b.bad - a.bad || a.run - b.run);
+  byId("failures").hidden = !told.length;
+  const rows = told.slice(0, MOST_FAILURES).map(({run, text, bad}) => element("tr", {}, element("th", {scope: "row"}, String(run + 1)),
+    element("td", {class: bad ? "bad" : ""}, bad ? "error" : "warning"), element("td", {class: "text"}, text)));
+  if (told.length > MOST_FAILURES) rows.push(element("tr", {}, element("td", {colspan: "3"}, `and ${told.length - MOST_FAILURES} more, in table.csv`)));
+  byId("failure-table").replaceChildren(element("tbody", {}, ...rows));
+}
+
+function makeBest() {
+  fillSelect(byId("best-measure"), optionsOf(measureColumns));
+  for (const name of ["best-measure", "best-order"]) byId(name).addEventListener("change", fillBest);
+  chosen.listeners.push(fillBest);
+}

@@ -1,0 +1,132 @@
+"use strict";
+// The columns of the table, their scales and colours; the run that is chosen.
+
+/** All columns: parameters, then measures. A column of texts has categories, and its numbers are their places. */
+const columns = [...data.parameters, ...data.measures].map((one, index) => {
+  const isText = one.values.some((value) => typeof value === "string");
+  const categories = isText ? [...new Set(one.values.map(String))] : null;
+  const numbers = isText ? one.values.map((value) => categories.indexOf(String(value))) : one.values;
+  const known = numbers.filter((value) => value !== null);
+  return {name: one.name, unit: one.unit || "", values: one.values, numbers, categories, isParameter: index < data.parameters.length,
+    low: Math.min(...known), high: Math.max(...known), index};
+}).filter((one) => Number.isFinite(one.low));
+const parameterColumns = columns.filter((one) => one.isParameter), measureColumns = columns.filter((one) => !one.isParameter);
+const columnOf = (select) => columns.find((one) => one.index === Number(select.value));
+const titleOf = (column) => (column.unit && column.unit !== "1" ? `${column.name}, ${readable(column.unit, Infinity).unit}` : column.name);
+const showNumber = (value) => String(Number(value.toPrecision(5))).replaceAll("-", "−");
+const showValue = (column, run) =>
+  column.numbers[run] === null ? "–" : column.categories ? column.categories[column.numbers[run]] :
+    showNumber(column.numbers[run]);
+
+/** Where a number lies on a column's scale, 0 to 1, with a margin at both ends. */
+function placeOn(column, value) {
+  const margin = column.categories ? 0.5 : 0.04 * (column.high - column.low) || 0.5 * Math.abs(column.high) || 1;
+  return (value - column.low + margin) / (column.high - column.low + 2 * margin);
+}
+
+/** The values that a scale is marked at, with their texts. */
+function marksOf(column, most = 6) {
+  if (column.categories) return column.categories.map((text, value) => ({value, text}));
+  if (column.high === column.low) return [{value: column.low, text: format(column.low)}];
+  const raw = (column.high - column.low) / most, power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= raw);
+  const marks = [];
+  for (let k = Math.ceil(column.low / step); k * step <= column.high * (1 + 1e-12); ++k) marks.push({value: k * step, text: formatTick(k * step)});
+  return marks;
+}
+
+/** Colours from low to high: points of viridis, by S. van der Walt and N. Smith, which keep their order without colour. */
+const SCALE = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+
+function colourAt(share) {
+  const shown = dark.matches ? 0.2 + 0.8 * share : 0.95 * share;  // the darkest or lightest part would vanish in the paper
+  const at = Math.min(Math.max(shown, 0), 1) * (SCALE.length - 1), k = Math.min(Math.floor(at), SCALE.length - 2);
+  return `rgb(${SCALE[k].map((one, c) => Math.round(one + (at - k) * (SCALE[k + 1][c] - one))).join(",")})`;
+}
+
+const shareOf = (column, value) => (column.high > column.low ? (value - column.low) / (column.high - column.low) : 0.5);
+const colourOfRun = (column, run) => (column && column.numbers[run] !== null ? colourAt(shareOf(column, column.numbers[run])) : style("--soft"));
+
+const chosen = {run: null, listeners: []};
+
+/** Chooses a run in all diagrams; null for none. */
+function choose(run) {
+  chosen.run = run;
+  const parts = run === null ? [] : [...parameterColumns, ...measureColumns].map((one) => `${titleOf(one)}: ${showValue(one, run)}`);
+  byId("chosen").textContent = run === null ? "" : `Run ${run + 1}. ${parts.join(" · ")}`;
+  for (const listener of chosen.listeners) listener();
+}
+
+const optionsOf = (some) => some.map((one) => ({value: one.index, label: one.name, group: one.isParameter ? "Parameters" : "Measures"}));
+
+/** Runs that have a number in each of some columns. */
+const runsWith = (...some) => data.rows.map((_, run) => run).filter((run) => some.every((one) => one.numbers[run] !== null));
+
+/** A frame with marks and titles of both axes. Returns the area inside. */
+function drawAxes(context, width, height, across, up) {
+  const area = {left: 70, top: 14, right: width - 14, bottom: height - 46};
+  context.font = "12px system-ui, sans-serif";
+  context.strokeStyle = style("--grid");
+  context.fillStyle = style("--soft");
+  context.textBaseline = "middle";
+  for (const {place, text} of across.marks) {
+    const x = area.left + place * (area.right - area.left);
+    context.textAlign = "center";
+    context.fillText(text, x, area.bottom + 14);
+    if (across.lines) strokeLine(context, x, area.top, x, area.bottom);
+  }
+  for (const {place, text} of up.marks) {
+    const y = area.bottom - place * (area.bottom - area.top);
+    context.textAlign = "right";
+    context.fillText(shorten(context, text, area.left - 24), area.left - 6, y);
+    if (up.lines) strokeLine(context, area.left, y, area.right, y);
+  }
+  context.strokeStyle = style("--line");
+  context.strokeRect(area.left, area.top, area.right - area.left, area.bottom - area.top);
+  context.textAlign = "center";
+  context.fillText(across.title, (area.left + area.right) / 2, height - 10);
+  context.save();
+  context.translate(9, (area.top + area.bottom) / 2);
+  context.rotate(-Math.PI / 2);
+  context.fillText(shorten(context, up.title, area.bottom - area.top), 0, 0);
+  context.restore();
+  return area;
+}
+
+function strokeLine(context, x1, y1, x2, y2) {
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x2, y2);
+  context.stroke();
+}
+
+/** The end of a text that is too wide. */
+function shorten(context, text, width) {
+  if (context.measureText(text).width <= width) return text;
+  let end = text;
+  while (end && context.measureText(`…${end}`).width > width) end = end.slice(1);
+  return `…${end}`;
+}
+
+const axisOf = (column) => ({title: titleOf(column), lines: true,
+  marks: marksOf(column).map(({value, text}) => ({place: placeOn(column, value), text}))});
+
+/** A canvas as it is saved: on the card's colour. */
+function copyPicture(canvas) {
+  const picture = element("canvas", {width: canvas.width, height: canvas.height}), context = picture.getContext("2d");
+  context.fillStyle = style("--card");
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  context.drawImage(canvas, 0, 0);
+  return picture;
+}
+
+/** Where a mouse event is in a canvas, in CSS pixels. */
+function placeOfEvent(canvas, event) {
+  const box = canvas.getBoundingClientRect();
+  return [event.clientX - box.x, event.clientY - box.y];
+}
+
+/** The table of some columns as CSV. */
+const writeColumns = (some) => [["run", ...some.map(titleOf)].map(quote), ...data.rows.map((_, run) =>
+  [run + 1, ...some.map((one) => (one.numbers[run] === null ? "" : one.categories ? quote(one.categories[one.numbers[run]]) : one.numbers[run]))])]
+  .map((row) => row.join(",")).join("\n") + "\n";

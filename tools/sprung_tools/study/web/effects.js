@@ -1,0 +1,60 @@
+"use strict";
+// Main effects: the mean of a measure by the values of each parameter.
+
+const effectsOf = (measure) => data.effects.filter((one) => one.measure === measure.name).sort((a, b) => b.share - a.share);
+
+function drawEffects() {
+  const measure = columnOf(byId("effect-measure"));
+  if (!measure) return;
+  const found = effectsOf(measure), percent = (share) => `${(100 * share).toFixed(0)} %`;
+  byId("effect-table").replaceChildren(
+    element("thead", {}, element("tr", {}, ...["parameter", "explains of the variation", "by chance", "lowest mean", "highest mean"]
+      .map((text, k) => element("th", {class: k ? "number" : ""}, text)))),
+    element("tbody", {}, ...found.map((one) => element("tr", {}, element("th", {scope: "row"}, one.parameter),
+      ...[percent(one.share), percent(one.chance), format(Math.min(...one.means)), format(Math.max(...one.means))]
+        .map((text) => element("td", {class: "number"}, text))))));
+  const canvas = byId("effect-plot"), {context, width} = prepareCanvas(canvas, found.length ? 260 : 0);
+  if (!found.length) return;
+  const means = found.flatMap((one) => one.means), low = Math.min(...means), high = Math.max(...means);
+  const scale = {...measure, low, high, categories: null}, left = 66, top = 12, bottom = 200;
+  const yOf = (value) => bottom - placeOn(scale, value) * (bottom - top), share = (width - left - 8) / found.length;
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  for (const {value, text} of marksOf(scale, 5)) {
+    context.strokeStyle = style("--grid");
+    strokeLine(context, left, yOf(value), width - 8, yOf(value));
+    context.fillStyle = style("--soft");
+    context.textAlign = "right";
+    context.fillText(text, left - 6, yOf(value));
+  }
+  found.forEach((one, k) => {
+    const xs = one.groups.map((_, g) => left + share * (k + (g + 0.7) / (one.groups.length + 0.4)));
+    context.strokeStyle = context.fillStyle = colourOf(1);
+    context.beginPath();
+    one.means.forEach((mean, g) => (g ? context.lineTo(xs[g], yOf(mean)) : context.moveTo(xs[g], yOf(mean))));
+    context.stroke();
+    one.means.forEach((mean, g) => context.fillRect(xs[g] - 2.5, yOf(mean) - 2.5, 5, 5));
+    context.fillStyle = style("--soft");
+    context.textAlign = "center";
+    for (const g of new Set([0, one.groups.length - 1])) {
+      context.fillText(shorten(context, one.groups[g], share / 2.2), xs[g], bottom + 14);
+    }
+    context.fillStyle = style("--ink");
+    context.fillText(shorten(context, one.parameter, share - 10), left + share * (k + 0.5), bottom + 36);
+  });
+  canvas.setAttribute("aria-label", `Mean of ${titleOf(measure)} by ${found.map((one) => one.parameter).join(", ")}`);
+}
+
+function writeEffects() {
+  const rows = data.effects.flatMap((one) => one.groups.map((group, k) => [one.measure, one.parameter, group, one.means[k], one.counts[k], one.share]));
+  return [["measure", "parameter", "group", "mean", "runs", "share"], ...rows].map((row) => row.map((one) => quote(String(one))).join(",")).join("\n") + "\n";
+}
+
+function makeEffects() {
+  const varying = measureColumns.filter((one) => effectsOf(one).length);
+  byId("effects").hidden = !varying.length;
+  if (!varying.length) return;
+  fillSelect(byId("effect-measure"), optionsOf(varying));
+  byId("effect-measure").addEventListener("change", drawEffects);
+  byId("effect-saves").replaceWith(makeSaveButtons("effects", writeEffects, () => copyPicture(byId("effect-plot"))));
+}
