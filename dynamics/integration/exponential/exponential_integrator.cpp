@@ -208,24 +208,10 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
           "the step has become too short; look at forces and positions just before that time, which "
           "may be a singular one");
     }
-    if (now_.length != propagator_length_) {
-      for (int i = 1; i < kNumNodes; ++i) {
-        propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length,
-                                                         coordinates_.blocks());
-      }
-      propagator_length_ = now_.length;
-    }
+    update_propagators();
     prediction_.predict(last_, past_, now_);
     if (!iterate()) {
-      ++statistics_.iteration_failures;
-      contraction_ = kFirstContraction;
-      past_ = Past::kNone;
-      next_length_ = 0.5 * now_.length;
-      failures_ += 1.0;
-      if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps) {
-        linearise();
-        begin();
-      }
+      give_up_iteration();
       continue;
     }
     const double error = calc_truncation();
@@ -244,12 +230,35 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   hiding_length_ *= kForgetting;
   failures_ *= kFailureMemory;
   if (contraction_ > kSlowContraction) failures_ += kSlowness;
-  if (failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps)
-    wants_linearisation_ = true;
+  if (has_outlived_linearisation()) wants_linearisation_ = true;
   if (factor < 1.0 / kWorthwhile) next_length_ = factor * now_.length;
   if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * now_.length);
   if (finish_step()) return StepResult::kSwitched;
   return time_ >= end_time_ ? StepResult::kEnded : StepResult::kStepped;
+}
+
+void ExponentialIntegrator::update_propagators() {
+  if (now_.length == propagator_length_) return;
+  for (int i = 1; i < kNumNodes; ++i) {
+    propagators_[static_cast<std::size_t>(i)].update(lobatto::node(i), now_.length, coordinates_.blocks());
+  }
+  propagator_length_ = now_.length;
+}
+
+// The next attempt is half as long, and where iterations keep failing it is about a new linearisation.
+void ExponentialIntegrator::give_up_iteration() {
+  ++statistics_.iteration_failures;
+  contraction_ = kFirstContraction;
+  past_ = Past::kNone;
+  next_length_ = 0.5 * now_.length;
+  failures_ += 1.0;
+  if (!has_outlived_linearisation()) return;
+  linearise();
+  begin();
+}
+
+bool ExponentialIntegrator::has_outlived_linearisation() const {
+  return failures_ >= kFailuresBeforeLinearising && last_linearisation_ < statistics_.steps;
 }
 
 // Makes now_ the last step; the next one starts at its end. @return true if a switch cut it off

@@ -42,6 +42,9 @@ class ExponentialIntegrator final : public Integrator {
   bool iterate();
   double calc_change(std::size_t node, PairedMotion& motion);
   double calc_truncation();
+  void update_propagators();
+  void give_up_iteration();
+  bool has_outlived_linearisation() const;
   bool finish_step();
   void locate_switch();
 

@@ -66,6 +66,42 @@ void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x
   Eigen::Map<Rows>(y + first) = sum;
 }
 
+// Brings the damped motion of the modes that have a frequency to pairs, (x, ẋ) = U u. Nothing changes where
+// there are too many for it, or where the damped modes nearly coincide.
+// @param omega  f, ascending   @param blocks, U, inverse_U  those of the undamped modes
+void couple_by_damping(const Eigen::ArrayXd& omega, const Eigen::MatrixXd& damping, PairBlocks& blocks,
+                       Eigen::MatrixXd& U, Eigen::MatrixXd& inverse_U) {
+  const Eigen::Index f = omega.size();
+  Eigen::Index first = 0;  // mode with a frequency
+  while (first < f && omega[first] <= kFree * omega[f - 1]) ++first;
+  const Eigen::Index n = f - first;
+  if (n == 0 || n > kMostCoupled) return;
+  // With ωx and ẋ as unknowns all entries are of one size.
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  const Eigen::ArrayXd w = omega.tail(n);
+  A.topRightCorner(n, n).diagonal() = w;
+  A.bottomLeftCorner(n, n).diagonal() = -w;
+  A.bottomRightCorner(n, n) = -damping.bottomRightCorner(n, n);
+  const RealPairs pairs = pair_up(A);
+  const Eigen::MatrixXd inverse = support::solve_lu(pairs.vectors, Eigen::MatrixXd::Identity(2 * n, 2 * n));
+  if (!(inverse.allFinite() && inverse.norm() * pairs.vectors.norm() < kIllConditioned)) return;
+  const auto scatter = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
+    to.block(first, first, n, n) = from.topLeftCorner(n, n);
+    to.block(first, f + first, n, n) = from.topRightCorner(n, n);
+    to.block(f + first, first, n, n) = from.bottomLeftCorner(n, n);
+    to.block(f + first, f + first, n, n) = from.bottomRightCorner(n, n);
+  };
+  Eigen::MatrixXd vectors = pairs.vectors, back = inverse;
+  vectors.topRows(n) = w.inverse().matrix().asDiagonal() * vectors.topRows(n);
+  back.leftCols(n) = back.leftCols(n) * w.matrix().asDiagonal();
+  scatter(vectors, U);
+  scatter(back, inverse_U);
+  blocks.b11.tail(n) = pairs.blocks.b11;
+  blocks.b12.tail(n) = pairs.blocks.b12;
+  blocks.b21.tail(n) = pairs.blocks.b21;
+  blocks.b22.tail(n) = pairs.blocks.b22;
+}
+
 }  // namespace
 
 // Four rows at a time, in registers: for small matrices the overhead of Eigen's product exceeds the product.
@@ -99,36 +135,7 @@ VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(2 * f, 2 * f);  // (x, ẋ) = U u
   Eigen::MatrixXd inverse_U = U;
 
-  Eigen::Index first = 0;  // mode with a frequency
-  while (first < f && omega[first] <= kFree * omega[f - 1]) ++first;
-  const Eigen::Index n = f - first;
-  if (n > 0 && n <= kMostCoupled) {
-    // With ωx and ẋ as unknowns all entries are of one size.
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-    const Eigen::ArrayXd w = omega.tail(n);
-    A.topRightCorner(n, n).diagonal() = w;
-    A.bottomLeftCorner(n, n).diagonal() = -w;
-    A.bottomRightCorner(n, n) = -damping.bottomRightCorner(n, n);
-    const RealPairs pairs = pair_up(A);
-    const Eigen::MatrixXd inverse = support::solve_lu(pairs.vectors, Eigen::MatrixXd::Identity(2 * n, 2 * n));
-    if (inverse.allFinite() && inverse.norm() * pairs.vectors.norm() < kIllConditioned) {
-      const auto scatter = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
-        to.block(first, first, n, n) = from.topLeftCorner(n, n);
-        to.block(first, f + first, n, n) = from.topRightCorner(n, n);
-        to.block(f + first, first, n, n) = from.bottomLeftCorner(n, n);
-        to.block(f + first, f + first, n, n) = from.bottomRightCorner(n, n);
-      };
-      Eigen::MatrixXd vectors = pairs.vectors, back = inverse;
-      vectors.topRows(n) = w.inverse().matrix().asDiagonal() * vectors.topRows(n);
-      back.leftCols(n) = back.leftCols(n) * w.matrix().asDiagonal();
-      scatter(vectors, U);
-      scatter(back, inverse_U);
-      B.b11.tail(n) = pairs.blocks.b11;
-      B.b12.tail(n) = pairs.blocks.b12;
-      B.b21.tail(n) = pairs.blocks.b21;
-      B.b22.tail(n) = pairs.blocks.b22;
-    }
-  }
+  couple_by_damping(omega, damping, B, U, inverse_U);
   basis.T.resize(2 * f, 2 * f);
   basis.inverse.resize(2 * f, 2 * f);
   basis.T.topRows(f) = Phi * U.topRows(f);
