@@ -207,6 +207,13 @@ bool PiecewisePolynomial::is_zero() const {
   return std::all_of(pieces_.begin(), pieces_.end(), vanishes);
 }
 
+bool PiecewisePolynomial::is_constant() const {
+  return std::all_of(pieces_.begin(), pieces_.end(), [&](const std::vector<double>& a) {
+    return a.front() == pieces_.front().front() &&
+           std::all_of(a.begin() + 1, a.end(), [](double coefficient) { return coefficient == 0.0; });
+  });
+}
+
 std::size_t PiecewisePolynomial::find_piece(double x) const {
   return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin());
 }

@@ -6,8 +6,9 @@
 
 namespace sprung::dynamics {
 
-/// A continuous function of one variable, made of polynomials joined end to end: characteristics of springs,
-/// dampers and tyres, tables, splines. The first and the last piece continue for ever.
+/// A function of one variable, made of polynomials joined end to end: characteristics of springs, dampers and
+/// tyres, tables, splines. The first and the last piece continue for ever. A function made by `from_pieces`
+/// may jump at a break, where it has the value of the piece that begins.
 class PiecewisePolynomial {
  public:
   PiecewisePolynomial() : PiecewisePolynomial(std::vector<double>{0.0}) {}
@@ -41,7 +42,8 @@ class PiecewisePolynomial {
   double integral(double x) const;         ///< ∫₀ˣ
   PiecewisePolynomial derivative() const;  ///< may jump at the breaks
 
-  bool is_zero() const;  ///< it is zero everywhere
+  bool is_zero() const;      ///< it is zero everywhere
+  bool is_constant() const;  ///< it has one value everywhere
 
   std::span<const double> breaks() const { return breaks_; }  ///< between pieces, ascending
 

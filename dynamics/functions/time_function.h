@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,9 +9,10 @@
 
 namespace sprung::dynamics {
 
-/// A function of time with its first two derivatives: applied forces, prescribed motion (functions, eq. 1).
-/// It is smooth between its breaks; at a break, the formula after it holds. The integrator steps to each
-/// break exactly and restarts there.
+/// A function of time with its first two derivatives: applied forces, prescribed motion (functions, eqs.
+/// 1, 2). It is smooth between its breaks; at a break, the formula after it holds. The integrator steps to
+/// each break exactly and restarts there.
+/// Checked by tests/dynamics/functions/time_function_test.cpp, time_function_sums_test.cpp
 class TimeFunction {
  public:
   TimeFunction() = default;
@@ -29,8 +31,9 @@ class TimeFunction {
   /// mean + amplitude sin(2π frequency t + phase)
   static TimeFunction harmonic(const Harmonic& parameters);
 
-  /// Straight lines through points, constant before the first and after the last; each point is a break.
-  /// @param t ascending, at least 2 [s]; x as many
+  /// Straight lines through points, constant before the first and after the last; each point is a break. At
+  /// two points of equal time the function jumps.
+  /// @param t  at least 2, none smaller than the one before, no three equal [s]; x as many
   /// @throws std::invalid_argument
   static TimeFunction lines(std::span<const double> t, std::span<const double> x);
   /// Cubic spline through points, twice continuously differentiable, with zero slope at both ends and
@@ -48,25 +51,57 @@ class TimeFunction {
   /// @throws std::invalid_argument unless start < end
   static TimeFunction smooth_step(const Step& parameters);
 
+  static TimeFunction sum(const TimeFunction& a, const TimeFunction& b);
+  /// The product of two oscillations is the sum of two, with sum and difference of the frequencies.
+  static TimeFunction product(const TimeFunction& a, const TimeFunction& b);
+  /// parts[k] between ends[k − 1] and ends[k]; parts[0] before ends[0], the last part after the last end.
+  /// @param ends  ascending, at least 1 [s]   @param parts  one more than ends
+  /// @throws std::invalid_argument
+  static TimeFunction pieces(std::span<const double> ends, std::span<const TimeFunction> parts);
+
   double value(double time) const;
   double rate(double time) const;
   double acceleration(double time) const;
   bool is_constant() const;
 
-  /// The function is the sum of these two; with an amplitude of 0 there is no harmonic part.
+  /// amplitude(t) sin(2π frequency t + phase)
+  struct Oscillation {
+    PiecewisePolynomial amplitude;
+    double frequency_hz = 0.0;  ///< > 0
+    double phase = 0.0;         ///< [rad]
+  };
+  /// The function is the sum of its polynomials and its oscillations.
   const PiecewisePolynomial& polynomials() const { return value_; }
-  const Harmonic& oscillation() const { return harmonic_; }
+  std::span<const Oscillation> oscillations() const { return oscillations_; }
 
-  /// Times at which a derivative may jump, ascending [s].
+  /// Times at which the function or a derivative may jump, ascending [s].
   std::span<const double> breaks() const { return breaks_; }
   /// Longest step in time that does not step over a detail of the function [s]; infinite without details.
   double resolution() const { return resolution_; }
 
+  struct Jump {
+    double time = 0.0;                 ///< [s]
+    double before = 0.0, after = 0.0;  ///< of the value, or of the rate
+    bool is_rate = false;
+  };
+  /// The first break at which the value or the rate jumps by more than rounding: by 1e-9 of its size.
+  std::optional<Jump> find_jump() const;
+
  private:
   explicit TimeFunction(PiecewisePolynomial value);
+  // Adds it unless its amplitude is 0; without a frequency, it is added to the polynomials.
+  void add_oscillation(const Oscillation& oscillation);
+  // Adds ½ a b cos(2π frequency t + phase); the frequency may be negative or 0.
+  void add_cosine(const PiecewisePolynomial& a, const PiecewisePolynomial& b, double frequency_hz,
+                  double phase);
+  void add_polynomials(const PiecewisePolynomial& more);
 
+  struct Derivatives {
+    PiecewisePolynomial first, second;
+  };
   PiecewisePolynomial value_, rate_, acceleration_;
-  Harmonic harmonic_;  // added; amplitude 0 if there is none
+  std::vector<Oscillation> oscillations_;
+  std::vector<Derivatives> amplitude_derivatives_;  // one for each oscillation
   std::vector<double> breaks_;
   double resolution_ = std::numeric_limits<double>::infinity();
 };

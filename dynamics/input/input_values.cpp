@@ -4,15 +4,26 @@
 
 namespace sprung::dynamics {
 
+namespace {
+
+// Whether a table may go on with a point at x.
+bool continues_at(const std::vector<double>& points, double x, PointOrder order) {
+  if (points.empty() || x > points.back()) return true;
+  const bool is_third = points.size() > 1 && points[points.size() - 2] == x;
+  return order == PointOrder::kWithJumps && x == points.back() && !is_third;
+}
+
+}  // namespace
+
 PointList read_point_list(const support::TomlValue& value, const support::Quantity& x_unit,
-                          const support::Quantity& y_unit) {
+                          const support::Quantity& y_unit, PointOrder order) {
   PointList points;
   for (const support::TomlValue& row : value.items()) {
     if (!row.is_array() || row.items().size() != 2) {
       throw row.error(fmt::format("must be a pair [{}, {}]", x_unit.unit, y_unit.unit));
     }
     const double x = row.items()[0].number(x_unit);
-    if (!points.x.empty() && !(x > points.x.back())) {
+    if (!continues_at(points.x, x, order)) {
       throw row.error(
           fmt::format("must ascend: {} {} comes after {} {}", x, x_unit.unit, points.x.back(), x_unit.unit));
     }

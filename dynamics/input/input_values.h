@@ -14,10 +14,13 @@ struct PointList {
   std::vector<double> x, y;
 };
 
+/// Whether two successive points of a table may have the same x, at which the function jumps.
+enum class PointOrder { kAscending, kWithJumps };
+
 /// Reads at least 2 pairs with ascending x.
 /// @throws support::InputError at the first pair that is wrong
 PointList read_point_list(const support::TomlValue& value, const support::Quantity& x_unit,
-                          const support::Quantity& y_unit);
+                          const support::Quantity& y_unit, PointOrder order = PointOrder::kAscending);
 
 /// The one of several alternative keys that a table has; it must have exactly one.
 /// @param expected  the alternatives in words, for messages: "either 'polynomial' or 'table'"

@@ -2,13 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 #include "dynamics/input/input_values.h"
 
 namespace sprung::dynamics {
 
 namespace {
+
+// Limits of what sums and products may grow to.
+constexpr std::size_t kMostOscillations = 1000;
+constexpr std::size_t kHighestDegree = 100;
+
+TimeFunction read_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use);
 
 TimeFunction read_harmonic(const support::TomlTable& table, std::string_view unit) {
   const TimeFunction f =
@@ -33,27 +42,138 @@ TimeFunction read_step(const support::TomlTable& table, std::string_view unit) {
   return TimeFunction::smooth_step(step);
 }
 
+TimeFunction read_table(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+  if (use == TimeFunctionUse::kMotion) {
+    const PointList points = read_point_list(value, support::any("s"), support::any(unit));
+    return TimeFunction::spline(points.x, points.y);
+  }
+  const PointList points =
+      read_point_list(value, support::any("s"), support::any(unit), PointOrder::kWithJumps);
+  return TimeFunction::lines(points.x, points.y);
+}
+
+TimeFunction read_polynomial(const support::TomlValue& value, std::string_view unit) {
+  const std::vector<double> coefficients = value.numbers(support::any(unit));
+  if (coefficients.empty())
+    throw value.error(fmt::format("must have at least one coefficient [{}/s^k]", unit));
+  return TimeFunction::polynomial(coefficients);
+}
+
+std::vector<support::TomlValue> list_parts(const support::TomlValue& value) {
+  std::vector<support::TomlValue> parts = value.items();
+  if (parts.empty()) throw value.error("must have at least one function of time");
+  return parts;
+}
+
+void check_size(const support::TomlValue& value, std::size_t oscillations) {
+  if (oscillations <= kMostOscillations) return;
+  throw value.error(fmt::format("has {} oscillations when it is multiplied out, must have at most {}",
+                                oscillations, kMostOscillations));
+}
+
+// Of a product, before those of equal frequencies become polynomials.
+std::size_t count_oscillations(const TimeFunction& a, const TimeFunction& b) {
+  const std::size_t of_a = a.oscillations().size(), of_b = b.oscillations().size();
+  return 2 * of_a * of_b + (b.polynomials().is_zero() ? 0 : of_a) + (a.polynomials().is_zero() ? 0 : of_b);
+}
+
+std::size_t find_degree(const PiecewisePolynomial& f) {
+  std::size_t highest = 0;
+  for (std::size_t k = 0; k < f.num_pieces(); ++k) highest = std::max(highest, f.coefficients(k).size() - 1);
+  return highest;
+}
+
+std::size_t find_degree(const TimeFunction& f) {
+  std::size_t highest = find_degree(f.polynomials());
+  for (const TimeFunction::Oscillation& one : f.oscillations()) {
+    highest = std::max(highest, find_degree(one.amplitude));
+  }
+  return highest;
+}
+
+TimeFunction read_sum(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+  TimeFunction sum;
+  for (const support::TomlValue& part : list_parts(value)) {
+    sum = TimeFunction::sum(sum, read_function(part, unit, use));
+    check_size(value, sum.oscillations().size());
+  }
+  return sum;
+}
+
+// One factor may have the unit; the others are pure numbers.
+TimeFunction read_product(const support::TomlValue& value, TimeFunctionUse use) {
+  TimeFunction product(1.0);
+  for (const support::TomlValue& part : list_parts(value)) {
+    const TimeFunction factor = read_function(part, "", use);
+    check_size(value, count_oscillations(product, factor));
+    const std::size_t degree = find_degree(product) + find_degree(factor);
+    if (degree > kHighestDegree) {
+      throw value.error(
+          fmt::format("has polynomials of degree {} when it is multiplied out, must have at most {}", degree,
+                      kHighestDegree));
+    }
+    product = TimeFunction::product(product, factor);
+  }
+  return product;
+}
+
+TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+  std::vector<double> ends;
+  std::vector<TimeFunction> parts;
+  std::size_t oscillations = 0;
+  const std::vector<support::TomlValue> rows = list_parts(value);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const support::TomlTable row = rows[k].table();
+    if (k + 1 < rows.size()) {
+      ends.push_back(row.number("until", support::any("s")));
+      if (k > 0 && !(ends[k] > ends[k - 1])) {
+        throw row.at("until").error(
+            fmt::format("must come after that of the piece before, {} s, got {} s", ends[k - 1], ends[k]));
+      }
+    } else if (const std::optional<support::TomlValue> until = row.find("until")) {
+      throw until->error("must be left out of the last piece, which goes on for ever");
+    }
+    parts.push_back(read_function(row.at("function"), unit, use));
+    row.reject_unknown_keys();
+    oscillations += parts.back().oscillations().size();
+    check_size(value, oscillations);
+  }
+  return ends.empty() ? parts.front() : TimeFunction::pieces(ends, parts);
+}
+
+TimeFunction read_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+  if (value.is_number()) return TimeFunction(value.number(support::any(unit)));
+  if (!value.is_table()) {
+    throw value.error(unit.empty() ? std::string("must be a number or a function of time")
+                                   : fmt::format("must be a number [{}] or a function of time", unit));
+  }
+  const support::TomlTable table = value.table();
+  constexpr std::array<std::string_view, 7> kWays{"polynomial", "harmonic", "table", "step",
+                                                  "sum",        "product",  "pieces"};
+  const std::string_view way = find_only_key(
+      table, kWays, "one of 'polynomial', 'harmonic', 'table', 'step', 'sum', 'product' and 'pieces'");
+  table.reject_unknown_keys();
+  const support::TomlValue content = table.at(way);
+  if (way == "harmonic") return read_harmonic(content.table(), unit);
+  if (way == "step") return read_step(content.table(), unit);
+  if (way == "table") return read_table(content, unit, use);
+  if (way == "sum") return read_sum(content, unit, use);
+  if (way == "product") return read_product(content, use);
+  if (way == "pieces") return read_pieces(content, unit, use);
+  return read_polynomial(content, unit);
+}
+
 }  // namespace
 
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
-  if (value.is_number()) return TimeFunction(value.number(support::any(unit)));
-  if (!value.is_table()) throw value.error(fmt::format("must be a number [{}] or a function of time", unit));
-  const support::TomlTable table = value.table();
-  constexpr std::array<std::string_view, 4> kWays{"polynomial", "harmonic", "table", "step"};
-  const std::string_view way =
-      find_only_key(table, kWays, "one of 'polynomial', 'harmonic', 'table' and 'step'");
-  table.reject_unknown_keys();
-  if (way == "harmonic") return read_harmonic(table.at(way).table(), unit);
-  if (way == "step") return read_step(table.at(way).table(), unit);
-  if (way == "table") {
-    const PointList points = read_point_list(table.at(way), support::any("s"), support::any(unit));
-    return use == TimeFunctionUse::kMotion ? TimeFunction::spline(points.x, points.y)
-                                           : TimeFunction::lines(points.x, points.y);
-  }
-  const std::vector<double> coefficients = table.at(way).numbers(support::any(unit));
-  if (coefficients.empty())
-    throw table.at(way).error(fmt::format("must have at least one coefficient [{}/s^k]", unit));
-  return TimeFunction::polynomial(coefficients);
+  TimeFunction f = read_function(value, unit, use);
+  if (use == TimeFunctionUse::kForce) return f;
+  const std::optional<TimeFunction::Jump> jump = f.find_jump();
+  if (!jump) return f;
+  const std::string jump_unit = fmt::format("{}{}", unit, jump->is_rate ? "/s" : "");
+  throw value.error(fmt::format(
+      "must not jump, as it moves bodies: its {} is {:.9g} {} before t = {:.9g} s and {:.9g} {} after",
+      jump->is_rate ? "rate" : "value", jump->before, jump_unit, jump->time, jump->after, jump_unit));
 }
 
 }  // namespace sprung::dynamics

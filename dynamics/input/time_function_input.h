@@ -19,10 +19,13 @@ enum class TimeFunctionUse {
 ///     { harmonic = { mean, amplitude, frequency, phase } }    mean + amplitude sin(2π frequency t + phase)
 ///     { table = [[t, x], …] }                                 constant outside of the points
 ///     { step = { before, after, start, end } }                smooth between start and end
+///     { sum = [f, …] }, { product = [f, …] }                  of such functions
+///     { pieces = [{ until, function }, …, { function }] }     one after the other
 ///
 /// @param unit  of the function's value, for messages
-/// @throws support::InputError for a key that is missing, unknown or has a bad value
-/// Checked by tests/dynamics/input/motion_input_test.cpp, tests/dynamics/input/force_input_test.cpp
+/// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a motion whose
+///         value or rate jumps
+/// Checked by tests/dynamics/input/time_function_input_test.cpp
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use);
 
 }  // namespace sprung::dynamics

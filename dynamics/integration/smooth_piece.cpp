@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace sprung::dynamics {
@@ -48,10 +49,12 @@ double SmoothPiece::calc_longest_step(const SystemTerms& terms) const {
 
 double SmoothPiece::update_next_break(double time) {
   constexpr double kShortest = 1e-9;  // s
-  const auto next = std::upper_bound(model_->time_breaks.begin(), model_->time_breaks.end(), time,
-                                     [](double after, double one) { return one - after >= kShortest; });
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (next == model_->time_breaks.end()) return latest_time_ = kInfinity;
+  const std::vector<double>& breaks = model_->time_breaks;
+  const auto next = std::upper_bound(breaks.begin(), breaks.end(), time,
+                                     [](double after, double one) { return one - after >= kShortest; });
+  earliest_time_ = next == breaks.begin() ? -kInfinity : *std::prev(next);
+  if (next == breaks.end()) return latest_time_ = kInfinity;
   latest_time_ = std::nextafter(*next, -kInfinity);
   return *next;
 }

@@ -41,14 +41,16 @@ class SmoothPiece {
   /// @return that break, infinite where there is none [s]
   double update_next_break(double time);
   /// The time at which formulas are evaluated for `time`: the same, but at the break itself the number before
-  /// it, so that the formula that ends there is used up to its end.
-  double evaluation_time(double time) const { return std::min(time, latest_time_); }
+  /// it, so that the formula that ends there is used up to its end. Where breaks were passed over, it is not
+  /// before them: the formula after them is used from the start of the piece.
+  double evaluation_time(double time) const { return std::clamp(time, earliest_time_, latest_time_); }
 
  private:
   const Model* model_;
   std::vector<int> branches_;
   int num_switches_ = 0;
-  double latest_time_ = std::numeric_limits<double>::infinity();  // just before the next break
+  double earliest_time_ = -std::numeric_limits<double>::infinity();  // the last break
+  double latest_time_ = std::numeric_limits<double>::infinity();     // just before the next break
 };
 
 }  // namespace sprung::dynamics

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <unsupported/Eigen/FFT>
@@ -33,6 +34,24 @@ std::vector<double> sample(const std::function<double(double)>& value, double du
     samples[static_cast<std::size_t>(j)] = share > 0.0 ? share * value(std::min(t, duration)) : 0.0;
   }
   return samples;
+}
+
+// Where the forcing jumps: by how much, and when.
+struct ForcingJump {
+  double time = 0.0, change = 0.0;
+};
+
+// Replaces the sample next to each jump by the mean over the time that belongs to it. Else the jump would
+// seem to lie at a sample, up to half of their distance away.
+void smooth_jumps(const std::vector<ForcingJump>& jumps, double duration, double period,
+                  std::vector<double>& samples) {
+  const double step = period / static_cast<double>(samples.size());
+  for (const ForcingJump& jump : jumps) {
+    if (!(jump.time > 0.0 && jump.time < duration)) continue;
+    const auto j = static_cast<std::size_t>(std::lround(jump.time / step));
+    const double place = jump.time / step - static_cast<double>(j);  // −½ … ½
+    samples[j] += jump.change * (0.5 - place - (place <= 0.0 ? 1.0 : 0.0));
+  }
 }
 
 // Fourier coefficients of lines 1 … m.
@@ -72,6 +91,30 @@ class TimedForces {
   }
 
   const std::vector<TimedForce>& list() const { return list_; }
+
+  std::vector<ForcingJump> find_jumps(const TimedForce& timed) {
+    std::vector<double> breaks;
+    for (const TimeFunction* f : vehicle_.model().forces[timed.force]->time_functions()) {
+      breaks.insert(breaks.end(), f->breaks().begin(), f->breaks().end());
+    }
+    std::sort(breaks.begin(), breaks.end());
+    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+    std::vector<ForcingJump> jumps;
+    for (const double at : breaks) {
+      const double just_before = std::nextafter(at, -std::numeric_limits<double>::infinity());
+      jumps.push_back({at, value(timed, at) - value(timed, just_before)});
+    }
+    return jumps;
+  }
+
+  // The longest step that passes over no detail of the force [s].
+  double find_resolution(const TimedForce& timed) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const TimeFunction* f : vehicle_.model().forces[timed.force]->time_functions()) {
+      shortest = std::min(shortest, f->resolution());
+    }
+    return shortest;
+  }
 
   // Its value at a time, with the vehicle at rest at its equilibrium.
   double value(const TimedForce& timed, double time) {
@@ -123,7 +166,11 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
   for (const TimedForce& one : timed.list()) {
     const double start = timed.value(one, 0.0);
     const auto change = [&](double t) { return timed.value(one, t) - start; };
-    const std::vector<double> samples = sample(change, forcing.duration, spectrum.period, n);
+    // Enough samples for what is faster than the highest line, which would else seem to be slow.
+    const double needed = std::min(spectrum.period / timed.find_resolution(one), kMostSamples);
+    const auto fine = static_cast<Eigen::Index>(std::bit_ceil(static_cast<std::size_t>(std::ceil(needed))));
+    std::vector<double> samples = sample(change, forcing.duration, spectrum.period, std::max(n, fine));
+    smooth_jumps(timed.find_jumps(one), forcing.duration, spectrum.period, samples);
     if (std::all_of(samples.begin(), samples.end(), [](double value) { return value == 0.0; })) continue;
     gains.push_back(
         calc_marker_jacobian(vehicle.equations().terms(), one.marker).row(one.component).transpose());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 namespace sprung::dynamics {
 
@@ -52,11 +53,20 @@ struct ValueWriter {
   }
   void operator()(const TimeFunction& function) const {
     write_pieces(file, path(), function.polynomials(), parameter);
-    const TimeFunction::Harmonic& oscillation = function.oscillation();
-    if (oscillation.amplitude == 0.0) return;
-    write_number(file, path(), "amplitude", oscillation.amplitude, parameter.unit);
-    write_number(file, path(), "frequency", oscillation.frequency_hz, "Hz");
-    write_number(file, path(), "phase", oscillation.phase, "rad");
+    const std::span<const TimeFunction::Oscillation> oscillations = function.oscillations();
+    if (oscillations.size() == 1 && oscillations[0].amplitude.is_constant()) {
+      write_number(file, path(), "amplitude", oscillations[0].amplitude.value(0.0), parameter.unit);
+      write_number(file, path(), "frequency", oscillations[0].frequency_hz, "Hz");
+      write_number(file, path(), "phase", oscillations[0].phase, "rad");
+      return;
+    }
+    std::size_t number = 0;
+    for (const TimeFunction::Oscillation& one : oscillations) {
+      const std::string oscillation = fmt::format("{}/oscillation_{}", path(), ++number);
+      write_pieces(file, oscillation, one.amplitude, parameter);
+      write_number(file, oscillation, "frequency", one.frequency_hz, "Hz");
+      write_number(file, oscillation, "phase", one.phase, "rad");
+    }
   }
 };
 

@@ -51,6 +51,21 @@ FUNCTIONS = {
         lambda t: 0.5 * smooth(np.clip((t - 0.3) / 0.6, 0.0, 1.0)),
         lambda t: 0.5 / 0.36 * smooth_second(np.clip((t - 0.3) / 0.6, 0.0, 1.0)),
     ),
+    # (t/2)² sin 3πt + 0.1 t, by the product rule.
+    "growing harmonic": (
+        "{ sum = [{ polynomial = [0.0, 0.1] },"
+        " { product = [{ polynomial = [0.0, 0.0, 0.25] }, { harmonic = { amplitude = 1.0, frequency = 1.5 } }] }] }",
+        lambda t: 0.25 * t**2 * np.sin(3.0 * np.pi * t) + 0.1 * t,
+        lambda t: (0.5 - 0.25 * (3.0 * np.pi * t) ** 2) * np.sin(3.0 * np.pi * t)
+        + 3.0 * np.pi * t * np.cos(3.0 * np.pi * t),
+    ),
+    # From rest, at 2 m/s² up to t = 0.6 s, then at the velocity reached there: the acceleration jumps twice.
+    "ramp": (
+        "{ pieces = [{ until = 0.3, function = 0.1 }, { until = 0.6, function = { polynomial = [0.19, -0.6, 1.0] } },"
+        " { function = { polynomial = [-0.17, 0.6] } }] }",
+        lambda t: 0.1 + np.clip(t - 0.3, 0.0, 0.3) ** 2 + 0.6 * np.clip(t - 0.6, 0.0, None),
+        lambda t: np.where((t > 0.3) & (t <= 0.6), 2.0, 0.0),
+    ),
 }
 
 

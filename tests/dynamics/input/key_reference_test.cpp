@@ -77,7 +77,8 @@ Reference read_reference() {
 
 // "forces.3.spring" → "forces.*.spring": names and positions under lists and tables of free names.
 std::string path_of(const std::string& key) {
-  static const Keys kFreeNames{"bodies", "joints", "motions", "forces", "initial", "points", "force"};
+  static const Keys kFreeNames{"bodies", "joints", "motions", "forces",  "initial",
+                               "points", "force",  "sum",     "product", "pieces"};
   std::istringstream parts(key);
   std::string path, last;
   for (std::string part; std::getline(parts, part, '.');) {
@@ -118,6 +119,10 @@ std::string section_of(const std::string& path, const std::string& type) {
   if (path == "road") return type == "flat" || type == "table" ? "Road: " + type : "Road: a bump";
   if (path.ends_with(".harmonic")) return "Functions of time: harmonic";
   if (path.ends_with(".step")) return "Functions of time: step";
+  if (path.ends_with(".pieces.*")) return "Functions of time: pieces";
+  for (const char* part : {".sum.*", ".product.*", ".pieces.*.function"}) {
+    if (path.ends_with(part)) return "Functions of time";
+  }
   const auto found = kSections.find(path);
   return found == kSections.end() ? "" : found->second;
 }
@@ -169,7 +174,7 @@ Found read_examples(const Reference& reference) {
 TEST_CASE("The reference names exactly the keys that the program reads, and every one has an example") {
   const Reference reference = read_reference();
   const Found found = read_examples(reference);
-  CHECK(found.asked.size() == 31);  // sections with keys
+  CHECK(found.asked.size() == 32);  // sections with keys
   for (const auto& [title, section] : reference.sections) {
     CAPTURE(title);
     REQUIRE(found.asked.contains(title));

@@ -80,5 +80,6 @@ TEST_CASE("Impossible functions of time are refused") {
   CHECK(error("{ table = [[0.0, 1.0], [0.0, 2.0]] }") ==
         "error: 'motions.0.function.table.1' must ascend: 0 s comes after 0 s");
   CHECK(error("{}") ==
-        "error: 'motions.0.function' must have one of 'polynomial', 'harmonic', 'table' and 'step'");
+        "error: 'motions.0.function' must have one of 'polynomial', 'harmonic', 'table', 'step', 'sum', "
+        "'product' and 'pieces'");
 }

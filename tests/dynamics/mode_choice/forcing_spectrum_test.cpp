@@ -2,10 +2,13 @@
 #include "dynamics/mode_choice/forcing_spectrum.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <numbers>
 
+#include "dynamics/forces/applied_force.h"
 #include "dynamics/road/bump_road.h"
 #include "dynamics/road/flat_road.h"
 #include "tests/catch.h"
@@ -16,8 +19,23 @@ using namespace sprung;
 using dynamics::BumpRoad;
 using dynamics::BumpShape;
 using dynamics::LinearVehicle;
+using dynamics::TimeFunction;
 using Eigen::VectorXd;
 using std::numbers::pi;
+
+namespace {
+
+// With a torque on the pendulum's body.
+dynamics::Model make_driven_pendulum(const TimeFunction& torque) {
+  dynamics::Model model = test::make_pendulum(1.0, 0.5, 0.7, 9.81);
+  const int marker = test::add_marker(model, 0, {0.0, 0.0});
+  model.forces.push_back(std::make_unique<dynamics::AppliedForce>(
+      "drive", dynamics::AppliedForce::Parameters{.marker = marker, .torque = torque}));
+  dynamics::number_model(model);
+  return model;
+}
+
+}  // namespace
 
 TEST_CASE("The forcing lasts until the last wheel has left the road's last feature", "[choice][truck]") {
   const test::TruckAtRest truck(0);
@@ -63,6 +81,35 @@ TEST_CASE("The forcing's lines are the closed transform of a bump, and their sum
     worst = std::max(worst, std::abs(history[j] - road.height(4.0 * 1.5 * static_cast<double>(j) / n)));
   }
   CHECK(worst < 0.02 * 0.2);  // what is above 60 Hz: the kinks are rounded
+}
+
+TEST_CASE("A jump of a force keeps its place among the samples", "[choice]") {
+  // 3 N·m from 0.2337 s to 0.6071 s: (3/iω) (e^{−iω 0.2337} − e^{−iω 0.6071}). The mean over a sample reduces
+  // a line by (ω dt)²/24, here by 0.3 % at most; a jump moved to the next sample would be up to 10 % off.
+  const dynamics::Model pendulum = make_driven_pendulum(
+      TimeFunction::lines(std::array{0.2337, 0.2337, 0.6071, 0.6071}, std::array{0.0, 3.0, 3.0, 0.0}));
+  const LinearVehicle vehicle(pendulum, test::place_pendulum(0.5, -0.5 * pi));
+  const dynamics::ForcingSpectrum forcing =
+      dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.5, 20.0);
+  REQUIRE(forcing.applied.rows() == 1);
+  for (const Eigen::Index line : {0, 7, 28}) {
+    const std::complex<double> s(0.0, 2.0 * pi * forcing.frequency(line));
+    const std::complex<double> closed = 3.0 / s * (std::exp(-s * 0.2337) - std::exp(-s * 0.6071));
+    CAPTURE(line);
+    CHECK(std::abs(forcing.period * forcing.applied(0, line) - closed) < 6e-3 * 6.0 / std::abs(s));
+  }
+}
+
+TEST_CASE("A force that oscillates beyond the highest line does not seem to be a slow one", "[choice]") {
+  // 256 samples in 1.5 s would show 175 Hz as 4.3 Hz with its full amplitude. Its own lines below 10 Hz come
+  // from its end alone and are of the order of 1/(ω T).
+  const dynamics::Model pendulum =
+      make_driven_pendulum(TimeFunction::harmonic({.amplitude = 5.0, .frequency_hz = 175.0}));
+  const LinearVehicle vehicle(pendulum, test::place_pendulum(0.5, -0.5 * pi));
+  const dynamics::ForcingSpectrum forcing =
+      dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.5, 10.0);
+  REQUIRE(forcing.applied.rows() == 1);
+  CHECK(forcing.applied.cwiseAbs().maxCoeff() < 3.0 * 5.0 / (2.0 * pi * 175.0 * 1.5));
 }
 
 TEST_CASE("A forcing without duration, or too few times of a series, is the caller's mistake", "[choice]") {

@@ -30,6 +30,10 @@ def evaluate(function, x):
     if "amplitude" in function.attrs:
         angle = 2.0 * np.pi * function.attrs["frequency"] * x + function.attrs["phase"]
         value = value + function.attrs["amplitude"] * np.sin(angle)
+    for name in function:
+        if name.startswith("oscillation_"):
+            one = function[name]
+            value = value + evaluate(one, x) * np.sin(2.0 * np.pi * one.attrs["frequency"] * x + one.attrs["phase"])
     return value
 
 
@@ -205,8 +209,34 @@ class Resolved(DynamicsTestCase):
             self.assert_close(file[f"forces/gas/{component}"][:], evaluate(gas[component], time), component)
         self.assertEqual(resolved["forces/coupling/parameters"].attrs["free_angle"], 0.1)
 
+    def test_composed_functions_of_time(self):
+        beat = (
+            "{ product = [{ harmonic = { amplitude = 0.3, frequency = 2.0, mean = 0.1 } },"
+            " { step = { before = 0.0, after = 1.0, start = 0.05, end = 0.3 } },"
+            " { harmonic = { amplitude = 1.0, frequency = 3.0, phase = 0.2 } }] }"
+        )
+        pieces = (
+            "{ sum = [{ table = [[0.1013, 0.1], [0.1013, 0.5], [0.3, -0.2]] }, { pieces = [{ until = 0.2002,"
+            " function = { harmonic = { amplitude = 0.2, frequency = 5.0 } } }, { function = 0.1 }] }] }"
+        )
+        file, resolved = self.open_example(
+            "slider_crank", "duration=0.4",
+            f"vehicle.motions.motor.function={beat}", f"vehicle.forces.gas.torque={pieces}",
+        )  # fmt: skip
+        motor, torque = (resolved[f"{name}/parameters"] for name in ("joints/motor", "forces/gas"))
+        self.assertEqual(sum(name.startswith("oscillation_") for name in motor["value"]), 3)
+        time = file["time"][:]
+        self.assert_close(file["joints/motor/coordinate"][:], evaluate(motor["value"], time), "motor")
+        self.assert_close(file["forces/gas/torque"][:], evaluate(torque["torque"], time), "torque")
+
     def test_every_number_has_a_unit(self):
+        beat = "{ product = [{ harmonic = { amplitude = 3.0, frequency = 2.0 } }, { polynomial = [0.0, 1.0] }] }"
+        _, oscillating = self.open_example("slider_crank", "duration=0.1", f"vehicle.forces.gas.torque={beat}")
+        self.assert_units(oscillating)
         _, resolved = self.open_run("bump.toml", *CHANGES)
+        self.assert_units(resolved)
+
+    def assert_units(self, resolved):
         without = []
 
         def look(name, item):
