@@ -6,6 +6,7 @@ draw that, and to build a program that reads superelements. Needs the folder of 
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -67,6 +68,18 @@ class Installed(unittest.TestCase):
         process = run(self.share / "tools/study", study, "-o", self.folder / "study", cwd=self.folder, env=environment)
         self.assertEqual(process.returncode, 0, process.stdout)
         self.assertIn("6 runs: 6 made, 0 kept from before, 0 failed", process.stdout)
+
+    def test_the_package_for_python_finds_the_installed_programs(self):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("SPRUNG_")}
+        environment["PYTHONPATH"] = str(self.share / "tools")
+        code = (
+            "import sprung, sys\n"
+            "with sprung.run(sys.argv[1], superelements=sys.argv[2], overrides={'duration': 0.2}) as results:\n"
+            "    print(results.time[-1], results.unit('bodies/chassis/acceleration.y'))\n"
+        )
+        run_file = self.share / "dynamics/models/truck/bump.toml"
+        process = run(sys.executable, "-c", code, run_file, self.folder / "bodies", cwd=self.folder, env=environment)
+        self.assertEqual((process.returncode, process.stdout), (0, "0.2 m/s^2\n"))
 
     def test_every_tool_explains_itself(self):
         tools = sorted(path for path in (self.share / "tools").iterdir() if path.is_file())

@@ -9,8 +9,9 @@ import numpy as np
 from ride_results import write_ride_results
 from tool_test_case import TOOLS, ToolTestCase
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
-from sprung_tools.runs.measures import UNITS_OF, calc_measures, list_history_objects, list_objects
+from sprung_tools.runs.measures import UNITS_OF, calc_measures, combine, list_history_objects, list_objects
 from sprung_tools.runs.ride_assessment import calc_assessment
 from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel
 
@@ -101,6 +102,10 @@ class Json(ToolTestCase):
         self.assertEqual({one.unit for one in values.values()}, {"m/s^2"})
         for name, expected in (("min", -2.0), ("max", 2.0), ("mean", 0.0), ("rms", np.sqrt(2.0))):
             self.assertAlmostEqual(values[name].value, expected, delta=1e-3)
+
+    def test_a_value_that_is_no_number_is_refused(self):
+        with self.assertRaisesRegex(InputError, "tyres/t/load: error: the measure is nan, expected a finite number"):
+            combine("tyres/t", {"load": "N"}, [np.nan])
 
     def test_only_what_is_evaluated_is_computed(self):
         with open_results(write_run(self.folder / "a.h5")) as results:

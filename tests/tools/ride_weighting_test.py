@@ -4,6 +4,7 @@ import unittest
 
 import numpy as np
 import tool_test_case  # noqa: F401  puts tools/ on the path
+from scipy.fft import next_fast_len
 
 from sprung_tools.signals.ride_weighting import (
     WD,
@@ -13,6 +14,7 @@ from sprung_tools.signals.ride_weighting import (
     calc_running_rms,
     calc_weighting,
     calc_wk,
+    find_fast_size,
     weight_acceleration,
 )
 from sprung_tools.signals.spectra import calc_rms
@@ -77,6 +79,10 @@ class Weighting(unittest.TestCase):
         weighted = weight_acceleration(signal, STEP)
         # Samples of a band-limited pulse ring a little both ways; a filter that ran round the end would leave far more.
         self.assertLess(np.max(np.abs(weighted[:11000])), 1e-4 * np.max(np.abs(weighted)))
+
+    def test_a_transform_has_the_next_size_without_large_prime_factors(self):
+        sizes = [*range(1, 400), 25001, 10**6 + 3]
+        self.assertEqual([find_fast_size(one) for one in sizes], [next_fast_len(one, real=True) for one in sizes])
 
     def test_too_few_samples_are_refused(self):
         with self.assertRaisesRegex(ValueError, "a sample every 5 ms is too few"):

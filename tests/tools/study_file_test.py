@@ -113,6 +113,7 @@ class Errors(StudyCase):
             (HEAD + '[[parameters]]\nkey = "speed"\nvalues = []\n', "5:1",
              "got \\[\\], expected a list of one value or"),
             (HEAD + SPEED + "from = 1\n", "6:1", "'from' has no effect beside 'values'"),
+            (HEAD + SPEED + 'name = "a/b"\n', "6:1", "'name', got 'a/b', expected a name .* without a slash"),
             (HEAD + SPEED + SPEED, "7:1", "two parameters are called 'speed'"),
             (HEAD + SPEED + SPEED + 'name = "v"\n', "9:1", "another parameter sets it, too"),
             (HEAD + RANGE, "3:1", "'number' is missing, expected a whole number of at least 2"),

@@ -133,6 +133,17 @@ class Rows(StudyCase):
             self.assertEqual(list(np.isnan(file["measures/program/steps"])), [False, True, False])
             self.assertEqual(list(file["exit_code"]), [0, 2, 0])
 
+    def test_a_run_that_did_not_converge_has_its_measures_and_says_so(self):
+        self.write_study(self.MEASURES + TOLERANCE + "values = [0.1]\n[[parameters]]\n"
+                         'key = "integrator.method"\nvalues = ["generalized-alpha"]')  # fmt: skip
+        process = self.study()
+        self.assertIn("1 runs: 1 made, 0 kept from before, 0 failed, 1 with a failed check", process.stdout)
+        (row,) = self.read_table()
+        self.assertEqual((row["exit_code"], row["converged"]), ("1", "0"))
+        self.assertIn("the energy balance does not close", row["error"])
+        self.assertIn("the energy balance does not close", row["warnings"])
+        self.assertGreater(float(row["summary/energy_closure [1]"]), 1e-3)
+
     def test_a_failed_run_is_made_again_only_if_asked_for(self):
         self.write_study(self.MEASURES + TOLERANCE + "values = [1e-6, 5]")
         self.study()

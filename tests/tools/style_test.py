@@ -60,7 +60,8 @@ class Style(unittest.TestCase):
     @staticmethod
     def find_python_of_tools():
         launchers = [path for path in find_scripts(b"#!/usr/bin/python3\n") if path.parent == TOOLS]
-        return [TOOLS / "sprung_tools", *launchers]
+        examples = sorted((ROOT / "dynamics/models").rglob("*.py"))
+        return [TOOLS / "sprung_tools", TOOLS / "sprung", *launchers, *examples]
 
     def test_flake8_finds_nothing_in_the_tools(self):
         command = [*self.require_module("flake8", "flake8"), "--config", TOOLS / ".flake8"]

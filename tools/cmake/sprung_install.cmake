@@ -7,7 +7,7 @@ foreach(tool compare_frequencies convert_mesh export_csv export_paraview make_ro
     plot_results report report_peaks ride study)
   install(PROGRAMS "tools/${tool}" DESTINATION "${share}/tools")
 endforeach()
-install(DIRECTORY tools/sprung_tools DESTINATION "${share}/tools" PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY tools/sprung tools/sprung_tools DESTINATION "${share}/tools" PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY dynamics/models DESTINATION "${share}/dynamics")
 install(DIRECTORY meshes DESTINATION "${share}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")

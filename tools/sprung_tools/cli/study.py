@@ -12,6 +12,7 @@ from pathlib import Path
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
+from sprung_tools.programs.calls import CHECK_FAILED
 from sprung_tools.programs.finding import find_programs
 from sprung_tools.study.effects import Effect, calc_effects
 from sprung_tools.study.execution import Finished, Options, count_processors, run_study
@@ -88,7 +89,9 @@ def main() -> int:
     write_whole(options.folder / "table.h5", make_hdf5(finished, columns))
     write_whole(options.folder / "study.html", make_study_page(finished, columns, effects))
     failed = sum(row.has_failed for row in finished.rows)
-    print(f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed")
+    doubtful = sum(row.exit_code == CHECK_FAILED for row in finished.rows)
+    more = f", {doubtful} with a failed check" if doubtful else ""
+    print(f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed{more}")
     for line in format_errors(finished):
         print(line, file=sys.stderr)
     for name in find_missing(finished, columns):

@@ -41,13 +41,13 @@ def end_with_parent() -> None:
     _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
-def call(command: Sequence[str | Path], folder: Path | None = None) -> Outcome:
-    """Runs a program to its end, in a folder if one is given. It ends with this process, if that ends before."""
+def call(command: Sequence[str | Path], *, is_tied: bool = False) -> Outcome:
+    """Runs a program to its end. is_tied: it ends with this process, which must have one thread only."""
     words = [os.fspath(word) for word in command]
     try:
         done = subprocess.run(
-            words, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
-            preexec_fn=end_with_parent, check=False,
+            words, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace",
+            preexec_fn=end_with_parent if is_tied else None, check=False,
         )  # fmt: skip
     except OSError as error:
         raise InputError(f"{words[0]}: error: cannot be started ({error.strerror})") from error

@@ -4,11 +4,13 @@ study collects.
 A name is a path OBJECT/MEASURE such as `points/chassis.seat/wk_rms`; tools/README.md, "Measures", lists them all.
 """
 
+import math
 import os
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_real, read_text, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.files.stored_file import StoredFile
@@ -59,11 +61,13 @@ Objects = dict[str, Callable[[], Measures]]  # by name: computes the measures of
 
 
 def combine(name: str, units: dict[str, str], values: Iterable[float | None]) -> Measures:
-    """The measures of an object: its values in the order of the units."""
-    return {
-        f"{name}/{measure}": Measure(None if value is None else float(value), unit)
-        for (measure, unit), value in zip(units.items(), values, strict=True)
-    }
+    """The measures of an object: its values in the order of the units. InputError if one is not finite."""
+    measures = {}
+    for (measure, unit), value in zip(units.items(), values, strict=True):
+        if value is not None and not math.isfinite(value):
+            raise InputError(f"{name}/{measure}: error: the measure is {value}, expected a finite number")
+        measures[f"{name}/{measure}"] = Measure(None if value is None else float(value), unit)
+    return measures
 
 
 def find_points(results: ResultsFile, wanted: Sequence[str] = ()) -> list[str]:

@@ -76,7 +76,7 @@ def reduce_variant(program: Path, variant: Variant) -> str:
     write_whole(design, variant.text)
     if variant.mesh is not None and variant.mesh.is_file():
         shutil.copyfile(variant.mesh, variant.folder / variant.mesh.name)
-    outcome = call([program, "build", design, "--output-dir", variant.folder, "--quiet"])
+    outcome = call([program, "build", design, "--output-dir", variant.folder, "--quiet"], is_tied=True)
     return outcome.error if outcome.exit_code != GOOD else ""
 
 

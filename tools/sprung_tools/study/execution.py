@@ -91,13 +91,13 @@ def has_results(row: Row, setting: Setting) -> bool:
 def check_first(study: Study, setting: Setting, task: Task, point: Point) -> None:
     """Tries the first run without making it. A key of --set that the program does not know is an InputError at its
     place in the study file: it is a slip, which would make every run fail."""
-    if task.problem or study.command != "run":
+    if task.problem:
         return
     folder = setting.scratch / "first"
     folder.mkdir()
     for file in task.superelements:
         (folder / file.name).symlink_to(file.resolve())
-    command = make_command(setting.program, study.command, setting.run, folder, task.overrides)
+    command = make_command(setting.program, "run", setting.run, folder, task.overrides)
     outcome = call([*command, "--dry-run"])
     before, _, what = outcome.error.partition(": error: ")
     if outcome.exit_code != BAD_INPUT or not before.startswith("--set ") or not what.startswith("unknown key"):

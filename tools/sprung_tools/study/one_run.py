@@ -86,9 +86,10 @@ def make_run(task: Task, setting: Setting) -> Row:
         for file in task.superelements:
             (folder / "bodies" / file.name).symlink_to(file.resolve())
         output = folder / "results.h5" if setting.needs_file else None
-        outcome = call(
-            make_command(setting.program, setting.command, setting.run, folder / "bodies", task.overrides, output)
-        )
+        command = make_command(
+            setting.program, setting.command, setting.run, folder / "bodies", task.overrides, output
+        )  # fmt: skip
+        outcome = call(command, is_tied=True)
         exit_code, error = outcome.exit_code, outcome.error
         measured = Measured(False, (), {})
         if exit_code in (GOOD, CHECK_FAILED):

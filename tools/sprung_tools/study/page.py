@@ -41,17 +41,20 @@ def pack_study(
         for number, one in enumerate(finished.study.parameters)
     ]
     measures = [{"name": one.name, "unit": one.unit, "values": pack_numbers(one.values)} for one in columns]
+    texts: dict[str, int] = {}  # each text once, however many runs say it
     rows = [
-        {"exit": row.exit_code, "error": row.error, "warnings": row.warnings, "set": task.overrides}
-        for task, row in zip(finished.tasks, finished.rows)
-    ]
+        {"exit": row.exit_code, "isError": bool(row.error),
+         "texts": [texts.setdefault(text, len(texts)) for text in ([row.error] if row.error else row.warnings)]}
+        for row in finished.rows
+    ]  # fmt: skip
     packed_effects = [
         {**one._asdict(), "means": pack_numbers(one.means), "counts": one.counts.tolist()} for one in effects
     ]
     study = finished.study
     return {
         "title": title, "run": study.run.name, "command": study.command, "method": study.sampling.method,
-        "parameters": parameters, "measures": measures, "rows": rows, "effects": packed_effects,
+        "parameters": parameters, "measures": measures, "rows": rows, "texts": list(texts),
+        "effects": packed_effects,
     }  # fmt: skip
 
 

@@ -97,9 +97,9 @@ class Planner:
 
     def _list_superelements(self, vehicle: Path, draft: Draft) -> list[Path]:
         """The files of the superelements that a vehicle names: of the study's designs, else of its folder. A file that
-        is not there is left for the program to miss."""
+        is not there is left for the program to miss, the vehicle file as well."""
         if vehicle not in self._superelements:
-            bodies = TomlFile(vehicle).data.get("bodies", {})
+            bodies = TomlFile(vehicle).data.get("bodies", {}) if vehicle.is_file() else {}
             self._superelements[vehicle] = set(find_superelements(bodies))
         changed = {str(one) for key, one in draft.changed.items() if key.endswith(".superelement")}
         files = []

@@ -212,6 +212,8 @@ def read_parameter(reader: Reader, sampling: Sampling) -> Parameter:
         raise reader.file.fail(reader.place, "a parameter needs one of 'key' and 'keys'")
     keys = (reader.text("key"),) if "key" in reader.table else reader.texts("keys")
     name, crossed = reader.text("name", keys[0]), reader.flag("crossed")
+    if "/" in name or not name.strip("."):
+        raise reader.fail("name", "a name that is not of dots alone, and without a slash")
     if "values" in reader.table:
         for key in ("from", "to", "number", "spacing"):
             if key in reader.table:

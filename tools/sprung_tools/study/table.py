@@ -76,7 +76,7 @@ def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
             values = [point[number] for point in finished.points]
             is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
             data = np.array(values, dtype=float) if is_real else encode_texts(map(format_cell, values))
-            dataset = write_dataset(file, f"parameters/{escape_name(parameter.name)}", data)
+            dataset = write_dataset(file, f"parameters/{parameter.name}", data)
             dataset.attrs["keys"] = encode_texts(parameter.keys)
         for one in columns:
             dataset = write_dataset(file, f"measures/{one.name}", one.values)
@@ -91,11 +91,6 @@ def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
         for name, values in texts.items():
             write_dataset(file, name, encode_texts(values))
     return memory.getvalue()
-
-
-def escape_name(name: str) -> str:
-    """A parameter's name as the name of a dataset, in which a slash would make a group."""
-    return name.replace("/", "_")
 
 
 def encode_texts(values: Any) -> Any:

@@ -23,7 +23,8 @@ function fillBest() {
 }
 
 function fillFailures() {
-  const told = data.rows.map((row, run) => ({run, text: row.error || row.warnings.join("; "), bad: Boolean(row.error)})).filter((one) => one.text)
+  const told = data.rows.map((row, run) => ({run, text: row.texts.map((one) => data.texts[one]).join("; "), bad: row.isError}))
+    .filter((one) => one.text)
     .sort((a, b) => b.bad - a.bad || a.run - b.run);
   byId("failures").hidden = !told.length;
   const rows = told.slice(0, MOST_FAILURES).map(({run, text, bad}) => element("tr", {}, element("th", {scope: "row"}, String(run + 1)),

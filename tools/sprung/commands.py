@@ -1,0 +1,118 @@
+"""The commands of the two programs as functions."""
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from sprung.results import Folder, Mode, Response, Results
+from sprung_tools.files.errors import InputError
+from sprung_tools.programs.calls import (
+    BAD_INPUT,
+    CHECK_FAILED,
+    GOOD,
+    INTERRUPTED,
+    Outcome,
+    call,
+    format_overrides,
+    make_command,
+)
+from sprung_tools.programs.finding import DYNAMICS, REDUCE, find_program
+
+PathLike = str | Path
+Overrides = Mapping[str, Any] | None
+
+
+class NumericalError(Exception):
+    """A computation that did not come to its end, or a program that was ended from outside."""
+
+
+def build(designs: Iterable[PathLike], output_dir: PathLike, *, force: bool = False) -> list[Path]:
+    """Reduces designs to superelements; those that are up to date are left alone unless they are forced.
+
+    Returns their files. InputError for a design that cannot be used."""
+    files = [Path(design) for design in designs]
+    command: list[PathLike] = [find_program(REDUCE), "build", *files, "--output-dir", Path(output_dir), "--quiet"]
+    check(call(command + ["--force"] * force), GOOD)
+    return [Path(output_dir) / f"{file.stem}.h5" for file in files]
+
+
+def run(
+    file: PathLike,
+    *,
+    superelements: PathLike | None = None,
+    overrides: Overrides = None,
+    output: PathLike | None = None,
+) -> Results:
+    """Makes a run.
+
+    overrides: keys of the run file, and of the vehicle file after `vehicle.`, with their values, as `--set` takes them.
+    output: results file; without it the file goes away with the Results. A run whose energy balance does not close has
+    results, too: see Results.converged.
+    """
+    with prepare_output(output) as (path, folder):
+        start("run", file, superelements, overrides, path)
+        return Results(path, folder)
+
+
+def response(
+    file: PathLike,
+    *,
+    superelements: PathLike | None = None,
+    overrides: Overrides = None,
+    output: PathLike | None = None,
+) -> Response:
+    """Computes the frequency response to the road about the equilibrium. The arguments are those of run()."""
+    with prepare_output(output) as (path, folder):
+        start("response", file, superelements, overrides, path)
+        return Response(path, folder)
+
+
+def modes(file: PathLike, *, superelements: PathLike | None = None, overrides: Overrides = None) -> list[Mode]:
+    """Computes the vehicle's modes about its equilibrium, the lowest first."""
+    return [Mode(**one) for one in start("modes", file, superelements, overrides)["modes"]]
+
+
+def equilibrium(
+    file: PathLike, *, superelements: PathLike | None = None, overrides: Overrides = None
+) -> dict[str, Any]:  # fmt: skip
+    """Computes the static equilibrium: what `sprung-dynamics equilibrium --json` prints."""
+    return start("equilibrium", file, superelements, overrides)
+
+
+@contextmanager
+def prepare_output(output: PathLike | None) -> Iterator[tuple[Path, Folder | None]]:
+    """The file to be written, and the folder that goes away with it where none is given; at once after an error."""
+    if output is not None:
+        yield Path(output), None
+        return
+    folder = Folder(prefix="sprung-")
+    try:
+        yield Path(folder.name) / "results.h5", folder
+    except BaseException:
+        folder.cleanup()
+        raise
+
+
+def start(
+    verb: str, file: PathLike, superelements: PathLike | None, overrides: Overrides, output: Path | None = None
+) -> dict[str, Any]:
+    """Has sprung-dynamics do something. Returns the JSON that it prints."""
+    where = None if superelements is None else Path(superelements)
+    settings = format_overrides(overrides or {})
+    outcome = call(make_command(find_program(DYNAMICS), verb, Path(file), where, settings, output))
+    check(outcome, GOOD, CHECK_FAILED)
+    found: dict[str, Any] = json.loads(outcome.printed)
+    return found
+
+
+def check(outcome: Outcome, *good: int) -> None:
+    """Throws the error of a program that did not end with one of the exit codes that are good."""
+    if outcome.exit_code in good:
+        return
+    if outcome.exit_code == INTERRUPTED:
+        raise KeyboardInterrupt
+    if outcome.exit_code == BAD_INPUT:
+        raise InputError(outcome.error)
+    raise NumericalError(outcome.error)

@@ -1,0 +1,187 @@
+"""Results of a run and of a response: arrays by the names that the files give them (dynamics/output/results.md,
+dynamics/output/response.md), with units."""
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
+from sprung_tools.files.results_file import COMPONENTS, ResultsFile, open_results
+from sprung_tools.runs import labelled_responses
+from sprung_tools.runs.measures import (
+    Measures,
+    calc_measures,
+    is_converged,
+    list_linear_objects,
+    list_objects,
+)
+from sprung_tools.runs.ride_measures import read_window
+from sprung_tools.runs.run_warnings import list_warnings
+
+Folder = tempfile.TemporaryDirectory[str]
+SERIES = ("bodies", "energy", "forces", "joints", "points", "recovery")  # the groups of histories
+DEEPEST = 4  # parts of a dataset's name, at most
+
+
+class Mode(NamedTuple):
+    """A mode of the vehicle about its equilibrium. Frequencies in Hz; participants: which bodies move, in words."""
+
+    undamped_frequency: float
+    damped_frequency: float
+    damping_ratio: float
+    rigid_body: bool
+    participants: str
+
+
+class Results:
+    """The results of a run. `results[QUANTITY]` is a history [n], such as `points/chassis.seat/acceleration.y`.
+
+    path: the results file. Close it, or use it in a with block; a file without a name of its own is then removed.
+    """
+
+    def __init__(self, path: str | Path, folder: Folder | None = None) -> None:
+        self.path = Path(path)
+        self._folder = folder
+        self._file: ResultsFile = open_results(path)
+
+    def __enter__(self) -> "Results":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Closes the file, and removes it if it has no name of its own."""
+        self._file.file.close()
+        if self._folder is not None:
+            self._folder.cleanup()
+
+    @property
+    def title(self) -> str:
+        """The vehicle's name."""
+        return self._file.title
+
+    @property
+    def time(self) -> Floats:
+        """The time of each sample [n] s."""
+        return self._file.time
+
+    @property
+    def converged(self) -> bool:
+        """Whether the energy balance closes; else do not trust the run."""
+        return is_converged(self._file)
+
+    @property
+    def warnings(self) -> list[str]:
+        """The warnings about the numbers of the run."""
+        return list(dict.fromkeys(one.text for one in list_warnings(self._file)))
+
+    def __getitem__(self, quantity: str) -> Floats:
+        return self._file.series(quantity)[0]
+
+    def __contains__(self, quantity: str) -> bool:
+        return self._file.has(quantity)
+
+    def unit(self, quantity: str) -> str:
+        """The unit of a quantity. InputError, as for its values, if there is no such quantity."""
+        return self._file.series(quantity)[1]
+
+    def names(self) -> list[str]:
+        """The quantities of the file, each component for itself."""
+        found: list[str] = []
+        for group in SERIES:
+            self._collect(group, found)
+        return found
+
+    def measures(
+        self,
+        points: Sequence[str] = (),
+        *,
+        start: float | None = None,
+        end: float | None = None,
+        superelements: str | Path | None = None,
+    ) -> Measures:
+        """All measures of the run by name (tools/README.md, "Measures"), each with `value` and `unit`.
+
+        points: BODY.POINT whose vibration is judged (default: seats and their bodies); start, end: span of time [s]
+        (default: that of the run's statistics); superelements: folder, for the moments of bodies taken as rigid.
+        """
+        window = read_window(self._file, start, end)
+        folder = None if superelements is None else str(superelements)
+        return calc_measures(list_objects(self._file, window, points, folder))
+
+    def measure(self, name: str) -> float:
+        """One measure over the span of the run's statistics; only its object is computed. InputError if there is no
+        such measure."""
+        wanted, _, _ = name.rpartition("/")
+        points = [wanted.removeprefix("points/")] if wanted.startswith("points/") else []
+        objects = list_objects(self._file, read_window(self._file), points)
+        # The measures of points in the summary are among those of the object `summary`.
+        calc = objects.get("summary" if wanted.startswith("summary") else wanted)
+        found = calc().get(name) if calc is not None else None
+        if found is None or found.value is None:
+            raise InputError(f"{self.path}: error: no measure '{name}'; there are measures of: {', '.join(objects)}")
+        return found.value
+
+    def _collect(self, path: str, found: list[str]) -> None:
+        file = self._file.file
+        shape = file.shape(path)
+        if shape is None:
+            for name in file.names(path) if path.count("/") < DEEPEST else ():
+                self._collect(f"{path}/{name}", found)
+        elif shape[:1] == self.time.shape and len(shape) == 1:
+            found.append(path)
+        elif shape[:1] == self.time.shape and len(shape) == 2:
+            is_vector = path.startswith(("bodies/", "points/")) and "/modal/" not in path
+            columns = COMPONENTS[: shape[1]] if is_vector else [str(k + 1) for k in range(shape[1])]
+            found += [f"{path}.{column}" for column in columns]
+
+
+class Response:
+    """The response of a linear vehicle to the road over the frequency. path: the response file, as in Results."""
+
+    def __init__(self, path: str | Path, folder: Folder | None = None) -> None:
+        self.path = Path(path)
+        self._folder = folder
+        file = open_hdf5(path, RESPONSE)
+        self._response = labelled_responses.Response("", file, read_numbers(file, "frequency")[0])
+
+    def __enter__(self) -> "Response":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Closes the file, and removes it if it has no name of its own."""
+        self._response.file.close()
+        if self._folder is not None:
+            self._folder.cleanup()
+
+    @property
+    def frequency(self) -> Floats:
+        """The frequencies [m] Hz."""
+        return self._response.frequency
+
+    def names(self) -> list[str]:
+        """The outputs."""
+        return self._response.names()
+
+    def magnitude(self, output: str) -> Floats:
+        """The magnitude of an output on a road wave of 1 m [m]."""
+        return self._response.values(output, is_spectrum=False)[0]
+
+    def spectrum(self, output: str) -> Floats:
+        """The one-sided spectral density of an output on the random road [m]."""
+        return self._response.values(output, is_spectrum=True)[0]
+
+    def rms(self, output: str) -> float:
+        """The r.m.s. of an output on the random road."""
+        return self._response.rms(output)
+
+    def measures(self, points: Sequence[str] = ()) -> Measures:
+        """The measures of the points, and the r.m.s. of every output, by name, each with `value` and `unit`."""
+        return calc_measures(list_linear_objects(self._response, points))
