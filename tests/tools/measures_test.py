@@ -7,13 +7,15 @@ import unittest
 import h5py
 import numpy as np
 from ride_results import write_ride_results
+from synthetic_results import write_series
 from tool_test_case import TOOLS, ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.measures import UNITS_OF, calc_measures, combine, list_history_objects, list_objects
-from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
 from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel
+from sprung_tools.signals.third_octaves import NOMINAL
 
 WINDOW = (1.0, 3.0)
 
@@ -25,6 +27,13 @@ def write_run(path, closure=1e-6):
         summary = file.create_group("summary")
         summary.attrs.update({"energy_closure": closure, "steps": 12})
         summary.create_group("points/body.seat").attrs.update({"displacement_max": 0.25, "acceleration_rms": 1.5})
+        file["model/modes/undamped_frequency"] = [0.0, 1.5, 9.0]
+        file["model/modes/damping_ratio"] = [0.0, 0.2, 0.1]
+        for name in ("undamped_frequency", "damping_ratio"):
+            file[f"model/modes/{name}"].attrs["unit"] = np.bytes_("")
+        shear = np.zeros(file["recovery/body/moment"].shape)
+        shear[0, 0], shear[2000, 1] = 90.0, -40.0  # outside and inside of the window
+        write_series(file, "recovery/body/shear", shear, "N")
         for name in ("integrator", "adaptivity"):
             settings = file.require_group(f"model/resolved/settings/{name}")
             settings.attrs.update({"method": np.bytes_("adams"), "relative_tolerance": 1e-6, "largest_step": np.inf,
@@ -50,6 +59,7 @@ class Json(ToolTestCase):
             felt = calc_assessment(results, "points/body.seat", WINDOW)
             travel, contact = calc_travel(results, "suspension", WINDOW), calc_contact(results, "tyre", WINDOW)
             bending = calc_bending(results, "body", WINDOW)
+            expected_bands = calc_bands(results, "points/body.seat", WINDOW)
         expected = {
             "points/body.seat/rms": (comfort.rms, "m/s^2"), "points/body.seat/peak": (comfort.peak, "m/s^2"),
             "points/body.seat/wk_rms": (comfort.weighted_rms, "m/s^2"),
@@ -68,12 +78,20 @@ class Json(ToolTestCase):
             "tyres/tyre/time_off_ground": (contact.off_ground, "s"),
             "tyres/tyre/time_without_load": (contact.unloaded, "s"),
             "loads/body/moment": (bending.moment, "N m"), "loads/body/station": (0.25, "m"),
-            "loads/body/time": (bending.time, "s"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
+            "loads/body/time": (bending.time, "s"), "loads/body/shear": (-40.0, "N"),
+            "loads/body/axial": (None, "N"), "modes/1/frequency": (1.5, "Hz"), "modes/1/damping_ratio": (0.2, "1"),
+            "modes/2/frequency": (9.0, "Hz"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
             "summary/points/body.seat/displacement_max": (0.25, "m"),
             "summary/points/body.seat/acceleration_rms": (1.5, "m/s^2"),
         }  # fmt: skip
         for name, (value, unit) in expected.items():
             self.assertEqual(run["measures"][name], {"value": value, "unit": unit}, name)
+        bands = {
+            name.rpartition("/")[2]: one["value"] for name, one in run["measures"].items() if "bands/body.seat" in name
+        }
+        self.assertEqual([float(name) for name in bands], list(NOMINAL))
+        np.testing.assert_array_equal(list(bands.values()), expected_bands)
+        self.assertEqual(max(bands, key=bands.get), "5")  # a sine of 5 Hz
         self.assertEqual(sum(name.startswith("points/body.seat/") for name in run["measures"]), 10)
         self.assertEqual(sum(name.startswith("points/body.center_of_mass/") for name in run["measures"]), 10)
 
@@ -88,7 +106,9 @@ class Json(ToolTestCase):
         write_run(self.folder / "good.h5")
         write_run(self.folder / "bad.h5", closure=0.02)
         good, bad = self.read_json("good.h5", "bad.h5")["runs"]
-        self.assertEqual((good["converged"], good["warnings"]), (True, []))
+        self.assertTrue(good["converged"])
+        # Its tyre leaves the ground.
+        self.assertEqual([(one["concerns"], one["of"]) for one in good["warnings"]], [("equilibrium", ["tyre"])])
         self.assertFalse(bad["converged"])
         self.assertEqual(bad["warnings"][0]["concerns"], "summary")
         self.assertIn("the energy balance does not close (relative 2.0e-02)", bad["warnings"][0]["text"])

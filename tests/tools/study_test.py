@@ -119,6 +119,17 @@ class Rows(StudyCase):
         vehicle.write_text(text.replace("mass = 300.0", "mass = 310.0"), encoding="utf-8")
         self.assertIn("1 runs: 1 made, 0 kept from before", self.study().stdout)
 
+    def test_a_value_may_be_a_whole_table_which_replaces_the_one_of_the_run_file(self):
+        flat, ramp = '{ shape = "flat" }', '{ shape = "ramp", start = 0.5, length = 1.0, height = 0.1 }'
+        self.write_study('measures = ["tyres/tyre/dynamic_load_rms"]\nset.duration = 0.5\n'
+                         f'[[parameters]]\nkey = "road"\nvalues = [{flat}, {ramp}]')  # fmt: skip
+        self.assert_succeeds(self.study())
+        rows = self.read_table()
+        self.assertEqual([row["road"] for row in rows], [flat, ramp])
+        still, moved = (float(row["tyres/tyre/dynamic_load_rms [N]"]) for row in rows)
+        self.assertLess(still, 1e-3)  # it stands in balance
+        self.assertGreater(moved, 10.0)
+
     def test_a_failed_run_is_a_row_with_its_error_and_the_others_are_made(self):
         self.write_study(self.MEASURES + TOLERANCE + "values = [1e-6, 5, 1e-7]")
         process = self.study()

@@ -117,7 +117,7 @@ class Results:
         """One measure over the span of the run's statistics; only its object is computed. InputError if there is no
         such measure."""
         wanted, _, _ = name.rpartition("/")
-        points = [wanted.removeprefix("points/")] if wanted.startswith("points/") else []
+        points = [wanted.partition("/")[2]] if wanted.startswith(("points/", "bands/")) else []
         objects = list_objects(self._file, read_window(self._file), points)
         # The measures of points in the summary are among those of the object `summary`.
         calc = objects.get("summary" if wanted.startswith("summary") else wanted)

@@ -10,14 +10,16 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_real, read_text, read_texts
+from sprung_tools.files.hdf5_file import read_numbers, read_real, read_text, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.files.stored_file import StoredFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
 from sprung_tools.runs.ride_measures import (
     Bending,
     calc_bending,
@@ -30,8 +32,10 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
+from sprung_tools.runs.vehicle_modes import WHERE
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
+from sprung_tools.signals.third_octaves import NOMINAL
 
 CENTRE = "center_of_mass"
 HISTORIES = "histories/"
@@ -44,9 +48,13 @@ SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "sto
 TYRE_UNITS = {
     "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
 }  # fmt: skip
-LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s"}
+LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N"}
+MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
-UNITS_OF = {"points": POINT_UNITS, "suspensions": SUSPENSION_UNITS, "tyres": TYRE_UNITS, "loads": LOAD_UNITS}
+UNITS_OF = {
+    "points": POINT_UNITS, "suspensions": SUSPENSION_UNITS, "tyres": TYRE_UNITS, "loads": LOAD_UNITS,
+    "modes": MODE_UNITS,
+}  # fmt: skip
 
 
 class Measure(NamedTuple):
@@ -111,13 +119,26 @@ def list_objects(
     for folder in find_points(results, points):
         name = f"points/{point_name(folder)}"
         objects[name] = partial(measure_point, results, name, folder, window)
+        bands = f"bands/{point_name(folder)}"
+        objects[bands] = partial(measure_bands, results, bands, folder, window)
     for force in find_forces(results, "spring"):
         objects[f"suspensions/{force}"] = partial(measure_suspension, results, force, window)
     for force in find_forces(results, "wheel"):
         objects[f"tyres/{force}"] = partial(measure_tyre, results, force, window)
     for body in results.names("bodies"):
         objects[f"loads/{body}"] = partial(measure_loads, results, body, window, superelements)
-    return objects
+    return objects | list_mode_objects(results)
+
+
+def list_mode_objects(results: ResultsFile) -> Objects:
+    """The vehicle's modes about its equilibrium that oscillate, the lowest first: `modes/1` …; none if the run did not
+    start from equilibrium."""
+    if not results.has(f"{WHERE}/undamped_frequency"):
+        return {}
+    frequency, _ = read_numbers(results.file, f"{WHERE}/undamped_frequency")
+    damping, _ = read_numbers(results.file, f"{WHERE}/damping_ratio")
+    pairs = [pair for pair in zip(frequency, damping) if pair[0] > 0.0]
+    return {f"modes/{k}": partial(combine, f"modes/{k}", MODE_UNITS, pair) for k, pair in enumerate(pairs, start=1)}
 
 
 def measure_point(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
@@ -126,6 +147,12 @@ def measure_point(results: ResultsFile, name: str, folder: str, window: Span) ->
     values = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
               more.total, more.power)  # fmt: skip
     return combine(name, POINT_UNITS, values)
+
+
+def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
+    """The r.m.s. of a point's vertical acceleration in third-octave bands, each under its nominal frequency in Hz."""
+    units = {f"{frequency:g}": "m/s^2" for frequency in NOMINAL}
+    return combine(name, units, calc_bands(results, folder, window))
 
 
 def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measures:
@@ -144,9 +171,21 @@ def measure_tyre(results: ResultsFile, name: str, window: Span) -> Measures:
 
 
 def measure_loads(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Measures:
-    """The largest bending moment of a body; none of a body without moments."""
+    """The largest bending moment of a body, and the largest shear and axial force of a flexible one; none of a body
+    without moments."""
     found = find_bending(results, body, window, superelements)
-    return combine(f"loads/{body}", LOAD_UNITS, found) if found else {}
+    if found is None:
+        return {}
+    forces = [find_largest(results, f"recovery/{body}/{name}", window) for name in ("shear", "axial")]
+    return combine(f"loads/{body}", LOAD_UNITS, [*found, *forces])
+
+
+def find_largest(results: ResultsFile, dataset: str, window: Span) -> float | None:
+    """The value of largest size in a dataset [n×stations], with its sign; None if there is no such dataset."""
+    if not results.has(dataset):
+        return None
+    values = read_numbers(results.file, dataset)[0][samples_between(results, *window)]
+    return float(values.flat[np.argmax(np.abs(values))])
 
 
 def read_summary(results: ResultsFile) -> Measures:

@@ -131,7 +131,7 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
 def list_points(wanted: Sequence[str]) -> list[str]:
     """The points BODY.POINT that names of measures mention; none if one of them is a pattern, which then stands for
     those that the tools choose."""
-    points = [name.split("/")[1] for name in wanted if name.startswith("points/")]
+    points = [name.split("/")[1] for name in wanted if name.startswith(("points/", "bands/"))]
     return [] if any("*" in point for point in points) else list(dict.fromkeys(points))
 
 
