@@ -119,6 +119,15 @@ class Rows(StudyCase):
         vehicle.write_text(text.replace("mass = 300.0", "mass = 310.0"), encoding="utf-8")
         self.assertIn("1 runs: 1 made, 0 kept from before", self.study().stdout)
 
+    def test_a_changed_road_file_is_run_again(self):
+        (self.folder / "road.txt").write_text("0 0\n1 0.1\n2 0\n", encoding="utf-8")
+        road = f'{{ shape = "table", start = 1.0, file = "{self.folder / "road.txt"}" }}'
+        self.write_study(f'{self.MEASURES}[[parameters]]\nkey = "road"\nvalues = [{road}]\n')
+        self.assert_succeeds(self.study())
+        self.assertIn("1 runs: 0 made, 1 kept from before", self.study().stdout)
+        (self.folder / "road.txt").write_text("0 0\n1 0.2\n2 0\n", encoding="utf-8")
+        self.assertIn("1 runs: 1 made, 0 kept from before", self.study().stdout)
+
     def test_a_value_may_be_a_whole_table_which_replaces_the_one_of_the_run_file(self):
         flat, ramp = '{ shape = "flat" }', '{ shape = "ramp", start = 0.5, length = 1.0, height = 0.1 }'
         self.write_study('measures = ["tyres/tyre/dynamic_load_rms"]\nset.duration = 0.5\n'

@@ -3,6 +3,7 @@ everything that it reads."""
 
 import hashlib
 import json
+import os
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
@@ -38,7 +39,7 @@ class Planner:
         self.study, self.folder, self.programs = study, folder, programs
         self._run = TomlFile(study.run)
         self._hashes: dict[Path, str] = {}
-        self._superelements: dict[Path, set[str]] = {}  # vehicle file → names
+        self._vehicles: dict[Path, dict[str, Any]] = {}  # root tables of vehicle files
         self._variants: dict[str, Variant | InputError] = {}
         self._roads: dict[str, tuple[dict[str, Any], str] | InputError] = {}
 
@@ -71,7 +72,7 @@ class Planner:
         if not problem:
             vehicle = self.study.run.parent / str(draft.changed.get("vehicle", self._run.data.get("vehicle", "")))
             superelements = tuple(self._list_superelements(vehicle, draft))
-            for file in (self.study.run, vehicle, self._find_road(draft), *superelements):
+            for file in (self.study.run, vehicle, *self._list_files(vehicle, draft), *superelements):
                 parts += [file.name, self._hash(file)]
         if draft.road is not None:
             overrides += format_overrides({"road": draft.road})
@@ -95,31 +96,44 @@ class Planner:
                 self._roads[key] = error
         return raise_error(self._roads[key])
 
+    def _read_vehicle(self, vehicle: Path) -> dict[str, Any]:
+        """The root table of a vehicle file; empty if there is none, which the program then tells."""
+        if vehicle not in self._vehicles:
+            self._vehicles[vehicle] = TomlFile(vehicle).data if vehicle.is_file() else {}
+        return self._vehicles[vehicle]
+
     def _list_superelements(self, vehicle: Path, draft: Draft) -> list[Path]:
         """The files of the superelements that a vehicle names: of the study's designs, else of its folder. A file that
-        is not there is left for the program to miss, the vehicle file as well."""
-        if vehicle not in self._superelements:
-            bodies = TomlFile(vehicle).data.get("bodies", {}) if vehicle.is_file() else {}
-            self._superelements[vehicle] = set(find_superelements(bodies))
-        changed = {str(one) for key, one in draft.changed.items() if key.endswith(".superelement")}
+        is not there is left for the program to miss."""
+        names = set(find_superelements(self._read_vehicle(vehicle).get("bodies", {})))
+        names |= {str(one) for key, one in draft.changed.items() if key.endswith(".superelement")}
         files = []
-        for name in sorted(self._superelements[vehicle] | changed):
+        for name in sorted(names):
             if name in draft.variants:
                 files.append(draft.variants[name].superelement)
             elif self.study.superelements is not None and (self.study.superelements / f"{name}.h5").is_file():
                 files.append(self.study.superelements / f"{name}.h5")
         return files
 
-    def _find_road(self, draft: Draft) -> Path:
-        """The file of the road; the run file itself if it has none."""
-        road = self._run.data.get("road")
-        name = draft.changed.get("road.file", road.get("file") if isinstance(road, dict) else None)
-        return self.study.run.parent / name if isinstance(name, str) else self.study.run
+    def _list_files(self, vehicle: Path, draft: Draft) -> list[Path]:
+        """The files that texts in the run file, in the vehicle file and in the changes name, such as that of a road."""
+        tables = (self._run.data, self._read_vehicle(vehicle), draft.changed)
+        texts = {text for table in tables for text in list_texts(table)}
+        paths = {folder / text for text in texts for folder in {self.study.run.parent, vehicle.parent}}
+        return sorted(path for path in paths - {self.study.run, vehicle} if self._hash(path))
 
     def _hash(self, path: Path) -> str:
         if path not in self._hashes:
-            self._hashes[path] = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+            self._hashes[path] = calc_hash(path)
         return self._hashes[path]
+
+
+def calc_hash(path: Path) -> str:
+    """The SHA-256 of a file; empty if there is none."""
+    if not os.path.isfile(path):
+        return ""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def reduce_variants(
@@ -160,6 +174,14 @@ def flatten_settings(table: Mapping[str, Any], prefix: str = "") -> dict[str, An
         else:
             flat[f"{prefix}{key}"] = value
     return flat
+
+
+def list_texts(value: Any) -> list[str]:
+    """All texts in tables and lists."""
+    if isinstance(value, str):
+        return [value]
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [text for part in parts for text in list_texts(part)]
 
 
 def find_superelements(bodies: Any) -> list[str]:
