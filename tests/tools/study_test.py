@@ -240,6 +240,7 @@ class Interruption(StudyCase):
         process = subprocess.Popen(
             [TOOLS / "study", "study.toml", "-o", "out", "--jobs", "1"], cwd=self.folder, stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8", env={**os.environ, **self.environment},
+            start_new_session=True,
         )  # fmt: skip
         held = int((self.folder / "arrived").read_text(encoding="utf-8"))  # waits for the program
         return process, os.pidfd_open(held)
@@ -271,7 +272,7 @@ class Interruption(StudyCase):
 
     def test_an_interrupted_study_says_so_and_goes_on(self):
         process, held = self.start_and_wait()
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does, to all processes
         _, complaints = process.communicate()
         self.assertEqual(process.returncode, 130)
         self.assertIn("out: the runs that have ended are kept; the same command goes on", complaints)

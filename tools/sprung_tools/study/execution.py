@@ -149,12 +149,12 @@ def open_pool(options: Options) -> Iterator[ProcessPoolExecutor]:
     try:
         yield pool
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second interruption would leave processes at work
         for child in multiprocessing.active_children():
             child.kill()
         raise
     finally:
-        pool.shutdown()
+        pool.shutdown(cancel_futures=True)
         shutil.rmtree(scratch, ignore_errors=True)
 
 
