@@ -19,7 +19,7 @@ class Effects(unittest.TestCase):
     def test_in_a_sum_over_a_grid_each_parameter_explains_its_part(self):
         # y = 2 a + b over a, b in {-1, 1}: variances 4 and 1 of 5.
         points = [(a, b) for a in (-1.0, 1.0) for b in (-1.0, 1.0)]
-        column = Column("y", "m", np.array([2.0 * a + b for a, b in points]))
+        column = Column("o/y", "y", "m", np.array([2.0 * a + b for a, b in points]))
         first, second = calc_effects(make_study(("a", "b"), points), [column])
         self.assertAlmostEqual(first.share, 0.8, places=14)
         self.assertAlmostEqual(second.share, 0.2, places=14)
@@ -29,7 +29,9 @@ class Effects(unittest.TestCase):
 
     def test_runs_without_the_measure_do_not_count(self):
         points = [(1.0,), (2.0,), (3.0,), (3.0,)]
-        (effect,) = calc_effects(make_study(("a",), points), [Column("y", "", np.array([5.0, np.nan, 6.0, 7.0]))])
+        (effect,) = calc_effects(
+            make_study(("a",), points), [Column("o/y", "y", "", np.array([5.0, np.nan, 6.0, 7.0]))]
+        )
         self.assertEqual((effect.groups, list(effect.counts)), (("1.0", "3.0"), [1, 2]))
         np.testing.assert_allclose(effect.means, [5.0, 6.5])
         # Mean 6: between the groups 1 + 2 · 0.25, in all 1 + 0 + 1.
@@ -38,7 +40,7 @@ class Effects(unittest.TestCase):
     def test_a_measure_that_does_not_vary_or_is_nowhere_has_no_effects(self):
         points = [(1.0,), (2.0,)]
         for values in ([3.0, 3.0], [np.nan, np.nan], [np.nan, 1.0]):
-            self.assertEqual(calc_effects(make_study(("a",), points), [Column("y", "", np.array(values))]), [])
+            self.assertEqual(calc_effects(make_study(("a",), points), [Column("o/y", "y", "", np.array(values))]), [])
 
     def test_many_values_make_five_groups_of_equal_size(self):
         values = list(np.random.default_rng(1).permutation(np.linspace(0.0, 10.0, 50)))

@@ -89,6 +89,10 @@ class Values(StudyCase):
         (parameter,) = self.read(HEAD + text).parameters
         self.assertEqual([parameter.settings(one) for one in parameter.values], [{"a": 3, "b": 3}, {"a": 4, "b": 5}])
 
+    def test_a_measure_may_have_a_label(self):
+        study = self.read('run = "run.toml"\nmeasures = ["seat=points/body.seat/rms", "summary/*"]\n' + SPEED)
+        self.assertEqual(study.measures, {"points/body.seat/rms": "seat", "summary/*": "summary/*"})
+
     def test_a_parameter_is_called_by_its_first_key_unless_it_has_a_name(self):
         self.assertEqual([one.name for one in self.read(HEAD + SPEED + LOG_RANGE + "number = 2").parameters],
                          ["speed", "damping"])  # fmt: skip
@@ -106,6 +110,13 @@ class Errors(StudyCase):
             ('run = "run.toml"\nmeasures = ["a/b",\n  "steps"]\n' + SPEED, "3:4",
              "'steps' is no measure, expected OBJECT"),
             ('run = "run.toml"\nmeasures = ["a/b", "a/b"]\n' + SPEED, "2:14", "'a/b' stands twice"),
+            ('run = "run.toml"\nmeasures = ["s=a/b", "t=a/b"]\n' + SPEED, "2:23",
+             "'t=a/b' has a name or a label that stands"),
+            ('run = "run.toml"\nmeasures = ["s=a/b", "s=a/c"]\n' + SPEED, "2:23",
+             "'s=a/c' has a name or a label that"),
+            ('run = "run.toml"\nmeasures = ["=a/b"]\n' + SPEED, "2:14", "'=a/b' has an empty label"),
+            ('run = "run.toml"\nmeasures = ["s=a/*"]\n' + SPEED, "2:14",
+             "'s=a/\\*' has a label, which one measure needs"),
             (HEAD + 'command = "walk"\n' + SPEED, "3:1", "'command', got 'walk', expected \"run\" or \"response\" or"),
             (HEAD + 'superelements = "none"\n' + SPEED, "3:1", "expected a folder; there is no "),
             (HEAD, "1:1", r"no parameters: \[\[parameters\]\] is required"),

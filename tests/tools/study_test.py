@@ -101,6 +101,17 @@ class Rows(StudyCase):
         again = [(self.folder / "out" / name).read_bytes() for name in ("table.csv", "table.h5", "study.html")]
         self.assertEqual(first, again)
 
+    def test_a_label_is_the_heading_of_its_measure_and_may_be_changed_without_new_runs(self):
+        values = HEIGHT + "values = [0.01]\n"
+        self.write_study(f'measures = ["closure=summary/energy_closure"]\nset.duration = 0.5\n{values}')
+        self.assert_succeeds(self.study())
+        self.assertGreater(float(self.read_table()[0]["closure [1]"]), 0.0)
+        with h5py.File(self.folder / "out/table.h5") as file:
+            self.assertEqual(file["measures/summary/energy_closure"].attrs["label"], b"closure")
+        self.write_study(f'measures = ["error=summary/energy_closure"]\nset.duration = 0.5\n{values}')
+        self.assertIn("1 runs: 0 made, 1 kept from before", self.study().stdout)
+        self.assertIn("error [1]", self.read_table()[0])
+
     def test_with_more_values_only_the_missing_runs_are_made(self):
         self.write_study(self.MEASURES + HEIGHT + "values = [0.01, 0.03]\n")
         self.assert_succeeds(self.study())

@@ -53,7 +53,7 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
     with KeptRows(options.folder) as kept, open_pool(options) as pool:
         tasks = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
-        setting = Setting(kept.path, programs.dynamics, study.command, study.run, study.measures,
+        setting = Setting(kept.path, programs.dynamics, study.command, study.run, tuple(study.measures),
                           options.folder / SCRATCH, results)  # fmt: skip
         if setting.results is not None:
             setting.results.mkdir(exist_ok=True)

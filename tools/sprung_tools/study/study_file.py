@@ -58,7 +58,7 @@ class Study(NamedTuple):
     superelements: Path | None
     designs: dict[str, Path]  # name → design file
     overrides: dict[str, Any]  # for all runs
-    measures: tuple[str, ...]
+    measures: dict[str, str]  # name → label, which is the name itself where none is given
     sampling: Sampling
     random_road: dict[str, Any]
     parameters: tuple[Parameter, ...]
@@ -150,10 +150,7 @@ def read_study(path: str | Path) -> Study:
     superelements = folder / root.text("superelements") if "superelements" in root.table else None
     if superelements is not None and not superelements.is_dir():
         raise root.fail("superelements", f"a folder; there is no {superelements}")
-    measures = root.texts("measures")
-    for name in measures:
-        if "/" not in name:
-            raise file.fail(("measures",), f"'{name}' is no measure, expected OBJECT/MEASURE", fragment=name)
+    measures = read_measures(root)
     sampling = read_sampling(file)
     parameters = read_parameters(file, sampling)
     road = Reader(file, ("random_road",), file.data.get("random_road", {}), ROAD_KEYS).table
@@ -170,6 +167,24 @@ def find_file(reader: Reader, folder: Path, key: str, name: str) -> Path:
     if not path.is_file():
         raise reader.file.fail((*reader.place, key), f"there is no file {path}", fragment=name)
     return path
+
+
+def read_measures(root: Reader) -> dict[str, str]:
+    """Reads the measures `[LABEL=]NAME`."""
+    measures: dict[str, str] = {}
+    for entry in root.texts("measures"):
+        label, separator, name = entry.partition("=") if "=" in entry else (entry, "", entry)
+        problem = ""
+        if "/" not in name:
+            problem = "is no measure, expected OBJECT/MEASURE"
+        elif separator and (not label or "*" in name):
+            problem = "has a label, which one measure needs, and no pattern" if label else "has an empty label"
+        elif name in measures or label in measures.values():
+            problem = "has a name or a label that stands twice in 'measures'"
+        if problem:
+            raise root.file.fail(("measures",), f"'{entry}' {problem}", fragment=entry)
+        measures[name] = label
+    return measures
 
 
 def read_sampling(file: TomlFile) -> Sampling:

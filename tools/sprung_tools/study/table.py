@@ -16,8 +16,10 @@ FORMAT, VERSION = "sprung-study", 1
 
 
 class Column(NamedTuple):
-    """A column of numbers. values: [runs], NaN where a run has no such value; unit: empty if it is not known."""
+    """A column of numbers. name: the label of the measure; values: [runs], NaN where a run has no such value; unit:
+    empty if it is not known."""
 
+    measure: str
     name: str
     unit: str
     values: Floats
@@ -32,13 +34,20 @@ def make_measure_columns(finished: Finished) -> list[Column]:
     columns = []
     for name, unit in units.items():
         found = [row.measures[name].value if name in row.measures else None for row in finished.rows]
-        columns.append(Column(name, unit, np.array([np.nan if one is None else one for one in found])))
+        columns.append(
+            Column(
+                name,
+                finished.study.measures.get(name, name),
+                unit,
+                np.array([np.nan if one is None else one for one in found]),
+            )
+        )
     return columns
 
 
 def find_missing(finished: Finished, columns: list[Column]) -> list[str]:
     """The measures without a wildcard that the study asks for and no run has."""
-    there = {one.name for one in columns if not np.all(np.isnan(one.values))}
+    there = {one.measure for one in columns if not np.all(np.isnan(one.values))}
     return [name for name in finished.study.measures if "*" not in name and name not in there]
 
 
@@ -79,8 +88,9 @@ def make_hdf5(finished: Finished, columns: list[Column]) -> bytes:
             dataset = write_dataset(file, f"parameters/{parameter.name}", data)
             dataset.attrs["keys"] = encode_texts(parameter.keys)
         for one in columns:
-            dataset = write_dataset(file, f"measures/{one.name}", one.values)
+            dataset = write_dataset(file, f"measures/{one.measure}", one.values)
             dataset.attrs["unit"] = np.bytes_(one.unit)
+            dataset.attrs["label"] = np.bytes_(one.name.encode("utf-8"))
         rows = finished.rows
         write_dataset(file, "exit_code", np.array([row.exit_code for row in rows]))
         write_dataset(file, "converged", np.array([int(row.converged) for row in rows]))
