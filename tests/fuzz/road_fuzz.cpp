@@ -7,8 +7,11 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const sprung::fuzz::MemoryFile file(data, size);
+  sprung::dynamics::RoadDescription description;
+  description.shape = "table";
+  description.file = file.path();
   try {
-    const auto road = sprung::dynamics::make_road({.shape = "table", .file = file.path()});
+    const auto road = sprung::dynamics::make_road(description);
     for (const double s : {-1.0, 0.0, 0.3, 7.0, 1e6}) {
       if (!std::isfinite(road->height(s))) std::abort();
     }

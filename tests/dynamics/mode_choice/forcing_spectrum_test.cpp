@@ -30,7 +30,9 @@ dynamics::Model make_driven_pendulum(const TimeFunction& torque) {
   dynamics::Model model = test::make_pendulum(1.0, 0.5, 0.7, 9.81);
   const int marker = test::add_marker(model, 0, {0.0, 0.0});
   model.forces.push_back(std::make_unique<dynamics::AppliedForce>(
-      "drive", dynamics::AppliedForce::Parameters{.marker = marker, .torque = torque}));
+      "drive",
+      dynamics::AppliedForce::Parameters{
+          .marker = marker, .force_x = TimeFunction(0.0), .force_y = TimeFunction(0.0), .torque = torque}));
   dynamics::number_model(model);
   return model;
 }
