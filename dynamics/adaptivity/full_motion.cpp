@@ -100,4 +100,10 @@ double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& he
   return energy - calc_energy(terms_, branches).total();
 }
 
+void FullMotion::restore(support::ByteReader& bytes) {
+  transfer(bytes, *this);
+  const Eigen::Index size = full_->num_coordinates;
+  if (q_.size() != size || v_.size() != size) throw support::DamagedBytes();
+}
+
 }  // namespace sprung::dynamics

@@ -6,6 +6,7 @@
 
 #include "dynamics/system/constrained_equations.h"
 #include "dynamics/system/held_modes.h"
+#include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
 
@@ -45,7 +46,22 @@ class FullMotion {
   double stop(const std::vector<int>& coordinates, const HeldModes& held, double time,
               std::span<const int> branches);
 
+  /// Positions, velocities and the forces that fade, as bytes and back.
+  void save(support::ByteWriter& bytes) const { transfer(bytes, *this); }
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
  private:
+  template <class Bytes, class Motion>
+  static void transfer(Bytes& bytes, Motion& motion) {
+    bytes.transfer(motion.q_);
+    bytes.transfer(motion.v_);
+    bytes.transfer_items(motion.fading_, [&](auto& one) {
+      bytes.transfer(one.coordinate);
+      bytes.transfer(one.force);
+      bytes.transfer(one.start);
+      bytes.transfer(one.duration);
+    });
+  }
   void update_terms(double time);
 
   const Model* full_;

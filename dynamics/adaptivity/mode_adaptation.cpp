@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "dynamics/adaptivity/mode_change_ringing.h"
@@ -168,6 +169,36 @@ void ModeAdaptation::get_state(State& state) const {
 void ModeAdaptation::set_state(const State& state) {
   indicator_.set_state(state.indicator);
   windows_ = state.windows;
+}
+
+template <class Bytes, class Adaptation>
+void ModeAdaptation::transfer(Bytes& bytes, Adaptation& adaptation) {
+  bytes.transfer(adaptation.active_);
+  bytes.transfer(adaptation.last_change_);
+  bytes.transfer_items(adaptation.windows_, [&](auto& window) {
+    bool has_begun = window.has_value();
+    bytes.transfer(has_begun);
+    if (!has_begun) return;
+    Window values = window.value_or(Window{});
+    for (double* value :
+         {&values.since, &values.low, &values.high, &values.largest_acceleration, &values.share})
+      bytes.transfer(*value);
+    if constexpr (!std::is_const_v<std::remove_reference_t<decltype(window)>>) window = values;
+  });
+}
+
+void ModeAdaptation::save(support::ByteWriter& bytes) const {
+  transfer(bytes, *this);
+  indicator_.save(bytes);
+}
+
+void ModeAdaptation::restore(support::ByteReader& bytes) {
+  transfer(bytes, *this);
+  const auto num_coordinates = static_cast<std::size_t>(options_.full->num_coordinates);
+  if (active_.size() != num_coordinates || windows_.size() != indicator_.num_modes())
+    throw support::DamagedBytes();
+  indicator_.set_active(active_);
+  indicator_.restore(bytes);
 }
 
 }  // namespace sprung::dynamics

@@ -80,7 +80,13 @@ class ModeAdaptation {
   /// Goes back to an earlier instant, with the same active modes.
   void set_state(const State& state);
 
+  /// All that has changed since the start, as bytes and back into an object with the same start.
+  void save(support::ByteWriter& bytes) const;
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
  private:
+  template <class Bytes, class Adaptation>
+  static void transfer(Bytes& bytes, Adaptation& adaptation);
   std::size_t mode_of(int coordinate) const;
 
   AdaptivityOptions options_;

@@ -93,4 +93,28 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   neglected_[mode] = calc_share(mode, amplitudes_[mode]);
 }
 
+template <class Bytes, class Indicator>
+void ModeIndicator::transfer(Bytes& bytes, Indicator& indicator) {
+  bytes.transfer(indicator.state_.time);
+  bytes.transfer(indicator.state_.has_begun);
+  bytes.transfer_items(indicator.state_.oscillators, [&](auto& one) {
+    bytes.transfer(one.place);
+    bytes.transfer(one.rate);
+    bytes.transfer(one.force);
+    bytes.transfer(one.held_force);
+    bytes.transfer(one.is_fresh);
+  });
+}
+
+void ModeIndicator::save(support::ByteWriter& bytes) const {
+  transfer(bytes, *this);
+  sizes_.save(bytes);
+}
+
+void ModeIndicator::restore(support::ByteReader& bytes) {
+  transfer(bytes, *this);
+  if (state_.oscillators.size() != num_modes()) throw support::DamagedBytes();
+  sizes_.restore(bytes);
+}
+
 }  // namespace sprung::dynamics

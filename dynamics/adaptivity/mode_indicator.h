@@ -88,6 +88,10 @@ class ModeIndicator {
   /// Goes back to an earlier instant, with the same active modes.
   void set_state(const State& state) { state_ = state; }
 
+  /// State and largest sizes as bytes, and back into an indicator with the same start and active modes.
+  void save(support::ByteWriter& bytes) const;
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
  private:
   // The exact response of a mode over a step of that length.
   struct Response {
@@ -95,6 +99,8 @@ class ModeIndicator {
     OscillatorResponse response = {};
   };
   void follow(std::size_t mode, double step);
+  template <class Bytes, class Indicator>
+  static void transfer(Bytes& bytes, Indicator& indicator);
 
   FullSmallMotion motion_;
   std::vector<bool> active_;

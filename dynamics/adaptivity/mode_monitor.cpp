@@ -49,6 +49,18 @@ bool ModeMonitor::follow_step(SystemStepper& stepper, const HeldModes& held) {
   return misses;
 }
 
+void ModeMonitor::save(support::ByteWriter& bytes) const {
+  modes_.save(bytes);
+  motion_.save(bytes);
+  record_.save(bytes);
+}
+
+void ModeMonitor::restore(support::ByteReader& bytes) {
+  modes_.restore(bytes);
+  motion_.restore(bytes);
+  record_.restore(bytes, modes_.indicator());
+}
+
 void ModeMonitor::update_largest() {
   for (std::size_t j = 0; j < largest_.size(); ++j) {
     const ModeAmplitude& now = modes_.indicator().amplitudes()[j];

@@ -36,6 +36,11 @@ class ModeMonitor {
   /// Records the step, which is final.
   void accept_step() { record_.add_step(modes_.indicator(), largest_); }
 
+  /// Everything that the run has changed here, at the end of a step, as bytes and back into a monitor with
+  /// the same start. An `update` at the same time has to follow.
+  void save(support::ByteWriter& bytes) const;
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
  private:
   void update_largest();
 

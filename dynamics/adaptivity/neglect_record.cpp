@@ -38,4 +38,12 @@ WorstNeglect NeglectRecord::find_worst(const ModeIndicator& indicator) const {
   return worst;
 }
 
+void NeglectRecord::restore(support::ByteReader& bytes, const ModeIndicator& indicator) {
+  transfer(bytes, *this);
+  if (peaks_.size() != indicator.num_modes()) throw support::DamagedBytes();
+  for (const Peaks& peaks : peaks_) {
+    if (peaks.acceleration.size() != indicator.sizes().num_points()) throw support::DamagedBytes();
+  }
+}
+
 }  // namespace sprung::dynamics

@@ -25,6 +25,10 @@ class NeglectRecord {
   /// recall threshold, as steps in which it was passed have been taken back.
   WorstNeglect find_worst(const ModeIndicator& indicator) const;
 
+  void save(support::ByteWriter& bytes) const { transfer(bytes, *this); }
+  /// @param indicator  of the same model   @throws support::DamagedBytes
+  void restore(support::ByteReader& bytes, const ModeIndicator& indicator);
+
  private:
   struct Peak {
     double value = 0.0, time = 0.0;
@@ -33,6 +37,17 @@ class NeglectRecord {
     Peak deflection;                 // [m]
     std::vector<Peak> acceleration;  // of each point asked for [m/s²]
   };
+  template <class Bytes, class Record>
+  static void transfer(Bytes& bytes, Record& record) {
+    const auto transfer_peak = [&](auto& peak) {
+      bytes.transfer(peak.value);
+      bytes.transfer(peak.time);
+    };
+    bytes.transfer_items(record.peaks_, [&](auto& peaks) {
+      transfer_peak(peaks.deflection);
+      bytes.transfer_items(peaks.acceleration, transfer_peak);
+    });
+  }
   std::vector<Peaks> peaks_;  // of each mode
 };
 

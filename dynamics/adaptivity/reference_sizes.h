@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/system/model.h"
+#include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
 
@@ -39,7 +40,18 @@ class ReferenceSizes {
     return share;
   }
 
+  void save(support::ByteWriter& bytes) const { transfer(bytes, *this); }
+  void restore(support::ByteReader& bytes) {  ///< @throws support::DamagedBytes
+    transfer(bytes, *this);
+    if (accelerations_.size() != points_.size()) throw support::DamagedBytes();
+  }
+
  private:
+  template <class Bytes, class Sizes>
+  static void transfer(Bytes& bytes, Sizes& sizes) {
+    bytes.transfer(sizes.deflection_);
+    bytes.transfer_items(sizes.accelerations_, [&](auto& value) { bytes.transfer(value); });
+  }
   void stack_shapes();
 
   const Model* full_;

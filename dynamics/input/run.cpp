@@ -204,6 +204,11 @@ Run read_run(const support::TomlDocument& document) {
     run.start = static_cast<Run::Start>(found - kStarts.begin());
     run.start_location = start->location();
   }
+  if (const std::optional<support::TomlValue> results = root.find("continue_from")) {
+    run.continue_from = folder / results->string();
+    run.continue_location = results->location();
+    if (root.has("initial")) throw results->error("and 'initial' exclude each other");
+  }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("mode_choice")) run.mode_choice = read_mode_choice(*table);
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);

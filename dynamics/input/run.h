@@ -60,10 +60,12 @@ struct Run {
   support::SourceLocation vehicle_location;
   double speed = 0.0;  ///< of all bodies along the vehicle's heading at the start [m/s]
   support::SourceLocation speed_location;
-  double duration = 0.0;      ///< > 0 [s]
+  double duration = 0.0;      ///< time at the end, > 0 [s]
   double output_step = 1e-3;  ///< > 0, ≤ duration [s]
   Start start = Start::kEquilibrium;
   support::SourceLocation start_location;
+  std::filesystem::path continue_from;  ///< results file with whose last state the run starts; "" for none
+  support::SourceLocation continue_location;
   double statistics_from = 0.0;  ///< [s]
   double statistics_to = 0.0;    ///< > statistics_from, ≤ duration [s]
   ModeRequests modes;

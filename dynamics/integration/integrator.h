@@ -42,6 +42,9 @@ class Integrator {
   /// Solution at a time within the last step.
   virtual void interpolate(double time, std::span<double> y) const = 0;
   virtual Statistics statistics() const = 0;
+  /// The small motion in use, for methods that treat it separately; null for others, and where another one
+  /// will be asked for with the next step.
+  virtual const SmallMotion* small_motion() const { return nullptr; }
 };
 
 }  // namespace sprung::dynamics

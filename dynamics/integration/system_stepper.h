@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "dynamics/integration/integrator.h"
 #include "dynamics/integration/smooth_piece.h"
 #include "dynamics/system/constrained_equations.h"
@@ -43,6 +45,10 @@ class SystemStepper {
 
   /// Small motion about a state near the one that `start` will get, for methods that treat it separately.
   virtual void set_small_motion(KnownMotion) {}
+  /// The small motion in use, for methods that treat it separately.
+  virtual std::optional<KnownMotion> small_motion() const { return std::nullopt; }
+  /// Takes over the one that another stepper of the same model has used, after `evaluate` at the start.
+  virtual void continue_small_motion(const KnownMotion&) {}
   /// Takes over a state that satisfies the constraints. Its branches are those of piece() from then on.
   virtual void start(const State& state) = 0;
   /// Restarts at `time`, at which `evaluate` was called last, with the branches of piece(), up to `end_time`.

@@ -13,29 +13,10 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Writes heights of the road over the whole range of the wheels, and at the ends of its segments.
 void write_road(support::Hdf5Writer& file, const ResultsHeader& header) {
-  constexpr double kSpacing = 0.01;  // m
-  constexpr double kMaxSamples = 20000;
-  const Road& road = *header.road.road;
-  double rearmost = 0.0;
-  for (const Body& body : header.model.bodies) {
-    rearmost = std::min(rearmost, header.road.distance(header.start.q[body.first_coordinate]));
-  }
-  const double from = std::floor(rearmost) - 2.0;
-  const double to = std::ceil(1.1 * std::abs(header.run.speed) * header.run.duration) + 5.0;
-  const double spacing = std::max(kSpacing, (to - from) / kMaxSamples);
-  std::vector<double> distance;
-  for (double s = from; s <= to; s += spacing) distance.push_back(s);
-  for (int k = 0; k < road.num_segments() - 1; ++k) {
-    if (road.segment_end(k) > from && road.segment_end(k) < to) distance.push_back(road.segment_end(k));
-  }
-  std::sort(distance.begin(), distance.end());
-  distance.erase(std::unique(distance.begin(), distance.end()), distance.end());
-  std::vector<double> height;
-  for (const double s : distance) height.push_back(road.height(s));
-  file.write("/model/road/distance", distance, "m");
-  file.write("/model/road/height", height, "m");
+  const RoadSamples samples = sample_road(header);
+  file.write("/model/road/distance", samples.distance, "m");
+  file.write("/model/road/height", samples.height, "m");
   file.attribute("/model/road", "shape", header.run.road.shape);
   file.attribute("/model/road", "direction", header.road.direction);
   file.attribute("/model/road", "origin", header.road.origin);
@@ -140,6 +121,29 @@ void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
 }
 
 }  // namespace
+
+RoadSamples sample_road(const ResultsHeader& header) {
+  constexpr double kSpacing = 0.01;  // m
+  constexpr double kMaxSamples = 20000;
+  const Road& road = *header.road.road;
+  double rearmost = 0.0;
+  for (const Body& body : header.model.bodies) {
+    rearmost = std::min(rearmost, header.road.distance(header.start.q[body.first_coordinate]));
+  }
+  const double from = std::floor(rearmost) - 2.0;
+  const double to = std::ceil(1.1 * std::abs(header.run.speed) * header.run.duration) + 5.0;
+  const double spacing = std::max(kSpacing, (to - from) / kMaxSamples);
+  RoadSamples samples;
+  std::vector<double>& distance = samples.distance;
+  for (double s = from; s <= to; s += spacing) distance.push_back(s);
+  for (int k = 0; k < road.num_segments() - 1; ++k) {
+    if (road.segment_end(k) > from && road.segment_end(k) < to) distance.push_back(road.segment_end(k));
+  }
+  std::sort(distance.begin(), distance.end());
+  distance.erase(std::unique(distance.begin(), distance.end()), distance.end());
+  for (const double s : distance) samples.height.push_back(road.height(s));
+  return samples;
+}
 
 void write_results_model(support::Hdf5Writer& file, const ResultsHeader& header) {
   file.write("/model/run_text", std::vector<std::string>{header.run.text});

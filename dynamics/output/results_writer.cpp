@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dynamics/output/partial_results.h"
 #include "dynamics/output/results_model.h"
 
 namespace sprung::dynamics {
@@ -12,9 +13,7 @@ namespace {
 
 constexpr std::int64_t kResultsVersion = 2;
 
-std::filesystem::path partial_name(const std::filesystem::path& path) {
-  return path.parent_path() / (path.stem().string() + ".partial" + path.extension().string());
-}
+constexpr std::size_t kRowsAtOnce = 1024;  // whole chunks of most histories
 
 void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::copy(values.data(), values.data() + values.size(), row.begin());
@@ -49,12 +48,14 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   add_energy("spring", [](const EnergyBook& book) { return book.stored.spring; });
   add_energy("dissipated", [](const EnergyBook& book) { return book.dissipated; });
   add_energy("input", [](const EnergyBook& book) { return book.input; });
+  make_event_datasets(header.adaptivity ? *header.adaptivity->full : header.model);
 }
 
 void ResultsWriter::add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
                                std::function<void(const Snapshot&, std::vector<double>&)> fill) {
   support::Hdf5GrowingDataset& growing = file_.make_growing(dataset, columns, unit);
-  series_.push_back({&growing, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
+  series_.push_back(
+      {dataset, &growing, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
 }
 
 void ResultsWriter::add_marker_motion(const std::string& group, std::size_t marker) {
@@ -262,32 +263,61 @@ void ResultsWriter::add(const Snapshot& snapshot) {
     series.fill(snapshot, series.row);
     file_.append(*series.dataset, series.row);
   }
+  ++extent_.rows;
 }
 
-void ResultsWriter::write_events() {
-  std::vector<double> times;
-  std::vector<std::string> kinds, objects, texts;
-  for (const Event& event : events_) {
-    times.push_back(event.time);
-    kinds.push_back(event.kind);
-    objects.push_back(event.object);
-    texts.push_back(event.text);
+void ResultsWriter::make_event_datasets(const Model& full) {
+  constexpr std::size_t kKindSize = 16, kTextSize = 120;
+  std::size_t object_size = 1;
+  for (const auto& force : full.forces) object_size = std::max(object_size, force->name.size());
+  for (int i = 0; i < full.num_coordinates; ++i)
+    object_size = std::max(object_size, full.coordinate_name(i).size());
+  event_time_ = &file_.make_growing("/events/time", 0, "s");
+  event_kind_ = &file_.make_growing_texts("/events/kind", kKindSize);
+  event_object_ = &file_.make_growing_texts("/events/object", object_size);
+  event_text_ = &file_.make_growing_texts("/events/text", kTextSize);
+}
+
+void ResultsWriter::add(const Event& event) {
+  file_.append(*event_time_, std::vector{event.time});
+  file_.append_text(*event_kind_, event.kind);
+  file_.append_text(*event_object_, event.object);
+  file_.append_text(*event_text_, event.text);
+  ++extent_.events;
+}
+
+void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent& extent) {
+  const support::Hdf5Reader& earlier = partial.file();
+  for (const Series& series : series_) {
+    for (std::size_t row = 0; row < extent.rows; row += kRowsAtOnce) {
+      file_.append(*series.dataset,
+                   earlier.real_rows(series.name, row, std::min(kRowsAtOnce, extent.rows - row)));
+    }
   }
-  file_.write("/events/time", times, "s");
-  file_.write("/events/kind", kinds);
-  file_.write("/events/object", objects);
-  file_.write("/events/text", texts);
+  extent_.rows = extent.rows;
+  for (const Event& event : partial.read_events(extent.events)) add(event);
+}
+
+void ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics) {
+  write_summary(statistics, checkpoint.statistics);
+  const std::string bytes = pack_run_state(checkpoint, extent_, statistics);
+  file_.checkpoint(std::string(kCheckpointDataset),
+                   std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+  has_checkpoint_ = true;
+}
+
+void ResultsWriter::write_summary(const RunStatistics& statistics, const TransientStatistics& transient) {
+  write_results_summary(file_, statistics, transient);
 }
 
 void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient) {
-  write_events();
-  write_results_summary(file_, statistics, transient);
+  write_summary(statistics, transient);
+  if (has_checkpoint_) file_.remove(std::string(kCheckpointDataset));
   file_.attribute("/", "complete", std::int64_t{1});
   file_.commit();
 }
 
 std::filesystem::path ResultsWriter::abandon() {
-  write_events();
   file_.keep_partial();
   return file_.partial();
 }

@@ -39,28 +39,44 @@ struct ResultsHeader {
 /// Root attribute `format` of a results file.
 inline constexpr std::string_view kResultsFormat = "sprung-results";
 
+class PartialResults;
+
+/// How much a results file holds.
+struct ResultsExtent {
+  std::size_t rows = 0;  ///< of each time history
+  std::size_t events = 0;
+};
+
 /// Writes the results file during a run (dynamics/output/results.md). Its name is NAME.partial.h5 until the
-/// run is complete. Checked by tests/dynamics/program/output_test.py
+/// run is complete. Checked by tests/dynamics/program/output_test.py, resume_test.py
 class ResultsWriter {
  public:
   /// @throws support::InputError if the file cannot be written
   ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header);
 
-  void add(const Snapshot& snapshot);
-  void add(const Event& event) { events_.push_back(event); }
+  /// Takes over what a partial file of the same run holds, before anything is added.
+  /// @throws support::InputError if it holds less than `extent`, or is damaged
+  void take_over(const PartialResults& partial, const ResultsExtent& extent);
 
-  /// What has been added can be read from here on under the partial name, even if the program is killed; the
-  /// events come at the end only.
-  void checkpoint() { file_.checkpoint(); }
+  void add(const Snapshot& snapshot);
+  void add(const Event& event);
+
+  /// What has been added can be read from here on under the partial name, even if the program is killed, with
+  /// the summary up to the checkpoint and all that the run needs to continue from it.
+  void write_checkpoint(const Checkpoint& checkpoint, const RunStatistics& statistics);
+  /// Writes the summary of what has been added, or writes it anew.
+  void write_summary(const RunStatistics& statistics, const TransientStatistics& transient);
 
   /// Writes the summary and gives the file its final name.
   void finish(const RunStatistics& statistics, const TransientStatistics& transient);
-  /// Closes the file under its partial name. @return that name
+  /// Closes the file under its partial name, with the last checkpoint. @return that name
   std::filesystem::path abandon();
+  const std::filesystem::path& partial() const { return file_.partial(); }
 
  private:
   // A time history: its dataset, and the function that fills a row.
   struct Series {
+    std::string name;
     support::Hdf5GrowingDataset* dataset;
     std::vector<double> row;
     std::function<void(const Snapshot&, std::vector<double>& row)> fill;
@@ -77,7 +93,7 @@ class ResultsWriter {
   void add_wrench_series(std::size_t force_index);
   void add_neglected_series(const Model& full);
   void add_recovery_series(const Vehicle& vehicle);
-  void write_events();
+  void make_event_datasets(const Model& full);
 
   const Model* model_;
   std::vector<VehiclePoint> points_;  // in the order of the model's markers
@@ -85,7 +101,11 @@ class ResultsWriter {
   std::vector<Series> series_;
   std::vector<std::vector<double>> channels_;  // for each force element, of the present snapshot
   std::vector<Wrench> wrenches_;               // on all markers, by the present force element
-  std::vector<Event> events_;
+  // Of the events.
+  support::Hdf5GrowingDataset *event_time_ = nullptr, *event_kind_ = nullptr, *event_object_ = nullptr,
+                              *event_text_ = nullptr;
+  ResultsExtent extent_;
+  bool has_checkpoint_ = false;
   std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
 };
 

@@ -102,4 +102,30 @@ double RunStatistics::energy_closure() const {
   return largest_change_ > 0.0 ? largest_imbalance_ / largest_change_ : 0.0;
 }
 
+template <class Bytes, class Statistics>
+void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
+  for (auto& point : statistics.points_) {
+    for (auto* sample : {&point.displacement, &point.acceleration}) {
+      bytes.transfer(sample->minimum);
+      bytes.transfer(sample->maximum);
+      bytes.transfer(sample->sum_of_squares);
+    }
+  }
+  bytes.transfer(statistics.num_samples_);
+  bytes.transfer(statistics.constraint_violation_);
+  bytes.transfer(statistics.has_first_);
+  auto& first = statistics.first_;
+  for (auto* energy : {&first.kinetic, &first.strain, &first.gravity, &first.spring}) bytes.transfer(*energy);
+  bytes.transfer(statistics.largest_imbalance_);
+  bytes.transfer(statistics.largest_change_);
+}
+
+void RunStatistics::save(support::ByteWriter& bytes) const {
+  transfer(bytes, *this);
+}
+
+void RunStatistics::restore(support::ByteReader& bytes) {
+  transfer(bytes, *this);
+}
+
 }  // namespace sprung::dynamics

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/simulation/transient.h"
+#include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
 
@@ -41,6 +42,10 @@ class RunStatistics {
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
 
+  /// What has been added so far, as bytes and back into statistics of the same model and points.
+  void save(support::ByteWriter& bytes) const;
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
  private:
   struct Accumulator {
     double minimum = std::numeric_limits<double>::infinity();
@@ -54,6 +59,9 @@ class RunStatistics {
     double reference_height;
     Accumulator displacement, acceleration;
   };
+
+  template <class Bytes, class Statistics>
+  static void transfer(Bytes& bytes, Statistics& statistics);
 
   const Model* model_;
   double from_, to_;

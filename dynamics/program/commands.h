@@ -9,6 +9,7 @@ namespace sprung::dynamics {
 /// Options of a command about its output.
 struct RunOutput {
   std::filesystem::path results;  ///< file to write; none if empty
+  bool resume = false;            ///< continues from the partial file of the same run
   bool dry_run = false;           ///< prints the model and runs nothing
   bool json = false;              ///< prints JSON on standard output in place of tables
 };

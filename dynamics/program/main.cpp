@@ -50,6 +50,10 @@ int run(int argc, char** argv) {
   CLI::App* run = app.add_subcommand("run", "static equilibrium, then the run; writes results and a summary");
   add_input_options(*run, request, output);
   add_output_option(*run, output, "results file");
+  run->add_flag(
+      "--resume", output.resume,
+      "continues a run that was interrupted or killed from the last checkpoint in NAME.partial.h5; the "
+      "results are those of a run without interruption");
   run->add_flag("--dry-run", output.dry_run,
                 "prints what would be run: bodies, modes, joints, freedoms and equilibrium; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");

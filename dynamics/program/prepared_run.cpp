@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "dynamics/output/last_state.h"
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/road/flat_road.h"
 
@@ -145,10 +146,26 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   return prepared.equilibrium->q;
 }
 
+// The last state of an earlier run, at its time.
+State find_continued_start(const PreparedRun& prepared) {
+  const Run& run = prepared.run;
+  State start = read_last_state(run.continue_from, prepared.model);
+  const auto expect_after_start = [&](const char* what, double time) {
+    if (time > start.time + 1e-9 * run.duration) return;
+    throw support::InputError(run.continue_location,
+                              fmt::format("{} ends at {:.9g} s, {} must be later, got {:.9g} s",
+                                          run.continue_from.string(), start.time, what, time));
+  };
+  expect_after_start("'duration'", run.duration);
+  expect_after_start("'statistics.to'", run.statistics_to);
+  return start;
+}
+
 // Sets the positions and velocities at the start of the model on its road.
 State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Model& model = prepared.model;
+  if (!run.continue_from.empty()) return find_continued_start(prepared);
   if (!run.initial.empty()) {
     add_initial_amplitudes(run, model, q);
     assemble_positions(model, q);

@@ -1,17 +1,21 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/choice_report.h"
+#include "dynamics/output/partial_results.h"
 #include "dynamics/output/results_writer.h"
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
 #include "dynamics/simulation/transient.h"
+#include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/files/bytes.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/program.h"
 #include "tools/support/terminal/progress_bar.h"
@@ -20,12 +24,19 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Steps and outputs, times coordinates, between two checkpoints: the model's own measure of time, so that
-// equal runs have equal checkpoints.
-constexpr double kWorkBetweenCheckpoints = 2e6;
+// Between two checkpoints, in steps and outputs and not in seconds, so that equal runs have equal
+// checkpoints: about a second of computing, and for large models so many steps that the restart costs little.
+constexpr long kCoordinatesBetweenCheckpoints = 2'000'000;
+constexpr long kStepsBetweenCheckpoints = 2'000;
 
-TransientOptions make_options(const Run& run) {
+long find_checkpoint_interval(const Model& model) {
+  return std::max(kStepsBetweenCheckpoints,
+                  kCoordinatesBetweenCheckpoints / std::max(model.num_coordinates, 1));
+}
+
+TransientOptions make_options(const Run& run, const Model& model) {
   TransientOptions options;
+  options.checkpoint_interval = find_checkpoint_interval(model);
   options.end_time = run.duration;
   options.output_step = run.output_step;
   options.largest_step = run.integrator.largest_step;
@@ -39,13 +50,18 @@ constexpr double kAlarmingClosure = 1e-3;  // far above the closure at any usefu
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
   throw support::Interrupted(
-      fmt::format("at t = {:.6g} s; partial results: {}", time, writer->abandon().string()));
+      fmt::format("at t = {:.6g} s; partial results: {}; to continue, run again with --resume", time,
+                  writer->abandon().string()));
 }
 
 void print_description(const PreparedRun& prepared) {
   fmt::print("{}", describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
                                 prepared.initial_velocities,
                                 prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+  if (!prepared.run.continue_from.empty()) {
+    fmt::print("Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
+               prepared.start.time);
+  }
   if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
 }
 
@@ -68,58 +84,91 @@ bool check_energy_balance(double closure) {
   return false;
 }
 
-std::unique_ptr<ResultsWriter> make_writer(const PreparedRun& prepared, const RunRequest& request,
-                                           const std::filesystem::path& path,
-                                           const std::optional<AdaptivityOptions>& adaptivity) {
-  if (path.empty()) return nullptr;
+ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request,
+                          const std::optional<AdaptivityOptions>& adaptivity) {
   std::vector<VehicleMode> modes;
   if (prepared.equilibrium && prepared.equilibrium->stable)
     modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
-  return std::make_unique<ResultsWriter>(
-      path,
-      ResultsHeader{prepared.run, prepared.vehicle, prepared.model, prepared.placed_road, prepared.start,
-                    request.overrides, prepared.equilibrium ? &*prepared.equilibrium : nullptr,
-                    std::move(modes), prepared.output_points, adaptivity ? &*adaptivity : nullptr,
-                    prepared.choice ? &*prepared.choice : nullptr});
+  return {prepared.run,
+          prepared.vehicle,
+          prepared.model,
+          prepared.placed_road,
+          prepared.start,
+          request.overrides,
+          prepared.equilibrium ? &*prepared.equilibrium : nullptr,
+          std::move(modes),
+          prepared.output_points,
+          adaptivity ? &*adaptivity : nullptr,
+          prepared.choice ? &*prepared.choice : nullptr};
+}
+
+// A run as it is written, and where it begins.
+struct WrittenRun {
+  std::unique_ptr<ResultsWriter> writer;  // none if no results are asked for
+  std::optional<Checkpoint> checkpoint;   // none for a run from its start
+};
+
+// Opens the results; with --resume it takes over those of the partial file, and brings the statistics to its
+// last checkpoint. The partial file stays as it is until the new one holds as much.
+WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, RunStatistics& statistics) {
+  std::optional<PartialResults::RunState> state;
+  // Closed again before the writer looks for other writers.
+  if (output.resume) state = PartialResults(output.results, header).read_state(statistics);
+  WrittenRun run{std::make_unique<ResultsWriter>(output.results, header), std::nullopt};
+  if (!state) return run;
+  run.writer->take_over(PartialResults(output.results, header), state->extent);
+  run.writer->write_checkpoint(state->checkpoint, statistics);
+  run.checkpoint = std::move(state->checkpoint);
+  return run;
+}
+
+void print_resumption(const std::optional<Checkpoint>& checkpoint) {
+  if (checkpoint) {
+    fmt::print("Resumes from the checkpoint at t = {:.6g} s\n", checkpoint->state.time);
+  } else {
+    fmt::print("Resumes from the start: the run was interrupted before its first checkpoint\n");
+  }
 }
 
 // Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
 // that is interrupted or fails leaves a file with the results up to there.
-TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options,
-                              support::ProgressBar& progress, RunStatistics& statistics,
-                              ResultsWriter* writer) {
-  double time_reached = 0.0;
-  double work = 0.0;  // since the last checkpoint
+TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options, const WrittenRun& run,
+                              support::ProgressBar& progress, RunStatistics& statistics) {
+  const double start_time = prepared.start.time;
+  double time_reached = run.checkpoint ? run.checkpoint->state.time : start_time;
+  ResultsWriter* writer = run.writer.get();
   options.on_output = [&](const Snapshot& snapshot) {
-    work += prepared.model.num_coordinates;
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
   };
+  options.on_checkpoint = [&](const Checkpoint& checkpoint) {
+    if (writer) writer->write_checkpoint(checkpoint, statistics);
+  };
   options.on_step = [&](double time) {
     time_reached = time;
-    work += prepared.model.num_coordinates;
-    if (writer && work >= kWorkBetweenCheckpoints) {
-      writer->checkpoint();
-      work = 0.0;
-    }
-    progress.update(time / options.end_time);
+    progress.update((time - start_time) / (options.end_time - start_time));
     return !support::interrupt_requested();
   };
   TransientStatistics transient;
   try {
-    transient = run_transient(prepared.model, prepared.start, options);
+    transient = run.checkpoint ? resume_transient(prepared.model, *run.checkpoint, options)
+                               : run_transient(prepared.model, prepared.start, options);
   } catch (const support::NumericalError& error) {
     progress.finish();
     if (!writer) throw;
     throw support::NumericalError(
         fmt::format("{}; partial results: {}", error.what(), writer->abandon().string()));
+  } catch (const support::DamagedBytes& error) {
+    throw support::InputError({.path = writer->partial().string()},
+                              fmt::format("cannot be resumed: {}; run without --resume", error.what()));
   }
   progress.finish();
-  if (!transient.completed) throw_interrupted(time_reached, writer);
-  return transient;
+  if (transient.completed) return transient;
+  if (writer) writer->write_summary(statistics, transient);
+  throw_interrupted(time_reached, writer);
 }
 
 }  // namespace
@@ -130,6 +179,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
         {.path = output.results.string()},
         "exists and is no results file, so it is not overwritten; move it or name another with -o");
   }
+  if (output.resume && output.results.empty())
+    throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
   if (output.dry_run) {
@@ -140,25 +191,28 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (!output.json && !request.quiet) print_description(prepared);
   warn_of_small_scale(prepared.model.length_scale);
 
-  TransientOptions options = make_options(run);
+  TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
   options.adaptivity = make_adaptivity(prepared, full_model);
-  const auto writer = make_writer(prepared, request, output.results, options.adaptivity);
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
                            run.statistics_to);
+  WrittenRun written;
+  if (!output.results.empty())
+    written = open_results(output, make_header(prepared, request, options.adaptivity), statistics);
+  if (output.resume && !output.json && !request.quiet) print_resumption(written.checkpoint);
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
   const auto start = std::chrono::steady_clock::now();
-  const TransientStatistics transient = integrate(prepared, options, progress, statistics, writer.get());
+  const TransientStatistics transient = integrate(prepared, options, written, progress, statistics);
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (writer) writer->finish(statistics, transient);
+  if (written.writer) written.writer->finish(statistics, transient);
 
-  const RunSummary summary{statistics, transient, run.duration, elapsed,
+  const RunSummary summary{statistics, transient, run.duration - prepared.start.time, elapsed,
                            options.adaptivity ? &*options.adaptivity : nullptr};
   const bool is_trusted = check_energy_balance(statistics.energy_closure());
   fmt::print("{}", output.json ? format_summary_json(prepared.model, summary)
                                : format_summary(prepared.model, summary));
-  if (writer && !output.json) fmt::print("Results: {}\n", output.results.string());
+  if (written.writer && !output.json) fmt::print("Results: {}\n", output.results.string());
   return is_trusted ? support::kGood : support::kCheckFailed;
 }
 

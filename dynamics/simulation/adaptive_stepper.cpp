@@ -25,7 +25,6 @@ AdaptiveStepper::AdaptiveStepper(const SteppingOptions& integrator, ModeMonitor&
 
 void AdaptiveStepper::start(const State& state) {
   segment_ = make_segment(state.time, state.branches);
-  start_time_ = state.time;
 }
 
 // From where the motion is, with the modes that are active.
@@ -88,10 +87,8 @@ SystemStepper::Statistics AdaptiveStepper::statistics() const {
   return all;
 }
 
-double AdaptiveStepper::mean_active_modes() const {
-  const double length = time() - start_time_;
-  if (!(length > 0.0)) return segment_->num_modes;
-  return (active_time_ + segment_->num_modes * (time() - segment_->start)) / length;
+double AdaptiveStepper::active_mode_time() const {
+  return active_time_ + segment_->num_modes * (time() - segment_->start);
 }
 
 Integrator::StepResult AdaptiveStepper::step(double longest_step) {

@@ -26,6 +26,10 @@ class AdaptiveStepper final : public SystemStepper {
   ///                 `changes` = true; has to outlive this
   AdaptiveStepper(const SteppingOptions& integrator, ModeMonitor& monitor, Listener listener);
 
+  std::optional<KnownMotion> small_motion() const override { return segment_->stepper->small_motion(); }
+  void continue_small_motion(const KnownMotion& known) override {
+    segment_->stepper->continue_small_motion(known);
+  }
   void start(const State& state) override;
   void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;
@@ -39,7 +43,9 @@ class AdaptiveStepper final : public SystemStepper {
   Statistics statistics() const override;
 
   long num_changes() const { return num_changes_; }
-  double mean_active_modes() const;  ///< over time
+  double active_mode_time() const;  ///< Σ active modes × time [s]
+  /// Whether the last step was cut at an instant at which modes leave with the next one.
+  bool ends_at_rest() const { return rest_.has_value(); }
 
  private:
   // A part of the run with one set of modes.
@@ -89,7 +95,6 @@ class AdaptiveStepper final : public SystemStepper {
   std::optional<double> rest_;  // where they do, in the last step, which ends there [s]
 
   long num_changes_ = 0;
-  double start_time_ = 0.0;
   double active_time_ = 0.0;  // Σ active modes × time of the segments before
 };
 

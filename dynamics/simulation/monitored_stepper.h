@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "dynamics/adaptivity/mode_monitor.h"
 #include "dynamics/integration/system_stepper.h"
@@ -16,6 +17,8 @@ class MonitoredStepper final : public SystemStepper {
   /// @param monitor  its options have `changes` = false; has to outlive this
   MonitoredStepper(std::unique_ptr<SystemStepper> stepper, const Model& model, ModeMonitor& monitor);
 
+  std::optional<KnownMotion> small_motion() const override { return stepper_->small_motion(); }
+  void continue_small_motion(const KnownMotion& known) override { stepper_->continue_small_motion(known); }
   void start(const State& state) override;
   void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;

@@ -13,6 +13,7 @@
 #include "dynamics/simulation/make_stepper.h"
 #include "dynamics/simulation/monitored_stepper.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
 
@@ -34,51 +35,106 @@ State expand_start(const Model& model, const AdaptivityOptions& options, const S
 
 class TransientRun {
  public:
-  TransientRun(const Model& model, const State& start, const TransientOptions& options) : options_(options) {
+  TransientRun(const Model& model, const TransientOptions& options) : model_(model), options_(options) {}
+
+  TransientStatistics run(const State& start) {
+    reached_.start = reached_.state = start;
+    const double time = start.time;
+    start_stepper();
+    piece().update_branches(stepper_->equations().terms());
+    stepper_->resume(time, smooth_end_);
+    // Modes that join at the very start are there from the first output on.
+    const bool is_settled = !(adaptive_ && time < options_.end_time);
+    if (is_settled) write_outputs(time);
+    if (time < options_.end_time) integrate();
+    return calc_statistics();
+  }
+
+  TransientStatistics resume(const Checkpoint& checkpoint) {
+    reached_ = checkpoint;
+    restart();
+    integrate();
+    return calc_statistics();
+  }
+
+ private:
+  // Makes a stepper that knows nothing but `reached_`, and evaluates there.
+  void start_stepper() {
     const auto on_repartition = [this](double time) {
       report_event({time, "partition", "", "independent coordinates chosen anew"});
     };
-    if (options.adaptivity) {
-      monitor_.emplace(*options.adaptivity, expand_start(model, *options.adaptivity, start));
+    stepper_.reset();
+    if (options_.adaptivity) {
+      monitor_.emplace(*options_.adaptivity, expand_start(model_, *options_.adaptivity, reached_.start));
+      support::ByteReader bytes(reached_.monitor);
+      if (!bytes.at_end()) monitor_->restore(bytes);
+      if (!bytes.at_end()) throw support::DamagedBytes();
     }
-    if (!monitor_ || !options.adaptivity->changes) {
-      stepper_ = make_stepper(model, options.integrator, on_repartition);
-      if (monitor_) stepper_ = std::make_unique<MonitoredStepper>(std::move(stepper_), model, *monitor_);
+    if (!monitor_ || !options_.adaptivity->changes) {
+      stepper_ = make_stepper(model_, options_.integrator, on_repartition);
+      if (monitor_) stepper_ = std::make_unique<MonitoredStepper>(std::move(stepper_), model_, *monitor_);
     } else {
       const auto on_change = [this](double time, int coordinate, const std::string& what) {
         report_event({time, "modes", options_.adaptivity->full->coordinate_name(coordinate), what});
       };
-      auto adaptive = std::make_unique<AdaptiveStepper>(options.integrator, *monitor_,
+      auto adaptive = std::make_unique<AdaptiveStepper>(options_.integrator, *monitor_,
                                                         AdaptiveStepper::Listener{on_repartition, on_change});
       adaptive_ = adaptive.get();
       stepper_ = std::move(adaptive);
     }
-    stepper_->start(start);
-    start_time_ = start.time;
+    const double time = reached_.state.time;
+    stepper_->start(reached_.state);
+    find_end_of_smoothness(time);
+    stepper_->evaluate(time, SystemStepper::Level::kAccelerations);
+    if (reached_.small_motion) stepper_->continue_small_motion(*reached_.small_motion);
   }
 
-  TransientStatistics run() {
-    find_end_of_smoothness(start_time_);
-    stepper_->evaluate(start_time_, SystemStepper::Level::kAccelerations);
-    piece().update_branches(stepper_->equations().terms());
-    stepper_->resume(start_time_, smooth_end_);
-    // Modes that join at the very start are there from the first output on.
-    const bool is_settled = !(adaptive_ && start_time_ < options_.end_time);
-    if (is_settled) write_outputs(start_time_);
-    if (start_time_ < options_.end_time) integrate();
-    statistics_.stepper = stepper_->statistics();
+  void restart() {
+    start_stepper();
+    stepper_->resume(reached_.state.time, smooth_end_);
+  }
+
+  // At the end of a step within a smooth piece. The run continues from the checkpoint as one that is resumed.
+  void make_checkpoint() {
+    const double time = stepper_->time();
+    stepper_->evaluate(time, SystemStepper::Level::kAccelerations);
+    const SystemStepper::Observation now = stepper_->observation();
+    support::ByteWriter monitor;
+    if (monitor_) monitor_->save(monitor);
+    reached_.monitor = monitor.bytes();
+    reached_.small_motion = stepper_->small_motion();
+    reached_.statistics = calc_statistics();
+    reached_.active_mode_time = calc_active_mode_time();
+    reached_.flow = calc_energy_flow();
+    reached_.state = {.time = time, .q = now.q, .v = now.v, .branches = piece().branches()};
+    if (options_.on_checkpoint) options_.on_checkpoint(reached_);
+    restart();
+  }
+
+  SystemStepper::EnergyFlow calc_energy_flow() const {
+    const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
+    return {reached_.flow.dissipated + flow.dissipated, reached_.flow.input + flow.input};
+  }
+
+  double calc_active_mode_time() const {
+    return reached_.active_mode_time + (adaptive_ ? adaptive_->active_mode_time() : 0.0);
+  }
+
+  TransientStatistics calc_statistics() const {
+    TransientStatistics statistics = reached_.statistics;
+    statistics.stepper += stepper_->statistics();
     if (monitor_) {
-      statistics_.mean_active_modes = monitor_->modes().num_active_modes();
-      statistics_.worst_neglect = monitor_->find_worst();
+      statistics.mean_active_modes = monitor_->modes().num_active_modes();
+      statistics.worst_neglect = monitor_->find_worst();
     }
     if (adaptive_) {
-      statistics_.mode_changes = adaptive_->num_changes();
-      statistics_.mean_active_modes = adaptive_->mean_active_modes();
+      statistics.mode_changes += adaptive_->num_changes();
+      const double length = stepper_->time() - reached_.start.time;
+      if (length > 0.0) statistics.mean_active_modes = calc_active_mode_time() / length;
     }
-    return statistics_;
+    return statistics;
   }
 
- private:
   SmoothPiece& piece() { return stepper_->piece(); }
 
   void report_event(const Event& event) const {
@@ -90,6 +146,7 @@ class TransientRun {
       const double longest = std::min(options_.largest_step, stepper_->calc_longest_step());
       const Integrator::StepResult result = stepper_->step(longest);
       const double time = stepper_->time();
+      ++work_;
       write_outputs(time);
       if (options_.on_step && !options_.on_step(time)) return;
       if (result == Integrator::StepResult::kEnded) {
@@ -98,9 +155,12 @@ class TransientRun {
       } else if (result == Integrator::StepResult::kSwitched) {
         count_switch(time);
         continue_from(time);
+      } else if (work_ >= options_.checkpoint_interval && !(adaptive_ && adaptive_->ends_at_rest())) {
+        work_ = 0;
+        make_checkpoint();
       }
     }
-    statistics_.completed = true;
+    reached_.statistics.completed = true;
   }
 
   // Functions of time are smooth from `time` to the next of their breaks, where the integrator has to stop.
@@ -119,32 +179,35 @@ class TransientRun {
   }
 
   void count_switch(double time) {
-    num_in_place_ = time - last_switch_ > kSamePlace ? 0 : num_in_place_ + 1;
-    if (num_in_place_ > kMaxSwitchesInPlace) {
+    reached_.switches_in_place =
+        time - reached_.last_switch > kSamePlace ? 0 : reached_.switches_in_place + 1;
+    if (reached_.switches_in_place > kMaxSwitchesInPlace) {
       throw support::NumericalError(fmt::format(
           "a force switches back and forth without end at t = {:.9g} s; look at tyres and road there", time));
     }
-    last_switch_ = time;
-    ++statistics_.switches;
+    reached_.last_switch = time;
+    ++reached_.statistics.switches;
   }
 
   // Writes every output time up to `time`, which the stepper has reached; the last one exactly at the end.
   void write_outputs(double time) {
     const double tolerance = 1e-9 * options_.output_step;
     while (true) {
-      const double next = start_time_ + static_cast<double>(next_output_) * options_.output_step;
+      const double next =
+          reached_.start.time + static_cast<double>(reached_.next_output) * options_.output_step;
       if (next > options_.end_time + tolerance || next > time + tolerance) return;
       write_output(std::min(next, time));
-      ++next_output_;
+      ++reached_.next_output;
     }
   }
 
   void write_output(double time) {
-    ++statistics_.output_evaluations;
+    ++reached_.statistics.output_evaluations;
+    ++work_;
     stepper_->evaluate(time, SystemStepper::Level::kAllMarkers);
     if (!options_.on_output) return;
     const SystemStepper::Observation now = stepper_->observation();
-    const SystemStepper::EnergyFlow flow = stepper_->energy_flow();
+    const SystemStepper::EnergyFlow flow = calc_energy_flow();
     Energy stored = calc_energy(now.equations.terms(), piece().branches());
     stored.strain += now.held_strain;
     options_.on_output({.time = time,
@@ -157,16 +220,14 @@ class TransientRun {
                         .modes = monitor_ ? &monitor_->modes() : nullptr});
   }
 
+  const Model& model_;
   const TransientOptions& options_;
+  Checkpoint reached_;                  // from which the stepper has started, but its counts are of now
   std::optional<ModeMonitor> monitor_;  // of modes left out, if asked for
   std::unique_ptr<SystemStepper> stepper_;
   const AdaptiveStepper* adaptive_ = nullptr;  // the stepper, where modes change
-  TransientStatistics statistics_;
-  double start_time_ = 0.0;
-  double smooth_end_ = 0.0;  // the next break of a function of time, or the end
-  double last_switch_ = -std::numeric_limits<double>::infinity();
-  int num_in_place_ = 0;
-  long next_output_ = 0;
+  double smooth_end_ = 0.0;                    // the next break of a function of time, or the end
+  long work_ = 0;                              // steps and outputs since the last checkpoint
 };
 
 }  // namespace
@@ -181,7 +242,18 @@ Eigen::Vector2d Snapshot::calc_acceleration(std::size_t marker) const {
 }
 
 TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options) {
-  return TransientRun(model, start, options).run();
+  return TransientRun(model, options).run(start);
+}
+
+TransientStatistics resume_transient(const Model& model, const Checkpoint& checkpoint,
+                                     const TransientOptions& options) {
+  for (const State* state : {&checkpoint.start, &checkpoint.state}) {
+    const bool fits = state->q.size() == model.num_coordinates && state->v.size() == model.num_coordinates &&
+                      state->branches.size() == static_cast<std::size_t>(model.num_branches);
+    if (!fits) throw support::DamagedBytes();
+  }
+  if (checkpoint.monitor.empty() == options.adaptivity.has_value()) throw support::DamagedBytes();
+  return TransientRun(model, options).resume(checkpoint);
 }
 
 }  // namespace sprung::dynamics

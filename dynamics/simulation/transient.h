@@ -10,6 +10,7 @@
 #include "dynamics/adaptivity/mode_monitor.h"
 #include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/system_stepper.h"
+#include "dynamics/simulation/checkpoint.h"
 #include "dynamics/system/energy.h"
 #include "dynamics/system/model.h"
 
@@ -58,20 +59,20 @@ struct TransientOptions {
   std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
   std::function<void(const Event&)> on_event;      ///< may be empty
   std::function<bool(double time)> on_step;        ///< after every step; false stops the run; may be empty
-};
-
-struct TransientStatistics {
-  SystemStepper::Statistics stepper;
-  long output_evaluations = 0;  ///< of the equations, for the outputs
-  long switches = 0;
-  long mode_changes = 0;
-  double mean_active_modes = 0.0;  ///< over time
-  WorstNeglect worst_neglect;      ///< where adaptivity was asked for
-  bool completed = false;          ///< false: stopped by on_step
+  /// Steps and outputs between two checkpoints. Each restarts the integrator (simulation, "Checkpoints").
+  long checkpoint_interval = std::numeric_limits<long>::max();
+  std::function<void(const Checkpoint&)> on_checkpoint;  ///< may be empty
 };
 
 /// Runs a state forward in time. The state has to satisfy the constraints; its branches are chosen here.
 /// @throws support::NumericalError with the time at which it could not go on
 TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options);
+
+/// Continues a run from one of its checkpoints: outputs, events, checkpoints and statistics are those of the
+/// run that made it, bit by bit.
+/// @param model, options  of that run
+/// @throws support::DamagedBytes if the checkpoint is of another model
+TransientStatistics resume_transient(const Model& model, const Checkpoint& checkpoint,
+                                     const TransientOptions& options);
 
 }  // namespace sprung::dynamics

@@ -81,12 +81,12 @@ void ExponentialIntegrator::start(double time, std::span<const double> y, double
 
 // Any pairs are right: the drive holds all of the accelerations that they leave out.
 void ExponentialIntegrator::linearise() {
-  SmallMotion motion;
-  if (!system_.calc_small_motion(time_, y(), motion)) {
+  if (!system_.calc_small_motion(time_, y(), small_motion_)) {
     const Eigen::Index f = system_.num_freedoms();
-    motion = {Eigen::MatrixXd::Identity(f, f), Eigen::MatrixXd::Zero(f, f), Eigen::MatrixXd::Zero(f, f)};
+    small_motion_ = {Eigen::MatrixXd::Identity(f, f), Eigen::MatrixXd::Zero(f, f),
+                     Eigen::MatrixXd::Zero(f, f)};
   }
-  coordinates_.update(motion, y_);
+  coordinates_.update(small_motion_, y_);
   switches_.forget_propagators();
   propagator_length_ = 0.0;
   version_ = system_.coordinate_version();

@@ -29,6 +29,7 @@ class ExponentialIntegrator final : public Integrator {
   std::span<const double> y() const override { return {y_.data(), static_cast<std::size_t>(y_.size())}; }
   void interpolate(double time, std::span<double> y) const override;
   Statistics statistics() const override { return statistics_; }
+  const SmallMotion* small_motion() const override { return wants_linearisation_ ? nullptr : &small_motion_; }
 
  private:
   static constexpr int kNumNodes = lobatto::kNumNodes;
@@ -52,6 +53,7 @@ class ExponentialIntegrator final : public Integrator {
   double tolerance_;
   Statistics statistics_;
 
+  SmallMotion small_motion_;
   PairCoordinates coordinates_;
   int version_ = 0;  // of the coordinates in y that the pairs are for
   bool wants_linearisation_ = true;

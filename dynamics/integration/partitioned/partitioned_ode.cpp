@@ -61,6 +61,25 @@ State PartitionedOde::make_state(double time, std::span<const double> y) {
           .fading = equations_.terms().fading_forces()};
 }
 
+void PartitionedOde::continue_small_motion(const KnownMotion& known) {
+  const Eigen::Index f = num_freedoms();
+  const std::vector<int>& indices = known.independent;
+  const auto is_square = [f](const Eigen::MatrixXd& matrix) {
+    return matrix.rows() == f && matrix.cols() == f;
+  };
+  const bool fits = static_cast<Eigen::Index>(indices.size()) == f && is_square(known.motion.mass) &&
+                    is_square(known.motion.damping) && is_square(known.motion.stiffness) &&
+                    std::all_of(indices.begin(), indices.end(),
+                                [&](int i) { return i >= 0 && i < model_->num_coordinates; });
+  if (!fits) return;
+  known_ = known;
+  if (indices == equations_.partition().independent) return;
+  const Eigen::MatrixXd T = equations_.calc_directions()(indices, Eigen::all);
+  known_->independent = equations_.partition().independent;
+  for (Eigen::MatrixXd* matrix : {&known_->motion.mass, &known_->motion.damping, &known_->motion.stiffness})
+    *matrix = T.transpose() * *matrix * T;
+}
+
 // The motion that was set; without one, by differences of the accelerations at the branches that hold:
 // M δq̈ = −C δv − K δq.
 bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {

@@ -27,6 +27,9 @@ class PartitionedOde final : public OdeSystem {
 
   /// Small motion that `calc_small_motion` gives when it is called first, if the partition is the same.
   void set_small_motion(KnownMotion known) { known_ = std::move(known); }
+  /// Likewise, in any independent coordinates: it is transformed to those of the partition, at the motion
+  /// evaluated last. One that does not fit the model is ignored.
+  void continue_small_motion(const KnownMotion& known);
 
   /// Brings positions and velocities of `equations()` to y.
   /// @throws support::NumericalError if the constraints cannot be satisfied

@@ -19,6 +19,12 @@ PartitionedStepper::PartitionedStepper(const Model& model, const Integrator::Opt
                                        std::function<void(double)> on_repartition)
     : ode_(model), integrator_(make_integrator(ode_, options)), on_repartition_(std::move(on_repartition)) {}
 
+std::optional<KnownMotion> PartitionedStepper::small_motion() const {
+  const SmallMotion* motion = integrator_->small_motion();
+  if (motion == nullptr) return std::nullopt;
+  return KnownMotion{ode_.equations().partition().independent, *motion};
+}
+
 void PartitionedStepper::start(const State& state) {
   ode_.set_state(state, 0.0, 0.0);
   y_.assign(ode_.y().begin(), ode_.y().end());

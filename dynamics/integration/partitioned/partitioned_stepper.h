@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ class PartitionedStepper final : public SystemStepper {
                      std::function<void(double time)> on_repartition);
 
   void set_small_motion(KnownMotion known) override { ode_.set_small_motion(std::move(known)); }
+  void continue_small_motion(const KnownMotion& known) override { ode_.continue_small_motion(known); }
+  std::optional<KnownMotion> small_motion() const override;
   void start(const State& state) override;
   void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;

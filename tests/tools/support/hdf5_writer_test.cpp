@@ -131,6 +131,80 @@ TEST_CASE("what was written up to a checkpoint can be read after the program was
   for (int i = 0; i < 30; ++i) CHECK(reader.reals(fmt::format("t{}", i), {3002})[3001] == 6002.0);
 }
 
+TEST_CASE("the bytes of a checkpoint are those of the last one, whenever the program is killed") {
+  const TemporaryFolder folder;
+  const int kill_at = GENERATE(3000, 3700);  // right behind a checkpoint, and after more rows
+  const ChildResult result = run_in_child([&] {
+    Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
+    Hdf5GrowingDataset& t = writer.make_growing("t", 0, "s");
+    for (int row = 1; row <= kill_at; ++row) {
+      writer.append(t, std::vector{1.0 * row});
+      const std::vector<std::uint8_t> bytes(static_cast<std::size_t>(row),
+                                            static_cast<std::uint8_t>(row / 500));
+      if (row % 500 == 0) writer.checkpoint("state/bytes", bytes);
+    }
+    return ::raise(SIGKILL);
+  });
+  CHECK(result.signal == SIGKILL);
+  const Hdf5Reader reader(folder / "run.partial.h5");
+  const std::int64_t rows = kill_at - kill_at % 500;
+  CHECK(reader.reals("t", {rows}).back() == static_cast<double>(rows));
+  const std::vector<std::int64_t> expected(static_cast<std::size_t>(rows), rows / 500);
+  CHECK(reader.integers("state/bytes", {-1}) == expected);
+  CHECK_FALSE(reader.has("state/bytes.next"));
+}
+
+TEST_CASE("what was removed is not in the file, and can be written again") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("group/x", kValues, "m");
+    writer.write("group/y", kValues, "m");
+    writer.remove("group");
+    writer.write("/group/y", std::span(kValues).first(1), "m");
+    CHECK_THROWS_AS(writer.remove("nothing"), InputError);
+    writer.commit();
+  }
+  const Hdf5Reader reader(folder / "a.h5");
+  CHECK_FALSE(reader.has("group/x"));
+  CHECK(reader.shape("group/y") == std::vector<std::int64_t>{1});
+}
+
+TEST_CASE("texts grow row by row, and what is too long is cut between two characters") {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    Hdf5GrowingDataset& texts = writer.make_growing_texts("texts", 7);
+    for (int row = 0; row < 200; ++row) writer.append_text(texts, fmt::format("{}", row));
+    writer.append_text(texts, "");
+    writer.append_text(texts, "1234567é9");  // the space is of 8 bytes, é takes two
+    writer.append_text(texts, "123456é9");
+    writer.commit();
+  }
+  const std::vector<std::string> texts = Hdf5Reader(folder / "a.h5").strings("texts", {203});
+  for (std::size_t row = 0; row < 200; ++row) CHECK(texts[row] == fmt::format("{}", row));
+  CHECK(texts[200].empty());
+  CHECK(texts[201] == "1234567");
+  CHECK(texts[202] == "123456é");
+}
+
+TEST_CASE("rows are read from anywhere in a dataset, and no more than there are") {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a.h5").string();
+  {
+    Hdf5Writer writer(path);
+    Hdf5GrowingDataset& pairs = writer.make_growing("pairs", 2, "m");
+    for (int row = 0; row < 3000; ++row) writer.append(pairs, std::vector{1.0 * row, -1.0 * row});
+    writer.commit();
+  }
+  const Hdf5Reader reader(path);
+  CHECK(reader.real_rows("pairs", 1023, 2) == std::vector{1023.0, -1023.0, 1024.0, -1024.0});
+  CHECK(reader.real_rows("pairs", 2999, 1) == std::vector{2999.0, -2999.0});
+  CHECK(reader.real_rows("pairs", 3000, 0).empty());
+  CHECK(error_message<InputError>([&] { reader.real_rows("pairs", 2999, 2); }) ==
+        path + ": error: dataset 'pairs' must have at least 3001 rows, has 3000");
+}
+
 TEST_CASE("a checkpoint does not change the bytes of the file that is whole in the end") {
   const TemporaryFolder folder;
   for (const int every : {100000, 700}) {

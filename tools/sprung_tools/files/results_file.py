@@ -59,7 +59,10 @@ class ResultsFile:
         self.file = file
         self.path: str = file.filename
         if file.attribute("", "complete", int, 0) != 1:
-            raise InputError(f"{self.path}: error: the run that wrote this file did not finish (complete = 0)")
+            raise InputError(
+                f"{self.path}: error: the run that wrote this file did not finish (complete = 0); "
+                "sprung-dynamics run --resume completes it"
+            )
         self.time, _ = read_numbers(file, "time")
         if self.time.ndim != 1 or self.time.size < 2 or np.any(np.diff(self.time) <= 0):
             raise InputError(f"{self.path}: error: dataset 'time' must be two or more increasing values")

@@ -10,8 +10,8 @@
 
 namespace sprung::support {
 
-/// A dataset of doubles to which rows are appended. It stays open and is written in whole chunks. Only
-/// Hdf5Writer uses it. Failures of HDF5 are thrown as hdf5::Failure.
+/// A dataset of doubles or of texts to which rows are appended. It stays open and is written in whole chunks.
+/// Only Hdf5Writer uses it. Failures of HDF5 are thrown as hdf5::Failure.
 class Hdf5GrowingDataset {
  public:
   /// @param parent   file or group identifier
@@ -19,18 +19,22 @@ class Hdf5GrowingDataset {
   /// @param columns  0 for rank 1
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns,
                      std::string_view unit);
+  /// A dataset of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
+  Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t text_size);
 
   /// @throws std::invalid_argument if the values are not whole rows
   void append(std::span<const double> values);
+  void append_text(std::string_view text);  ///< to a dataset of texts, UTF-8
   void write_pending();  ///< writes the rows of a chunk that is not full yet; more rows may follow
 
  private:
-  std::size_t row_size() const { return columns_ == 0 ? 1 : columns_; }
   void append_row(const double* values);
+  void finish_row();
   void write_chunk();
 
   std::string path_;
-  std::size_t columns_;
+  std::size_t columns_;   // of the dataset, 0 for rank 1
+  std::size_t row_size_;  // doubles, or as much space for a text
   std::size_t chunk_rows_;
   std::size_t rows_before_ = 0;  // in earlier chunks
   std::size_t filled_ = 0;       // values in the present chunk

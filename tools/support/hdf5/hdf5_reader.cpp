@@ -65,6 +65,15 @@ std::vector<double> Hdf5Reader::reals(const std::string& dataset,
   });
 }
 
+std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_t first,
+                                          std::size_t count) const {
+  return attempt([&] {
+    hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    stored.select_rows(first, count);
+    return stored.read_doubles();
+  });
+}
+
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
                                                const std::vector<std::int64_t>& shape) const {
   return attempt([&] {

@@ -27,6 +27,8 @@ class Hdf5Reader {
   std::vector<std::int64_t> integers(const std::string& dataset,
                                      const std::vector<std::int64_t>& shape) const;
   std::vector<std::string> strings(const std::string& dataset, const std::vector<std::int64_t>& shape) const;
+  /// Rows first to first + count − 1 of a dataset of any rank ≥ 1.
+  std::vector<double> real_rows(const std::string& dataset, std::size_t first, std::size_t count) const;
 
   /// Attributes of a group or dataset; "/" for the file itself.
   bool has_attribute(const std::string& object, const std::string& name) const;

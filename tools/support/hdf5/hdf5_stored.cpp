@@ -116,10 +116,10 @@ StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::ui
     : label_(fmt::format("dataset '{}'", path)), dataset_(open_dataset(file, path)) {
   const std::string what = label_ + " cannot be read";
   type_ = own(H5Dget_type(dataset_.get()), H5Tclose, what);
-  const Hdf5Handle space = own(H5Dget_space(dataset_.get()), H5Sclose, what);
-  if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) throw Failure(label_ + " has no values");
-  std::vector<hsize_t> dimensions(check(H5Sget_simple_extent_ndims(space.get()), what));
-  check(H5Sget_simple_extent_dims(space.get(), dimensions.data(), nullptr), what);
+  space_ = own(H5Dget_space(dataset_.get()), H5Sclose, what);
+  if (H5Sget_simple_extent_type(space_.get()) == H5S_NULL) throw Failure(label_ + " has no values");
+  std::vector<hsize_t> dimensions(check(H5Sget_simple_extent_ndims(space_.get()), what));
+  check(H5Sget_simple_extent_dims(space_.get(), dimensions.data(), nullptr), what);
   shape_.assign(dimensions.begin(), dimensions.end());
   check_storage(file_size);
   for (const std::size_t size : shape_) count_ *= size;
@@ -158,9 +158,27 @@ void StoredDataset::expect_shape(std::span<const std::int64_t> expected) const {
                             format_shape(std::span<const std::size_t>(shape_))));
 }
 
-void StoredDataset::read(std::int64_t memory_type, void* values) const {
-  check(H5Dread(dataset_.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+void StoredDataset::select_rows(std::size_t first, std::size_t count) {
+  if (shape_.empty() || count > shape_[0] || first > shape_[0] - count) {
+    throw Failure(fmt::format("{} must have at least {} rows, has {}", label_, first + count,
+                              shape_.empty() ? 0 : shape_[0]));
+  }
+  shape_[0] = count;
+  count_ = 1;
+  for (const std::size_t size : shape_) count_ *= size;
+  std::vector<hsize_t> start(shape_.size(), 0);
+  const std::vector<hsize_t> size(shape_.begin(), shape_.end());
+  start[0] = first;
+  check(H5Sselect_hyperslab(space_.get(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr),
         label_ + " cannot be read");
+}
+
+void StoredDataset::read(std::int64_t memory_type, void* values) const {
+  const std::string what = label_ + " cannot be read";
+  const std::vector<hsize_t> size(shape_.begin(), shape_.end());
+  const Hdf5Handle memory =
+      own(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, what);
+  check(H5Dread(dataset_.get(), memory_type, memory.get(), space_.get(), H5P_DEFAULT, values), what);
 }
 
 std::vector<double> StoredDataset::read_doubles() const {

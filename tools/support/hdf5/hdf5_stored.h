@@ -21,6 +21,8 @@ class StoredDataset {
   const std::vector<std::size_t>& shape() const { return shape_; }
   /// @param expected  -1 accepts any  @throws Failure naming both shapes
   void expect_shape(std::span<const std::int64_t> expected) const;
+  /// From here on only these rows are read, and shape() is theirs. @throws Failure if there are fewer
+  void select_rows(std::size_t first, std::size_t count);
 
   // Row-major. @throws Failure on another type, a checksum that does not fit, NaN or infinity
   std::vector<double> read_doubles() const;
@@ -34,8 +36,9 @@ class StoredDataset {
   std::string label_;  // "dataset '/modes/shape'"
   Hdf5Handle dataset_;
   Hdf5Handle type_;
-  std::vector<std::size_t> shape_;
-  std::size_t count_ = 1;  // values
+  Hdf5Handle space_;                // of the file, with the rows selected
+  std::vector<std::size_t> shape_;  // of what is read
+  std::size_t count_ = 1;           // values
 };
 
 /// A single value attached to a group or dataset.

@@ -8,6 +8,7 @@
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/output_target.h"
+#include "tools/support/hdf5/created_file.h"
 #include "tools/support/hdf5/hdf5_library.h"
 #include "tools/support/hdf5/open_mark.h"
 
@@ -46,51 +47,6 @@ struct Hdf5Writer::Array {
 
 namespace {
 
-// Nothing of the file's structure goes to the disk between two flushes: what an earlier flush has written
-// stays readable until the next.
-void hold_structure_between_flushes(hid_t access) {
-  const std::string_view what = "HDF5's cache cannot be set";
-  H5AC_cache_config_t cache{};
-  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  hdf5::check(H5Pget_mdc_config(access, &cache), what);
-  cache.evictions_enabled = false;
-  cache.incr_mode = H5C_incr__off;
-  cache.flash_incr_mode = H5C_flash_incr__off;
-  cache.decr_mode = H5C_decr__off;
-  hdf5::check(H5Pset_mdc_config(access, &cache), what);
-}
-
-// HDF5 truncates before it takes its lock, so check_temporary has to come first.
-Hdf5Handle create_file(const fs::path& temporary) {
-  const std::string_view what = "cannot be written";
-  const Hdf5Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
-  // Format 1.10: its structure carries checksums too, and other programs have read it since 2016.
-  hdf5::check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), what);
-  hdf5::check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
-  hold_structure_between_flushes(access.get());
-  const Hdf5Handle creation = hdf5::make_properties(H5P_FILE_CREATE);
-  return hdf5::own(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
-}
-
-// Opens an object and removes an older attribute of this name.
-Hdf5Handle open_for_attribute(hid_t file, const std::string& object, const std::string& name) {
-  const std::string what = fmt::format("attribute '{}' of '{}' cannot be written", name, object);
-  Hdf5Handle handle = hdf5::own(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, what);
-  if (hdf5::check(H5Aexists(handle.get(), name.c_str()), what) > 0) {
-    hdf5::check(H5Adelete(handle.get(), name.c_str()), what);
-  }
-  return handle;
-}
-
-void write_scalar_attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type,
-                            const void* value) {
-  const std::string what = fmt::format("attribute '{}' cannot be written", name);
-  const Hdf5Handle space = hdf5::own(H5Screate(H5S_SCALAR), H5Sclose, what);
-  const Hdf5Handle attribute = hdf5::own(
-      H5Acreate2(object, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
-  hdf5::check(H5Awrite(attribute.get(), memory_type, value), what);
-}
-
 // The path in one form, however it was written.
 std::string from_root(const std::string& path) {
   return path.starts_with('/') ? path.substr(1) : path;
@@ -117,7 +73,7 @@ Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
   check_target(target_);
   check_temporary(target_, temporary_);
   if (!partial_.empty()) check_temporary(target_, partial_);
-  attempt([this] { file_ = create_file(temporary_); });
+  attempt([this] { file_ = hdf5::create_file(temporary_); });
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -165,7 +121,8 @@ Hdf5Handle Hdf5Writer::prepare_attribute(const std::string& object, const std::s
   if (object != "/" && !has(object)) {
     throw std::invalid_argument(fmt::format("Hdf5Writer::attribute: there is no '{}'", object));
   }
-  return open_for_attribute(file_.get(), object, name);
+  return hdf5::own(H5Oopen(file_.get(), object.c_str(), H5P_DEFAULT), H5Oclose,
+                   fmt::format("attribute '{}' of '{}' cannot be written", name, object));
 }
 
 void Hdf5Writer::write(const std::string& dataset, const Eigen::MatrixXd& matrix, std::string_view unit) {
@@ -214,6 +171,15 @@ void Hdf5Writer::write(const std::string& dataset, std::span<const std::string> 
   });
 }
 
+void Hdf5Writer::write(const std::string& dataset, std::span<const std::uint8_t> bytes) {
+  write_array(dataset, {.file_type = H5T_STD_U8LE,
+                        .memory_type = H5T_NATIVE_UINT8,
+                        .element_size = 1,
+                        .data = bytes.data(),
+                        .count = bytes.size(),
+                        .shape = {bytes.size()}});
+}
+
 void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
   const hsize_t count =
       std::accumulate(array.shape.begin(), array.shape.end(), hsize_t{1}, std::multiplies<>());
@@ -244,6 +210,7 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   reject_nul(value, name);
   attempt([&] {
     const Hdf5Handle handle = prepare_attribute(object, name);
+    hdf5::remove_attribute(handle.get(), name);
     hdf5::write_string_attribute(handle.get(), name, value);
   });
 }
@@ -251,14 +218,14 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
   attempt([&] {
     const Hdf5Handle handle = prepare_attribute(object, name);
-    write_scalar_attribute(handle.get(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+    hdf5::write_scalar_attribute(handle.get(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
   });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
   attempt([&] {
     const Hdf5Handle handle = prepare_attribute(object, name);
-    write_scalar_attribute(handle.get(), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+    hdf5::write_scalar_attribute(handle.get(), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
   });
 }
 
@@ -269,6 +236,18 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
     growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
   });
   return growing_.at(dataset);
+}
+
+Hdf5GrowingDataset& Hdf5Writer::make_growing_texts(const std::string& dataset, std::size_t text_size) {
+  attempt([&] {
+    prepare_dataset(dataset);
+    growing_.try_emplace(dataset, file_.get(), dataset, text_size);
+  });
+  return growing_.at(dataset);
+}
+
+void Hdf5Writer::append_text(Hdf5GrowingDataset& dataset, std::string_view text) {
+  attempt([&] { dataset.append_text(text); });
 }
 
 void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> values) {
@@ -296,9 +275,33 @@ void Hdf5Writer::move_to(const fs::path& name) {
   name_ = name;
 }
 
-void Hdf5Writer::checkpoint() {
+void Hdf5Writer::remove(const std::string& object) {
+  attempt([&] {
+    hdf5::check(H5Ldelete(file_.get(), object.c_str(), H5P_DEFAULT),
+                fmt::format("'{}' cannot be removed", object));
+  });
+  const std::string path = from_root(object);
+  std::erase_if(objects_, [&](const std::string& one) { return one == path || one.starts_with(path + "/"); });
+}
+
+// The old bytes are removed after all else is written: nothing can be written in their place before the next
+// flush, until which the file on the disk refers to them.
+void Hdf5Writer::replace(const std::string& dataset, std::span<const std::uint8_t> bytes) {
+  const std::string next = dataset + ".next";
+  write(next, bytes);
+  if (has(dataset)) remove(dataset);
+  attempt([&] {
+    hdf5::check(H5Lmove(file_.get(), next.c_str(), H5L_SAME_LOC, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                fmt::format("'{}' cannot be written", dataset));
+  });
+  objects_.erase(from_root(next));
+  objects_.insert(from_root(dataset));
+}
+
+void Hdf5Writer::checkpoint(const std::string& dataset, std::span<const std::uint8_t> bytes) {
   if (partial_.empty()) throw std::invalid_argument("Hdf5Writer::checkpoint: the partial file has no name");
   attempt([this] { write_pending(); });  // what fails here leaves the last checkpoint as it was
+  if (!dataset.empty()) replace(dataset, bytes);
   move_to(temporary_);
   flush();
   attempt([this] { hdf5::clear_open_mark(file_.get()); });

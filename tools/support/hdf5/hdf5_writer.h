@@ -56,9 +56,11 @@ class Hdf5Writer {
   void write(const std::string& dataset, std::span<const std::int64_t> values,
              const std::vector<std::size_t>& shape);
   void write(const std::string& dataset, std::span<const std::string> values);  ///< UTF-8 without NUL, rank 1
+  void write(const std::string& dataset, std::span<const std::uint8_t> bytes);  ///< rank 1
 
   void make_group(const std::string& group);
-  /// Attributes of a group or dataset; "/" for the file itself. An existing attribute is replaced.
+  /// Attributes of a group or dataset; "/" for the file itself. An existing attribute gets the new value, and
+  /// keeps its type if it is a number.
   void attribute(const std::string& object, const std::string& name, std::string_view value);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
@@ -66,14 +68,20 @@ class Hdf5Writer {
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
   /// @return valid until `commit` or `keep_partial`
   Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
+  /// Likewise of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
+  Hdf5GrowingDataset& make_growing_texts(const std::string& dataset, std::size_t text_size);
   /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
+  void append_text(Hdf5GrowingDataset& dataset, std::string_view text);  ///< UTF-8 without NUL
   void flush();  ///< writes all appended rows to the file
 
   /// All that was appended can be read from here on under the partial name, even if the program is killed.
   /// While it goes on writing, the file has the partial name except during the next call: whoever finds a
   /// file of that name finds it readable.
-  void checkpoint();
+  /// @param dataset  where `bytes` are written, in place of those of the last checkpoint; "" for none
+  void checkpoint(const std::string& dataset = {}, std::span<const std::uint8_t> bytes = {});
+
+  void remove(const std::string& object);  ///< a group or dataset that was made before
 
   void commit();        ///< closes, syncs and renames to the target
   void keep_partial();  ///< closes the file and leaves it under the partial name (an interrupted run)
@@ -90,6 +98,7 @@ class Hdf5Writer {
   void prepare_dataset(const std::string& path);
   Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
   void write_pending();
+  void replace(const std::string& dataset, std::span<const std::uint8_t> bytes);
   void move_to(const std::filesystem::path& name);
   void close();
   void abandon() noexcept;

@@ -1,0 +1,85 @@
+#include "dynamics/output/last_state.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "dynamics/output/results_writer.h"
+#include "dynamics/system/system_terms.h"
+#include "tools/support/errors/input_error.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kOpenJoint = 1e-6;  // natural sizes; results are closed to 1e-12
+
+[[noreturn]] void fail(const support::Hdf5Reader& file, const std::string& what) {
+  throw support::InputError({.path = file.path().string()}, what);
+}
+
+// The last row of a time history.
+Eigen::VectorXd read_last_row(const support::Hdf5Reader& file, const std::string& dataset, std::size_t rows,
+                              Eigen::Index size) {
+  const std::vector<double> row = file.real_rows(dataset, rows - 1, 1);
+  if (static_cast<Eigen::Index>(row.size()) != size) {
+    fail(file, fmt::format("dataset '{}' must have {} columns, has {}", dataset, size, row.size()));
+  }
+  return Eigen::Map<const Eigen::VectorXd>(row.data(), size);
+}
+
+void check_modes(const support::Hdf5Reader& file, const Body& body) {
+  const std::string dataset = "/bodies/" + body.name + "/modal/mode_number";
+  std::vector<std::int64_t> found;
+  if (file.has(dataset)) found = file.integers(dataset, {-1});
+  const std::vector<std::int64_t> wanted(body.mode_numbers.begin(), body.mode_numbers.end());
+  if (found == wanted) return;
+  const auto list = [](const std::vector<std::int64_t>& numbers) {
+    return numbers.empty() ? std::string("no modes") : fmt::format("modes {}", fmt::join(numbers, ", "));
+  };
+  fail(file, fmt::format("has {} of body '{}', this run has {}; a run continues with the same modes",
+                         list(found), body.name, list(wanted)));
+}
+
+void check_joints(const support::Hdf5Reader& file, const Model& model, const State& state) {
+  if (model.num_constraints == 0) return;
+  SystemTerms terms(model);
+  terms.update_positions(state.time, state.q);
+  Eigen::VectorXd phi(model.num_constraints);
+  terms.calc_residual(phi);
+  const double open = phi.lpNorm<Eigen::Infinity>();
+  if (open <= kOpenJoint * std::min(1.0, model.length_scale)) return;
+  fail(file, fmt::format("its last positions leave a joint open by {:.3g}: it is of another vehicle", open));
+}
+
+}  // namespace
+
+State read_last_state(const std::filesystem::path& results, const Model& model) {
+  const support::Hdf5Reader file(results);
+  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kResultsFormat)
+    fail(file, "is no results file");
+  const auto rows = static_cast<std::size_t>(file.shape("/time").at(0));
+  if (rows == 0) fail(file, "has no outputs");
+  State state{.time = file.real_rows("/time", rows - 1, 1)[0],
+              .q = Eigen::VectorXd::Zero(model.num_coordinates),
+              .v = Eigen::VectorXd::Zero(model.num_coordinates),
+              .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
+  for (const Body& body : model.bodies) {
+    const std::string group = "/bodies/" + body.name;
+    if (!file.has(group)) fail(file, fmt::format("has no body '{}', which the vehicle has", body.name));
+    check_modes(file, body);
+    const int first = body.first_coordinate, num_modes = body.num_modes();
+    state.q.segment(first, 3) = read_last_row(file, group + "/position", rows, 3);
+    state.v.segment(first, 3) = read_last_row(file, group + "/velocity", rows, 3);
+    if (num_modes == 0) continue;
+    state.q.segment(first + 3, num_modes) = read_last_row(file, group + "/modal/amplitude", rows, num_modes);
+    state.v.segment(first + 3, num_modes) = read_last_row(file, group + "/modal/rate", rows, num_modes);
+  }
+  check_joints(file, model, state);
+  return state;
+}
+
+}  // namespace sprung::dynamics

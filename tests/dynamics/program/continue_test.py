@@ -1,0 +1,67 @@
+#!/usr/bin/python3
+"""Runs that start with the last state of a results file."""
+
+import unittest
+
+import h5py
+import numpy as np
+
+from dynamics_test_case import DynamicsTestCase
+
+TIGHT = ("--quiet", "--set", "integrator.relative_tolerance=1e-9")
+FROM_FIRST = ("--set", 'continue_from="first.h5"')
+
+
+class Continue(DynamicsTestCase):
+    def run_until(self, duration, name, *arguments):
+        return self.run_program(*TIGHT, "--set", f"duration={duration}", *arguments, "-o", name)
+
+    def make_first(self):
+        """The truck up to 0.5 s, when its front wheels have just passed the bump."""
+        process = self.run_until(0.5, "first.h5")
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def test_a_continued_run_agrees_with_one_long_run(self):
+        self.make_first()
+        for name, arguments in (("long.h5", ()), ("second.h5", FROM_FIRST)):
+            process = self.run_until(0.8, name, *arguments)
+            self.assertEqual(process.returncode, 0, process.stderr)
+        with h5py.File(self.folder / "long.h5") as whole, h5py.File(self.folder / "second.h5") as second:
+            np.testing.assert_allclose(second["time"][()], whole["time"][500:], rtol=0, atol=1e-12)
+            self.assertEqual(len(second["time"]), 301)
+            for name in ("bodies/chassis/position", "bodies/chassis/velocity", "bodies/chassis/modal/amplitude",
+                         "bodies/chassis/acceleration", "bodies/front_axle/velocity"):  # fmt: skip
+                expected = whole[name][500:]
+                size = np.abs(whole[name]).max()
+                self.assertGreater(np.abs(expected - expected[0]).max(), 1e-3 * size, name)  # it moves
+                np.testing.assert_allclose(second[name][()], expected, rtol=0, atol=1e-5 * size, err_msg=name)
+            # Displacements refer to the same equilibrium.
+            np.testing.assert_allclose(
+                second["model/equilibrium/bodies/chassis"][()], whole["model/equilibrium/bodies/chassis"][()],
+                rtol=0, atol=1e-9,
+            )  # fmt: skip
+
+    def test_what_does_not_fit_is_refused(self):
+        self.make_first()
+        self.assert_refused(self.run_until(0.5, "b.h5", *FROM_FIRST), "--set 3", "ends at 0.5 s, 'duration' must be")
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST, "--set", "statistics.to=0.4"),
+                            "ends at 0.5 s, 'statistics.to' must be later, got 0.4 s")
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST, "--set", "modes.chassis=4"),
+                            "first.h5: error: has modes 1, 2 of body 'chassis', this run has modes 1, 2, 3, 4;")
+        self.assert_refused(
+            self.run_until(0.8, "b.h5", *FROM_FIRST, "--set", "initial.chassis.angular_velocity=0.1"),
+            "'continue_from'", "and 'initial' exclude each other",
+        )  # fmt: skip
+        self.assert_refused(self.run_until(0.8, "b.h5", "--set", 'continue_from="none.h5"'), "none.h5", "no such file")
+        self.assert_refused(self.run_until(0.8, "b.h5", "--set", 'continue_from="chassis.h5"'), "is no results file")
+        with h5py.File(self.folder / "first.h5", "r+") as file:
+            file["bodies/chassis/position"][-1, 1] += 0.01
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST), "leave a joint open", "of another vehicle")
+        with h5py.File(self.folder / "first.h5", "r+") as file:
+            del file["bodies/chassis/velocity"]
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST), "dataset '/bodies/chassis/velocity' is missing")
+        self.assertFalse((self.folder / "b.h5").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,26 @@
+#pragma once
+
+// Private to this room: the file that Hdf5Writer makes, and its attributes.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "tools/support/hdf5/hdf5_handle.h"
+
+namespace sprung::support::hdf5 {
+
+/// A new file, open for writing. HDF5 truncates before it takes its lock, so check_temporary has to come
+/// first.
+Hdf5Handle create_file(const std::filesystem::path& path);
+
+/// Removes an attribute, if there is one of this name.
+void remove_attribute(std::int64_t object, const std::string& name);
+
+/// Writes an attribute, or another value of an older one of the same type in its place: nothing of what is on
+/// the disk is given up.
+/// @param value  of the memory type
+void write_scalar_attribute(std::int64_t object, const std::string& name, std::int64_t file_type,
+                            std::int64_t memory_type, const void* value);
+
+}  // namespace sprung::support::hdf5
