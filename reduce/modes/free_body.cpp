@@ -32,6 +32,7 @@ ModalProblem make_free_problem(const ModalProblem& held, const RigidMotions& rig
 }
 
 Eigen::MatrixXd balance_loads(const RigidMotions& rigid, const Eigen::MatrixXd& loads) {
+  if (loads.cols() == 0) return Eigen::MatrixXd(loads.rows() - 3, 0);
   const Eigen::MatrixXd acceleration = rigid.mass.llt().solve(rigid.shapes.transpose() * loads);
   return remove_node(Eigen::MatrixXd(loads - rigid.momenta * acceleration), rigid.reference_node);
 }

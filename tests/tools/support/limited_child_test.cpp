@@ -45,7 +45,7 @@ TEST_CASE("Each bad end of a child process is told and harms nothing") {
   CHECK(failure_of([]() -> std::string { ::_exit(0); }) == "library ended without a word");
   CHECK(failure_of(
             []() -> std::string {
-              for (volatile int i = 0; true;) i = i + 1;
+              for (volatile unsigned i = 0; true;) i = i + 1;
             },
             {.processor_seconds = 1}) ==
         "library was stopped, after 1 s of processor time or for want of memory");
