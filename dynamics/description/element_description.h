@@ -25,16 +25,18 @@ struct Parameter {
 enum class Drawing {
   kNone,
   kWheel,   ///< a circle of its parameter `radius` about its first point
-  kSpring,  ///< between its two points
-  kRod,     ///< a line between its two points
-  kPin,     ///< a mark at its first point
+  kSpring,  ///< between its points a and b: a suspension, whose travel is its deflection
+  kRod,     ///< a line between its points a and b
+  kPin,     ///< a mark at its point a
 };
 
 /// The name that a results file uses: "wheel".
 std::string_view drawing_name(Drawing drawing);
 
 /// How a joint, force element or road describes itself, besides its name and kind. Code that writes or draws
-/// a model uses this alone, so a new kind of element needs no change there.
+/// a model uses this alone, so a new kind of element needs no change there. Parameters of these names have a
+/// meaning for the tools: `radius` of a wheel; `compression_stop`, `rebound_stop`, the deflections at which
+/// stops begin.
 /// Checked by tests/dynamics/program/resolved_model_test.py
 struct ElementDescription {
   std::vector<std::string> points;  ///< the role of each of its markers: "a", "b", "wheel"

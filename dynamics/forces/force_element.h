@@ -87,19 +87,23 @@ class ForceElement {
   }
 
   virtual int num_branches() const { return 0; }
+  /// @param[in,out] branches  those in use, all 0 at the start of a run. A branch stays in use up to half a
+  /// dead band beyond its end, so that rounding does not switch it back and forth.
   virtual void choose_branches(const Instant& /*instant*/, std::span<int> /*branches*/) const {}
   virtual int num_switches() const { return 0; }
-  /// @param[out] values  positive while the branches hold, negative beyond; smooth in time
+  /// @param[out] values  positive while the branches hold, zero a dead band beyond their end, then negative;
+  /// smooth in time; 1 for a switch that is not in use
   virtual void calc_switches(const Instant& /*instant*/, std::span<const int> /*branches*/,
                              std::span<double> /*values*/) const {}
   /// What a change of branches means, for the list of events: "touches the ground"; "" if it is not an event
-  /// for that list.
+  /// for that list, such as a stop that is reached.
   virtual std::string describe_change(std::span<const int> /*old_branches*/,
                                       std::span<const int> /*new_branches*/) const {
     return {};
   }
 
-  /// Longest step that cannot pass over a change of the force unseen, as far as the element knows [s].
+  /// Longest step that cannot pass over a change of the force unseen, as far as the element knows [s]: for an
+  /// element on a road, or with a function of time. Switch functions are watched without it.
   virtual double calc_longest_step(const Instant& /*instant*/) const {
     return std::numeric_limits<double>::infinity();
   }
@@ -122,6 +126,7 @@ class ForceElement {
   virtual std::vector<const TimeFunction*> time_functions() const { return {}; }
 
   virtual std::span<const Channel> channels() const = 0;
+  /// @param branches  of the element, as for add_wrenches
   virtual void calc_channels(const Instant& instant, std::span<const int> branches,
                              std::span<double> values) const = 0;
 

@@ -125,7 +125,9 @@ def _find_home(file, readmes):
 def _find_wrong_numbers(readme):
     for expected, number in enumerate(readme.numbers, start=1):
         if number != str(expected):
-            yield f"{readme.file}:1: error: equation ({number}) stands where ({expected}) should"
+            hint = "new equations go to the end, or those behind them get new numbers"
+            yield f"{readme.file}:1: error: equation ({number}) stands where ({expected}) should; {hint}"
+            return
 
 
 def _find_wrong_citations(file, prose, readmes):

@@ -99,7 +99,8 @@ class TheCheck(ToolTestCase):
         self.assertEqual([line.partition("error: ")[2] for line in find_mistakes(self.folder)], expected)
 
     def test_gaps_repeats_and_letters_in_the_numbers_are_found(self):
-        wrong = "equation ({}) stands where ({}) should".format
+        hint = "; new equations go to the end, or those behind them get new numbers"
+        wrong = ("equation ({}) stands where ({}) should" + hint).format
         self.assert_readme("… " + " " * 59 + "(2)", "…  (2)\n    a = b  (4)", [wrong(4, 3)])
         self.assert_readme("… " + " " * 59 + "(2)", "…  (2)\n    a = b  (2)", [wrong(2, 3)])
         self.assert_readme("… " + " " * 59 + "(2)", "…  (2)\n    a = b  (2a)", [wrong("2a", 3)])

@@ -194,16 +194,19 @@ TEST_CASE("Points are given by nodes on superelements, and by positions elsewher
         "cart.toml:11:24: error: unknown key 'ofset' in 'bodies.frame.points.seat' (did you mean 'offset'?)");
 }
 
-TEST_CASE("A joint joins two bodies, and a kind that is not known is refused") {
+TEST_CASE("A joint joins two bodies") {
   CHECK(error_of_cart("a = \"frame.right\"", "a = \"arm.tip\"") ==
         "cart.toml:28:5: error: joint 'hinge' must join two bodies, 'arm.tip' and 'arm.root' are both on "
         "'arm'");
-  CHECK(error_of_cart("type = \"revolute\"", "type = \"revolut\"") ==
-        "cart.toml:26:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
-        "\"distance\", \"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
-  CHECK(error_of_cart("type = \"tyre\"", "type = \"tire\"") ==
-        "cart.toml:44:8: error: 'forces.1.type' must be one of \"spring-damper\", "
-        "\"rotational-spring-damper\", \"applied\", \"tyre\"; got a string \"tire\" (did you mean 'tyre'?)");
+}
+
+TEST_CASE("A kind of joint or force that is not known is refused") {
+  CHECK_THAT(error_of_cart("type = \"revolute\"", "type = \"revolut\""),
+             Contains("cart.toml:26:8: error: 'joints.0.type' must be one of \"revolute\", ") &&
+                 Contains("; got a string \"revolut\" (did you mean 'revolute'?)"));
+  CHECK_THAT(error_of_cart("type = \"tyre\"", "type = \"tire\""),
+             Contains("cart.toml:44:8: error: 'forces.1.type' must be one of \"spring-damper\", ") &&
+                 Contains("; got a string \"tire\" (did you mean 'tyre'?)"));
 }
 
 TEST_CASE("A force along a line of no length is refused") {
