@@ -22,7 +22,7 @@ struct MassMoments {
   double rotary = 0.0;                                     ///< ∫ρI ds + Σ inertias [kg·m²]
 
   // 3N each; entries at displacements in kg (kg·m with a factor x or y), at rotations one metre more.
-  Eigen::VectorXd N_x, N_y;                    ///< ∫N_x dm, ∫N_y dm
+  Eigen::VectorXd N_x, N_y;  ///< ∫N_x dm, ∫N_y dm: at a node's x, y the mass lumped there
   Eigen::VectorXd x_N_x, x_N_y, y_N_x, y_N_y;  ///< ∫x N_x dm …
   Eigen::VectorXd rotary_N;                    ///< ∫ρI N_ψ ds + Σ inertias · N_ψ
 

@@ -38,8 +38,8 @@ Design read_design(const std::filesystem::path& path);
 /// @throws support::InputError if it cannot be read
 std::string calc_file_hash(const std::filesystem::path& path);
 
-/// Increased whenever the same design gives other numbers than before. Files of an earlier revision are made
-/// again.
+/// Increased whenever the same design gives another file than before: other numbers, or a new dataset.
+/// `build` makes files of an earlier revision again; it takes all others as up to date.
 inline constexpr std::int64_t kAlgorithmRevision = 3;
 
 }  // namespace sprung::reduce

@@ -5,11 +5,11 @@ import unittest
 import h5py
 import numpy as np
 from synthetic_results import CIRCULAR, HEAVE, STATIC_HEIGHT, write_results
-from tool_test_case import ToolTestCase
+from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results, parse_quantity
-from sprung_tools.files.hdf5_file import read_real, read_texts
+from sprung_tools.files.hdf5_file import NEWEST_VERSIONS, SUPERELEMENT, open_hdf5, read_real, read_texts
 
 
 class Reading(ToolTestCase):
@@ -125,6 +125,12 @@ class Refusing(ToolTestCase):
             self.changed(lambda file: file.attrs.modify("version", 3)),
             "version 3 of sprung-results; this tool",
         )
+
+    def test_the_tools_read_superelements_of_every_stored_version(self):
+        stored = sorted((ROOT / "tests/reduce/data").glob("version_*.h5"))
+        self.assertEqual(len(stored), NEWEST_VERSIONS[SUPERELEMENT], "raise NEWEST_VERSIONS in hdf5_file.py")
+        for path in stored:
+            open_hdf5(path, SUPERELEMENT).close()
 
     def test_a_run_that_did_not_finish(self):
         self.assert_error(

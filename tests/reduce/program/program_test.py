@@ -72,7 +72,20 @@ class Program(ReduceTestCase):
         self.assertEqual(self.read("long_arm.h5"), arm)
         self.assertIn("up to date", self.build("chassis.toml").stdout)
 
-    def test_a_changed_mesh_file_or_algorithm_is_noticed(self):
+    def test_a_file_of_an_earlier_algorithm_is_made_again(self):
+        for version in (1, 2):
+            with self.subTest(version=version):
+                stored = SOURCE / f"tests/reduce/data/version_{version}.h5"
+                with h5py.File(stored) as file:
+                    design = file["provenance/design_text"][0]
+                (self.folder / "out").mkdir(exist_ok=True)
+                (self.folder / stored.name).with_suffix(".toml").write_bytes(design)
+                shutil.copy(stored, self.folder / "out" / stored.name)
+                result = self.build(f"version_{version}.toml")
+                self.assertRegex(result.stdout, rf"\(algorithm revision \d+ instead of {version}\)")
+                self.assertIn("up to date", self.build(f"version_{version}.toml").stdout)
+
+    def test_a_changed_mesh_file_is_noticed(self):
         self.build("ladder_frame.toml")
         self.change("ladder_frame.geo", "height = 0.8", "height = 0.80 ")
         self.assertIn("(ladder_frame.geo changed)", self.build("ladder_frame.toml").stdout)

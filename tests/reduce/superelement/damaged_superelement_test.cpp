@@ -1,4 +1,6 @@
 // Superelement files that are damaged, incomplete or of another format.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -99,10 +101,11 @@ TEST_CASE("a value changed within its range is detected by the hash") {
 }
 
 TEST_CASE("a file of a newer version is refused with advice") {
-  const std::string message = read_tampered([](auto& file) { file.set_attribute("version", 4); });
-  CHECK_THAT(
-      message,
-      Contains("tampered.h5: error: superelement format version 4, this program reads up to version 3"));
+  const std::string message =
+      read_tampered([](auto& file) { file.set_attribute("version", kSuperelementVersion + 1); });
+  CHECK_THAT(message, Contains(fmt::format("tampered.h5: error: superelement format version {}, this program "
+                                           "reads up to version {}",
+                                           kSuperelementVersion + 1, kSuperelementVersion)));
   CHECK_THAT(message,
              Contains("use a newer sprung, or make the file again from its design with sprung-reduce build"));
   CHECK_THAT(read_tampered([](auto& file) { file.set_attribute("version", 0); }),
