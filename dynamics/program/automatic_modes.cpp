@@ -6,6 +6,7 @@
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
+#include "dynamics/program/massless_check.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -63,6 +64,7 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
 
   Eigen::VectorXd q = make_start_positions(model, vehicle);
   assemble_positions(model, q);
+  check_massless_bodies(vehicle, model, q);
   const Equilibrium equilibrium = find_equilibrium(model, q);
   const LinearVehicle linear(model, equilibrium.q);
   if (!equilibrium.stable || has_growth(linear.solver().eigenvalues())) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "dynamics/program/automatic_modes.h"
+#include "dynamics/program/massless_check.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -138,6 +139,7 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
       run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, flexibility.stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
+  check_massless_bodies(vehicle, prepared.balance_model, q);
   if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
   prepared.equilibrium =
       find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
