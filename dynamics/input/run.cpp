@@ -135,6 +135,14 @@ std::map<std::string, InitialMotion> read_initial(const support::TomlTable& tabl
   return initial;
 }
 
+std::vector<JointRateRequest> read_joint_rates(const support::TomlTable& table) {
+  std::vector<JointRateRequest> rates;
+  for (const auto& [joint, value] : table.entries()) {
+    rates.push_back({joint, value.number(support::any("rad/s or m/s")), value.location()});
+  }
+  return rates;
+}
+
 std::vector<PointReference> read_output(const support::TomlTable& table) {
   std::vector<PointReference> points;
   if (const std::optional<support::TomlValue> list = table.find("points")) {
@@ -212,6 +220,7 @@ Run read_run(const support::TomlDocument& document) {
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
   if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
+  if (const auto table = root.find_table("joint_rates")) run.joint_rates = read_joint_rates(*table);
   if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
   run.response.location = {.path = document.name()};
   if (const auto table = root.find_table("response")) run.response = read_response(*table);

@@ -26,6 +26,7 @@ std::string find_unknown(const Run& run, const Model& moving) {
   if (run.start != Run::Start::kEquilibrium) return "the run does not start in static equilibrium";
   if (is_driven(moving)) return "prescribed motion drives the vehicle";
   if (!run.initial.empty()) return "[initial] adds motion at the start";
+  if (!run.joint_rates.empty()) return "[joint_rates] adds motion at the start";
   if (run.speed < 0.0 && run.road.shape != "flat") return "the vehicle drives backwards over the road";
   return "";
 }
