@@ -24,10 +24,10 @@ void check_stiffening(const reduce::Superelement& superelement, int highest_mode
 }  // namespace
 
 Body make_rigid_body(const std::string& name, double mass, double inertia) {
-  if (!(mass > 0.0))
-    throw std::invalid_argument(fmt::format("make_rigid_body: mass must be > 0 kg, got {}", mass));
-  if (!(inertia > 0.0)) {
-    throw std::invalid_argument(fmt::format("make_rigid_body: inertia must be > 0 kg·m², got {}", inertia));
+  if (!(mass >= 0.0))
+    throw std::invalid_argument(fmt::format("make_rigid_body: mass must be ≥ 0 kg, got {}", mass));
+  if (!(inertia >= 0.0)) {
+    throw std::invalid_argument(fmt::format("make_rigid_body: inertia must be ≥ 0 kg·m², got {}", inertia));
   }
   Body body;
   body.name = name;

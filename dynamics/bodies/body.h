@@ -35,6 +35,10 @@ struct Body {
   Eigen::MatrixXd stiffness;   ///< n×n
   Eigen::MatrixXd damping;     ///< n×n
   Eigen::VectorXd mode_scale;  ///< n, largest displacement of any node per unit modal coordinate [m]
+  /// For a rigid body without mass or without inertia: what the metric of the coordinates has in their place,
+  /// small beside all others of the system (system, eq. 3). The equations of motion do not contain them.
+  double stand_in_mass = 0.0;                ///< [kg]
+  double stand_in_inertia = 0.0;             ///< [kg·m²]
   std::optional<BodyStiffening> stiffening;  ///< present where it is switched on and there are modes
 
   int num_modes() const { return static_cast<int>(mode_numbers.size()); }
@@ -42,9 +46,9 @@ struct Body {
 };
 
 /// A rigid body whose frame is at its centre of mass.
-/// @param mass     > 0 [kg]
-/// @param inertia  > 0, about the centre of mass [kg·m²]
-/// @throws std::invalid_argument if one of them is not positive
+/// @param mass     ≥ 0 [kg]
+/// @param inertia  ≥ 0, about the centre of mass [kg·m²]
+/// @throws std::invalid_argument if one of them is negative
 /// Checked by tests/dynamics/bodies/body_test.cpp
 Body make_rigid_body(const std::string& name, double mass, double inertia);
 

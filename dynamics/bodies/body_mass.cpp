@@ -40,6 +40,7 @@ Eigen::MatrixXd factorise_inverse(const Eigen::MatrixXd& M_ff) {
 BodyMass::BodyMass(const Body& body)
     : body_(&body),
       constant_(body.num_modes() == 0 && body.first_moment.isZero(0.0)),
+      stand_in_(body.stand_in_mass, body.stand_in_mass, body.stand_in_inertia),
       diagonal_(is_diagonal(body.M_ff)) {
   const Eigen::Index n = body.num_modes();
   diagonal_inverse_ = body.M_ff.diagonal().cwiseInverse();
@@ -53,7 +54,7 @@ BodyMass::BodyMass(const Body& body)
   modal_work_ = Eigen::VectorXd::Zero(n);
   if (constant_) {
     M_.diagonal() << body.mass, body.mass, body.second_moment;
-    C_inverse_ = M_.diagonal().cwiseInverse().asDiagonal();
+    C_inverse_ = (M_.diagonal() + stand_in_).cwiseInverse().asDiagonal();
   } else {
     C_inverse_.setZero();
   }

@@ -23,7 +23,12 @@ class BodyMass {
   /// constant, and neither weight nor rotation causes a torque.
   bool is_constant() const { return constant_; }
 
-  /// x ← M⁻¹ x.  @param x  3+n values
+  /// Diagonal entry of the metric: of M, with a stand-in where the body has no mass or no inertia.
+  double metric(int coordinate) const {
+    return M_(coordinate, coordinate) + (coordinate < 3 ? stand_in_[coordinate] : 0.0);
+  }
+
+  /// x ← M⁻¹ x, with the metric for M where the body has no mass or no inertia.  @param x  3+n values
   void solve(double* x) const {
     if (constant_) {
       for (int i = 0; i < 3; ++i) x[i] *= C_inverse_(i, i);
@@ -57,6 +62,7 @@ class BodyMass {
 
   const Body* body_;
   bool constant_;
+  Eigen::Vector3d stand_in_;
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
   Eigen::MatrixXd inverse_factor_;  // G of M_ff⁻¹ = I − G Gᵀ, n×r: where M_ff is I and a part of rank r ≤ 3

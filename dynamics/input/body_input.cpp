@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 2> kReservedPoints{"origin", "center_of_m
 
 double read_inertia(const support::TomlTable& table, std::string_view key, std::string_view unit) {
   const support::TomlValue value = table.at(key);
-  static_cast<void>(value.number(support::positive(unit)));
+  if (value.number(support::non_negative(unit)) == 0.0) return 0.0;
   return value.number({.unit = unit, .at_least = kLeast, .at_most = kMost});
 }
 

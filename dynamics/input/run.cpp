@@ -135,6 +135,14 @@ std::map<std::string, InitialMotion> read_initial(const support::TomlTable& tabl
   return initial;
 }
 
+std::vector<JointRateRequest> read_joint_rates(const support::TomlTable& table) {
+  std::vector<JointRateRequest> rates;
+  for (const auto& [joint, value] : table.entries()) {
+    rates.push_back({joint, value.number(support::any("rad/s or m/s")), value.location()});
+  }
+  return rates;
+}
+
 std::vector<PointReference> read_output(const support::TomlTable& table) {
   std::vector<PointReference> points;
   if (const std::optional<support::TomlValue> list = table.find("points")) {
@@ -207,7 +215,9 @@ Run read_run(const support::TomlDocument& document) {
   if (const std::optional<support::TomlValue> results = root.find("continue_from")) {
     run.continue_from = folder / results->string();
     run.continue_location = results->location();
-    if (root.has("initial")) throw results->error("and 'initial' exclude each other");
+    for (const char* start : {"initial", "joint_rates"}) {
+      if (root.has(start)) throw results->error(fmt::format("and '{}' exclude each other", start));
+    }
   }
   if (const auto table = root.find_table("modes")) run.modes = read_modes(*table);
   if (const auto table = root.find_table("mode_choice")) run.mode_choice = read_mode_choice(*table);
@@ -217,6 +227,7 @@ Run read_run(const support::TomlDocument& document) {
   if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
   if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
+  if (const auto table = root.find_table("joint_rates")) run.joint_rates = read_joint_rates(*table);
   if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
   run.response.location = {.path = document.name()};
   if (const auto table = root.find_table("response")) run.response = read_response(*table);

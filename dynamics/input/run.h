@@ -32,6 +32,13 @@ struct InitialMotion {
   support::SourceLocation location;
 };
 
+/// An entry of `[joint_rates]`: the rate of a joint's coordinate at the start.
+struct JointRateRequest {
+  std::string joint;  ///< its name
+  double rate = 0.0;  ///< [m/s, rad/s]
+  support::SourceLocation location;
+};
+
 struct IntegratorSettings {
   SteppingOptions options;
   bool names_method = false;                                      ///< otherwise default_method() is used
@@ -76,6 +83,7 @@ struct Run {
   IntegratorSettings integrator;
   AdaptivitySettings adaptivity;
   std::map<std::string, InitialMotion> initial;  ///< by body
+  std::vector<JointRateRequest> joint_rates;     ///< in the order of the file
   std::vector<PointReference> output_points;     ///< if empty, the vehicle's `monitor`
   ResponseRequest response;
 };

@@ -120,11 +120,15 @@ void check_masses(const Vehicle& vehicle) {
     masses.push_back(superelement != nullptr ? superelement->inertia.mass : body.mass);
   }
   std::vector<double> sorted = masses;
+  std::erase(sorted, 0.0);
+  if (sorted.empty()) {
+    throw support::InputError(vehicle.bodies.front().mass_location, "no body of the vehicle has a mass");
+  }
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   for (std::size_t i = 0; i < masses.size(); ++i) {
     const BodyDescription& body = vehicle.bodies[i];
-    if (!body.superelement.empty()) continue;
+    if (!body.superelement.empty() || body.mass == 0.0) continue;
     const double ratio = body.mass / *middle;
     if (ratio > kMostRatio || ratio < 1.0 / kMostRatio) {
       throw support::InputError(
@@ -133,6 +137,7 @@ void check_masses(const Vehicle& vehicle) {
                       "factor of {:g} apart they cannot be calculated together",
                       body.name, body.mass, ratio > 1.0 ? "at most" : "at least", *middle, kMostRatio));
     }
+    if (body.inertia == 0.0) continue;
     const double radius = std::sqrt(body.inertia / body.mass);
     if (radius > kMostRadius || radius < 1.0 / kMostRadius) {
       throw support::InputError(

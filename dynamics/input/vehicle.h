@@ -29,8 +29,8 @@ struct BodyDescription {
   std::string name;
   support::SourceLocation location;
   support::SourceLocation mass_location, inertia_location;  ///< of a rigid body
-  double mass = 0.0;                                        ///< > 0 [kg]; 0 with a superelement
-  double inertia = 0.0;      ///< > 0, about the centre of mass [kg·m²]; 0 with a superelement
+  double mass = 0.0;                                        ///< ≥ 0 [kg]; 0 with a superelement
+  double inertia = 0.0;      ///< ≥ 0, about the centre of mass [kg·m²]; 0 with a superelement
   std::string superelement;  ///< name, empty if there is none
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of the body frame [m]
   double angle = 0.0;                                  ///< [rad]

@@ -25,15 +25,6 @@ constexpr double kClosingTolerance = 1e-12;  // of the length scale
 constexpr double kLoaded = 1e-6;             // smaller ones of forces of the order 1 are rounding errors
 constexpr double kRegularisation = 1e-12;    // of the largest diagonal entry
 
-Eigen::VectorXd inverse_masses(const SystemTerms& terms) {
-  Eigen::VectorXd inverse(terms.model().num_coordinates);
-  for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
-    const Body& body = terms.model().bodies[b];
-    inverse.segment(body.first_coordinate, body.num_coordinates()) = terms.mass(b).diagonal().cwiseInverse();
-  }
-  return inverse;
-}
-
 std::size_t joint_of_constraint(const Model& model, int constraint) {
   std::size_t joint = model.joints.size() - 1;
   while (model.joint_rows[joint] > constraint) --joint;
@@ -131,7 +122,7 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   SystemTerms terms(model);
   terms.update_positions(0.0, q);
   terms.update_mass();
-  const Eigen::VectorXd inverse_mass = inverse_masses(terms);
+  const Eigen::VectorXd inverse_mass = terms.calc_metric().cwiseInverse();
   std::vector<Eigen::Vector2d> start;
   for (const MarkerState& marker : terms.markers()) start.push_back(marker.r);
 

@@ -74,8 +74,23 @@ Eigen::VectorXd calc_reactions(const PartitionedEquations& equations, const Eige
   return reactions;
 }
 
+// ∂λ/∂Q of a model with massless bodies: from the matrix of (system, eq. 1) as a whole, m×nq.
+Eigen::MatrixXd solve_multipliers_by_force(const SystemTerms& terms) {
+  const Eigen::Index n = terms.model().num_coordinates, m = terms.model().num_constraints;
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
+  for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
+    const Body& body = terms.model().bodies[b];
+    const int first = body.first_coordinate, size = body.num_coordinates();
+    whole.block(first, first, size, size) = terms.mass(b);
+  }
+  whole.bottomLeftCorner(m, n) = terms.jacobian().dense();
+  whole.topRightCorner(n, m) = whole.bottomLeftCorner(m, n).transpose();
+  return support::solve_lu(whole, Eigen::MatrixXd::Identity(n + m, n)).bottomRows(m);
+}
+
 // ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, m×nq (system, eq. 6).
 Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
+  if (terms.model().has_massless_bodies) return solve_multipliers_by_force(terms);
   const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
   Eigen::MatrixXd transposed = Phi_q.transpose();  // to be M⁻¹ φ_qᵀ
   for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {

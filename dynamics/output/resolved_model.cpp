@@ -77,7 +77,9 @@ void write_resolved_bodies(support::Hdf5Writer& file, const ResultsHeader& heade
     const BodyDescription& description = header.vehicle.bodies[b];
     const std::string group = kRoot + "/bodies/" + body.name;
     file.make_group(group);
-    const Eigen::Vector2d center = body.first_moment / body.mass;
+    // Without mass, it is the origin of the body's frame.
+    const Eigen::Vector2d center =
+        body.mass > 0.0 ? Eigen::Vector2d(body.first_moment / body.mass) : Eigen::Vector2d::Zero();
     write_number(file, group, "mass", body.mass, "kg");
     write_number(file, group, "inertia", body.second_moment - body.mass * center.squaredNorm(), "kg m^2");
     file.attribute(group, "superelement", description.superelement);

@@ -6,6 +6,7 @@
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
+#include "dynamics/program/massless_check.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -25,6 +26,7 @@ std::string find_unknown(const Run& run, const Model& moving) {
   if (run.start != Run::Start::kEquilibrium) return "the run does not start in static equilibrium";
   if (is_driven(moving)) return "prescribed motion drives the vehicle";
   if (!run.initial.empty()) return "[initial] adds motion at the start";
+  if (!run.joint_rates.empty()) return "[joint_rates] adds motion at the start";
   if (run.speed < 0.0 && run.road.shape != "flat") return "the vehicle drives backwards over the road";
   return "";
 }
@@ -63,6 +65,7 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
 
   Eigen::VectorXd q = make_start_positions(model, vehicle);
   assemble_positions(model, q);
+  check_massless_bodies(vehicle, model, q);
   const Equilibrium equilibrium = find_equilibrium(model, q);
   const LinearVehicle linear(model, equilibrium.q);
   if (!equilibrium.stable || has_growth(linear.solver().eigenvalues())) {

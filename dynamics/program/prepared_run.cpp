@@ -6,9 +6,14 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "dynamics/linear/joint_rates.h"
 #include "dynamics/output/last_state.h"
 #include "dynamics/program/automatic_modes.h"
+#include "dynamics/program/massless_check.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -139,6 +144,7 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
       run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, flexibility.stiffened);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
+  check_massless_bodies(vehicle, prepared.balance_model, q);
   if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
   prepared.equilibrium =
       find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
@@ -161,6 +167,32 @@ State find_continued_start(const PreparedRun& prepared) {
   return start;
 }
 
+std::vector<JointRate> find_joint_rates(const Run& run, const Model& model) {
+  std::vector<JointRate> rates;
+  for (const JointRateRequest& request : run.joint_rates) {
+    std::vector<std::string> names;
+    JointRate rate{.joint = -1, .rate = request.rate, .location = request.location};
+    for (std::size_t j = 0; j < model.joints.size(); ++j) {
+      if (model.joints[j]->is_motion()) continue;
+      names.push_back(model.joints[j]->name);
+      if (names.back() == request.joint) rate.joint = static_cast<int>(j);
+    }
+    if (rate.joint < 0) {
+      throw support::InputError(
+          request.location, fmt::format("'joint_rates.{}' is about no joint of the vehicle{}", request.joint,
+                                        support::nearest_name_hint(request.joint, names)));
+    }
+    const Joint& joint = *model.joints[static_cast<std::size_t>(rate.joint)];
+    if (!joint.coordinate()) {
+      throw support::InputError(request.location,
+                                fmt::format("'joint_rates.{}' is about a {} joint, which has no coordinate",
+                                            request.joint, joint.kind()));
+    }
+    rates.push_back(std::move(rate));
+  }
+  return rates;
+}
+
 // Sets the positions and velocities at the start of the model on its road.
 State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
   const Run& run = prepared.run;
@@ -177,6 +209,7 @@ State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
     v += prepared.equilibrium->motion.calc_velocity(model, q);
   }
   prepared.initial_velocities = project_velocities(model, 0.0, q, v);
+  impose_joint_rates(model, q, find_joint_rates(run, model), v);
   return make_state(model, q, v);
 }
 

@@ -10,6 +10,8 @@ namespace {
 constexpr double kClosed = 1e-12;  // of the model's length scale
 constexpr int kMaxClosings = 12;
 constexpr int kClosingsToRounding = 3;  // after them only the rounding of coordinates is left
+constexpr double kExact = 1e-13;        // change of accelerations that ends their improvement, of their size
+constexpr int kMaxImprovements = 100;
 
 }  // namespace
 
@@ -17,6 +19,7 @@ ConstrainedEquations::ConstrainedEquations(const Model& model, SystemTerms::Mark
     : model_(&model), terms_(model, scope), multipliers_(terms_.jacobian(), model.num_constraints) {
   v_dot_ = correction_ = closing_q_ = closing_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
   lambda_ = motion_rate_ = violation_ = impulse_ = Eigen::VectorXd::Zero(model.num_constraints);
+  missing_force_ = change_ = v_dot_;
   inverse_mass_ = Eigen::VectorXd::Ones(model.num_coordinates);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (terms_.masses()[b].is_constant())
@@ -46,10 +49,69 @@ void ConstrainedEquations::calc_correction() {
   apply_inverse_mass(correction_);
 }
 
+// √(xᵀM_s x), M_s with the stand-ins of bodies without mass.
+double ConstrainedEquations::calc_metric_size(const Eigen::VectorXd& x) {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    const int first = body.first_coordinate, size = body.num_coordinates();
+    missing_force_.segment(first, size).noalias() = terms_.mass(b) * x.segment(first, size);
+    sum += x.segment(first, size).dot(missing_force_.segment(first, size)) +
+           body.stand_in_mass * x.segment<2>(first).squaredNorm() +
+           body.stand_in_inertia * x[first + 2] * x[first + 2];
+  }
+  return std::sqrt(sum);
+}
+
+// Brings v_dot_ and lambda_ nearer to the solution: a solution for what is missing in both equations, with
+// M_s for M. The factors are up to date. The change of v_dot_ is then in change_.
+void ConstrainedEquations::improve_accelerations() {
+  change_ = terms_.forces();
+  impulse_ = -lambda_;
+  terms_.jacobian().add_transposed_product(impulse_, change_);
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
+    change_.segment(first, size).noalias() -= terms_.mass(b) * v_dot_.segment(first, size);
+  }
+  apply_inverse_mass(change_);
+  v_dot_ += change_;
+  if (model_->num_constraints == 0) return;
+  terms_.calc_gamma(violation_);
+  violation_ = -violation_;
+  terms_.jacobian().add_product(v_dot_, violation_);
+  calc_correction();
+  lambda_ += impulse_;
+  v_dot_ -= correction_;
+  change_ -= correction_;
+}
+
+// Bodies without mass: M has no inverse, but with M_s in its place the error of a solution falls to the share
+// of the stand-ins in the mass that moves (system, eq. 12).
+bool ConstrainedEquations::solve_without_mass() {
+  if (model_->num_constraints > 0 && !factorise()) return false;
+  v_dot_.setZero();
+  lambda_.setZero();
+  change_ = terms_.forces();
+  apply_inverse_mass(change_);
+  const double from_forces = std::sqrt(change_.dot(terms_.forces()));
+  for (int iteration = 0; iteration < kMaxImprovements; ++iteration) {
+    improve_accelerations();
+    const double change = calc_metric_size(change_);
+    if (!std::isfinite(change)) return false;
+    if (change <= kExact * (calc_metric_size(v_dot_) + from_forces)) return v_dot_.allFinite();
+  }
+  return false;
+}
+
 // With a₀ = M⁻¹Q: (φ_q M⁻¹ φ_qᵀ) λ = φ_q a₀ − γ, q̈ = a₀ − M⁻¹φ_qᵀλ.
 bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
   terms_.update_mass();
   terms_.update_forces(branches);
+  if (model_->has_massless_bodies) {
+    if (!solve_without_mass()) return false;
+    terms_.set_has_accelerations();
+    return true;
+  }
   v_dot_ = terms_.forces();
   apply_inverse_mass(v_dot_);
   if (model_->num_constraints > 0) {

@@ -10,7 +10,7 @@
 namespace sprung::dynamics {
 
 /// Solves M q̈ + φ_qᵀλ = Q, φ_q q̈ = γ at given positions and velocities of all coordinates, as every method of
-/// integration does in the end (system, eqs. 1, 6, 7; bodies, eq. 6). nq coordinates, m constraints.
+/// integration does in the end (system, eqs. 1, 6, 7, 12; bodies, eq. 6). nq coordinates, m constraints.
 /// Allocates nothing once made.
 class ConstrainedEquations {
  public:
@@ -44,6 +44,9 @@ class ConstrainedEquations {
   void apply_inverse_mass(Eigen::VectorXd& x) const;
   bool factorise();
   void calc_correction();
+  bool solve_without_mass();
+  void improve_accelerations();
+  double calc_metric_size(const Eigen::VectorXd& x);
 
   const Model* model_;
   SystemTerms terms_;
@@ -57,6 +60,7 @@ class ConstrainedEquations {
   // close joints.
   Eigen::VectorXd violation_, impulse_;                 // m
   Eigen::VectorXd correction_, closing_q_, closing_v_;  // nq
+  Eigen::VectorXd change_, missing_force_;              // nq, of a model with massless bodies
 };
 
 }  // namespace sprung::dynamics

@@ -132,7 +132,7 @@ void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weig
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     for (int k = 0; k < body.num_coordinates(); ++k) {
-      coordinate_scale_[body.first_coordinate + k] = 1.0 / std::sqrt(terms.mass(b)(k, k));
+      coordinate_scale_[body.first_coordinate + k] = 1.0 / std::sqrt(terms.masses()[b].metric(k));
     }
   }
   for (const Coupling& coupling : couplings_) {

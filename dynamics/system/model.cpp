@@ -12,6 +12,26 @@ namespace sprung::dynamics {
 
 namespace {
 
+// Sets what stands in for masses and inertias of 0: a millionth of the smallest mass, but at least so much of
+// the usual mass that arithmetic of 16 digits can do with it.
+void set_stand_ins(Model& model) {
+  constexpr double kShare = 1e-6;
+  std::vector<double> masses;
+  for (const Body& body : model.bodies) {
+    if (body.mass > 0.0) masses.push_back(body.mass);
+  }
+  std::sort(masses.begin(), masses.end());
+  const double mass =
+      masses.empty() ? 1.0 : kShare * std::max(masses.front(), kShare * masses[masses.size() / 2]);
+  const double inertia = mass * model.length_scale * model.length_scale;
+  model.has_massless_bodies = false;
+  for (Body& body : model.bodies) {
+    body.stand_in_mass = body.mass > 0.0 ? 0.0 : mass;
+    body.stand_in_inertia = body.second_moment > 0.0 ? 0.0 : inertia;
+    model.has_massless_bodies |= body.stand_in_mass > 0.0 || body.stand_in_inertia > 0.0;
+  }
+}
+
 void collect_time_functions(Model& model) {
   model.has_motions = false;
   model.time_breaks.clear();
@@ -110,6 +130,7 @@ void number_model(Model& model) {
     if (marker.body != kGround) extent = std::max(extent, marker.p_BP.norm());
   }
   model.length_scale = extent > 0.0 ? extent : 1.0;
+  set_stand_ins(model);
 }
 
 }  // namespace sprung::dynamics

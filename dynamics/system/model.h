@@ -37,11 +37,12 @@ struct Model {
   std::vector<int> joint_rows;      ///< first constraint of each joint
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
-  std::vector<int> acting_markers;  ///< those of joints and forces, ascending; the others are for results
-  double length_scale = 1.0;        ///< largest distance of a marker from its body's frame [m]
-  bool has_motions = false;         ///< some joint prescribes a motion
-  std::vector<double> time_breaks;  ///< where functions of time have a kink or jump, ascending [s]
-  double time_resolution = 0.0;     ///< longest step that passes over no detail of a function of time [s]
+  std::vector<int> acting_markers;   ///< those of joints and forces, ascending; the others are for results
+  double length_scale = 1.0;         ///< largest distance of a marker from its body's frame [m]
+  bool has_motions = false;          ///< some joint prescribes a motion
+  bool has_massless_bodies = false;  ///< some body has no mass or no inertia
+  std::vector<double> time_breaks;   ///< where functions of time have a kink or jump, ascending [s]
+  double time_resolution = 0.0;      ///< longest step that passes over no detail of a function of time [s]
 
   int num_freedoms() const { return num_coordinates - num_constraints; }
   /// The part of all branches that belongs to force element f.

@@ -16,13 +16,7 @@ constexpr double kSafePivot = 1e-6;
 
 // φ_q with columns scaled by 1/√M_ii.
 Eigen::SparseMatrix<double> scaled_jacobian(const SystemTerms& terms) {
-  const Model& model = terms.model();
-  Eigen::VectorXd scales(model.num_coordinates);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    scales.segment(body.first_coordinate, body.num_coordinates()) =
-        terms.mass(b).diagonal().cwiseSqrt().cwiseInverse();
-  }
+  const Eigen::VectorXd scales = terms.calc_metric().cwiseSqrt().cwiseInverse();
   return terms.jacobian().sparse() * scales.asDiagonal();
 }
 

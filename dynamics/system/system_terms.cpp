@@ -109,6 +109,16 @@ void SystemTerms::update_all_markers() {
   set(Term::kAllMarkers);
 }
 
+Eigen::VectorXd SystemTerms::calc_metric() const {
+  assert(has(Term::kMass));
+  Eigen::VectorXd metric(model_->num_coordinates);
+  for (std::size_t b = 0; b < masses_.size(); ++b) {
+    const Body& body = model_->bodies[b];
+    for (int k = 0; k < body.num_coordinates(); ++k) metric[body.first_coordinate + k] = masses_[b].metric(k);
+  }
+  return metric;
+}
+
 void SystemTerms::update_mass() {
   assert(has(Term::kJointPositions));
   for (const std::size_t b : varying_bodies_) {

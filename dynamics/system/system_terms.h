@@ -73,6 +73,9 @@ class SystemTerms {
     return masses_[body].matrix();
   }
   const std::vector<BodyMass>& masses() const { return masses_; }
+  /// Diagonal of the metric of the coordinates, nq: masses, with stand-ins for those that are 0 (system, eq.
+  /// 3).
+  Eigen::VectorXd calc_metric() const;
 
   /// Velocities of the markers.
   void update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v);

@@ -2,11 +2,12 @@
 """Joints one by one, with their reactions, against closed forms."""
 
 import math
+import os
 import unittest
 
 import numpy as np
 
-from verification_case import VerificationCase
+from verification_case import VerificationCase, run_program
 
 
 class Slide(VerificationCase):
@@ -190,6 +191,121 @@ length = { step = { before = 2.8284271247461903, after = 2.0, start = 0.2, end =
         # Raised to 30°: the centre rises 0.5 m, which the cylinder's work pays.
         self.assert_close(results["energy/input"][-1], 4.0 * 9.81 * 0.5, relative=1e-5)
         self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+CRANK = """
+name = "crank and piston"
+gravity = [0.0, -9.81]
+[bodies.crank]
+mass = 1.0
+inertia = 0.05
+position = [0.2, 0.15]
+angle = 0.6435011087932844
+points = { axle = [-0.25, 0.0], pin = [0.25, 0.0] }
+[bodies.rod]
+mass = 0.8
+inertia = 0.1
+position = [1.0, 0.15]
+angle = -0.2526802551420786
+points = { pin = [-0.62, 0.0], gudgeon = [0.62, 0.0] }
+[bodies.piston]
+mass = 2.0
+inertia = 0.02
+position = [1.6, 0.0]
+[[joints]]
+name = "axle"
+type = "revolute"
+a = "ground.origin"
+b = "crank.axle"
+[[joints]]
+name = "pin"
+type = "revolute"
+a = "crank.pin"
+b = "rod.pin"
+[[joints]]
+name = "gudgeon"
+type = "revolute"
+a = "rod.gudgeon"
+b = "piston.origin"
+[[joints]]
+name = "rail"
+type = "translational"
+a = "ground.origin"
+b = "piston.origin"
+axis = [1.0, 0.0]
+"""
+
+
+class Rates(VerificationCase):
+    def start(self, rates, run="", vehicle=CRANK):
+        return self.run_text(vehicle, f'start = "as-given"\nduration = 0.02\n{run}\n[joint_rates]\n{rates}\n')
+
+    def refused(self, rates, vehicle=CRANK):
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "run.toml").write_text(
+            f'vehicle = "vehicle.toml"\nduration = 0.02\nstart = "as-given"\n[joint_rates]\n{rates}\n',
+            encoding="utf-8",
+        )
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], "run", "run.toml", "-o", "results.h5"], cwd=self.folder)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        return process.stderr
+
+    def test_a_rate_moves_the_mechanism_from_the_start(self):
+        # Crank of 0.5 m at an angle α, rod of 1.24 m: the piston's rate by the crank's.
+        results = self.start("axle = 4.0")
+        alpha = results["joints/axle/coordinate"][0]
+        rod = math.sqrt(1.24**2 - (0.5 * math.sin(alpha)) ** 2)
+        by_angle = -0.5 * math.sin(alpha) - 0.25 * math.sin(alpha) * math.cos(alpha) / rod
+        self.assert_close(results["joints/axle/rate"][0], 4.0, relative=1e-12)
+        self.assert_close(results["joints/rail/rate"][0], 4.0 * by_angle, relative=1e-10)
+        # The same start from the other end, and with two rates that agree.
+        other = self.start(f"rail = {4.0 * by_angle!r}\naxle = 4.0")
+        self.assert_close(other["joints/axle/rate"][0], 4.0, relative=1e-10)
+        self.assertLess(other.summary["energy_closure"], 1e-6)
+
+    def test_rates_that_contradict_the_joints_are_refused(self):
+        message = self.refused("axle = 0.0\nrail = 1.0")
+        self.assertIn("run.toml:6:8: error: 'joint_rates.rail' must be 0 m/s, as the joints, prescribed motion and the "
+                      "rates before it require, got 1", message)
+        motor = '[[motions]]\nname = "motor"\njoint = "axle"\nfunction = { polynomial = [0.6435011087932844, 2.0] }\n'
+        message = self.refused("axle = 3.0", CRANK + motor)
+        self.assertIn("run.toml:5:8: error: 'joint_rates.axle' must be 2 rad/s", message)
+        self.assert_close(self.start("axle = 2", "", CRANK + motor)["joints/axle/rate"][0], 2.0, relative=1e-12)
+
+    def test_rates_of_what_has_none_are_refused(self):
+        self.assertIn(
+            "'joint_rates.axel' is about no joint of the vehicle (did you mean 'axle'?)", self.refused("axel = 1.0")
+        )
+        weld = CRANK.replace('type = "revolute"\na = "rod.gudgeon"', 'type = "fixed"\na = "rod.gudgeon"')
+        weld = weld.replace('type = "translational"', 'type = "pin-in-slot"')
+        self.assertIn(
+            "'joint_rates.gudgeon' is about a fixed joint, which has no coordinate", self.refused("gudgeon = 1.0", weld)
+        )
+
+    def test_a_rate_adds_to_speed_and_initial_motion(self):
+        # A disc on a free frame: the joint's torque leaves the total angular momentum as it was.
+        vehicle = """
+name = "wheel"
+gravity = [0.0, 0.0]
+[bodies.frame]
+mass = 4.0
+inertia = 3.0
+position = [0.0, 0.0]
+[bodies.disc]
+mass = 1.0
+inertia = 1.0
+position = [0.0, 0.0]
+[[joints]]
+name = "hub"
+type = "revolute"
+a = "frame.origin"
+b = "disc.origin"
+"""
+        results = self.start("hub = 8.0", "speed = 2.0\n[initial.frame]\nangular_velocity = 1.0\n", vehicle)
+        frame, disc = (results[f"bodies/{name}/velocity"][0] for name in ("frame", "disc"))
+        self.assert_close(frame[:2], [2.0, 0.0], absolute=1e-12)
+        self.assert_close(disc[2] - frame[2], 8.0, relative=1e-12)
+        self.assert_close(3.0 * frame[2] + disc[2], 3.0, relative=1e-12)
 
 
 if __name__ == "__main__":

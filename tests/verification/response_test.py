@@ -40,6 +40,21 @@ class QuarterCar(ResponseCase):
         }.items():
             self.assert_close(np.abs(response[name] / expected - 1.0), 0.0, absolute=1e-7)
 
+    def test_inertias_that_joints_hold_may_be_zero(self):
+        # The carriage moves uniformly and nothing turns, so that these masses have no part in the motion.
+        expected = self.response(QUARTER_CAR)
+        massless = self.response(
+            QUARTER_CAR,
+            *overrides(
+                vehicle__bodies__carriage__mass=0, vehicle__bodies__carriage__inertia=0,
+                vehicle__bodies__sprung__inertia=0, vehicle__bodies__unsprung__inertia=0,
+            ),
+        )  # fmt: skip
+        self.assertEqual(massless.report["outputs"].keys(), expected.report["outputs"].keys())
+        for name in expected.report["outputs"]:
+            size = np.max(np.abs(expected[name]))
+            self.assert_close(massless[name], expected[name], absolute=1e-8 * size + 1e-6)
+
     def test_known_transmissibilities(self):
         # Independent values, given to six digits.
         for frequency, expected in ((1.0, 1.977366), (2.0, 0.804666), (10.0, 0.148341)):

@@ -18,9 +18,9 @@ TEST_CASE("A rigid body has mass and inertia and no modes", "[bodies]") {
   CHECK(body.first_moment.isZero(0.0));
   CHECK(body.num_modes() == 0);
   CHECK(body.num_coordinates() == 3);
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    CHECK_THROWS_WITH(dynamics::make_rigid_body("axle", bad, 1.0), Contains("mass must be > 0 kg"));
-    CHECK_THROWS_WITH(dynamics::make_rigid_body("axle", 1.0, bad), Contains("inertia must be > 0 kg·m²"));
+  for (const double bad : {-1e-30, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    CHECK_THROWS_WITH(dynamics::make_rigid_body("axle", bad, 1.0), Contains("mass must be ≥ 0 kg"));
+    CHECK_THROWS_WITH(dynamics::make_rigid_body("axle", 1.0, bad), Contains("inertia must be ≥ 0 kg·m²"));
   }
 }
 

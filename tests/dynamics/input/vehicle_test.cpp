@@ -96,11 +96,11 @@ TEST_CASE("Keys that are missing, unknown or of the wrong type are refused at th
 
 TEST_CASE("Numbers that no body can have are refused with their unit") {
   CHECK(error_of_cart("mass = 4.0", "mass = -4.0") ==
-        "cart.toml:14:8: error: 'bodies.arm.mass' must be > 0 kg, got -4");
+        "cart.toml:14:8: error: 'bodies.arm.mass' must be ≥ 0 kg, got -4");
   CHECK(error_of_cart("mass = 4.0", "mass = nan") ==
         "cart.toml:14:8: error: 'bodies.arm.mass' must be a finite number [kg], got nan");
-  CHECK(error_of_cart("inertia = 0.7", "inertia = 0.0") ==
-        "cart.toml:15:11: error: 'bodies.arm.inertia' must be > 0 kg·m², got 0");
+  CHECK(error_of_cart("inertia = 0.7", "inertia = -0.1") ==
+        "cart.toml:15:11: error: 'bodies.arm.inertia' must be ≥ 0 kg·m², got -0.1");
   // Outside of the allowed range, or too far from the other body's 5 kg.
   CHECK(error_of_cart("mass = 4.0", "mass = 1e308") ==
         "cart.toml:14:8: error: 'bodies.arm.mass' must be ≥ 1e-30 and ≤ 1e+30 kg, got 1e+308");
