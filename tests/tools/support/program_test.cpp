@@ -67,6 +67,7 @@ TEST_CASE("the message comes after what was printed before") {
 
 TEST_CASE("the first interrupt sets a flag and does not end the program") {
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  std::signal(signal, SIG_DFL);  // nohup has the program ignore SIGHUP
   const ChildResult result = run([signal]() -> int {
     if (interrupt_requested()) return 50;
     std::raise(signal);
