@@ -49,6 +49,7 @@ void smooth_jumps(const std::vector<ForcingJump>& jumps, double duration, double
   for (const ForcingJump& jump : jumps) {
     if (!(jump.time > 0.0 && jump.time < duration)) continue;
     const auto j = static_cast<std::size_t>(std::lround(jump.time / step));
+    if (j == samples.size()) continue;                               // it would belong to the next period
     const double place = jump.time / step - static_cast<double>(j);  // −½ … ½
     samples[j] += jump.change * (0.5 - place - (place <= 0.0 ? 1.0 : 0.0));
   }

@@ -7,13 +7,11 @@
 #include <numeric>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "dynamics/linear/joint_rates.h"
-#include "dynamics/output/last_state.h"
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/program/massless_check.h"
+#include "dynamics/program/start_state.h"
 #include "dynamics/road/flat_road.h"
 
 namespace sprung::dynamics {
@@ -33,13 +31,6 @@ void apply_overrides(support::TomlDocument& document, const std::vector<std::str
     document.set(of_vehicle ? assignment.substr(kVehiclePrefix.size()) : assignment,
                  fmt::format("--set {}", i + 1));
   }
-}
-
-State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  return {.time = 0.0,
-          .q = q,
-          .v = v,
-          .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
 }
 
 bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
@@ -152,67 +143,6 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   return prepared.equilibrium->q;
 }
 
-// The last state of an earlier run, at its time.
-State find_continued_start(const PreparedRun& prepared) {
-  const Run& run = prepared.run;
-  State start = read_last_state(run.continue_from, prepared.model);
-  const auto expect_after_start = [&](const char* what, double time) {
-    if (time > start.time + 1e-9 * run.duration) return;
-    throw support::InputError(run.continue_location,
-                              fmt::format("{} ends at {:.9g} s, {} must be later, got {:.9g} s",
-                                          run.continue_from.string(), start.time, what, time));
-  };
-  expect_after_start("'duration'", run.duration);
-  expect_after_start("'statistics.to'", run.statistics_to);
-  return start;
-}
-
-std::vector<JointRate> find_joint_rates(const Run& run, const Model& model) {
-  std::vector<JointRate> rates;
-  for (const JointRateRequest& request : run.joint_rates) {
-    std::vector<std::string> names;
-    JointRate rate{.joint = -1, .rate = request.rate, .location = request.location};
-    for (std::size_t j = 0; j < model.joints.size(); ++j) {
-      if (model.joints[j]->is_motion()) continue;
-      names.push_back(model.joints[j]->name);
-      if (names.back() == request.joint) rate.joint = static_cast<int>(j);
-    }
-    if (rate.joint < 0) {
-      throw support::InputError(
-          request.location, fmt::format("'joint_rates.{}' is about no joint of the vehicle{}", request.joint,
-                                        support::nearest_name_hint(request.joint, names)));
-    }
-    const Joint& joint = *model.joints[static_cast<std::size_t>(rate.joint)];
-    if (!joint.coordinate()) {
-      throw support::InputError(request.location,
-                                fmt::format("'joint_rates.{}' is about a {} joint, which has no coordinate",
-                                            request.joint, joint.kind()));
-    }
-    rates.push_back(std::move(rate));
-  }
-  return rates;
-}
-
-// Sets the positions and velocities at the start of the model on its road.
-State find_start(Eigen::VectorXd q, PreparedRun& prepared) {
-  const Run& run = prepared.run;
-  const Model& model = prepared.model;
-  if (!run.continue_from.empty()) return find_continued_start(prepared);
-  if (!run.initial.empty()) {
-    add_initial_amplitudes(run, model, q);
-    assemble_positions(model, q);
-  }
-  Eigen::VectorXd v = make_start_velocities(run, prepared.vehicle, model);
-  // The steady motion replaces the speed.
-  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {
-    for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
-    v += prepared.equilibrium->motion.calc_velocity(model, q);
-  }
-  prepared.initial_velocities = project_velocities(model, 0.0, q, v);
-  impose_joint_rates(model, q, find_joint_rates(run, model), v);
-  return make_state(model, q, v);
-}
-
 }  // namespace
 
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
@@ -236,7 +166,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   if (!integrator.names_method) integrator.options.method = default_method(prepared.model.num_freedoms());
   prepared.start = preparation == Preparation::kBalance
                        ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
-                       : find_start(q, prepared);
+                       : find_start_state(q, prepared);
   return prepared;
 }
 

@@ -19,7 +19,7 @@ ConstrainedEquations::ConstrainedEquations(const Model& model, SystemTerms::Mark
     : model_(&model), terms_(model, scope), multipliers_(terms_.jacobian(), model.num_constraints) {
   v_dot_ = correction_ = closing_q_ = closing_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
   lambda_ = motion_rate_ = violation_ = impulse_ = Eigen::VectorXd::Zero(model.num_constraints);
-  missing_force_ = change_ = v_dot_;
+  momentum_ = change_ = v_dot_;
   inverse_mass_ = Eigen::VectorXd::Ones(model.num_coordinates);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (terms_.masses()[b].is_constant())
@@ -55,8 +55,8 @@ double ConstrainedEquations::calc_metric_size(const Eigen::VectorXd& x) {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     const int first = body.first_coordinate, size = body.num_coordinates();
-    missing_force_.segment(first, size).noalias() = terms_.mass(b) * x.segment(first, size);
-    sum += x.segment(first, size).dot(missing_force_.segment(first, size)) +
+    momentum_.segment(first, size).noalias() = terms_.mass(b) * x.segment(first, size);
+    sum += x.segment(first, size).dot(momentum_.segment(first, size)) +
            body.stand_in_mass * x.segment<2>(first).squaredNorm() +
            body.stand_in_inertia * x[first + 2] * x[first + 2];
   }

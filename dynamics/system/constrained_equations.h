@@ -60,7 +60,7 @@ class ConstrainedEquations {
   // close joints.
   Eigen::VectorXd violation_, impulse_;                 // m
   Eigen::VectorXd correction_, closing_q_, closing_v_;  // nq
-  Eigen::VectorXd change_, missing_force_;              // nq, of a model with massless bodies
+  Eigen::VectorXd change_, momentum_;                   // nq, of a model with massless bodies
 };
 
 }  // namespace sprung::dynamics

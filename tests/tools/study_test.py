@@ -1,36 +1,14 @@
-"""`study` with the programs: rows are what single runs give, an interrupted study goes on, a failed run is a row, stage
-one runs once for each design. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
+"""`study` with the programs: rows are what single runs give, a failed run is a row."""
 
-import csv
 import json
-import os
-import select
-import signal
-import subprocess
 import unittest
 
 import h5py
 import numpy as np
-from tool_test_case import ROOT, TOOLS, ToolTestCase, find_complaints, make_class_folder, run_program
+from study_case import DYNAMICS, EXAMPLES, HEIGHT, StudyCase, read_csv
+from tool_test_case import TOOLS, find_complaints, make_class_folder, run_program
 
-EXAMPLES = ROOT / "dynamics/models/examples"
-VERIFICATION = ROOT / "tests/verification/models"
-DYNAMICS, REDUCE = os.environ["SPRUNG_DYNAMICS"], os.environ["SPRUNG_REDUCE"]
 TOLERANCE = '[[parameters]]\nkey = "integrator.relative_tolerance"\n'
-HEIGHT = '[[parameters]]\nname = "height"\nkey = "road.height"\n'
-
-
-class StudyCase(ToolTestCase):
-    def write_study(self, text, run=EXAMPLES / "quarter_car_run.toml"):
-        (self.folder / "study.toml").write_text(f'run = "{run}"\n{text}', encoding="utf-8")
-
-    def study(self, *arguments, **environment):
-        return self.run_tool("study", "study.toml", "-o", "out", *arguments, **environment)
-
-    def read_table(self, folder="out"):
-        """The rows of the CSV file: column → text."""
-        with open(self.folder / folder / "table.csv", encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
 
 
 class TheExample(StudyCase):
@@ -39,8 +17,7 @@ class TheExample(StudyCase):
         cls.made = make_class_folder(cls)
         command = [TOOLS / "study", EXAMPLES / "quarter_car_study.toml", "-o", cls.made]
         cls.process = run_program(command, cwd=cls.made, check=True)
-        with open(cls.made / "table.csv", encoding="utf-8", newline="") as file:
-            cls.rows = list(csv.DictReader(file))
+        cls.rows = read_csv(cls.made / "table.csv")
 
     def test_its_rows_are_the_grid_of_its_parameters(self):
         points = [(float(row["damping"]), float(row["bump height"])) for row in self.rows]
@@ -223,181 +200,6 @@ class Rows(StudyCase):
         (self.folder / "taken").touch()
         process = self.run_tool("study", "study.toml", "-o", "taken")
         self.assert_refuses(process, "taken/rows.jsonl: error: cannot be opened (File exists)")
-
-
-class Interruption(StudyCase):
-    """With a stand-in that runs the program, writes down each call, and at the third height of the bump stays for ever
-    while a file called hold is there."""
-
-    def setUp(self):
-        super().setUp()
-        settings = 'measures = ["program/steps"]\nset.duration = 0.5\n'
-        self.write_study(f"{settings}{HEIGHT}values = [0.01, 0.02, 0.03, 0.04]")
-        os.mkfifo(self.folder / "arrived")
-        stand_in = self.folder / "stand_in"
-        stand_in.write_text(
-            '#!/bin/bash\n[[ "$*" == *--dry-run* ]] && exit 0\n'
-            f'echo "$*" >>"{self.folder}/calls"\n'
-            f'if [[ "$*" == *height=0.03* && -e "{self.folder}/hold" ]]; then\n'
-            f'  echo $$ >"{self.folder}/arrived"\n  exec sleep infinity\nfi\nexec "{DYNAMICS}" "$@"\n',
-            encoding="utf-8",
-        )
-        stand_in.chmod(0o755)
-        self.environment = {"SPRUNG_DYNAMICS": str(stand_in)}
-
-    def start_and_wait(self):
-        """Starts the study. Returns its process and a file descriptor of the program that holds it up."""
-        (self.folder / "hold").touch()
-        process = subprocess.Popen(
-            [TOOLS / "study", "study.toml", "-o", "out", "--jobs", "1"], cwd=self.folder, stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8", env={**os.environ, **self.environment},
-            start_new_session=True,
-        )  # fmt: skip
-        held = int((self.folder / "arrived").read_text(encoding="utf-8"))  # waits for the program
-        return process, os.pidfd_open(held)
-
-    def wait_for_end(self, held):
-        select.select([held], [], [])  # of a process that has ended
-        os.close(held)
-
-    def check_that_it_goes_on(self):
-        calls = (self.folder / "calls").read_text(encoding="utf-8").splitlines()
-        self.assertEqual(len(calls), 3)
-        (self.folder / "hold").unlink()
-        process = self.study(**self.environment)
-        self.assert_succeeds(process)
-        self.assertIn("4 runs: 2 made, 2 kept from before, 0 failed", process.stdout)
-        more = (self.folder / "calls").read_text(encoding="utf-8").splitlines()[3:]
-        self.assertEqual(sorted(line.split("road.height=")[1] for line in more), ["0.03", "0.04"])
-        interrupted = (self.folder / "out/table.csv").read_bytes()
-        self.assert_succeeds(self.run_tool("study", "study.toml", "-o", "whole", **self.environment))
-        self.assertEqual(interrupted, (self.folder / "whole/table.csv").read_bytes())
-        self.assertFalse((self.folder / "out/under_way").exists())
-
-    def test_a_study_that_is_killed_keeps_its_rows_ends_its_programs_and_goes_on(self):
-        process, held = self.start_and_wait()
-        process.kill()
-        process.communicate()
-        self.wait_for_end(held)
-        self.check_that_it_goes_on()
-
-    def test_an_interrupted_study_says_so_and_goes_on(self):
-        process, held = self.start_and_wait()
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does, to all processes
-        _, complaints = process.communicate()
-        self.assertEqual(process.returncode, 130)
-        self.assertIn("out: the runs that have ended are kept; the same command goes on", complaints)
-        self.assertTrue(complaints.endswith("interrupted\n"), complaints)
-        self.assertNotIn("Traceback", complaints)
-        self.wait_for_end(held)
-        self.check_that_it_goes_on()
-
-    def test_a_program_that_is_killed_is_a_failed_row(self):
-        process, held = self.start_and_wait()
-        signal.pidfd_send_signal(held, signal.SIGKILL)
-        process.communicate()
-        self.wait_for_end(held)
-        self.assertEqual(process.returncode, 0)
-        errors = [(row["exit_code"], row["error"]) for row in self.read_table()]
-        self.assertEqual(errors, [("0", ""), ("0", ""), ("-9", "ended by SIGKILL"), ("0", "")])
-
-    def test_a_row_that_was_cut_off_is_made_again(self):
-        self.assert_succeeds(self.study("--jobs", "1", **self.environment))
-        rows = self.folder / "out/rows.jsonl"
-        whole = rows.read_bytes()
-        rows.write_bytes(whole[:-20])
-        self.assertIn("4 runs: 1 made, 3 kept from before", self.study(**self.environment).stdout)
-        self.assertIn("4 runs: 0 made, 4 kept from before", self.study(**self.environment).stdout)
-
-    def test_a_second_study_in_the_same_folder_is_refused_meanwhile(self):
-        process, held = self.start_and_wait()
-        self.assert_refuses(self.study(**self.environment), "out/rows.jsonl: error: another study is at work")
-        process.kill()
-        process.communicate()
-        self.wait_for_end(held)
-
-
-class Designs(StudyCase):
-    """The bending frequencies of a beam are proportional to the square root of its Young's modulus; those of a beam
-    that is pinned at one end, too."""
-
-    MODULUS = "design.beam_inside.materials.steel.youngs_modulus"
-
-    def write_design_study(self, values, more=""):
-        self.write_study(
-            f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\n'
-            'measures = ["program/modes/2/undamped_frequency"]\n'
-            f'[[parameters]]\nname = "modulus"\nkey = "{self.MODULUS}"\nvalues = {values}\n{more}',
-            run=VERIFICATION / "pinned_beam_run.toml",
-        )
-
-    def test_stage_one_runs_once_for_each_distinct_design(self):
-        self.write_design_study([1e11, 4e11], '[[parameters]]\nkey = "modes.beam"\nvalues = [5, 10, 20]\n')
-        self.assert_succeeds(self.study())
-        self.assertEqual(len(list((self.folder / "out/designs").iterdir())), 2)
-        rows = self.read_table()
-        column = "program/modes/2/undamped_frequency"
-        for modes in ("5", "10", "20"):
-            low, high = (float(row[column]) for row in rows if row["modes.beam"] == modes)
-            self.assertAlmostEqual(high / low, 2.0, delta=1e-8)
-
-    def test_the_frequency_is_that_of_a_design_written_by_hand(self):
-        self.write_design_study([3e11])
-        self.assert_succeeds(self.study())
-        text = (VERIFICATION / "beam_inside.toml").read_text(encoding="utf-8")
-        changed = "".join(
-            "youngs_modulus = 3e11\n" if line.startswith("youngs_modulus") else line for line in text.splitlines(True)
-        )
-        (self.folder / "beam_inside.toml").write_text(changed, encoding="utf-8")
-        run_program([REDUCE, "build", "beam_inside.toml"], cwd=self.folder, check=True)
-        run = [DYNAMICS, "modes", VERIFICATION / "pinned_beam_run.toml", "--json"]
-        expected = json.loads(run_program(run, cwd=self.folder, check=True).stdout)["modes"][1]["undamped_frequency"]
-        self.assertEqual(float(self.read_table()[0]["program/modes/2/undamped_frequency"]), expected)
-
-    def test_a_design_that_cannot_be_reduced_is_a_row_with_the_error_of_stage_one(self):
-        self.write_design_study([-1.0, 2e11])
-        self.assertEqual(self.study().returncode, 0)
-        bad, good = self.read_table()
-        self.assertEqual((bad["exit_code"], good["exit_code"]), ("2", "0"))
-        self.assertIn("youngs_modulus", bad["error"])
-
-    def test_a_key_that_leads_through_a_number_is_a_row_with_the_reason(self):
-        self.write_study(
-            f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\nmeasures = ["program/modes/1/x"]\n'
-            '[[parameters]]\nkey = "design.beam_inside.lines.7.elements"\nvalues = [1]',
-            run=VERIFICATION / "pinned_beam_run.toml",
-        )
-        process = self.study()
-        self.assertIn("'lines.7.elements': '7' is no number of an entry", process.stderr)
-        self.assertEqual(process.returncode, 2)
-
-
-class RandomRoads(StudyCase):
-    def test_each_seed_is_a_road_of_its_own_the_one_that_make_road_makes(self):
-        self.write_study(
-            'measures = ["tyres/tyre/dynamic_load_rms"]\nset.duration = 1.0\n'
-            '[random_road]\nclass = "C"\nlength = 20.0\nspacing = 0.05\nease = 1.0\nstart = 0.5\n'
-            '[[parameters]]\nname = "seed"\nkey = "random_road.seed"\nvalues = [1, 2]\n'
-        )
-        self.assert_succeeds(self.study())
-        first, second = (float(row["tyres/tyre/dynamic_load_rms [N]"]) for row in self.read_table())
-        self.assertNotEqual(first, second)
-        recipe = ["--iso-class", "C", "--length", "20", "--spacing", "0.05", "--ease", "1", "--seed", "2"]
-        self.assert_succeeds(self.run_tool("make_road.py", "-o", "road.txt", *recipe))
-        road = f'road={{shape="table", start=0.5, file="{self.folder / "road.txt"}"}}'
-        run = [DYNAMICS, "run", EXAMPLES / "quarter_car_run.toml", "--quiet", "-o", "single.h5", "--set", road]
-        run_program([*run, "--set", "duration=1.0"], cwd=self.folder, check=True)
-        (single,) = json.loads(self.run_tool("ride", "single.h5", "--json").stdout)["runs"]
-        self.assertEqual(single["measures"]["tyres/tyre/dynamic_load_rms"]["value"], second)
-
-    def test_a_recipe_that_makes_no_road_is_a_row_with_the_reason(self):
-        self.write_study(
-            'measures = ["program/steps"]\nset.duration = 0.2\n[random_road]\nlength = 20.0\nspacing = 0.05\n'
-            '[[parameters]]\nkey = "random_road.class"\nvalues = ["C", "Z"]\n'
-        )
-        self.study()
-        self.assertEqual([row["error"] for row in self.read_table()],
-                         ["", "random_road: error: 'class', got 'Z', expected A to H"])  # fmt: skip
 
 
 class Responses(StudyCase):

@@ -92,12 +92,12 @@ class AssembledBeams(VerificationCase):
         for name, (held, expected, num_rigid) in cases.items():
             found = []
             for superelement, position in (("beam_at_end", 0.0), ("beam_inside", 0.75)):
-                (self.folder / "vehicle.toml").write_text(
+                run = self.write_model(
                     f'name = "beam"\ngravity = [0.0, 0.0]\n[bodies.beam]\nsuperelement = "{superelement}"\n'
-                    f"position = [{position}, 0.0]\n[ground.points]\nend = [0.0, 0.0]\n{held}", encoding="utf-8")
-                (self.folder / "run.toml").write_text(
-                    'vehicle = "vehicle.toml"\nduration = 1.0\n[modes]\nbeam = "all"\n', encoding="utf-8")
-                omega, rigid = self.modes(self.folder / "run.toml", superelements=self.folder)
+                    f"position = [{position}, 0.0]\n[ground.points]\nend = [0.0, 0.0]\n{held}",
+                    'duration = 1.0\n[modes]\nbeam = "all"\n',
+                )
+                omega, rigid = self.modes(run, superelements=self.folder)
                 self.assertEqual(rigid, num_rigid, name)
                 found.append(omega[:4])
             self.assert_close(found[0], found[1], relative=1e-6)

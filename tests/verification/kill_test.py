@@ -76,13 +76,16 @@ class KillTest(ProgramTestCase):
             return False
         with h5py.File(path) as file:
             self.assertEqual(file.attrs["complete"], 0)
-            rows, events = len(file["time"]), len(file["events/time"])
-            for name in ("time", "bodies/K3/position", "energy/kinetic"):
-                np.testing.assert_array_equal(file[name], whole[name][:rows])
-            for name in ("time", "kind", "object", "text"):
-                np.testing.assert_array_equal(file["events"][name], whole["events"][name][:events])
+            self.check_beginning(file, whole, len(file["time"]), len(file["events/time"]))
             self.assertIn("steps", file["summary"].attrs)
         return True
+
+    def check_beginning(self, file, whole, rows, events):
+        """The first rows and events of a file are those of the whole run, and there are no more."""
+        for name in ("time", "bodies/K3/position", "energy/kinetic"):
+            np.testing.assert_array_equal(file[name], whole[name][:rows])
+        for name in ("time", "kind", "object", "text"):
+            np.testing.assert_array_equal(file["events"][name], whole["events"][name][:events])
 
     def test_a_run_can_be_ended_at_any_moment(self):
         length = self.run_whole(RUN)
@@ -101,6 +104,10 @@ class KillTest(ProgramTestCase):
             # A run that came to its end gives the same bytes, unless it was resumed: then the same values.
             if code != 0 or not resume:
                 self.assertEqual((self.folder / "run.h5").read_bytes(), earlier)
+            else:
+                with h5py.File(self.folder / "run.h5") as file:
+                    self.assertEqual(file.attrs["complete"], 1)
+                    self.check_beginning(file, whole, len(whole["time"]), len(whole["events"]["time"]))
             (self.folder / "run.h5").write_bytes(earlier)
             has_partial = self.check_partial(whole)
             outcomes[signal.Signals(number).name, code, "partial" if has_partial else "none"] += 1

@@ -22,9 +22,7 @@ class ResponseCase(VerificationCase):
 
     def response_text(self, vehicle, run, *arguments):
         """The same for a vehicle and a run written down in the test."""
-        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
-        (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\n' + run, encoding="utf-8")
-        return self.response(self.folder / "run.toml", *arguments)
+        return self.response(self.write_model(vehicle, run), *arguments)
 
     def attempt(self, run_file, *arguments):
         """The finished process of a command that may fail."""

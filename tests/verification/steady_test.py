@@ -66,9 +66,7 @@ class Steady(VerificationCase):
         return self.modes(self.folder / "run.toml", *arguments)
 
     def write(self, vehicle):
-        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
-        (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\nduration = 1.0\nstart = "steady"\n',
-                                              encoding="utf-8")
+        self.write_model(vehicle, 'duration = 1.0\nstart = "steady"\n')
 
     def test_pendulum_on_a_turning_arm(self):
         # It points outwards and swings in the centrifugal field: (J + m l²) ω² = m a l Ω².
@@ -102,14 +100,13 @@ class Steady(VerificationCase):
 
     def test_reports_say_steady_and_a_stretched_bar_is_not_all_deflection(self):
         # Two bending modes, which rotation does not excite; the elongation of 0.1 µm is in modes left out.
-        (self.folder / "vehicle.toml").write_text(
+        self.write_model(
             'name = "turning arm"\ngravity = [0.0, 0.0]\n'
             '[bodies.arm]\nsuperelement = "long_arm"\nposition = [0.0, 0.0]\n'
             '[[joints]]\nname = "shaft"\ntype = "revolute"\na = "ground.origin"\nb = "arm.chassis_end"\n'
             '[[motions]]\nname = "speed"\njoint = "shaft"\nfunction = { polynomial = [0.3, 5.0] }\n',
-            encoding="utf-8")  # fmt: skip
-        (self.folder / "run.toml").write_text(
-            'vehicle = "vehicle.toml"\nduration = 0.2\nstart = "steady"\n[modes]\narm = 2\n', encoding="utf-8")
+            'duration = 0.2\nstart = "steady"\n[modes]\narm = 2\n',
+        )
         texts = {}
         for verb in ("run", "equilibrium", "modes"):
             command = [os.environ["SPRUNG_DYNAMICS"], verb, "run.toml", "--superelements"]

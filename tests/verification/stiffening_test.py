@@ -89,11 +89,9 @@ class Column(VerificationCase):
     """Buckling under a load at the end: ω² decreases to zero at Euler's load, and increases as much under tension."""
 
     def omega_squared(self, joints, load):
-        (self.folder / "vehicle.toml").write_text(COLUMN.format(joints=joints, load=load), encoding="utf-8")
-        (self.folder / "run.toml").write_text(
-            'vehicle = "vehicle.toml"\nduration = 1.0\n[modes]\nbeam = 12\n[stiffening]\nbeam = true\n',
-            encoding="utf-8")
-        return self.modes(self.folder / "run.toml")[0][0] ** 2
+        run = self.write_model(COLUMN.format(joints=joints, load=load),
+                               "duration = 1.0\n[modes]\nbeam = 12\n[stiffening]\nbeam = true\n")
+        return self.modes(run)[0][0] ** 2
 
     def buckling_load(self, joints, euler):
         # From two loads just below it: the mode is that of buckling there, and ω² falls in proportion to what is left.
@@ -212,12 +210,7 @@ class SpinUp(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
     def test_flies_apart_without_stiffening(self):
-        (self.folder / "vehicle.toml").write_text(self.vehicle(), encoding="utf-8")
-        (self.folder / "run.toml").write_text(
-            'vehicle = "vehicle.toml"\n' + SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"),
-            encoding="utf-8",
-        )
-        results = self.run_to_results(self.folder / "run.toml")
+        results = self.run_text(self.vehicle(), SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"))
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)
 
 

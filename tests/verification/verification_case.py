@@ -39,11 +39,22 @@ class VerificationCase(ProgramTestCase):
         self.addCleanup(results.file.close)
         return results
 
-    def run_text(self, vehicle, run, *arguments):
-        """The same for a vehicle and a run written down in the test."""
+    def write_model(self, vehicle, run):
+        """Writes vehicle.toml, and run.toml that names it. Returns the run file."""
         (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
         (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\n' + run, encoding="utf-8")
-        return self.run_to_results(self.folder / "run.toml", *arguments)
+        return self.folder / "run.toml"
+
+    def run_text(self, vehicle, run, *arguments):
+        """run_to_results() for a vehicle and a run written down in the test."""
+        return self.run_to_results(self.write_model(vehicle, run), *arguments)
+
+    def refuse_text(self, vehicle, run, verb="run"):
+        """Has the program refuse such a vehicle and run as bad input; returns what it says."""
+        self.write_model(vehicle, run)
+        process = run_program([os.environ["SPRUNG_DYNAMICS"], verb, "run.toml", "--quiet"], cwd=self.folder)
+        self.assertEqual(process.returncode, 2, process.stderr)
+        return process.stderr
 
     def modes(self, run_file, *arguments, **options):
         """Undamped angular frequencies [rad/s] without rigid-body modes, and the number of rigid-body modes."""

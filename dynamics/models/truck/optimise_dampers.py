@@ -11,6 +11,7 @@ that what it finds does not depend on them.
 
 import argparse
 import math
+import tomllib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,7 +22,6 @@ from scipy.optimize import NonlinearConstraint, minimize
 import sprung
 
 RUN = Path(__file__).resolve().parent / "terrain.toml"
-RATES = (5480.0, 17575.0)  # N s/m in compression and rebound, of vehicle.toml
 AXLES = ("front", "rear")
 START = math.log(0.5)
 SLACK = 1e-3  # share by which the stroke may exceed that of the truck as it is
@@ -38,18 +38,27 @@ class Trial(NamedTuple):
     stroke: float
 
 
+def read_rates() -> tuple[float, float]:
+    """The rates in compression and rebound that vehicle.toml gives both axles [N s/m]."""
+    forces = tomllib.loads(RUN.with_name("vehicle.toml").read_text(encoding="utf-8"))["forces"]
+    dampers = [one["damper"] for one in forces if one["name"] in {f"{axle}_suspension" for axle in AXLES}]
+    ((compression, rebound),) = {(one["compression"], one["rebound"]) for one in dampers}
+    return compression, rebound
+
+
 class Drive:
     """Drives trucks over the terrain, none twice."""
 
     def __init__(self, superelements: Path, duration: float | None) -> None:
         self.superelements = superelements
+        self.rates = read_rates()
         self.settings = {} if duration is None else {"duration": duration, "statistics.to": duration}
         self.trials: dict[tuple[float, ...], Trial] = {}
 
     def __call__(self, logarithms: tuple[float, ...]) -> Trial:
         key = tuple(float(one) for one in logarithms)
         if key not in self.trials:
-            compression, rebound = (rate * math.exp(one) for rate, one in zip(RATES, key))
+            compression, rebound = (rate * math.exp(one) for rate, one in zip(self.rates, key))
             dampers = {
                 f"vehicle.forces.{axle}_suspension.damper": {"compression": compression, "rebound": rebound}
                 for axle in AXLES

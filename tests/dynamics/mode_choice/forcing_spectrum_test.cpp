@@ -102,6 +102,16 @@ TEST_CASE("A jump of a force keeps its place among the samples", "[choice]") {
   }
 }
 
+TEST_CASE("A jump within half a sample of the period's end changes no sample", "[choice]") {
+  // 5 N·m for the last 1e-7 s: without time to settle, the nearest sample is that of the next period's start.
+  const dynamics::Model pendulum =
+      make_driven_pendulum(TimeFunction::lines(std::array{1.0 - 1e-7, 1.0 - 1e-7}, std::array{0.0, 5.0}));
+  const LinearVehicle vehicle(pendulum, test::place_pendulum(0.5, -0.5 * pi));
+  const dynamics::ForcingSpectrum forcing =
+      dynamics::calc_forcing_spectrum(vehicle, {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.0, 20.0);
+  CHECK(forcing.applied.size() == 0);
+}
+
 TEST_CASE("A force that oscillates beyond the highest line does not seem to be a slow one", "[choice]") {
   // 256 samples in 1.5 s would show 175 Hz as 4.3 Hz with its full amplitude. Its own lines below 10 Hz come
   // from its end alone and are of the order of 1/(ω T).

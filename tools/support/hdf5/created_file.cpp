@@ -1,5 +1,9 @@
 #include "tools/support/hdf5/created_file.h"
 
+#include <fmt/format.h>
+
+#include <string_view>
+
 #include "tools/support/hdf5/hdf5_library.h"
 
 namespace sprung::support::hdf5 {

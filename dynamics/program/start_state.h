@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/program/prepared_run.h"
+
+namespace sprung::dynamics {
+
+/// A state at t = 0 whose branches are not chosen yet.
+State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+/// The state in which a run starts: in balance or as given, with speed, initial motion and rates of joints;
+/// or the last state of another run. Sets prepared.initial_velocities.
+/// @param q         positions of the balance, or as given
+/// @param prepared  with the model on its road
+/// @throws support::InputError for motion that the joints do not allow, or another run that does not fit
+State find_start_state(Eigen::VectorXd q, PreparedRun& prepared);
+
+}  // namespace sprung::dynamics

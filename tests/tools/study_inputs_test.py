@@ -1,0 +1,96 @@
+"""What the runs of a study read: designs that stage one reduces, random roads."""
+
+import json
+import unittest
+
+from study_case import DYNAMICS, EXAMPLES, REDUCE, StudyCase
+from tool_test_case import ROOT, run_program
+
+VERIFICATION = ROOT / "tests/verification/models"
+
+
+class Designs(StudyCase):
+    """The bending frequencies of a beam are proportional to the square root of its Young's modulus; those of a beam
+    that is pinned at one end, too."""
+
+    MODULUS = "design.beam_inside.materials.steel.youngs_modulus"
+
+    def write_design_study(self, values, more=""):
+        self.write_study(
+            f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\n'
+            'measures = ["program/modes/2/undamped_frequency"]\n'
+            f'[[parameters]]\nname = "modulus"\nkey = "{self.MODULUS}"\nvalues = {values}\n{more}',
+            run=VERIFICATION / "pinned_beam_run.toml",
+        )
+
+    def test_stage_one_runs_once_for_each_distinct_design(self):
+        self.write_design_study([1e11, 4e11], '[[parameters]]\nkey = "modes.beam"\nvalues = [5, 10, 20]\n')
+        self.assert_succeeds(self.study())
+        self.assertEqual(len(list((self.folder / "out/designs").iterdir())), 2)
+        rows = self.read_table()
+        column = "program/modes/2/undamped_frequency"
+        for modes in ("5", "10", "20"):
+            low, high = (float(row[column]) for row in rows if row["modes.beam"] == modes)
+            self.assertAlmostEqual(high / low, 2.0, delta=1e-8)
+
+    def test_the_frequency_is_that_of_a_design_written_by_hand(self):
+        self.write_design_study([3e11])
+        self.assert_succeeds(self.study())
+        text = (VERIFICATION / "beam_inside.toml").read_text(encoding="utf-8")
+        changed = "".join(
+            "youngs_modulus = 3e11\n" if line.startswith("youngs_modulus") else line for line in text.splitlines(True)
+        )
+        (self.folder / "beam_inside.toml").write_text(changed, encoding="utf-8")
+        run_program([REDUCE, "build", "beam_inside.toml"], cwd=self.folder, check=True)
+        run = [DYNAMICS, "modes", VERIFICATION / "pinned_beam_run.toml", "--json"]
+        expected = json.loads(run_program(run, cwd=self.folder, check=True).stdout)["modes"][1]["undamped_frequency"]
+        self.assertEqual(float(self.read_table()[0]["program/modes/2/undamped_frequency"]), expected)
+
+    def test_a_design_that_cannot_be_reduced_is_a_row_with_the_error_of_stage_one(self):
+        self.write_design_study([-1.0, 2e11])
+        self.assertEqual(self.study().returncode, 0)
+        bad, good = self.read_table()
+        self.assertEqual((bad["exit_code"], good["exit_code"]), ("2", "0"))
+        self.assertIn("youngs_modulus", bad["error"])
+
+    def test_a_key_that_leads_through_a_number_is_a_row_with_the_reason(self):
+        self.write_study(
+            f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\nmeasures = ["program/modes/1/x"]\n'
+            '[[parameters]]\nkey = "design.beam_inside.lines.7.elements"\nvalues = [1]',
+            run=VERIFICATION / "pinned_beam_run.toml",
+        )
+        process = self.study()
+        self.assertIn("'lines.7.elements': '7' is no number of an entry", process.stderr)
+        self.assertEqual(process.returncode, 2)
+
+
+class RandomRoads(StudyCase):
+    def test_each_seed_is_a_road_of_its_own_the_one_that_make_road_makes(self):
+        self.write_study(
+            'measures = ["tyres/tyre/dynamic_load_rms"]\nset.duration = 1.0\n'
+            '[random_road]\nclass = "C"\nlength = 20.0\nspacing = 0.05\nease = 1.0\nstart = 0.5\n'
+            '[[parameters]]\nname = "seed"\nkey = "random_road.seed"\nvalues = [1, 2]\n'
+        )
+        self.assert_succeeds(self.study())
+        first, second = (float(row["tyres/tyre/dynamic_load_rms [N]"]) for row in self.read_table())
+        self.assertNotEqual(first, second)
+        recipe = ["--iso-class", "C", "--length", "20", "--spacing", "0.05", "--ease", "1", "--seed", "2"]
+        self.assert_succeeds(self.run_tool("make_road.py", "-o", "road.txt", *recipe))
+        road = f'road={{shape="table", start=0.5, file="{self.folder / "road.txt"}"}}'
+        run = [DYNAMICS, "run", EXAMPLES / "quarter_car_run.toml", "--quiet", "-o", "single.h5", "--set", road]
+        run_program([*run, "--set", "duration=1.0"], cwd=self.folder, check=True)
+        (single,) = json.loads(self.run_tool("ride", "single.h5", "--json").stdout)["runs"]
+        self.assertEqual(single["measures"]["tyres/tyre/dynamic_load_rms"]["value"], second)
+
+    def test_a_recipe_that_makes_no_road_is_a_row_with_the_reason(self):
+        self.write_study(
+            'measures = ["program/steps"]\nset.duration = 0.2\n[random_road]\nlength = 20.0\nspacing = 0.05\n'
+            '[[parameters]]\nkey = "random_road.class"\nvalues = ["C", "Z"]\n'
+        )
+        self.study()
+        self.assertEqual([row["error"] for row in self.read_table()],
+                         ["", "random_road: error: 'class', got 'Z', expected A to H"])  # fmt: skip
+
+
+if __name__ == "__main__":
+    unittest.main()

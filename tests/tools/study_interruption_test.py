@@ -1,0 +1,106 @@
+"""A study that is interrupted, killed or damaged keeps its rows and goes on where it was."""
+
+import os
+import select
+import signal
+import subprocess
+import unittest
+
+from study_case import DYNAMICS, HEIGHT, StudyCase
+from tool_test_case import TOOLS
+
+
+class Interruption(StudyCase):
+    """With a stand-in that runs the program, writes down each call, and at the third height of the bump stays for ever
+    while a file called hold is there."""
+
+    def setUp(self):
+        super().setUp()
+        settings = 'measures = ["program/steps"]\nset.duration = 0.5\n'
+        self.write_study(f"{settings}{HEIGHT}values = [0.01, 0.02, 0.03, 0.04]")
+        os.mkfifo(self.folder / "arrived")
+        stand_in = self.folder / "stand_in"
+        stand_in.write_text(
+            '#!/bin/bash\n[[ "$*" == *--dry-run* ]] && exit 0\n'
+            f'echo "$*" >>"{self.folder}/calls"\n'
+            f'if [[ "$*" == *height=0.03* && -e "{self.folder}/hold" ]]; then\n'
+            f'  echo $$ >"{self.folder}/arrived"\n  exec sleep infinity\nfi\nexec "{DYNAMICS}" "$@"\n',
+            encoding="utf-8",
+        )
+        stand_in.chmod(0o755)
+        self.environment = {"SPRUNG_DYNAMICS": str(stand_in)}
+
+    def start_and_wait(self):
+        """Starts the study. Returns its process and a file descriptor of the program that holds it up."""
+        (self.folder / "hold").touch()
+        process = subprocess.Popen(
+            [TOOLS / "study", "study.toml", "-o", "out", "--jobs", "1"], cwd=self.folder, stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8", env={**os.environ, **self.environment},
+            start_new_session=True,
+        )  # fmt: skip
+        held = int((self.folder / "arrived").read_text(encoding="utf-8"))  # waits for the program
+        return process, os.pidfd_open(held)
+
+    def wait_for_end(self, held):
+        select.select([held], [], [])  # of a process that has ended
+        os.close(held)
+
+    def check_that_it_goes_on(self):
+        calls = (self.folder / "calls").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(calls), 3)
+        (self.folder / "hold").unlink()
+        process = self.study(**self.environment)
+        self.assert_succeeds(process)
+        self.assertIn("4 runs: 2 made, 2 kept from before, 0 failed", process.stdout)
+        more = (self.folder / "calls").read_text(encoding="utf-8").splitlines()[3:]
+        self.assertEqual(sorted(line.split("road.height=")[1] for line in more), ["0.03", "0.04"])
+        interrupted = (self.folder / "out/table.csv").read_bytes()
+        self.assert_succeeds(self.run_tool("study", "study.toml", "-o", "whole", **self.environment))
+        self.assertEqual(interrupted, (self.folder / "whole/table.csv").read_bytes())
+        self.assertFalse((self.folder / "out/under_way").exists())
+
+    def test_a_study_that_is_killed_keeps_its_rows_ends_its_programs_and_goes_on(self):
+        process, held = self.start_and_wait()
+        process.kill()
+        process.communicate()
+        self.wait_for_end(held)
+        self.check_that_it_goes_on()
+
+    def test_an_interrupted_study_says_so_and_goes_on(self):
+        process, held = self.start_and_wait()
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does, to all processes
+        _, complaints = process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("out: the runs that have ended are kept; the same command goes on", complaints)
+        self.assertTrue(complaints.endswith("interrupted\n"), complaints)
+        self.assertNotIn("Traceback", complaints)
+        self.wait_for_end(held)
+        self.check_that_it_goes_on()
+
+    def test_a_program_that_is_killed_is_a_failed_row(self):
+        process, held = self.start_and_wait()
+        signal.pidfd_send_signal(held, signal.SIGKILL)
+        process.communicate()
+        self.wait_for_end(held)
+        self.assertEqual(process.returncode, 0)
+        errors = [(row["exit_code"], row["error"]) for row in self.read_table()]
+        self.assertEqual(errors, [("0", ""), ("0", ""), ("-9", "ended by SIGKILL"), ("0", "")])
+
+    def test_a_row_that_was_cut_off_is_made_again(self):
+        self.assert_succeeds(self.study("--jobs", "1", **self.environment))
+        rows = self.folder / "out/rows.jsonl"
+        whole = rows.read_bytes()
+        rows.write_bytes(whole[:-20])
+        self.assertIn("4 runs: 1 made, 3 kept from before", self.study(**self.environment).stdout)
+        self.assertIn("4 runs: 0 made, 4 kept from before", self.study(**self.environment).stdout)
+
+    def test_a_second_study_in_the_same_folder_is_refused_meanwhile(self):
+        process, held = self.start_and_wait()
+        self.assert_refuses(self.study(**self.environment), "out/rows.jsonl: error: another study is at work")
+        process.kill()
+        process.communicate()
+        self.wait_for_end(held)
+
+
+if __name__ == "__main__":
+    unittest.main()
