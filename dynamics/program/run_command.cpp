@@ -187,7 +187,6 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
     return support::kGood;
   }
-  if (support::interrupt_requested()) throw support::Interrupted("before the run began; nothing was written");
   if (!output.json && !request.quiet) print_description(prepared);
   warn_of_small_scale(prepared.model.length_scale);
 
@@ -201,6 +200,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   if (!output.results.empty())
     written = open_results(output, make_header(prepared, request, options.adaptivity), statistics);
   if (output.resume && !output.json && !request.quiet) print_resumption(written.checkpoint);
+  const support::DeferredInterrupts deferred;  // what was calculated is kept
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
   const auto start = std::chrono::steady_clock::now();
   const TransientStatistics transient = integrate(prepared, options, written, progress, statistics);
