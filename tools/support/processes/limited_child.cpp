@@ -18,7 +18,6 @@
 #include <exception>
 #include <new>
 
-
 // The address sanitizer reserves far more address space than any limit would allow.
 #if defined(__SANITIZE_ADDRESS__)
 #define SPRUNG_ADDRESS_SANITIZER 1

@@ -15,10 +15,11 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// An interruption is SIGINT (Ctrl-C), SIGTERM, or a SIGHUP (the terminal was closed) that was not ignored from
-/// the start, as by nohup. It ends the program there and then, with a message and kInterrupted: no file of ours
-/// is ever half-written under its own name. While an object of this class exists, the first interruption is only
-/// noted: a calculation that has results to save asks for it repeatedly and then ends in order.
+/// An interruption is SIGINT (Ctrl-C), SIGTERM, or a SIGHUP (the terminal was closed) that was not ignored
+/// from the start, as by nohup. It ends the program there and then, with a message and kInterrupted: no file
+/// of ours is ever half-written under its own name. While an object of this class exists, the first
+/// interruption is only noted: a calculation that has results to save asks for it repeatedly and then ends in
+/// order.
 class DeferredInterrupts {
  public:
   DeferredInterrupts();
