@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::int64_t kResultsVersion = 2;
 
-constexpr std::size_t kRowsAtOnce = 1024;  // whole chunks of most histories
+constexpr std::size_t kMostBuffered = std::size_t{1} << 28U;  // bytes of rows that are not written yet
+constexpr std::size_t kRowsAtOnce = 1024;                     // whole chunks of most histories
 
 void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::copy(values.data(), values.data() + values.size(), row.begin());
@@ -66,7 +67,8 @@ ResultsWriter::Series& ResultsWriter::add_series(
 
 // Makes the datasets of the histories that are stored, and forgets the others.
 void ResultsWriter::make_datasets(const ResultsHeader& header) {
-  StorageConditions conditions{.num_outputs = header.run.duration / header.run.output_step + 1.0,
+  const double num_outputs = header.run.duration / header.run.output_step + 1.0;
+  StorageConditions conditions{.num_outputs = num_outputs,
                                .output_step = header.run.output_step,
                                .reported = header.output_points,
                                .stiffened_bodies = {}};
@@ -77,12 +79,16 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
   for (const Series& series : series_) histories.push_back({series.name, series.row.size()});
   storage_ = std::make_unique<StoragePlan>(header.run.output, histories, std::move(conditions));
   std::erase_if(series_, [&](const Series& series) { return storage_->every(series.name) == 0; });
+  std::size_t row_size = 0;  // of all histories
+  for (const Series& series : series_) row_size += series.row.size() * sizeof(double);
+  const std::size_t most_rows = kMostBuffered / row_size;
   for (Series& series : series_) {
     using support::Hdf5Precision;
     series.every = storage_->every(series.name);
     series.dataset = &file_.make_growing(
         series.name, series.columns, series.unit,
-        storage_->is_single(series.name) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble);
+        storage_->is_single(series.name) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
+        std::min(num_rows(series, static_cast<std::size_t>(num_outputs)), most_rows));
     if (!series.role.empty()) file_.attribute(series.name, "role", series.role);
     if (series.every > 1) file_.attribute(series.name, "every", std::int64_t{series.every});
   }

@@ -83,6 +83,17 @@ class Storage(DynamicsTestCase):
         self.assertIn("Results: about 2", self.run_with("all.h5", verbose=True))
         self.assertGreater((self.folder / "all.h5").stat().st_size, 2e6)
 
+    def test_the_file_of_a_short_run_has_no_space_for_more_rows(self):
+        self.run_with("short.h5", "duration=0.02")
+        with h5py.File(self.folder / "short.h5") as file:
+            rows = file["time"].size
+            for name in ("time", "bodies/chassis/position", "recovery/chassis/moment", "points/chassis.seat/velocity"):
+                with self.subTest(name):
+                    data = file[name]
+                    row = data.dtype.itemsize * data[0].size
+                    checksum = 4
+                    self.assertLessEqual(data.id.get_storage_size(), (rows + 1) * row + checksum)
+
     def test_tools_say_what_is_not_stored(self):
         self.run_with("few.h5", *(f"output.store.{group}=none" for group in ("joints", "wrenches", "recovery")),
                       'output.store.forces=["front_tyre"]')  # fmt: skip

@@ -18,9 +18,15 @@ namespace sprung::support {
 
 namespace {
 
-constexpr std::size_t kMostChunkRows = 1024;
 constexpr std::size_t kTextChunkRows = 64;
 constexpr std::size_t kMostChunkValues = (std::size_t{1} << 20U) / sizeof(double);
+
+// Two rows at least, and no odd number: the checksum of numbers of single precision needs an even number of
+// them.
+std::size_t find_chunk_rows(std::size_t most, std::size_t row_size) {
+  const std::size_t rows = std::min({most, kMostChunkValues / row_size, Hdf5GrowingDataset::kMostChunkRows});
+  return std::max<std::size_t>((rows + 1) / 2 * 2, 2);
+}
 
 // One or two dimensions, as HDF5 takes them: the rank is that of the dataset.
 std::span<const hsize_t> shape_of(const std::array<hsize_t, 2>& rows_and_columns, std::size_t columns) {
@@ -35,12 +41,12 @@ std::string describe_overflow(const std::string& path, double value) {
 }  // namespace
 
 Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns,
-                                       std::string_view unit, ChunkCompressor* compressor)
+                                       std::string_view unit, ChunkCompressor* compressor,
+                                       std::size_t chunk_rows)
     : path_(path),
       columns_(columns),
       row_size_(std::max<std::size_t>(columns, 1)),
-      // Two rows at least: the checksum of numbers of single precision needs an even number of them.
-      chunk_rows_(std::clamp<std::size_t>(kMostChunkValues / row_size_ / 2 * 2, 2, kMostChunkRows)),
+      chunk_rows_(find_chunk_rows(chunk_rows, row_size_)),
       compressor_(compressor) {
   const std::array<hsize_t, 2> shape{0, columns};
   const std::array<hsize_t, 2> chunk{chunk_rows_, columns};

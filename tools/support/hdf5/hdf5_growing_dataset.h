@@ -21,12 +21,15 @@ class ChunkCompressor;
 /// disk still refers to it.
 class Hdf5GrowingDataset {
  public:
+  static constexpr std::size_t kMostChunkRows = 1024;
+
   /// @param parent      file or group identifier
   /// @param path        of the dataset; its group exists
   /// @param columns     0 for rank 1
   /// @param compressor  null for doubles that are not compressed; otherwise it has to outlive this
+  /// @param chunk_rows  the most rows of a chunk
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns, std::string_view unit,
-                     ChunkCompressor* compressor);
+                     ChunkCompressor* compressor, std::size_t chunk_rows);
   /// A dataset of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t text_size);
 

@@ -232,7 +232,8 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 }
 
 Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns,
-                                             std::string_view unit, Hdf5Precision precision) {
+                                             std::string_view unit, Hdf5Precision precision,
+                                             std::size_t chunk_rows) {
   attempt([&] {
     prepare_dataset(dataset);
     ChunkCompressor* compressor = nullptr;
@@ -240,7 +241,7 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
       if (!compressor_) compressor_ = std::make_unique<ChunkCompressor>();
       compressor = compressor_.get();
     }
-    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit, compressor);
+    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit, compressor, chunk_rows);
   });
   return growing_.at(dataset);
 }
