@@ -56,6 +56,29 @@ AssembledMatrices assemble(const BeamModel& model) {
   return {.stiffness = make_matrix(num_dofs, stiffness), .mass = make_matrix(num_dofs, mass)};
 }
 
+AssembledMatrices assemble_rates(const BeamModel& model, const BeamModelRates& rates) {
+  check_beam_model(model, "assemble_rates");
+  Triplets stiffness, mass;
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
+    const BeamElementRates element_rates{
+        .first = rates.node_positions.col(nodes.first),
+        .second = rates.node_positions.col(nodes.second),
+        .properties = rates.sections[static_cast<std::size_t>(nodes.section)]};
+    const BeamElement element = make_element(model, e);
+    add_symmetric(stiffness, nodes, calc_stiffness_rate(element, element_rates));
+    add_symmetric(mass, nodes, calc_mass_rate(element, element_rates));
+  }
+  for (std::size_t i = 0; i < model.point_masses.size(); ++i) {
+    const int row = 3 * model.point_masses[i].node;
+    mass.emplace_back(row, row, rates.point_masses[i].x());
+    mass.emplace_back(row + 1, row + 1, rates.point_masses[i].x());
+    mass.emplace_back(row + 2, row + 2, rates.point_masses[i].y());
+  }
+  const int num_dofs = 3 * model.mesh.num_nodes();
+  return {.stiffness = make_matrix(num_dofs, stiffness), .mass = make_matrix(num_dofs, mass)};
+}
+
 Eigen::SparseMatrix<double> assemble_geometric_stiffness(const BeamModel& model,
                                                          const std::vector<AxialForce>& axial_forces) {
   check_beam_model(model, "assemble_geometric_stiffness");

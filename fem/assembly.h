@@ -5,6 +5,7 @@
 
 #include "fem/axial_force.h"
 #include "fem/beam_model.h"
+#include "fem/element_rates.h"
 
 namespace sprung::fem {
 
@@ -19,6 +20,19 @@ struct AssembledMatrices {
 /// @throws std::invalid_argument if the model is not consistent (check_beam_model)
 /// Checked by tests/fem/assembly_test.cpp
 AssembledMatrices assemble(const BeamModel& model);
+
+/// Rates of change of a frame with some number of a design.
+struct BeamModelRates {
+  Eigen::Matrix2Xd node_positions;          ///< 2×N
+  std::vector<BeamPropertyRates> sections;  ///< one for each section of the model
+  /// one for each point mass: of its mass and inertia
+  std::vector<Eigen::Vector2d> point_masses;
+};
+
+/// Rates of the matrices that `assemble` gives.
+/// @throws std::invalid_argument if the model is not consistent
+/// Checked by tests/fem/element_rates_test.cpp
+AssembledMatrices assemble_rates(const BeamModel& model, const BeamModelRates& rates);
 
 /// Adds up the elements' geometric stiffness under given axial forces (fem, eq. 21).
 ///

@@ -52,4 +52,18 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
   return forces;
 }
 
+Eigen::MatrixXd calc_axial_forces(const BeamModel& model, const Eigen::MatrixXd& displacements) {
+  Eigen::MatrixXd forces(model.mesh.num_elements(), displacements.cols());
+  for (int e = 0; e < model.mesh.num_elements(); ++e) {
+    const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
+    const BeamElement element = make_element(model, e);
+    const double length = calc_length(element);
+    const Eigen::RowVector2d t = (element.second - element.first).transpose() / length;
+    forces.row(e) =
+        element.properties.axial_rigidity / length * t *
+        (displacements.middleRows<2>(3 * nodes.second) - displacements.middleRows<2>(3 * nodes.first));
+  }
+  return forces;
+}
+
 }  // namespace sprung::fem

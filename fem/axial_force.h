@@ -40,4 +40,8 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
                                           const FrameAcceleration& acceleration,
                                           const Eigen::Vector2d& origin);
 
+/// Axial forces of a frame that forces at its nodes alone displaced: constant along each element.
+/// @param displacements  3N×k   @return k columns with a value for each element [N]
+Eigen::MatrixXd calc_axial_forces(const BeamModel& model, const Eigen::MatrixXd& displacements);
+
 }  // namespace sprung::fem

@@ -85,9 +85,10 @@ Components make_components(const Eigen::SparseMatrix<double>& stiffness,
   Components components{.shapes = Eigen::MatrixXd::Zero(stiffness.rows(), b), .num_constraint = b};
   components.shapes(partition.interface, Eigen::all) = deformations;
   if (partition.inner.empty()) return components;
-  const ModalProblem held{.stiffness = take_inner_rows(stiffness, partition, false),
-                          .mass = take_inner_rows(mass, partition, false)};
+  ModalProblem held{.stiffness = take_inner_rows(stiffness, partition, false),
+                    .mass = take_inner_rows(mass, partition, false)};
   const StiffnessFactor factor(held.stiffness);
+  held.factor = &factor;
   const Eigen::MatrixXd loads = take_inner_rows(stiffness, partition, true) * deformations;
   if (b > 0) components.shapes(partition.inner, Eigen::all) = -factor.solve(loads);
   const ModesBelow modes = calc_modes_below(held, kBandMargin * highest_hz);

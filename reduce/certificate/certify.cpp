@@ -38,10 +38,11 @@ Eigen::MatrixXd calc_positive_part(const Eigen::MatrixXd& matrix) {
 // part's middle, D is convex in s, so that it is enough to be above it at both ends.
 Eigen::MatrixXd calc_upper_error(const InterfaceResidual& residual, const std::vector<BandPart>& parts) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(residual.num_loads(), residual.num_loads());
+  const Eigen::MatrixXd load_work = residual.calc_load_work();
   for (const BandPart& part : parts) {
     const Eigen::MatrixXd y = residual.calc_amplitudes(0.5 * (part.begin + part.end));
     for (const double s : {part.begin, part.end}) {
-      upper += calc_positive_part(residual.calc_error_matrix(s, y) - upper);
+      upper += calc_positive_part(residual.calc_error_matrix(load_work, s, y) - upper);
     }
   }
   return upper;

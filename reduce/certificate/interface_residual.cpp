@@ -38,8 +38,8 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
   const Eigen::MatrixXd share = exact_.transpose() * loads;
   loads_ = loads - exact_momenta_ * share;
   flexible_ = b > 0 ? factor.solve(loads_) : Eigen::MatrixXd(n, 0);
-  load_work_ = symmetrise(loads_.transpose() * flexible_);
-  static_flexibility_ = load_work_.diagonal();
+  load_work_ = loads_.cwiseProduct(flexible_).colwise().sum();
+  static_flexibility_ = load_work_;
   for (Eigen::Index i = 0; i < exact_.cols(); ++i) {
     static_flexibility_ += share.row(i).cwiseAbs2().transpose() / exact.omega_squared(i);
   }
@@ -105,7 +105,7 @@ Eigen::MatrixXd InterfaceResidual::calc_amplitudes(double s) const {
 
 // r = B_X − (K − sM)Uy, of which K⁻¹r = Z − Uy + sTy.
 Eigen::VectorXd InterfaceResidual::calc_errors(double s, const Eigen::MatrixXd& y) const {
-  Eigen::VectorXd errors = load_work_.diagonal();
+  Eigen::VectorXd errors = load_work_;
   for (Eigen::Index j = 0; j < errors.size() && num_vectors() > 0; ++j) {
     const Eigen::VectorXd amplitudes = y.col(j);
     const double linear = (s * ritz_BT_.row(j) - ritz_BU_.row(j)).dot(amplitudes.transpose());
@@ -119,7 +119,7 @@ Eigen::VectorXd InterfaceResidual::calc_errors(double s, const Eigen::MatrixXd& 
 
 Eigen::VectorXd InterfaceResidual::calc_damped_errors(double s, double loss_factor) const {
   const std::complex<double> factor(1.0, loss_factor);
-  Eigen::VectorXd errors = load_work_.diagonal();
+  Eigen::VectorXd errors = load_work_;
   for (Eigen::Index j = 0; j < errors.size() && num_vectors() > 0; ++j) {
     const Eigen::VectorXcd y =
         ritz_BU_.row(j).transpose().array() / (factor * omega_squared_.array() - std::complex<double>(s));
@@ -132,12 +132,17 @@ Eigen::VectorXd InterfaceResidual::calc_damped_errors(double s, double loss_fact
   return errors.cwiseMax(0.0);
 }
 
-Eigen::MatrixXd InterfaceResidual::calc_error_matrix(double s, const Eigen::MatrixXd& y) const {
-  if (num_vectors() == 0) return load_work_;
+Eigen::MatrixXd InterfaceResidual::calc_load_work() const {
+  return symmetrise(loads_.transpose() * flexible_);
+}
+
+Eigen::MatrixXd InterfaceResidual::calc_error_matrix(const Eigen::MatrixXd& load_work, double s,
+                                                     const Eigen::MatrixXd& y) const {
+  if (num_vectors() == 0) return load_work;
   const Eigen::MatrixXd linear = (s * ritz_BT_ - ritz_BU_) * y;
   Eigen::MatrixXd middle = s * s * ritz_TMU_;
   middle.diagonal() += (omega_squared_.array() - 2.0 * s).matrix();
-  return symmetrise(load_work_ + linear + linear.transpose() + y.transpose() * middle * y);
+  return symmetrise(load_work + linear + linear.transpose() + y.transpose() * middle * y);
 }
 
 Eigen::VectorXd InterfaceResidual::make_vector(Eigen::Index load, double s) const {

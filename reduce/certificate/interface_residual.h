@@ -37,8 +37,12 @@ class InterfaceResidual {
 
   /// D of each load for given amplitudes. @param amplitudes  m×b   @return b, ≥ 0
   Eigen::VectorXd calc_errors(double s, const Eigen::MatrixXd& amplitudes) const;
-  /// D of all pairs of loads. @return b×b, symmetric
-  Eigen::MatrixXd calc_error_matrix(double s, const Eigen::MatrixXd& amplitudes) const;
+  /// Work of each load's share that no exact mode takes on the displacements of each at rest. @return b×b
+  Eigen::MatrixXd calc_load_work() const;
+  /// D of all pairs of loads.
+  /// @param load_work  as from calc_load_work, which takes b²n operations   @return b×b, symmetric
+  Eigen::MatrixXd calc_error_matrix(const Eigen::MatrixXd& load_work, double s,
+                                    const Eigen::MatrixXd& amplitudes) const;
 
   /// rᴴK⁻¹r of each load, with Galerkin's amplitudes, for a body with stiffness (1 + iη)K. @param loss_factor
   /// η ≥ 0; 2 ζ for the modal damping ratio ζ (reduce/certificate, "Damping")   @return b, ≥ 0
@@ -57,7 +61,7 @@ class InterfaceResidual {
   const StiffnessFactor* factor_;
   Eigen::MatrixXd exact_, exact_momenta_;  // n×k: Φ, (M − QQᵀ)Φ
   Eigen::MatrixXd flexible_;               // Z = K⁻¹B_X, n×b
-  Eigen::MatrixXd load_work_;              // B_XᵀZ, b×b
+  Eigen::VectorXd load_work_;              // diagonal of B_XᵀZ, b
   Eigen::VectorXd static_flexibility_;
   Eigen::MatrixXd vectors_, second_;  // U, T = K⁻¹(M − QQᵀ)U, n×m
   Eigen::MatrixXd loads_;             // B_X

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "reduce/reduction/element_work.h"
@@ -64,12 +65,14 @@ ModeKinds calc_mode_kinds(const Superelement& s) {
   const ElementWork work = calc_element_work(s);
   ModeKinds kinds;
   kinds.axial_share = work.axial.diagonal().cwiseQuotient((work.axial + work.bending).diagonal());
-  kinds.effective_mass.resize(3, s.num_modes());
-  kinds.effective_mass.topRows(2) = s.inertia.P.cwiseAbs2() / s.inertia.mass;
-  kinds.effective_mass.row(2) = s.inertia.c.cwiseAbs2() / s.inertia.second_moment;
-  // A vector of a free body carries its own modal mass; it is 1 for clamped modes.
-  const Eigen::VectorXd modal_mass = s.inertia.M_ff.diagonal();
-  kinds.effective_mass = kinds.effective_mass * modal_mass.cwiseInverse().asDiagonal();
+  // M_ff = L Lᵀ makes the vectors M-orthonormal one after the other; it is I for clamped modes.
+  Eigen::MatrixXd momenta(3, s.num_modes());
+  momenta << s.inertia.P, s.inertia.c;
+  const Eigen::LLT<Eigen::MatrixXd> factor(s.inertia.M_ff);
+  const Eigen::MatrixXd orthonormal = factor.matrixL().solve(momenta.transpose());
+  kinds.effective_mass = orthonormal.transpose().cwiseAbs2();
+  kinds.effective_mass.topRows(2) /= s.inertia.mass;
+  kinds.effective_mass.row(2) /= s.inertia.second_moment;
   return kinds;
 }
 

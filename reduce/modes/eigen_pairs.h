@@ -7,6 +7,8 @@
 
 namespace sprung::reduce {
 
+class StiffnessFactor;
+
 /// Stiffness and mass of a held frame: its assembled matrices without the freedoms of the reference node, in
 /// mesh order. Both n×n, symmetric and positive definite. The elastic motion of a free frame has the same
 /// stiffness, and the mass M − Q Qᵀ (reduce/basis, eq. 2).
@@ -14,6 +16,7 @@ struct ModalProblem {
   Eigen::SparseMatrix<double> stiffness;  ///< K [N/m, N, N·m]
   Eigen::SparseMatrix<double> mass;       ///< M [kg, kg·m, kg·m²]
   Eigen::MatrixXd rigid_share = {};       ///< Q, n×3 of a free frame, empty of a held one [√kg, √kg·m]
+  const StiffnessFactor* factor = nullptr;  ///< of K, where it was made already
 
   Eigen::Index size() const { return stiffness.rows(); }
   bool is_free() const { return rigid_share.size() > 0; }

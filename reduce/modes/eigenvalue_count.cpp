@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "reduce/modes/stiffness_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -43,17 +43,27 @@ Eigen::SparseMatrix<double> make_shifted(const ModalProblem& problem, double ome
   return shifted;
 }
 
+// That of the stiffness, where there is one; the unknowns y come last.
+std::vector<int> choose_order(const ModalProblem& problem) {
+  if (problem.factor == nullptr) return {};
+  const std::span<const int> known = problem.factor->order();
+  std::vector<int> order(known.begin(), known.end());
+  const auto n = static_cast<int>(problem.size());
+  for (int j = 0; problem.is_free() && j < 3; ++j) order.push_back(n + j);
+  return order;
+}
+
 }  // namespace
 
 int count_modes_below(const ModalProblem& problem, double omega_squared) {
   const Eigen::SparseMatrix<double> shifted = make_shifted(problem, omega_squared);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(shifted);
+  const std::unique_ptr<SparseFactor> factors = make_sparse_factor(shifted, false, choose_order(problem));
   double residual = std::numeric_limits<double>::infinity();
-  if (factors.info() == Eigen::Success && factors.vectorD().allFinite()) {
+  if (factors != nullptr) {
     // A load on every freedom, scaled by the diagonal so that forces and moments weigh alike.
     Eigen::VectorXd load = Eigen::VectorXd::Zero(shifted.rows());
     load.head(problem.size()) = problem.stiffness.diagonal().cwiseSqrt();
-    const Eigen::VectorXd x = factors.solve(load);
+    const Eigen::VectorXd x = factors->solve(load);
     const Eigen::VectorXd scale = shifted.cwiseAbs() * x.cwiseAbs() + load;
     residual = (shifted * x - load).cwiseAbs().cwiseQuotient(scale).maxCoeff();
   }
@@ -67,7 +77,7 @@ int count_modes_below(const ModalProblem& problem, double omega_squared) {
         std::sqrt(omega_squared) / (2.0 * std::numbers::pi), fault));
   }
   const int num_rigid = problem.is_free() ? 3 : 0;
-  return static_cast<int>((factors.vectorD().array() < 0.0).count()) - num_rigid;
+  return factors->num_negative() - num_rigid;
 }
 
 }  // namespace sprung::reduce

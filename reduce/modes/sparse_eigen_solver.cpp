@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <Spectra/SymGEigsShiftSolver.h>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
 #include "reduce/modes/dense_eigen_solver.h"
+#include "reduce/modes/stiffness_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -18,16 +19,15 @@ namespace {
 constexpr double kTolerance = 1e-12;  // of a Ritz value, relative
 constexpr Eigen::Index kMaxRestarts = 1000;
 
-using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
-
 // y = s K⁻¹ x. The scale s brings 1/ω² to the order of 1: Spectra's test of convergence is an absolute one
 // for values below 4e-11, which is where 1/ω² of a stiff body lies.
 class InverseStiffness {
  public:
   using Scalar = double;
-  InverseStiffness(const Factor& factor, double scale) : factor_(&factor), scale_(scale) {}
-  Eigen::Index rows() const { return factor_->rows(); }
-  Eigen::Index cols() const { return factor_->cols(); }
+  InverseStiffness(const StiffnessFactor& factor, Eigen::Index size, double scale)
+      : factor_(&factor), size_(size), scale_(scale) {}
+  Eigen::Index rows() const { return size_; }
+  Eigen::Index cols() const { return size_; }
   void set_shift(double) {}  // always 0
   void perform_op(const double* x, double* y) const {
     Eigen::Map<Eigen::VectorXd>(y, rows()) =
@@ -35,7 +35,8 @@ class InverseStiffness {
   }
 
  private:
-  const Factor* factor_;
+  const StiffnessFactor* factor_;
+  Eigen::Index size_;
   double scale_;
 };
 
@@ -67,7 +68,8 @@ Eigen::VectorXd make_random_vector(Eigen::Index size, std::uint64_t seed) {
 }
 
 // ω² of the lowest mode, roughly: two steps of inverse iteration.
-double estimate_lowest(const Factor& factor, const ModalProblem& problem, const Eigen::VectorXd& start) {
+double estimate_lowest(const StiffnessFactor& factor, const ModalProblem& problem,
+                       const Eigen::VectorXd& start) {
   Eigen::VectorXd x = factor.solve(problem.times_mass(start).col(0));
   x /= std::sqrt(x.dot(problem.times_mass(x).col(0)));
   const Eigen::VectorXd inertia = problem.times_mass(x);
@@ -77,7 +79,7 @@ double estimate_lowest(const Factor& factor, const ModalProblem& problem, const 
 
 // One step of subspace iteration and a Rayleigh–Ritz projection in the flipped form: takes the iteration's
 // error of 1e-12 down to rounding, and gives M-orthonormal vectors.
-EigenPairs polish(const Factor& factor, const ModalProblem& problem, const EigenPairs& rough) {
+EigenPairs polish(const StiffnessFactor& factor, const ModalProblem& problem, const EigenPairs& rough) {
   const Eigen::MatrixXd loads = problem.times_mass(rough.vectors * rough.omega_squared.asDiagonal());
   const Eigen::MatrixXd Y = factor.solve(loads);
   const Eigen::MatrixXd stiffness = Y.transpose() * loads;
@@ -95,15 +97,12 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
     throw std::invalid_argument(
         fmt::format("solve_sparse: num_pairs is {}, expected 1 … {}", num_pairs, n - 1));
   }
-  const Factor factor(problem.stiffness);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) {
-    throw support::NumericalError(
-        "modes: the stiffness matrix is not positive definite to rounding; refine the mesh less, or look "
-        "for sections that differ by many orders of magnitude");
-  }
+  std::optional<StiffnessFactor> own;
+  if (problem.factor == nullptr) own.emplace(problem.stiffness);
+  const StiffnessFactor& factor = own ? *own : *problem.factor;
   const Eigen::VectorXd start = make_random_vector(n, seed);
   const double scale = estimate_lowest(factor, problem, start);
-  InverseStiffness inverse(factor, scale);
+  InverseStiffness inverse(factor, n, scale);
   MassProduct mass(problem);
   const Eigen::Index basis_size = std::min<Eigen::Index>(n, std::max<Eigen::Index>(3 * num_pairs, 20));
   Spectra::SymGEigsShiftSolver<InverseStiffness, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(

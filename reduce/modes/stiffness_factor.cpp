@@ -4,8 +4,9 @@
 
 namespace sprung::reduce {
 
-StiffnessFactor::StiffnessFactor(const Eigen::SparseMatrix<double>& stiffness) : factor_(stiffness) {
-  if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() > 0.0) return;
+StiffnessFactor::StiffnessFactor(const SparseMatrix& stiffness)
+    : factor_(make_sparse_factor(stiffness, true)) {
+  if (factor_ != nullptr) return;
   throw support::NumericalError(
       "the stiffness matrix is not positive definite to rounding: a part of the frame moves without any "
       "force (an internal mechanism), the mesh is too fine, or sections differ by many orders of magnitude");

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include "reduce/modes/sparse_factor.h"
 
 namespace sprung::reduce {
 
@@ -11,14 +9,15 @@ class StiffnessFactor {
  public:
   /// @param stiffness  n×n, symmetric
   /// @throws support::NumericalError if it is not positive definite to rounding
-  explicit StiffnessFactor(const Eigen::SparseMatrix<double>& stiffness);
+  explicit StiffnessFactor(const SparseMatrix& stiffness);
 
-  Eigen::Index size() const { return factor_.rows(); }
-  /// K⁻¹ x.  @param x  n×k
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const { return factor_.solve(x); }
+  /// K⁻¹ x.  @param x  n×k, best of all columns at once
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const { return factor_->solve(x); }
+  /// The order of elimination, which serves K − σM as well.
+  std::span<const int> order() const { return factor_->order(); }
 
  private:
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  std::unique_ptr<SparseFactor> factor_;
 };
 
 }  // namespace sprung::reduce

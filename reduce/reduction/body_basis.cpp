@@ -169,6 +169,8 @@ BodyMatrices make_body_matrices(const Design& design) {
   matrices.full = fem::assemble(design.model);
   matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
                    .mass = remove_node(matrices.full.mass, design.reference_node)};
+  matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
+  matrices.held.factor = matrices.factor.get();
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   matrices.rigid = calc_rigid_motions(matrices.node_positions, matrices.full.mass, design.reference_node);
@@ -181,7 +183,7 @@ BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, co
   const Eigen::Vector2d origin = design.model.mesh.node_positions.col(design.reference_node);
   const BasisFrame frame =
       make_basis_frame(moments, matrices.node_positions, calc_distance_weighted_mass(design.model, origin));
-  const StiffnessFactor factor(matrices.held.stiffness);
+  const StiffnessFactor& factor = *matrices.factor;
   return design.reduction.basis == BasisKind::kClamped
              ? make_clamped_basis(design, matrices, factor, frame, options)
              : make_interface_basis(design, matrices, factor, frame, options);

@@ -1,22 +1,28 @@
 #pragma once
 
+#include <memory>
+
 #include "fem/assembly.h"
 #include "fem/mass_moments.h"
 #include "reduce/design/design.h"
 #include "reduce/modes/clamped_modes.h"
 #include "reduce/modes/free_body.h"
+#include "reduce/modes/stiffness_factor.h"
 #include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce {
 
-/// The matrices of a design's frame, held at the reference node and free.
+/// The matrices of a design's frame, held at the reference node and free. The stiffness is factored once for
+/// all that needs it.
 struct BodyMatrices {
-  fem::AssembledMatrices full;  ///< 3N×3N
-  ModalProblem held;            ///< without the reference node's freedoms
-  ModalProblem free;            ///< elastic motion of the free body (free_body.h)
+  fem::AssembledMatrices full;              ///< 3N×3N
+  std::unique_ptr<StiffnessFactor> factor;  ///< of held.stiffness
+  ModalProblem held;                        ///< without the reference node's freedoms
+  ModalProblem free;                        ///< elastic motion of the free body (free_body.h)
   RigidMotions rigid;
   Eigen::Matrix2Xd node_positions;  ///< 2×N, from the reference node [m]
 };
+/// @throws support::NumericalError if the stiffness is not positive definite to rounding
 BodyMatrices make_body_matrices(const Design& design);
 
 /// The vectors that a body is reduced to, in the canonical basis, and what was proved of them.

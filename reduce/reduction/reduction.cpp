@@ -116,7 +116,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
   s.resultants = calc_mode_resultants(model, basis.shapes);
   s.geometric_stiffness =
-      calc_reference_stiffness(model, design.reference_node, matrices.held.stiffness, moments, basis.shapes);
+      calc_reference_stiffness(model, design.reference_node, *matrices.factor, moments, basis.shapes);
   s.certificate = basis.certificate;
   s.provenance = design.provenance;
 

@@ -2,6 +2,7 @@
 
 #include "fem/beam_model.h"
 #include "fem/mass_moments.h"
+#include "reduce/modes/stiffness_factor.h"
 #include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce {
@@ -15,12 +16,12 @@ inline constexpr int kMaxStiffenedModes = 200;
 /// on the modes.
 ///
 /// @param reference_node  0-based; the body frame's origin
-/// @param held_stiffness  K without the reference node's freedoms
+/// @param factor          of K without the reference node's freedoms
 /// @param moments         about the reference node
 /// @param shapes          3N×n
 /// Source: [Wallrapp & Schwertassek 1991] — checked by tests/reduce/reduction/reference_stiffness_test.cpp
 GeometricStiffness calc_reference_stiffness(const fem::BeamModel& model, int reference_node,
-                                            const Eigen::SparseMatrix<double>& held_stiffness,
-                                            const fem::MassMoments& moments, const Eigen::MatrixXd& shapes);
+                                            const StiffnessFactor& factor, const fem::MassMoments& moments,
+                                            const Eigen::MatrixXd& shapes);
 
 }  // namespace sprung::reduce

@@ -51,6 +51,10 @@ Eigen::VectorXd FreeBodyTruth::calc_frequencies() const {
   return omega_squared_.tail(omega_squared_.size() - 3).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
+bool is_resonance(const FreeBodyTruth& truth, double omega_squared) {
+  return ((truth.omega_squared().array() / omega_squared - 1.0).abs() < 1e-9).any();
+}
+
 Eigen::MatrixXd calc_flexibility(const Superelement& s, double omega_squared) {
   Eigen::MatrixXd momenta(3, s.num_modes());
   momenta << s.inertia.P, s.inertia.c;

@@ -38,6 +38,9 @@ class FreeBodyTruth {
   Eigen::VectorXd omega_squared_;
 };
 
+/// Whether ω² is so near to that of a free mode that its flexibility is lost in rounding.
+bool is_resonance(const FreeBodyTruth& truth, double omega_squared);
+
 /// Elastic flexibility of a superelement at its interface, from its file's values alone. @return b×b
 Eigen::MatrixXd calc_flexibility(const Superelement& superelement, double omega_squared);
 

@@ -102,6 +102,19 @@ fem::BeamModel make_spoked_square(double angle, int num_elements) {
   return model;
 }
 
+fem::BeamModel make_lattice(int columns, int rows) {
+  fem::BeamModel model = make_model();
+  const int width = columns + 1, num_nodes = width * (rows + 1);
+  model.mesh.node_positions.resize(2, num_nodes);
+  for (int node = 0; node < num_nodes; ++node) {
+    model.mesh.node_ids.push_back(node + 1);
+    model.mesh.node_positions.col(node) << node % width, node / width;
+    if (node % width < columns) model.mesh.elements.push_back({node, node + 1, 0});
+    if (node / width < rows) model.mesh.elements.push_back({node, node + width, 0});
+  }
+  return model;
+}
+
 fem::BeamModel renumber(const fem::BeamModel& model, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   const std::vector<int> place = make_permutation(model.mesh.node_ids.size(), generator);  // of each old node

@@ -29,6 +29,9 @@ fem::BeamModel make_star(int num_arms, double angle, int num_elements = 4);
 /// A square of side 1 m about the origin with a spoke from the origin to each corner, turned by an angle.
 fem::BeamModel make_spoked_square(double angle, int num_elements = 3);
 
+/// A lattice of bars of 1 m with a corner at the origin, one element each.
+fem::BeamModel make_lattice(int columns, int rows);
+
 /// The same frame with its nodes in another order, its elements in another order and some of them turned
 /// round.
 fem::BeamModel renumber(const fem::BeamModel& model, std::uint64_t seed);

@@ -34,6 +34,7 @@ void check_certificate(std::uint64_t seed, int num_frequencies) {
   }
   for (int step = 1; step <= num_frequencies; ++step) {
     const double s = std::pow(kTwoPi * certificate.highest_hz * step / num_frequencies, 2);
+    if (testing::is_resonance(truth, s)) continue;  // both flexibilities are infinite
     const Eigen::VectorXd error = truth.calc_flexibility(s, design.reduction.interface).real().diagonal() -
                                   testing::calc_flexibility(body, s).diagonal();
     // Near a resonance of the body the flexibility is large, and so is its rounding.

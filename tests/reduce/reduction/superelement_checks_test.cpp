@@ -9,6 +9,7 @@
 #include "reduce/reduction/element_work.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
+#include "tests/reduce/free_body_truth.h"
 #include "tests/reduce/test_bodies.h"
 #include "tools/support/terminal/program.h"
 
@@ -103,6 +104,23 @@ TEST_CASE("effective masses add up to the part of the body that the held node's 
   const Superelement star = make_superelement(
       testing::make_design(testing::make_star(2, 0.0, 10), {0.0, 0.0}, {.wanted = ModeCount{2}}));
   CHECK(calc_mode_kinds(star).effective_mass(1, 0) == Approx(0.6131).epsilon(1e-3));
+}
+
+// With all motions of the model the sum is a property of the body: M_e of the held frame (clamped modes) and
+// that of the free vectors are the same, whatever vectors span them. With some, less than the whole.
+TEST_CASE("effective masses of free and residual vectors add up to those of the clamped modes") {
+  Design design = testing::make_random_design(3, 0.01);
+  const Eigen::Vector3d part = calc_mode_kinds(make_superelement(design)).effective_mass.rowwise().sum();
+  CHECK((part.array() < 1.0).all());
+  design.reduction.highest_hz = 1e7;
+  const Superelement free = make_superelement(design);
+  REQUIRE(free.num_modes() == free.num_elastic_dofs);
+  const Eigen::Vector3d found = calc_mode_kinds(free).effective_mass.rowwise().sum();
+  design.reduction = {};
+  design.modes = {.wanted = AllModes{}};
+  const Eigen::Vector3d expected = calc_mode_kinds(make_superelement(design)).effective_mass.rowwise().sum();
+  CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-8);
+  CHECK((part.array() <= expected.array() + 1e-8).all());
 }
 
 TEST_CASE("the check command's exit code tells whether a check failed, recorded or made again") {

@@ -1,0 +1,82 @@
+#include "reduce/modes/sparse_factor.h"
+
+#include <Eigen/SparseCholesky>
+#include <stdexcept>
+
+#include "reduce/modes/cholmod_factor.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr Eigen::Index kBlock = 32;  // columns solved at a time: L is read once for all of them
+
+class SimplicialFactor final : public SparseFactor {
+ public:
+  explicit SimplicialFactor(const SparseMatrix& matrix) : factor_(matrix) {}
+
+  bool is_usable(bool is_definite) const {
+    if (factor_.info() != Eigen::Success) return false;
+    const Eigen::VectorXd D = factor_.vectorD();
+    return D.allFinite() && (!is_definite || D.minCoeff() > 0.0);
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const override {
+    if (x.cols() == 1) return factor_.solve(x);
+    Eigen::MatrixXd solution(x.rows(), x.cols());
+    for (Eigen::Index begin = 0; begin < x.cols(); begin += kBlock) {
+      const Eigen::Index width = std::min(kBlock, x.cols() - begin);
+      RowMajor block = factor_.permutationP() * x.middleCols(begin, width);
+      solve_permuted(block);
+      solution.middleCols(begin, width) = factor_.permutationPinv() * block;
+    }
+    return solution;
+  }
+
+  int num_negative() const override { return static_cast<int>((factor_.vectorD().array() < 0.0).count()); }
+
+  std::span<const int> order() const override {
+    const auto& indices = factor_.permutationPinv().indices();
+    return {indices.data(), static_cast<std::size_t>(indices.size())};
+  }
+
+ private:
+  // L D Lᵀ x = b in place.
+  void solve_permuted(RowMajor& x) const {
+    const SparseMatrix& L = factor_.matrixL().nestedExpression();  // without the diagonal of ones
+    const Eigen::VectorXd D = factor_.vectorD();
+    for (Eigen::Index j = 0; j < L.cols(); ++j) {
+      for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+        if (entry.row() > j) x.row(entry.row()) -= entry.value() * x.row(j);
+      }
+    }
+    x = D.cwiseInverse().asDiagonal() * x;
+    for (Eigen::Index j = L.cols(); j-- > 0;) {
+      for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+        if (entry.row() > j) x.row(j) -= entry.value() * x.row(entry.row());
+      }
+    }
+  }
+
+  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+};
+
+}  // namespace
+
+std::unique_ptr<SparseFactor> make_sparse_factor(const SparseMatrix& matrix, bool is_definite,
+                                                 std::span<const int> order, FactorMethod method) {
+  if (method == FactorMethod::kCholmod && !has_cholmod()) {
+    throw std::invalid_argument("make_sparse_factor: this program was built without CHOLMOD");
+  }
+  const bool is_large = method == FactorMethod::kAutomatic && matrix.rows() > kMostSimplicial;
+  if (method == FactorMethod::kCholmod || (is_large && has_cholmod())) {
+    return make_cholmod_factor(matrix, is_definite, order);
+  }
+  auto factor = std::make_unique<SimplicialFactor>(matrix);
+  if (!factor->is_usable(is_definite)) return nullptr;
+  return factor;
+}
+
+}  // namespace sprung::reduce
