@@ -28,5 +28,5 @@ TEST_CASE("Lengths in millimetres and inertias in kg mm² are remarked on at the
             "inertias are in kg·m², not in kg·mm²"});
   CHECK(remarks_on("free_length = 5.5", "free_length = 5500.0") ==
         std::vector<std::string>{
-            "cart.toml:31:1: 'forces.rope.free_length' is 5500 m; lengths are in m, not in mm"});
+            "cart.toml:31:8: 'forces.rope.free_length' is 5500 m; lengths are in m, not in mm"});
 }
