@@ -52,12 +52,34 @@ void read_laws(const support::TomlTable& table, const LawUnits& units, Parameter
   }
 }
 
+StaticLength read_static_length(const support::TomlTable& table) {
+  static const std::array<std::string, 1> kAsDrawn{"as-drawn"};
+  const support::TomlValue value = table.at("static");
+  StaticLength wanted{.length = {}, .location = value.location()};
+  if (value.is_number()) {
+    wanted.length = value.number(support::positive("m"));
+  } else {
+    value.one_of(kAsDrawn);
+  }
+  table.reject_unknown_keys();
+  return wanted;
+}
+
 void read_spring_damper(const support::TomlTable& table, ForceDescription& force) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   SpringDamper::Parameters parameters;
-  parameters.free_length = table.number("free_length", support::positive("m"));
+  const support::TomlValue free_length = table.at("free_length");
+  if (free_length.is_table()) {
+    force.static_length = read_static_length(free_length.table());
+    parameters.free_length = force.static_length->length.value_or(1.0);  // until the balance is known
+  } else {
+    parameters.free_length = free_length.number(support::positive("m"));
+  }
   read_laws(table, kTranslation, parameters);
+  if (force.static_length && !table.has("spring")) {
+    throw free_length.error("can follow from the static length only where there is a 'spring'");
+  }
   force.parameters = std::move(parameters);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -26,6 +27,12 @@ struct TyreDescription {
 using ForceParameters = std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters,
                                      AppliedForce::Parameters, TyreDescription>;
 
+/// A length in static equilibrium, from which the free length follows (dynamics/program/static_lengths.h).
+struct StaticLength {
+  std::optional<double> length;  ///< [m]; none: the distance of the points as the vehicle file has them
+  support::SourceLocation location;
+};
+
 /// A force element as described in the vehicle file.
 struct ForceDescription {
   std::string name;
@@ -34,7 +41,8 @@ struct ForceDescription {
   bool along_line = false;  ///< acts along the line between its two points, which must not coincide
   bool on_road = false;     ///< a tyre: its first point is the wheel's centre
   support::SourceLocation location;
-  ForceParameters parameters;  ///< all but its markers
+  ForceParameters parameters;                      ///< all but its markers
+  std::optional<StaticLength> static_length = {};  ///< of a spring-damper, in place of its free length
 };
 
 /// Reads one entry of `[[forces]]`: name, type and the keys of its type, by the table `force_readers`. It

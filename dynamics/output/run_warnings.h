@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/linear/assembly.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/hdf5/hdf5_file.h"
@@ -26,8 +27,8 @@ bool is_of_computation(const RunWarning& warning);
 /// Whether the energy balance closes well enough to trust the run.
 bool is_balanced(const RunStatistics& statistics);
 
-/// The warnings that need no run.
-std::vector<RunWarning> list_model_warnings(const Model& model);
+/// The warnings that need no run: of sizes, and of bodies that the assembly moved far.
+std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly);
 /// The warnings about a run that has come to its end, the gravest first, without those of the model.
 /// @param adaptivity  null if no modes were left out
 /// Checked by tests/dynamics/program/warnings_test.py

@@ -89,7 +89,9 @@ double StoragePlan::estimate(const std::vector<HistorySize>& histories) const {
   double bytes = 0.0;
   for (const HistorySize& history : histories) {
     const long rows_between = every(history.name);
-    if (rows_between == 0) continue;
+    // Flags that hardly ever change take nothing when they are compressed.
+    const bool is_constant = is_single(history.name) && history.name.ends_with("/modal/active");
+    if (rows_between == 0 || is_constant) continue;
     bytes += conditions_.num_outputs / static_cast<double>(rows_between) *
              static_cast<double>(history.columns) *
              (is_single(history.name) ? kBytesOfSingle : kBytesOfDouble);

@@ -16,7 +16,8 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              prepared.assembly,
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle)};
-  fmt::print("{}", json ? format_equilibrium_json(report) : format_equilibrium(report));
+  fmt::print("{}", json ? format_equilibrium_json(report)
+                        : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/input/unit_remarks.h"
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/program/massless_check.h"
 #include "dynamics/program/start_state.h"
@@ -89,6 +90,9 @@ void read_files(const RunRequest& request, PreparedRun& prepared) {
   support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
   apply_overrides(vehicle_document, request.overrides, true);
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
+  if (request.quiet) return;
+  for (const std::string& remark : list_unit_remarks(prepared.vehicle))
+    fmt::print(stderr, "remark: {}\n", remark);
 }
 
 // Damping and stiffening of the flexible bodies of the models.
@@ -126,12 +130,21 @@ Flexibility choose_modes(PreparedRun& prepared) {
   return flexibility;
 }
 
+// Finds the free lengths of springs whose static length is given, for the balance with some modes.
+void find_free_lengths(const Flexibility& flexibility, const ModeSelection& modes, PreparedRun& prepared) {
+  prepared.static_lengths = solve_static_lengths(prepared.vehicle, [&](const Vehicle& vehicle) {
+    return make_model(vehicle, modes, {prepared.level_road.get(), vehicle.direction, 0.0},
+                      flexibility.damping, MotionUse::kHeld, flexibility.stiffened);
+  });
+}
+
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
 Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, bool is_quiet,
                              PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
+  find_free_lengths(flexibility, prepared.available, prepared);
   prepared.balance_model = make_model(
       vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, flexibility.damping,
       run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, flexibility.stiffened);
@@ -151,6 +164,15 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
 
 }  // namespace
 
+std::string describe_static_lengths(const PreparedRun& prepared) {
+  std::string text;
+  for (const StaticLengthResult& spring : prepared.static_lengths) {
+    text += fmt::format("{}: free length {:.6g} m gives {:.6g} m in balance\n", spring.force,
+                        spring.free_length, spring.length);
+  }
+  return text;
+}
+
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   PreparedRun prepared;
   read_files(request, prepared);
@@ -158,6 +180,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.output_points = resolve_output_points(prepared.run, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.road = make_road(prepared.run);
+  // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
+  if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);
   const Flexibility flexibility = choose_modes(prepared);
   if (preparation == Preparation::kChoice) return prepared;
 

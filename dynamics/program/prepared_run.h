@@ -12,6 +12,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/mode_choice/basis_choice.h"
+#include "dynamics/program/static_lengths.h"
 
 namespace sprung::dynamics {
 
@@ -31,6 +32,7 @@ struct PreparedRun {
   ModeSelection available;            ///< of the models below: more than `selection` if modes join and leave
   std::optional<BasisChoice> choice;  ///< present if a body has modes "auto"
   std::vector<std::string> output_points;
+  std::vector<StaticLengthResult> static_lengths;
   AssemblyReport assembly;
   VelocityReport initial_velocities;
   std::unique_ptr<Road> level_road, road;
@@ -51,6 +53,9 @@ enum class Preparation {
 /// Options for modes that join and leave, or for the indicator of modes left out; none if neither is needed.
 /// @param[out] full  filled with the model that the options point to, unless that is prepared.model
 std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, std::optional<Model>& full);
+
+/// A line of text for each spring whose static length the vehicle file gives.
+std::string describe_static_lengths(const PreparedRun& prepared);
 
 /// Reads the input and prepares a run.
 /// @throws support::InputError for bad input, support::NumericalError if there is no equilibrium

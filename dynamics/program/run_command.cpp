@@ -56,6 +56,7 @@ void print_description(const PreparedRun& prepared) {
   fmt::print("{}", describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
                                 prepared.initial_velocities,
                                 prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+  fmt::print("{}", describe_static_lengths(prepared));
   if (!prepared.run.continue_from.empty()) {
     fmt::print("Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
                prepared.start.time);
@@ -189,7 +190,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     return support::kGood;
   }
   if (!output.json && !request.quiet) print_description(prepared);
-  const std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model);
+  const std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
   print_of_computation(model_warnings);
 
   TransientOptions options = make_options(run, prepared.model);

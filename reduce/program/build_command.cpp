@@ -4,6 +4,7 @@
 #include <map>
 
 #include "reduce/design/design.h"
+#include "reduce/design/unit_remarks.h"
 #include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_tables.h"
@@ -79,7 +80,10 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
     return;
   }
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
-  const Superelement made = make_superelement(read_design(design));
+  const Design read = read_design(design);
+  for (const std::string& remark : list_unit_remarks(read))
+    report(options, fmt::format("{}: remark: {}", design.string(), remark));
+  const Superelement made = make_superelement(read);
   write_superelement(made, output);
   const Superelement written = read_superelement(output);
   report(options, fmt::format("{}: {}", output.string(), describe(written)));

@@ -78,6 +78,22 @@ TEST_CASE("A spring's law is a polynomial or a table, times its multiplicity") {
   CHECK(force_of(table, -0.2, 0.0) == Approx(-40.0).epsilon(kRounding));
 }
 
+TEST_CASE("A spring's length in equilibrium may be given in place of its free length") {
+  const auto with_length = [](const std::string& value, const std::string& laws) {
+    return "name = \"s\"\ntype = \"spring-damper\"\na = \"p.origin\"\nb = \"q.origin\"\nfree_length = " +
+           value + "\n" + laws;
+  };
+  const std::string spring = "spring = { polynomial = [0.0, 100.0] }";
+  CHECK(read(with_length("{ static = 0.4 }", spring)).static_length->length == 0.4);
+  CHECK_FALSE(read(with_length("{ static = \"as-drawn\" }", spring)).static_length->length.has_value());
+  CHECK_FALSE(read(with_length("0.4", spring)).static_length.has_value());
+  CHECK(error_of(with_length("{ static = -0.4 }", spring)) ==
+        "f.toml:6:26: error: 'forces.s.free_length.static' must be > 0 m, got -0.4");
+  CHECK(error_of(with_length("{ static = 0.4 }", "damper = { coefficient = 3.0 }")) ==
+        "f.toml:6:15: error: 'forces.s.free_length' can follow from the static length only where there is a "
+        "'spring'");
+}
+
 TEST_CASE("Stops continue linearly from the spring's force where they begin") {
   const std::string laws =
       "spring = { polynomial = [0.0, 100.0, 50.0] }\n"
@@ -110,91 +126,91 @@ TEST_CASE("A tyre's law holds from touching on; one that is not one-sided pulls 
 
 TEST_CASE("A spring of negative stiffness is refused") {
   CHECK(error_of(spring_damper("spring = { polynomial = [0.0, -5.0] }")) ==
-        "f.toml:7:25: error: 'forces.0.spring.polynomial' has a negative stiffness at deflection 0: "
+        "f.toml:7:25: error: 'forces.s.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 1 is -5, must be ≥ 0");
   CHECK(error_of(spring_damper("spring = { polynomial = [3.0, 0.0, -5.0] }")) ==
-        "f.toml:7:25: error: 'forces.0.spring.polynomial' has a negative stiffness at deflection 0: "
+        "f.toml:7:25: error: 'forces.s.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 2 is -5, must be ≥ 0");
   CHECK(error_of(spring_damper("spring = { table = [[-1.0, 0.0], [0.0, 4.0], [1.0, 3.0]] }")) ==
-        "f.toml:7:20: error: 'forces.0.spring.table' has a negative stiffness at deflection 0: -1 N/m, must "
+        "f.toml:7:20: error: 'forces.s.spring.table' has a negative stiffness at deflection 0: -1 N/m, must "
         "be ≥ 0");
   CHECK(error_of(spring_damper(
             "spring = { polynomial = [0.0, 5.0] }\ncompression_stop = { deflection = 0.1, rate = -1.0 }")) ==
-        "f.toml:8:47: error: 'forces.0.compression_stop.rate' must be > 0 N/m, got -1");
+        "f.toml:8:47: error: 'forces.s.compression_stop.rate' must be > 0 N/m, got -1");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0, -5.649e7] }")) ==
-        "f.toml:6:25: error: 'forces.0.spring.polynomial' has a negative stiffness at deflection 0: "
+        "f.toml:6:25: error: 'forces.t.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 2 is -56490000, must be ≥ 0");
 }
 
 TEST_CASE("A damper that generates energy is refused") {
   CHECK(error_of(spring_damper("damper = { coefficient = -1.0 }")) ==
-        "f.toml:7:26: error: 'forces.0.damper.coefficient' must be ≥ 0 N·s/m, got -1");
+        "f.toml:7:26: error: 'forces.s.damper.coefficient' must be ≥ 0 N·s/m, got -1");
   CHECK(error_of(spring_damper("damper = { compression = 1.0, rebound = -1.0 }")) ==
-        "f.toml:7:41: error: 'forces.0.damper.rebound' must be ≥ 0 N·s/m, got -1");
+        "f.toml:7:41: error: 'forces.s.damper.rebound' must be ≥ 0 N·s/m, got -1");
   CHECK(error_of(spring_damper("damper = { table = [[-1.0, 2.0], [0.0, 0.0], [1.0, 2.0]] }")) ==
-        "f.toml:7:21: error: 'forces.0.damper.table.0' puts energy in: 2 N at -1 m/s, the signs must agree");
+        "f.toml:7:21: error: 'forces.s.damper.table.0' puts energy in: 2 N at -1 m/s, the signs must agree");
   CHECK(error_of(spring_damper("damper = { table = [[-1.0, -2.0], [1.0, 3.0]] }")) ==
-        "f.toml:7:20: error: 'forces.0.damper.table' must give no force at rest: 0.5 N at 0 m/s; add the "
+        "f.toml:7:20: error: 'forces.s.damper.table' must give no force at rest: 0.5 N at 0 m/s; add the "
         "point [0, 0]");
   CHECK(error_of(spring_damper("damper = { table = [[-1.0, -2.0], [0.0, 0.0], [1.0, 3.0], [2.0, 1.0]] }")) ==
-        "f.toml:7:20: error: 'forces.0.damper.table' must not fall at its ends, which go on straight: the "
+        "f.toml:7:20: error: 'forces.s.damper.table' must not fall at its ends, which go on straight: the "
         "damper would put energy in");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 5.0] }\ndamping = -1.0")) ==
-        "f.toml:7:11: error: 'forces.0.damping' must be ≥ 0 N·s/m, got -1");
+        "f.toml:7:11: error: 'forces.t.damping' must be ≥ 0 N·s/m, got -1");
 }
 
 TEST_CASE("A law is given in one way, and completely") {
   CHECK(error_of(spring_damper("")) ==
-        "f.toml:1:1: error: 'forces.0' must have a 'spring', a stop or a 'damper'");
+        "f.toml:1:1: error: 'forces.s' must have a 'spring', a stop or a 'damper'");
   CHECK(error_of(spring_damper("spring = {}")) ==
-        "f.toml:7:10: error: 'forces.0.spring' must have either 'polynomial' or 'table'");
+        "f.toml:7:10: error: 'forces.s.spring' must have either 'polynomial' or 'table'");
   CHECK(error_of(spring_damper("spring = { polynomial = [] }")) ==
-        "f.toml:7:25: error: 'forces.0.spring.polynomial' must have at least one coefficient [N/m^k]");
+        "f.toml:7:25: error: 'forces.s.spring.polynomial' must have at least one coefficient [N/m^k]");
   CHECK(error_of(spring_damper("spring = { polynomal = [1.0] }")) ==
-        "f.toml:7:12: error: unknown key 'polynomal' in 'forces.0.spring' (did you mean 'polynomial'?)");
+        "f.toml:7:12: error: unknown key 'polynomal' in 'forces.s.spring' (did you mean 'polynomial'?)");
   CHECK(
       error_of(spring_damper("spring = { polynomial = [0.0, 1.0], table = [[0.0, 0.0], [1.0, 1.0]] }")) ==
-      "f.toml:7:10: error: 'forces.0.spring' must have either 'polynomial' or 'table', not several of them");
+      "f.toml:7:10: error: 'forces.s.spring' must have either 'polynomial' or 'table', not several of them");
   CHECK(error_of(spring_damper("damper = { compression = 3.0 }")) ==
-        "f.toml:7:10: error: missing key 'rebound' in 'forces.0.damper'");
+        "f.toml:7:10: error: missing key 'rebound' in 'forces.s.damper'");
   CHECK(error_of(spring_damper("damper = { rebound = 3.0 }")) ==
-        "f.toml:7:10: error: missing key 'compression' in 'forces.0.damper'");
+        "f.toml:7:10: error: missing key 'compression' in 'forces.s.damper'");
   CHECK(error_of(spring_damper("damper = { coefficient = 2.0, rebound = 3.0 }")) ==
-        "f.toml:7:10: error: 'forces.0.damper' must have either 'coefficient', or 'compression' and "
+        "f.toml:7:10: error: 'forces.s.damper' must have either 'coefficient', or 'compression' and "
         "'rebound', or 'table', not several of them");
   CHECK(error_of(spring_damper("damper = {}")) ==
-        "f.toml:7:10: error: 'forces.0.damper' must have either 'coefficient', or 'compression' and "
+        "f.toml:7:10: error: 'forces.s.damper' must have either 'coefficient', or 'compression' and "
         "'rebound', or 'table'");
-  CHECK(error_of(tyre("damping = 3.0")) == "f.toml:1:1: error: missing key 'spring' in 'forces.0'");
+  CHECK(error_of(tyre("damping = 3.0")) == "f.toml:1:1: error: missing key 'spring' in 'forces.t'");
 }
 
 TEST_CASE("A table's points are pairs that ascend") {
   CHECK(error_of(spring_damper("spring = { table = [[0.0, 0.0]] }")) ==
-        "f.toml:7:20: error: 'forces.0.spring.table' must be at least 2 pairs [m, N], got 1");
+        "f.toml:7:20: error: 'forces.s.spring.table' must be at least 2 pairs [m, N], got 1");
   CHECK(error_of(spring_damper("spring = { table = [[0.0, 0.0], [1.0]] }")) ==
-        "f.toml:7:33: error: 'forces.0.spring.table.1' must be a pair [m, N]");
+        "f.toml:7:33: error: 'forces.s.spring.table.1' must be a pair [m, N]");
   CHECK(error_of(spring_damper("spring = { table = [[0.0, 0.0], [0.0, 1.0]] }")) ==
-        "f.toml:7:33: error: 'forces.0.spring.table.1' must ascend: 0 m comes after 0 m");
+        "f.toml:7:33: error: 'forces.s.spring.table.1' must ascend: 0 m comes after 0 m");
   CHECK(error_of(spring_damper("spring = { table = [[0.0, 0.0], [1.0, nan]] }")) ==
-        "f.toml:7:39: error: 'forces.0.spring.table.1.1' must be a finite number [N], got nan");
+        "f.toml:7:39: error: 'forces.s.spring.table.1.1' must be a finite number [N], got nan");
 }
 
 TEST_CASE("A rebound stop lies below the compression stop") {
   CHECK(error_of(spring_damper("spring = { polynomial = [0.0, 5.0] }\n"
                                "compression_stop = { deflection = 0.1, rate = 9.0 }\n"
                                "rebound_stop = { deflection = 0.1, rate = 9.0 }")) ==
-        "f.toml:9:31: error: 'forces.0.rebound_stop.deflection' must lie below the compression stop's 0.1 m, "
+        "f.toml:9:31: error: 'forces.s.rebound_stop.deflection' must lie below the compression stop's 0.1 m, "
         "got 0.1 m");
 }
 
 TEST_CASE("A tyre has no force at penetration 0, and pushes at a penetration of its radius") {
   CHECK(error_of(tyre("spring = { polynomial = [3.0, 5.0] }")) ==
-        "f.toml:6:10: error: 'forces.0.spring' of a tyre must give no force at penetration 0, got 3 N");
+        "f.toml:6:10: error: 'forces.t.spring' of a tyre must give no force at penetration 0, got 3 N");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0] }")) ==
-        "f.toml:6:10: error: 'forces.0.spring' of a tyre must push at a penetration of its radius 0.5 m, got "
+        "f.toml:6:10: error: 'forces.t.spring' of a tyre must push at a penetration of its radius 0.5 m, got "
         "0 N");
   CHECK(error_of(tyre("spring = { polynomial = [0.0, 0.0, 5.0] }\none_sided = false")) ==
-        "f.toml:6:10: error: 'forces.0.spring' of a tyre that is not one-sided must pull at a penetration of "
+        "f.toml:6:10: error: 'forces.t.spring' of a tyre that is not one-sided must pull at a penetration of "
         "-0.5 m, got 1.25 N; use odd powers");
 }
 
@@ -212,8 +228,8 @@ TEST_CASE("A rotational spring-damper's laws are over angles") {
   force->calc_channels({.markers = markers}, branches, channels);
   CHECK(channels[3] == Approx(50.0 * -0.1 + 3.0 * 2.0).epsilon(kRounding));
   CHECK(error_of(head + "spring = { table = [[0.0, 0.0]] }") ==
-        "f.toml:6:20: error: 'forces.0.spring.table' must be at least 2 pairs [rad, N·m], got 1");
-  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.0' must have a 'spring', a stop or a 'damper'");
+        "f.toml:6:20: error: 'forces.r.spring.table' must be at least 2 pairs [rad, N·m], got 1");
+  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.r' must have a 'spring', a stop or a 'damper'");
 }
 
 TEST_CASE("An applied force has components in time, in the world's axes or following") {
@@ -227,16 +243,16 @@ TEST_CASE("An applied force has components in time, in the world's axes or follo
   force->calc_channels({.time = 0.5, .markers = markers}, {}, channels);
   CHECK(channels[0] == Approx(2.0 * std::cos(0.7) - 1.5 * std::sin(0.7)).epsilon(kRounding));
   CHECK(channels[2] == 5.0);
-  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.0' must have a 'force' or a 'torque'");
+  CHECK(error_of(head) == "f.toml:1:1: error: 'forces.a' must have a 'force' or a 'torque'");
   CHECK(error_of(head + "force = 3.0") ==
-        "f.toml:5:9: error: 'forces.0.force' must be [x, y], each a number [N] or a function of time");
+        "f.toml:5:9: error: 'forces.a.force' must be [x, y], each a number [N] or a function of time");
   CHECK(error_of(head + "torque = { step = { before = 0.0 } }") ==
-        "f.toml:5:19: error: missing key 'after' in 'forces.0.torque.step'");
+        "f.toml:5:19: error: missing key 'after' in 'forces.a.torque.step'");
 }
 
 TEST_CASE("A tyre of distributed contact cannot pull") {
   CHECK(
       error_of(tyre("contact = \"distributed\"\nspring = { polynomial = [0.0, 5.0] }\none_sided = false")) ==
-      "f.toml:8:13: error: 'forces.0.one_sided' must be true of a tyre with distributed contact, which "
+      "f.toml:8:13: error: 'forces.t.one_sided' must be true of a tyre with distributed contact, which "
       "cannot pull");
 }

@@ -62,14 +62,14 @@ TEST_CASE("A driven length varies, or keeps its initial value for an equilibrium
 
 TEST_CASE("Impossible joints are refused at their location") {
   CHECK(error_of("type = \"revolut\"") ==
-        "j.toml:5:8: error: 'joints.0.type' must be one of \"revolute\", \"translational\", \"fixed\", "
+        "j.toml:5:8: error: 'joints.j.type' must be one of \"revolute\", \"translational\", \"fixed\", "
         "\"distance\", \"pin-in-slot\"; got a string \"revolut\" (did you mean 'revolute'?)");
   CHECK(error_of("type = \"translational\"\naxis = [0.0, 0.0]") ==
-        "j.toml:6:8: error: 'joints.0.axis' must be a direction [x, y], got [0, 0]");
-  CHECK(error_of("type = \"pin-in-slot\"") == "j.toml:1:1: error: missing key 'axis' in 'joints.0'");
+        "j.toml:6:8: error: 'joints.j.axis' must be a direction [x, y], got [0, 0]");
+  CHECK(error_of("type = \"pin-in-slot\"") == "j.toml:1:1: error: missing key 'axis' in 'joints.j'");
   CHECK(error_of("type = \"distance\"\nlength = 0.0") ==
-        "j.toml:6:10: error: 'joints.0.length' must be > 0 m, got 0");
+        "j.toml:6:10: error: 'joints.j.length' must be > 0 m, got 0");
   CHECK(error_of("type = \"fixed\"\nangle = inf") ==
-        "j.toml:6:9: error: 'joints.0.angle' must be a finite number [rad], got inf");
+        "j.toml:6:9: error: 'joints.j.angle' must be a finite number [rad], got inf");
   CHECK(error_of("type = \"fixed\"\naxis = [1.0, 0.0]").starts_with("j.toml:6:1: error: unknown key 'axis'"));
 }

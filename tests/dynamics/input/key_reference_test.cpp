@@ -101,6 +101,7 @@ std::string section_of(const std::string& path, const std::string& type) {
       {"joints.*.length", "Functions of time"},
       {"forces.*.torque", "Functions of time"},
       {"forces.*.force.*", "Functions of time"},
+      {"forces.*.free_length", "Forces: static length"},
       {"forces.*.spring", "Laws: spring"},
       {"forces.*.compression_stop", "Laws: stops"},
       {"forces.*.rebound_stop", "Laws: stops"},

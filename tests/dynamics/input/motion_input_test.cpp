@@ -48,23 +48,23 @@ TEST_CASE("A table of a motion is smooth") {
 
 TEST_CASE("Impossible motions are refused") {
   CHECK(error_of("name = \"m\"\njoint = \"hing\"\nfunction = 0.0") ==
-        "error: 'motions.0.joint' names no joint of the vehicle, 'hing' (did you mean 'hinge'?)");
+        "error: 'motions.m.joint' names no joint of the vehicle, 'hing' (did you mean 'hinge'?)");
   CHECK(error_of("name = \"m\"\njoint = \"weld\"\nfunction = 0.0") ==
-        "error: 'motions.0.joint' names a fixed joint, which has no coordinate to be driven");
+        "error: 'motions.m.joint' names a fixed joint, which has no coordinate to be driven");
   CHECK(error_of("name = \"m\"\nfunction = 0.0") ==
-        "error: 'motions.0' must have either a 'joint', or a 'point' and its 'coordinate'");
+        "error: 'motions.m' must have either a 'joint', or a 'point' and its 'coordinate'");
   CHECK(
       error_of("name = \"m\"\njoint = \"hinge\"\npoint = \"arm.tip\"\ncoordinate = \"x\"\nfunction = 0.0") ==
-      "error: 'motions.0' must have either a 'joint', or a 'point' and its 'coordinate', not several of "
+      "error: 'motions.m' must have either a 'joint', or a 'point' and its 'coordinate', not several of "
       "them");
   CHECK(error_of("name = \"m\"\njoint = \"hinge\"\ncoordinate = \"x\"\nfunction = 0.0") ==
-        "error: 'motions.0.coordinate' must be left out: the joint has its own");
+        "error: 'motions.m.coordinate' must be left out: the joint has its own");
   CHECK(error_of("name = \"m\"\npoint = \"ground.peg\"\ncoordinate = \"x\"\nfunction = 0.0") ==
         "error: motion 'm' moves the ground");
   CHECK(error_of("name = \"hinge\"\njoint = \"hinge\"\nfunction = 0.0") ==
         "error: motion 'hinge' has the name of a joint");
   CHECK(error_of("name = \"m\"\njoint = \"hinge\"\nfunction = \"fast\"") ==
-        "error: 'motions.0.function' must be a number [rad] or a function of time");
+        "error: 'motions.m.function' must be a number [rad] or a function of time");
 }
 
 TEST_CASE("Impossible functions of time are refused") {
@@ -72,14 +72,14 @@ TEST_CASE("Impossible functions of time are refused") {
     return error_of("name = \"m\"\njoint = \"hinge\"\nfunction = " + function);
   };
   CHECK(error("{ step = { before = 0.0, after = 1.0, start = 2.0, end = 1.0 } }") ==
-        "error: 'motions.0.function.step.end' must come after the start of 2 s, got 1 s");
+        "error: 'motions.m.function.step.end' must come after the start of 2 s, got 1 s");
   CHECK(error("{ harmonic = { amplitude = 1.0, frequency = 0.0 } }") ==
-        "error: 'motions.0.function.harmonic.frequency' must be > 0 Hz, got 0");
+        "error: 'motions.m.function.harmonic.frequency' must be > 0 Hz, got 0");
   CHECK(error("{ polynomial = [] }") ==
-        "error: 'motions.0.function.polynomial' must have at least one coefficient [rad/s^k]");
+        "error: 'motions.m.function.polynomial' must have at least one coefficient [rad/s^k]");
   CHECK(error("{ table = [[0.0, 1.0], [0.0, 2.0]] }") ==
-        "error: 'motions.0.function.table.1' must ascend: 0 s comes after 0 s");
+        "error: 'motions.m.function.table.1' must ascend: 0 s comes after 0 s");
   CHECK(error("{}") ==
-        "error: 'motions.0.function' must have one of 'polynomial', 'harmonic', 'table', 'step', 'sum', "
+        "error: 'motions.m.function' must have one of 'polynomial', 'harmonic', 'table', 'step', 'sum', "
         "'product' and 'pieces'");
 }

@@ -91,7 +91,7 @@ TEST_CASE("Keys that are missing, unknown or of the wrong type are refused at th
   CHECK(error_of_cart("[ground.points]", "[ground]") ==
         "cart.toml:21:1: error: missing key 'points' in 'ground'");
   CHECK(error_of_cart("b = \"arm.root\"", "b = \"arm.root\"\nstiffness = 3.0") ==
-        "cart.toml:29:1: error: unknown key 'stiffness' in 'joints.0' (known keys: name, type, a, b)");
+        "cart.toml:29:1: error: unknown key 'stiffness' in 'joints.hinge' (known keys: name, type, a, b)");
 }
 
 TEST_CASE("Numbers that no body can have are refused with their unit") {
@@ -115,9 +115,9 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
   CHECK(error_of_cart("position = [3.5, 0.9]", "position = [inf, 0.9]") ==
         "cart.toml:16:13: error: 'bodies.arm.position.0' must be a finite number [m], got inf");
   CHECK(error_of_cart("free_length = 5.5", "free_length = 0.0") ==
-        "cart.toml:36:15: error: 'forces.0.free_length' must be > 0 m, got 0");
+        "cart.toml:36:15: error: 'forces.rope.free_length' must be > 0 m, got 0");
   CHECK(error_of_cart("multiplicity = 3", "multiplicity = 0") ==
-        "cart.toml:35:16: error: 'forces.0.multiplicity' must be > 0, got 0");
+        "cart.toml:35:16: error: 'forces.rope.multiplicity' must be > 0, got 0");
 }
 
 TEST_CASE("A body is either a superelement or mass and inertia") {
@@ -171,7 +171,7 @@ TEST_CASE("A reference to a missing point gets the nearest name") {
         "cart.toml:27:5: error: 'frame' has no point 'gearbox'; it has origin, center_of_mass, left, "
         "right, top, seat");
   CHECK(error_of_cart("a = \"frame.right\"", "a = \"frame\"") ==
-        "cart.toml:27:5: error: 'joints.0.a' must be a point \"body.point\" or \"ground.point\", got "
+        "cart.toml:27:5: error: 'joints.hinge.a' must be a point \"body.point\" or \"ground.point\", got "
         "\"frame\"");
   CHECK(error_of_cart("b = \"ground.peg\"", "b = \"ground.pg\"") ==
         "cart.toml:34:5: error: 'ground' has no point 'pg' (did you mean 'peg'?)");
@@ -202,10 +202,10 @@ TEST_CASE("A joint joins two bodies") {
 
 TEST_CASE("A kind of joint or force that is not known is refused") {
   CHECK_THAT(error_of_cart("type = \"revolute\"", "type = \"revolut\""),
-             Contains("cart.toml:26:8: error: 'joints.0.type' must be one of \"revolute\", ") &&
+             Contains("cart.toml:26:8: error: 'joints.hinge.type' must be one of \"revolute\", ") &&
                  Contains("; got a string \"revolut\" (did you mean 'revolute'?)"));
   CHECK_THAT(error_of_cart("type = \"tyre\"", "type = \"tire\""),
-             Contains("cart.toml:44:8: error: 'forces.1.type' must be one of \"spring-damper\", ") &&
+             Contains("cart.toml:44:8: error: 'forces.wheel.type' must be one of \"spring-damper\", ") &&
                  Contains("; got a string \"tire\" (did you mean 'tyre'?)"));
 }
 

@@ -53,6 +53,20 @@ TEST_CASE("every value knows its location and full key") {
   CHECK(place(kind.location()) == "v.toml:10:8");
 }
 
+TEST_CASE("elements of arrays go by their names, without one by their positions") {
+  TomlDocument document = TomlDocument::parse(
+      "[[forces]]\nname = \"seat_air\"\nrate = 1\n[[forces]]\nrate = 2\n[[forces]]\nname = \"left "
+      "one\"\nlaw.table = [[1, 2]]\n",
+      "v.toml");
+  const std::vector<TomlValue> forces = document.root().at("forces").items();
+  CHECK(forces[0].table().at("rate").key() == "forces.seat_air.rate");
+  CHECK(forces[1].table().at("rate").key() == "forces.1.rate");
+  const TomlTable law = forces[2].table().at("law").table();
+  CHECK(law.at("table").items()[0].items()[1].key() == "forces.\"left one\".law.table.0.1");
+  document.set("forces=[{name=\"damper\", rate=3}]", "--set 1");
+  CHECK(document.root().at("forces").items()[0].table().at("rate").key() == "forces.damper.rate");
+}
+
 TEST_CASE("a table's entries come in the order of the file") {
   const TomlDocument document = TomlDocument::parse(
       "[joints.rear]\nb = 1\na = 2\n[bodies.z]\n[bodies.a]\n[joints.front]\n[bodies.m]\n[a]\nz.y = 1\nb = {d "

@@ -44,7 +44,9 @@ struct TomlNode {
   };
   SourceLocation location;      ///< of the value
   SourceLocation key_location;  ///< of its key; of the value itself for array elements
-  std::string key;  ///< full key, with the 0-based position of array elements: "forces.2.stiffness"
+  /// Full key. Elements of arrays go by their `name`, "forces.front_tyre.damping", or by their 0-based
+  /// position, "forces.2.stiffness".
+  std::string key;
   std::variant<bool, std::int64_t, double, std::string, Array, Table> value;
 };
 

@@ -65,6 +65,15 @@ Assignment split(std::string_view text, const std::string& where) {
   throw malformed;
 }
 
+const std::string* find_name(const TomlNode& node) {
+  const auto* table = std::get_if<TomlNode::Table>(&node.value);
+  if (table == nullptr) return nullptr;
+  for (const auto& [key, entry] : table->entries) {
+    if (key == "name") return std::get_if<std::string>(&entry.value);
+  }
+  return nullptr;
+}
+
 // Gives a value, and all that is in it, the place of the override and its key in the document.
 void relocate(TomlNode& node, const SourceLocation& location, const std::string& key) {
   node.location = location;
@@ -74,7 +83,9 @@ void relocate(TomlNode& node, const SourceLocation& location, const std::string&
     for (auto& [name, entry] : table->entries) relocate(entry, location, join_key(key, name));
   } else if (auto* array = std::get_if<TomlNode::Array>(&node.value)) {
     for (std::size_t i = 0; i < array->items.size(); ++i) {
-      relocate(array->items[i], location, join_key(key, std::to_string(i)));
+      const std::string* item = find_name(array->items[i]);
+      relocate(array->items[i], location,
+               join_key(key, item != nullptr && !item->empty() ? *item : std::to_string(i)));
     }
   }
 }
@@ -103,15 +114,6 @@ std::optional<std::size_t> read_position(const KeyPart& part) {
   const std::from_chars_result result = std::from_chars(part.text.data(), end, position);
   if (part.quoted || result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return position;
-}
-
-const std::string* find_name(const TomlNode& node) {
-  const auto* table = std::get_if<TomlNode::Table>(&node.value);
-  if (table == nullptr) return nullptr;
-  for (const auto& [key, entry] : table->entries) {
-    if (key == "name") return std::get_if<std::string>(&entry.value);
-  }
-  return nullptr;
 }
 
 // The element of an array by its position or, a table, by its name.

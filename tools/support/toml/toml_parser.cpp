@@ -83,9 +83,16 @@ class Converter {
     for (std::size_t i = 0; i < array.size(); ++i) {
       const toml::node& item = array[i];
       const SourceLocation location = place(item.source().begin, parent.location);
-      result.items.push_back(convert(item, join_key(parent.key, std::to_string(i)), location));
+      result.items.push_back(convert(item, join_key(parent.key, name_of(item, i)), location));
     }
     return result;
+  }
+
+  // The last part of an element's key: its `name` if it is a table with one, otherwise its position.
+  static std::string name_of(const toml::node& item, std::size_t position) {
+    const auto* table = item.as_table();
+    const auto* name = table != nullptr ? table->get_as<std::string>("name") : nullptr;
+    return name != nullptr && !name->get().empty() ? name->get() : std::to_string(position);
   }
 
   const std::string& name_;

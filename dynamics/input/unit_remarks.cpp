@@ -1,0 +1,64 @@
+#include "dynamics/input/unit_remarks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kLongest = 100.0;         // m, of a vehicle
+constexpr double kLargestWheel = 10.0;     // m
+constexpr double kLargestGyration = 50.0;  // m
+
+std::string remark_at(const support::SourceLocation& location, const std::string& text) {
+  if (location.line == 0) return fmt::format("{}: {}", location.path, text);
+  return fmt::format("{}:{}:{}: {}", location.path, location.line, location.column, text);
+}
+
+void remark_on_body(const BodyDescription& body, std::vector<std::string>& remarks) {
+  for (const PointDescription& point : body.points) {
+    if (point.position.norm() <= kLongest) continue;
+    remarks.push_back(remark_at(
+        point.location, fmt::format("'bodies.{}.points.{}' is {:.4g} m away; lengths are in m, not in mm",
+                                    body.name, point.name, point.position.norm())));
+  }
+  const double gyration = body.mass > 0.0 ? std::sqrt(body.inertia / body.mass) : 0.0;
+  if (gyration > kLargestGyration) {
+    remarks.push_back(remark_at(
+        body.inertia_location,
+        fmt::format(
+            "'bodies.{}.inertia' is that of {:.4g} kg at a distance of {:.4g} m; inertias are in kg·m², not "
+            "in kg·mm²",
+            body.name, body.mass, gyration)));
+  }
+}
+
+void remark_on_force(const ForceDescription& force, std::vector<std::string>& remarks) {
+  double length = 0.0, largest = kLongest;
+  std::string key;
+  if (const auto* spring = std::get_if<SpringDamper::Parameters>(&force.parameters)) {
+    length = spring->free_length;
+    key = "free_length";
+  } else if (const auto* tyre = std::get_if<TyreDescription>(&force.parameters)) {
+    length = tyre->parameters.radius;
+    largest = kLargestWheel;
+    key = "radius";
+  }
+  if (length <= largest) return;
+  remarks.push_back(remark_at(
+      force.location,
+      fmt::format("'forces.{}.{}' is {:.4g} m; lengths are in m, not in mm", force.name, key, length)));
+}
+
+}  // namespace
+
+std::vector<std::string> list_unit_remarks(const Vehicle& vehicle) {
+  std::vector<std::string> remarks;
+  for (const BodyDescription& body : vehicle.bodies) remark_on_body(body, remarks);
+  for (const ForceDescription& force : vehicle.forces) remark_on_force(force, remarks);
+  return remarks;
+}
+
+}  // namespace sprung::dynamics

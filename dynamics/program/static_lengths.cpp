@@ -1,0 +1,117 @@
+#include "dynamics/program/static_lengths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dynamics/input/make_model.h"
+#include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
+#include "dynamics/system/system_terms.h"
+#include "tools/support/errors/input_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr int kMostIterations = 50;
+constexpr double kTolerance = 1e-9;     // relative to the static length
+constexpr double kSmallestShare = 0.2;  // of a free length that one step leaves of it
+
+// The springs whose static length is given, and their lengths in a position of the vehicle.
+class StaticSprings {
+ public:
+  explicit StaticSprings(const Vehicle& vehicle) {
+    for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
+      if (vehicle.forces[f].static_length) forces_.push_back(f);
+    }
+  }
+  bool empty() const { return forces_.empty(); }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(forces_.size()); }
+  std::size_t force(Eigen::Index i) const { return forces_[static_cast<std::size_t>(i)]; }
+  double& free_length(Vehicle& vehicle, Eigen::Index i) const {
+    return std::get<SpringDamper::Parameters>(vehicle.forces[force(i)].parameters).free_length;
+  }
+
+  Eigen::VectorXd calc_lengths(const Model& model, const Eigen::VectorXd& q) const {
+    SystemTerms terms(model);
+    terms.update_positions(0.0, q);
+    Eigen::VectorXd lengths(size());
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const std::vector<int> markers = model.forces[force(i)]->markers();
+      lengths[i] = (terms.markers()[static_cast<std::size_t>(markers[1])].r -
+                    terms.markers()[static_cast<std::size_t>(markers[0])].r)
+                       .norm();
+    }
+    return lengths;
+  }
+
+ private:
+  std::vector<std::size_t> forces_;
+};
+
+// The lengths wanted: those of the file, else those of the vehicle as drawn.
+Eigen::VectorXd find_targets(const Vehicle& vehicle, const StaticSprings& springs,
+                             const Eigen::VectorXd& drawn) {
+  Eigen::VectorXd targets = drawn;
+  for (Eigen::Index i = 0; i < springs.size(); ++i) {
+    const StaticLength& wanted = *vehicle.forces[springs.force(i)].static_length;
+    if (wanted.length) targets[i] = *wanted.length;
+  }
+  return targets;
+}
+
+[[noreturn]] void throw_not_reached(const Vehicle& vehicle, const StaticSprings& springs,
+                                    const Eigen::VectorXd& targets, const Eigen::VectorXd& lengths) {
+  Eigen::Index worst = 0;
+  (lengths - targets).cwiseAbs().maxCoeff(&worst);
+  const ForceDescription& force = vehicle.forces[springs.force(worst)];
+  throw support::InputError(
+      force.static_length->location,
+      fmt::format(
+          "'forces.{}.free_length.static' of {:.6g} m cannot be reached together with the other static "
+          "lengths: after {} iterations it is {:.6g} m; check that the spring carries load, and that its "
+          "stops are out of reach",
+          force.name, targets[worst], kMostIterations, lengths[worst]));
+}
+
+}  // namespace
+
+std::vector<StaticLengthResult> solve_static_lengths(
+    Vehicle& vehicle, const std::function<Model(const Vehicle&)>& make_balance) {
+  const StaticSprings springs(vehicle);
+  if (springs.empty()) return {};
+  Model model = make_balance(vehicle);
+  Eigen::VectorXd q = make_start_positions(model, vehicle);
+  assemble_positions(model, q);
+  const Eigen::VectorXd targets = find_targets(vehicle, springs, springs.calc_lengths(model, q));
+  Eigen::VectorXd free_lengths = targets, lengths, error, step;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Identity(springs.size(), springs.size());  // of the inverse Jacobian
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    for (Eigen::Index i = 0; i < springs.size(); ++i) springs.free_length(vehicle, i) = free_lengths[i];
+    model = make_balance(vehicle);
+    q = find_equilibrium(model, q).q;
+    lengths = springs.calc_lengths(model, q);
+    const Eigen::VectorXd before = error;
+    error = lengths - targets;
+    if ((error.array().abs() <= kTolerance * targets.array()).all()) {
+      std::vector<StaticLengthResult> results;
+      for (Eigen::Index i = 0; i < springs.size(); ++i)
+        results.push_back({vehicle.forces[springs.force(i)].name, lengths[i], free_lengths[i]});
+      return results;
+    }
+    if (before.size() > 0) {
+      const Eigen::VectorXd By = B * (error - before);
+      const double denominator = step.dot(By);
+      if (denominator != 0.0) B += (step - By) * (step.transpose() * B) / denominator;
+    }
+    step = -B * error;
+    const double shrink =
+        ((1.0 - kSmallestShare) * free_lengths.array() / (-step).array().max(1e-300)).minCoeff();
+    step *= std::min(1.0, shrink);
+    free_lengths += step;
+  }
+  throw_not_reached(vehicle, springs, targets, lengths);
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/vehicle.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// A force element that has the length of the vehicle file in static equilibrium.
+struct StaticLengthResult {
+  std::string force;
+  double length = 0.0;       ///< in equilibrium [m]
+  double free_length = 0.0;  ///< that gives it [m]
+};
+
+/// Finds the free lengths of the springs whose length in static equilibrium the vehicle file gives, and
+/// writes them into the vehicle. Broyden's method: the inverse Jacobian starts as the identity, which is
+/// exact where each spring carries a load that does not depend on the others.
+/// @param make_balance  the model for the balance, of a vehicle with other free lengths
+/// @throws support::InputError at a force whose static length cannot be reached together with the others;
+///         support::NumericalError if there is no equilibrium
+/// Checked by tests/dynamics/program/static_length_test.py
+std::vector<StaticLengthResult> solve_static_lengths(
+    Vehicle& vehicle, const std::function<Model(const Vehicle&)>& make_balance);
+
+}  // namespace sprung::dynamics

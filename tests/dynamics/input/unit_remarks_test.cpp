@@ -1,0 +1,32 @@
+#include "dynamics/input/unit_remarks.h"
+
+#include "tests/catch.h"
+#include "tests/dynamics/input/input_cases.h"
+
+using namespace sprung;
+
+namespace {
+
+std::vector<std::string> remarks_on(const std::string& old_part, const std::string& new_part) {
+  return dynamics::list_unit_remarks(
+      test::read_cart(test::with_change(test::cart_text(), old_part, new_part)));
+}
+
+}  // namespace
+
+TEST_CASE("A vehicle in SI units calls for no remark") {
+  CHECK(remarks_on("mass = 4.0", "mass = 4.0").empty());
+}
+
+TEST_CASE("Lengths in millimetres and inertias in kg mm² are remarked on at their place") {
+  CHECK(remarks_on("tip = [0.6, -0.1]", "tip = [600.0, -100.0]") ==
+        std::vector<std::string>{
+            "cart.toml:18:7: 'bodies.arm.points.tip' is 608.3 m away; lengths are in m, not in mm"});
+  CHECK(remarks_on("inertia = 0.7", "inertia = 7e5") ==
+        std::vector<std::string>{
+            "cart.toml:15:11: 'bodies.arm.inertia' is that of 4 kg at a distance of 418.3 m; "
+            "inertias are in kg·m², not in kg·mm²"});
+  CHECK(remarks_on("free_length = 5.5", "free_length = 5500.0") ==
+        std::vector<std::string>{
+            "cart.toml:31:8: 'forces.rope.free_length' is 5500 m; lengths are in m, not in mm"});
+}

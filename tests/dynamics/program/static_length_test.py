@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+"""Springs whose length in static equilibrium is given: their free lengths, and the vehicle at its ride height."""
+
+import json
+import re
+import unittest
+
+import h5py
+from dynamics_test_case import DynamicsTestCase
+
+AXLES = ("front", "rear")
+FREE_LENGTH = 0.458  # of the truck's springs, m
+
+
+class StaticLength(DynamicsTestCase):
+    def read_lengths(self, *arguments):
+        """Runs. Returns each suspension's length at the start and its free length."""
+        process = self.run_to_results(*arguments)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        with h5py.File(self.results) as file:
+            return {
+                axle: (file[f"forces/{axle}_suspension/length"][0],
+                       file[f"model/resolved/forces/{axle}_suspension/parameters"].attrs["free_length"])
+                for axle in AXLES
+            }  # fmt: skip
+
+    def ask_for(self, lengths, where="vehicle.toml"):
+        """Gives the two springs static lengths in place of their free lengths."""
+        for axle, length in zip(AXLES, lengths):
+            self.edit(where, f"free_length = {FREE_LENGTH}", f"free_length = {{ static = {length} }}  # {axle}")
+
+    def test_the_lengths_of_a_balance_give_back_its_free_lengths(self):
+        for modes in ("0", "36"):
+            before = self.read_lengths("--set", f"modes.chassis={modes}")
+            text = (self.folder / "vehicle.toml").read_text(encoding="utf-8")
+            self.ask_for([f"{before[axle][0]:.17g}" for axle in AXLES])
+            after = self.read_lengths("--set", f"modes.chassis={modes}")
+            (self.folder / "vehicle.toml").write_text(text, encoding="utf-8")
+            for axle in AXLES:
+                self.assertAlmostEqual(after[axle][0], before[axle][0], delta=1e-9)
+                self.assertAlmostEqual(after[axle][1], FREE_LENGTH, delta=1e-8)
+
+    def test_springs_have_the_lengths_asked_for_or_those_of_the_drawing(self):
+        # As drawn, the points of a suspension are 0.4 m apart.
+        self.ask_for([0.37, '"as-drawn"'])
+        found = self.read_lengths()
+        self.assertAlmostEqual(found["front"][0], 0.37, delta=1e-8)
+        self.assertAlmostEqual(found["rear"][0], 0.4, delta=1e-8)
+        said = self.run_program("--set", "duration=0.01").stdout
+        free = float(re.search(r"rear_suspension: free length ([0-9.]+) m gives 0\.4 m in balance", said).group(1))
+        self.assertAlmostEqual(free, found["rear"][1], delta=1e-6)
+
+    def test_equilibrium_modes_and_the_choice_of_modes_know_them(self):
+        self.ask_for([0.37, 0.39])
+        found = json.loads(self.run_program("--json", verb="equilibrium").stdout)
+        low = json.loads(self.run_program("--json", "--set", "speed=0", verb="equilibrium").stdout)
+        self.assertEqual(found, low)
+        for verb in ("modes", "select-modes"):
+            process = self.run_program("--quiet", "--set", 'modes.chassis="auto"', verb=verb)
+            self.assertEqual(process.returncode, 0, process.stderr)
+
+    def test_lengths_that_contradict_each_other_are_refused(self):
+        self.ask_for([0.37, 0.39])
+        with open(self.folder / "vehicle.toml", "a", encoding="utf-8") as file:
+            file.write("""
+[[forces]]
+name = "helper"
+type = "spring-damper"
+a = "front_axle.origin"
+b = "chassis.front_spring"
+free_length = { static = 0.36 }
+spring = { polynomial = [0.0, 1e5] }
+""")
+        process = self.run_to_results()
+        self.assert_refused(process, "vehicle.toml:", "cannot be reached together with the other static lengths")
+        self.assertRegex(process.stderr, r"'forces\.(helper|front_suspension)\.free_length\.static'")
+
+
+if __name__ == "__main__":
+    unittest.main()

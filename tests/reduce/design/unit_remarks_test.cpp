@@ -1,0 +1,39 @@
+#include "reduce/design/unit_remarks.h"
+
+#include "tests/catch.h"
+#include "tests/tools/support/temporary_folder.h"
+
+using namespace sprung;
+
+namespace {
+
+std::vector<std::string> remarks_on(const std::string& modulus, const std::string& density, double length) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "beam.toml",
+              "[materials.steel]\nyoungs_modulus = " + modulus + "\ndensity = " + density +
+                  "\n[sections.bar]\nmaterial = \"steel\"\narea = 0.01\nsecond_moment = 1e-5\n[points]\na = "
+                  "[0, 0]\nb = [" +
+                  std::to_string(length) +
+                  ", 0]\n[[lines]]\nthrough = [\"a\", \"b\"]\nsection = \"bar\"\nelements = "
+                  "2\n[reference]\npoint = \"a\"\n[modes]\ncount = 1\ndamping_ratio = 0.01\n");
+  return reduce::list_unit_remarks(reduce::read_design(folder / "beam.toml"));
+}
+
+}  // namespace
+
+TEST_CASE("Steel in SI units calls for no remark") {
+  CHECK(remarks_on("2.1e11", "7850", 6.0).empty());
+}
+
+TEST_CASE("Moduli, densities and lengths in other units are remarked on") {
+  CHECK(remarks_on("210000", "7850", 6.0) ==
+        std::vector<std::string>{
+            "'materials.steel.youngs_modulus' is 2.1e+05 Pa, softer than rubber; steel has "
+            "2.1e11 Pa, which is 210000 MPa"});
+  CHECK(remarks_on("2.1e11", "7.85e-5", 6.0) ==
+        std::vector<std::string>{
+            "'materials.steel.density' is 7.85e-05 kg/m³; steel has 7850 kg/m³, which is 7.85 "
+            "g/cm³ or 7.85e-9 t/mm³"});
+  CHECK(remarks_on("2.1e11", "7850", 6000.0) ==
+        std::vector<std::string>{"the frame is 6000 m long; lengths are in m, not in mm"});
+}

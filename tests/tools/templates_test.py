@@ -1,0 +1,124 @@
+"""dynamics/models/templates: each vehicle is built, stands where it is drawn, runs and is judged, as its README says.
+Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
+
+import json
+import os
+import re
+import shutil
+import unittest
+
+import numpy as np
+from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
+
+from sprung_tools.files.results_file import open_results
+from sprung_tools.model.resolved_model import read_elements, read_point
+
+TEMPLATES = ROOT / "dynamics/models/templates"
+GUIDE = TEMPLATES / "README.md"
+# Degrees of freedom with rigid bodies: three for each body, without those that the joints take.
+FREEDOMS = {"half_car": 5, "bus": 8, "truck": 7, "semitrailer": 14}
+FLEXIBLE = {"truck": ("frame",), "semitrailer": ("tractor_frame", "trailer_frame")}
+DURATION = "0.5"
+
+
+class Templates(ToolTestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.made = make_class_folder(cls)
+        designs = sorted((ROOT / "meshes/templates").glob("*.toml"))
+        process = run_program([os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", cls.made], check=True)
+        cls.remarks = [line for line in process.stdout.splitlines() if "remark" in line]
+
+    def run_template(self, name, *arguments):
+        """Runs a template. Returns what --json printed; the results are in NAME.h5 of the test's folder."""
+        process = run_program(
+            [os.environ["SPRUNG_DYNAMICS"], "run", TEMPLATES / f"{name}_run.toml", "--superelements", self.made,
+             "--json", "--set", f"duration={DURATION}", "-o", self.folder / f"{name}.h5", *arguments],
+        )  # fmt: skip
+        self.assertEqual((process.returncode, process.stderr), (0, ""))
+        return json.loads(process.stdout)
+
+    def test_every_template_is_among_those_tested(self):
+        self.assertEqual({path.stem for path in TEMPLATES.glob("*.toml") if not path.stem.endswith("_run")},
+                         set(FREEDOMS))  # fmt: skip
+        self.assertEqual(self.remarks, [])
+
+    def test_each_runs_with_the_freedoms_of_its_joints_and_without_warnings(self):
+        for name, freedoms in FREEDOMS.items():
+            with self.subTest(name):
+                rigid = [word for body in FLEXIBLE.get(name, ()) for word in ("--set", f"modes.{body}=0")]
+                # Without the estimate of modes left out, which a rigid frame would call for.
+                printed = self.run_template(name, *rigid, "--set", "adaptivity.indicator=false")
+                self.assertEqual((printed["freedoms"], printed["warnings"]), (freedoms, []))
+                if rigid:
+                    flexible = self.run_template(name)
+                    self.assertGreater(flexible["freedoms"], freedoms)
+                    self.assertEqual(flexible["warnings"], [])
+
+    def test_each_stands_as_it_is_drawn_with_its_wheels_on_the_ground(self):
+        for name in FREEDOMS:
+            with self.subTest(name):
+                self.run_template(name)
+                with open_results(self.folder / f"{name}.h5") as results:
+                    springs = [one for one in read_elements(results, "forces").values() if one.drawing == "spring"]
+                    for spring in springs:
+                        static, _ = results.series(f"forces/{spring.name}/length")
+                        self.assertAlmostEqual(static[0], self.drawn_length(results, spring), delta=1e-6)
+                    for force in results.names("forces"):
+                        if force.endswith("tyre") or force.startswith("tyre"):
+                            self.assertEqual(results.series(f"forces/{force}/contact")[0][0], 1.0)
+                    # The drawing has the tyres a little more or less compressed than they are.
+                    for body in (one for one in results.names("bodies") if "axle" in one):
+                        drawn, _ = results.file.numbers(f"model/resolved/bodies/{body}/position")
+                        balance, _ = results.file.numbers(f"model/equilibrium/bodies/{body}")
+                        self.assertLess(abs(balance[1] - drawn[1]), 0.02, body)
+
+    def drawn_length(self, results, spring):
+        """The distance of a spring's points in the vehicle file."""
+        ends = []
+        for name in spring.points.values():
+            point = read_point(results, name)
+            place, _ = results.file.numbers(f"model/resolved/bodies/{point.body}/position")
+            self.assertEqual(place[2], 0.0)
+            ends.append(place[:2] + point.position)
+        return float(np.linalg.norm(ends[0] - ends[1]))
+
+    def test_the_tools_judge_and_draw_the_semitrailer(self):
+        self.run_template("semitrailer")
+        ride = self.run_tool("ride", "semitrailer.h5")
+        self.assert_succeeds(ride)
+        for words in ("driver.seat", "seat_air", "tyre_3", "trailer_frame"):
+            self.assertIn(words, ride.stdout)
+        self.assert_succeeds(self.run_tool("report", "semitrailer.h5", "-o", "page.html"))
+
+    def test_the_guide_goes_through(self):
+        # Its vehicle file is the template; every command of it is run as it stands there.
+        text = GUIDE.read_text(encoding="utf-8")
+        commands = [line for block in re.findall(r"```sh\n(.*?)```", text, re.S) for line in block.splitlines()]
+        self.assertGreater(len(commands), 5)
+        shutil.copytree(ROOT / "dynamics", self.folder / "dynamics")
+        shutil.copytree(ROOT / "meshes", self.folder / "meshes")
+        (self.folder / "tools").symlink_to(ROOT / "tools")
+        programs = {"sprung-reduce": os.environ["SPRUNG_REDUCE"], "sprung-dynamics": os.environ["SPRUNG_DYNAMICS"]}
+        for command in commands:
+            with self.subTest(command):
+                words = command.split()
+                words[0] = programs.get(words[0], words[0])
+                process = run_program(words, cwd=self.folder)
+                self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        # What the guide adds to the vehicle: each piece of TOML, one after the other, is read and run.
+        pieces = re.findall(r"```toml\n(.*?)```", text, re.S)
+        self.assertGreater(len(pieces), 1)
+        for piece in pieces:
+            with self.subTest(piece):
+                vehicle = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8") + "\n" + piece
+                (self.folder / "mine.toml").write_text(vehicle, encoding="utf-8")
+                process = run_program(
+                    [os.environ["SPRUNG_DYNAMICS"], "run", "dynamics/models/templates/half_car_run.toml", "--set",
+                     "vehicle=../../../mine.toml", "--set", "duration=0.5", "--quiet"], cwd=self.folder,
+                )  # fmt: skip
+                self.assertEqual(process.returncode, 0, process.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
