@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "dynamics/forces/applied_force.h"
+#include "dynamics/forces/bushing.h"
+#include "dynamics/forces/hydraulic_stop.h"
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
 #include "dynamics/forces/tyre.h"
@@ -23,8 +25,9 @@ struct TyreDescription {
 };
 
 /// Parameters of a force element of any kind.
-using ForceParameters = std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters,
-                                     AppliedForce::Parameters, TyreDescription>;
+using ForceParameters =
+    std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters, AppliedForce::Parameters,
+                 TyreDescription, HydraulicStop::Parameters, Bushing::Parameters>;
 
 /// A force element as described in the vehicle file.
 struct ForceDescription {
