@@ -35,7 +35,7 @@ struct Power {
 
 /// The meaning of a channel, for readers that do not know the element.
 enum class ChannelRole {
-  kForce,              ///< force that the element exerts: along its line, or vertical on a wheel
+  kForce,              ///< force that the element exerts: along its line or an axis, or vertical on a wheel
   kLongitudinalForce,  ///< horizontal force on a wheel
   kTorque,             ///< torque that the element exerts
   kGiven,              ///< force or torque that the input file gives as a function of time

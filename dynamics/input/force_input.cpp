@@ -10,6 +10,7 @@
 #include "dynamics/forces/distributed_tyre.h"
 #include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/input/characteristic_input.h"
+#include "dynamics/input/suspension_input.h"
 #include "dynamics/input/time_function_input.h"
 
 namespace sprung::dynamics {
@@ -160,6 +161,8 @@ const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
       {"rotational-spring-damper", read_rotational_spring_damper},
       {"applied", read_applied},
       {"tyre", read_tyre},
+      {"hydraulic-stop", read_hydraulic_stop},
+      {"bushing", read_bushing},
   };
   return readers;
 }
@@ -190,6 +193,20 @@ std::unique_ptr<ForceElement> place(const std::string& name, TyreDescription tyr
   tyre.parameters.marker = markers[0];
   if (tyre.is_distributed) return std::make_unique<DistributedTyre>(name, std::move(tyre.parameters), road);
   return std::make_unique<PointContactTyre>(name, std::move(tyre.parameters), road);
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, HydraulicStop::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker_a = markers[0];
+  parameters.marker_b = markers[1];
+  return std::make_unique<HydraulicStop>(name, std::move(parameters));
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, Bushing::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker_a = markers[0];
+  parameters.marker_b = markers[1];
+  return std::make_unique<Bushing>(name, std::move(parameters));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superel
 
 PROGRAM, SUPERELEMENTS = os.environ["SPRUNG_DYNAMICS"], os.environ["SPRUNG_SUPERELEMENTS"]
 JOINTS = {"revolute", "translational", "fixed", "distance", "pin-in-slot", "motion"}
-FORCES = {"spring-damper", "rotational-spring-damper", "applied", "tyre"}
+FORCES = {"spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing"}
 
 
 class EveryElement(ToolTestCase):

@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from verification_case import VerificationCase
+from verification_case import EXAMPLES, VerificationCase
 
 DISC = """
 name = "disc"
@@ -127,6 +127,118 @@ rebound_stop = { deflection = -0.1, rate = 5.0e4 }
         free = np.abs(results["bodies/disc/position"][:, 2]) < 0.1
         self.assert_close(np.abs(results["bodies/disc/velocity"][free, 2]), 1.0, absolute=1e-5)
         self.assertLess(results.summary["energy_closure"], 1e-6)
+
+
+STOP = """
+[[forces]]
+name = "stop"
+type = "hydraulic-stop"
+a = "ground.origin"
+b = "disc.origin"
+contact_length = 0.5
+spring = {{ polynomial = [0.0, {stiffness:g}] }}
+damping = {damping:g}
+"""
+
+
+class HydraulicStop(VerificationCase):
+    def test_impact(self):
+        # m δ'' = −δ (k + c δ') has the integral v/c − k/c² ln(1 + c v/k) + δ²/2m, v = δ'.
+        m, k, c = 2.0, 4.0e4, 2.0e4
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]").replace("position = [0.0, 0.0]", "position = [0.6, 0.0]")
+            + STOP.format(stiffness=k, damping=c),
+            'start = "as-given"\nduration = 0.3\noutput_step = 1e-4\n[initial.disc]\nvelocity = [-3.0, 0.0]\n'
+            "[integrator]\nrelative_tolerance = 1e-8\n",
+        )
+
+        def integral(overlap, rate):
+            return rate / c - k / c**2 * np.log1p(c * rate / k) + overlap**2 / (2.0 * m)
+
+        x, v = results["bodies/disc/position"][:, 0], results["bodies/disc/velocity"][:, 0]
+        overlap, rate = results["forces/stop/overlap"], results["forces/stop/rate"]
+        self.assert_close(overlap, 0.5 - x, absolute=1e-12)
+        self.assert_close(rate, -v, absolute=1e-12)
+        inside = overlap > 0.0
+        self.assertGreater(np.count_nonzero(inside), 50)
+        start = integral(0.0, 3.0)
+        self.assert_close(integral(overlap[inside], rate[inside]), start, absolute=1e-6 * start)
+        self.assert_close(integral(0.0, rate[-1]), start, absolute=1e-6 * start)  # after the rebound
+        force = np.where(inside, overlap * (k + c * rate), 0.0)
+        self.assert_close(results["forces/stop/force"], force, absolute=1e-6 * force.max())
+        self.assertEqual(results.summary["switches"], 2)
+        self.assertLess(results.summary["energy_closure"], 1e-7)
+
+    def test_it_never_pulls(self):
+        # Driven: overlap 0.1 sin(20 t) m, so that the rate falls below −k/c = −1 m/s before the points part.
+        results = self.run_text(
+            DISC.format("[0.0, 0.0]").replace("position = [0.0, 0.0]", "position = [0.5, 0.0]")
+            + STOP.format(stiffness=1e4, damping=1e4)
+            + """
+[[joints]]
+name = "guide"
+type = "translational"
+a = "ground.origin"
+b = "disc.origin"
+axis = [1.0, 0.0]
+[[motions]]
+name = "drive"
+joint = "guide"
+function = { harmonic = { mean = 0.5, amplitude = -0.1, frequency = 3.1830988618379066 } }
+""",
+            'start = "as-given"\nduration = 1.0\n[integrator]\nrelative_tolerance = 1e-8\n',
+        )
+        t = results.time
+        overlap, rate = 0.1 * np.sin(20.0 * t), 2.0 * np.cos(20.0 * t)
+        law = overlap * (1e4 + 1e4 * rate)
+        self.assertLess(law[overlap > 0.0].min(), -100.0)
+        force = np.where(overlap > 0.0, np.maximum(law, 0.0), 0.0)
+        self.assert_close(results["forces/stop/force"], force, absolute=0.05)
+        self.assertLess(results.summary["energy_closure"], 1e-6)
+
+    def test_equilibrium_and_modes_of_a_mass_that_rests_on_it(self):
+        m, k, c = 2.0, 4.0e3, 5.0e3
+        self.run_text(
+            DISC.format("[0.0, -10.0]").replace("position = [0.0, 0.0]", "position = [0.0, 0.45]")
+            + STOP.format(stiffness=k, damping=c)
+            + """
+[[joints]]
+name = "guide"
+type = "translational"
+a = "ground.origin"
+b = "disc.origin"
+axis = [0.0, 1.0]
+""",
+            "duration = 0.1\n",
+        )
+        balance = self.program("equilibrium", self.folder / "run.toml")
+        overlap = m * 10.0 / k
+        self.assert_close(balance["bodies"]["disc"]["y"], 0.5 - overlap, absolute=1e-9)
+        (mode,) = self.program("modes", self.folder / "run.toml")["modes"]
+        self.assert_close(mode["undamped_frequency"], math.sqrt(k / m) / (2.0 * math.pi), relative=1e-7)
+        self.assert_close(mode["damping_ratio"], c * overlap / (2.0 * math.sqrt(k * m)), relative=1e-7)
+
+    def test_response_of_a_mass_that_rests_on_it(self):
+        # 300 kg on the stop on 40 kg on a tyre of 200 kN/m. The stop counts as a spring k and a damper c δ₀.
+        ms, mu, k, c, kt = 300.0, 40.0, 2.0e4, 1.0e4, 2.0e5
+        overlap = ms * 9.81 / k
+        vehicle = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
+        before, rest = vehicle.split('[[forces]]\nname = "suspension"')
+        tyre = rest[rest.index("[[forces]]") :]
+        stop = STOP.format(stiffness=k, damping=c).replace("0.5", "0.44715")
+        stop = stop.replace("ground.origin", "unsprung.origin").replace("disc.origin", "sprung.origin")
+        (self.folder / "vehicle.toml").write_text(before + stop + tyre, encoding="utf-8")
+        run = self.folder / "run.toml"
+        run.write_text('vehicle = "vehicle.toml"\nduration = 1.0\nspeed = 5.0\n', encoding="utf-8")
+        response = self.program("response", run)
+        s = 2j * math.pi * np.array(response["frequency"])
+        spring = k + c * overlap * s
+        determinant = (ms * s**2 + spring) * (mu * s**2 + spring + kt) - spring**2
+        body, wheel = spring * kt / determinant, (ms * s**2 + spring) * kt / determinant
+        for name, expected in (("overlap", wheel - body), ("force", spring * (wheel - body))):
+            output = response["outputs"][f"forces/stop/{name}"]
+            found = np.array(output["real"]) + 1j * np.array(output["imaginary"])
+            self.assert_close(np.abs(found / expected - 1.0), 0.0, absolute=1e-6)
 
 
 DRIVEN = """

@@ -17,7 +17,10 @@ struct MarkerPair {
   /// After a time, the velocities kept.
   MarkerPair after(double time) const {
     MarkerPair moved = *this;
-    for (dynamics::MarkerState& marker : moved.markers) marker.r += time * marker.v;
+    for (dynamics::MarkerState& marker : moved.markers) {
+      marker.r += time * marker.v;
+      marker.angle += time * marker.omega;
+    }
     return moved;
   }
 };

@@ -106,6 +106,10 @@ std::string section_of(const std::string& path, const std::string& type) {
       {"forces.*.compression_stop", "Laws: stops"},
       {"forces.*.rebound_stop", "Laws: stops"},
       {"forces.*.damper", "Laws: damper"},
+      {"forces.*.metering", "Laws: metering"},
+      {"forces.*.x", "Laws: direction of a bushing"},
+      {"forces.*.y", "Laws: direction of a bushing"},
+      {"forces.*.rotation", "Laws: direction of a bushing"},
       {"statistics", "Statistics"},
       {"integrator", "Integrator"},
       {"adaptivity", "Adaptivity"},
@@ -124,6 +128,10 @@ std::string section_of(const std::string& path, const std::string& type) {
   if (path.ends_with(".pieces.*")) return "Functions of time: pieces";
   for (const char* part : {".sum.*", ".product.*", ".pieces.*.function"}) {
     if (path.ends_with(part)) return "Functions of time";
+  }
+  for (const char* direction : {".x", ".y", ".rotation"}) {
+    if (path.ends_with(std::string(direction) + ".spring")) return "Laws: spring";
+    if (path.ends_with(std::string(direction) + ".damper")) return "Laws: damper";
   }
   const auto found = kSections.find(path);
   return found == kSections.end() ? "" : found->second;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "dynamics/input/force_input.h"
+
+namespace sprung::dynamics {
+
+/// Readers of the keys of force elements of suspensions, into a description that has its name and location.
+/// @throws support::InputError
+/// Checked by tests/dynamics/input/suspension_input_test.cpp
+void read_hydraulic_stop(const support::TomlTable& table, ForceDescription& force);
+void read_bushing(const support::TomlTable& table, ForceDescription& force);
+
+}  // namespace sprung::dynamics
