@@ -44,22 +44,22 @@ TEST_CASE("A hydraulic stop has a contact length, and a spring, a metering or a 
   force->calc_channels({.markers = markers}, branches, channels);
   // Overlap 0.1 m at 2 m/s: spring, damping, and the metering half-way between its points.
   CHECK(channels[3] == Approx(50.0 * 0.1 + 20.0 * 0.1 * 2.0 + 20.0 * 4.0).epsilon(1e-13));
-  CHECK(error_of(stop("damping = 50.0")) == "f.toml:1:1: error: missing key 'contact_length' in 'forces.0'");
+  CHECK(error_of(stop("damping = 50.0")) == "f.toml:1:1: error: missing key 'contact_length' in 'forces.h'");
   CHECK(error_of(stop("contact_length = 0.0\ndamping = 50.0")) ==
-        "f.toml:6:18: error: 'forces.0.contact_length' must be > 0 m, got 0");
+        "f.toml:6:18: error: 'forces.h.contact_length' must be > 0 m, got 0");
   CHECK(error_of(stop("contact_length = 0.3")) ==
-        "f.toml:1:1: error: 'forces.0' must have a 'spring', a 'metering' or a 'damping'");
+        "f.toml:1:1: error: 'forces.h' must have a 'spring', a 'metering' or a 'damping'");
   CHECK(error_of(stop("contact_length = 0.3\ndamping = -1.0")) ==
-        "f.toml:7:11: error: 'forces.0.damping' must be ≥ 0 N·s/m², got -1");
+        "f.toml:7:11: error: 'forces.h.damping' must be ≥ 0 N·s/m², got -1");
   CHECK(error_of(stop("contact_length = 0.3\nmetering = { coefficient = -1.0 }")) ==
-        "f.toml:7:28: error: 'forces.0.metering.coefficient' must be ≥ 0 N·s²/m², got -1");
+        "f.toml:7:28: error: 'forces.h.metering.coefficient' must be ≥ 0 N·s²/m², got -1");
   CHECK(error_of(stop("contact_length = 0.3\nmetering = { table = [[0.1, 1.0], [0.2, 1.0]] }")) ==
-        "f.toml:7:22: error: 'forces.0.metering.table' must begin at overlap 0, begins at 0.1 m");
+        "f.toml:7:22: error: 'forces.h.metering.table' must begin at overlap 0, begins at 0.1 m");
   CHECK(error_of(stop("contact_length = 0.3\nmetering = { table = [[0.0, 2.0], [0.2, 1.0]] }")) ==
-        "f.toml:7:22: error: 'forces.0.metering.table' must not fall at its end, which goes on straight: the "
+        "f.toml:7:22: error: 'forces.h.metering.table' must not fall at its end, which goes on straight: the "
         "resistance would become negative");
   CHECK(error_of(stop("contact_length = 0.3\ndamping = 50.0\ndampng = 1.0")) ==
-        "f.toml:8:1: error: unknown key 'dampng' in 'forces.0' (did you mean 'damping'?)");
+        "f.toml:8:1: error: unknown key 'dampng' in 'forces.h' (did you mean 'damping'?)");
 }
 
 TEST_CASE("A bushing has laws in at least one direction") {
@@ -79,11 +79,11 @@ TEST_CASE("A bushing has laws in at least one direction") {
   CHECK(channels[2] == -0.5);
   CHECK(channels[8] == Approx(2.0 * 3.0 * 2.0).epsilon(1e-13));
   CHECK(error_of(bushing("angle = 0.1")) ==
-        "f.toml:1:1: error: 'forces.0' must have laws for at least one of 'x', 'y' and 'rotation'");
-  CHECK(error_of(bushing("y = {}")) == "f.toml:6:5: error: 'forces.0.y' must have a 'spring' or a 'damper'");
+        "f.toml:1:1: error: 'forces.b' must have laws for at least one of 'x', 'y' and 'rotation'");
+  CHECK(error_of(bushing("y = {}")) == "f.toml:6:5: error: 'forces.b.y' must have a 'spring' or a 'damper'");
   CHECK(error_of(bushing("y = { spring = { polynomial = [0.0, -5.0] } }")) ==
-        "f.toml:6:31: error: 'forces.0.y.spring.polynomial' has a negative stiffness at deflection 0: "
+        "f.toml:6:31: error: 'forces.b.y.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 1 is -5, must be ≥ 0");
   CHECK(error_of(bushing("x = { damper = { coefficient = 1.0 } }\nmultiplicity = 0")) ==
-        "f.toml:7:16: error: 'forces.0.multiplicity' must be > 0, got 0");
+        "f.toml:7:16: error: 'forces.b.multiplicity' must be > 0, got 0");
 }
