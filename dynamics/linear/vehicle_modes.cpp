@@ -171,4 +171,13 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   return modes;
 }
 
+Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::VectorXd& q) {
+  PartitionedEquations equations(model);
+  equations.choose_partition_at(0.0, q);
+  const LinearisedSystem system = linearise(equations, 0.0, q);
+  const auto pairs = support::solve_undamped(system.stiffness, system.mass);
+  if (!pairs) throw support::NumericalError("modes: the undamped eigenvalue problem does not converge");
+  return pairs->values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+}
+
 }  // namespace sprung::dynamics

@@ -24,4 +24,10 @@ struct VehicleMode {
 /// Checked by tests/dynamics/linear/vehicle_modes_test.cpp
 std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium);
 
+/// Undamped frequencies of a vehicle linearised about rest at q, also where q is no equilibrium, ascending;
+/// those of rigid-body modes are 0 to rounding.
+/// @return one for each freedom [Hz]
+/// @throws support::NumericalError as linearise
+Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::VectorXd& q);
+
 }  // namespace sprung::dynamics

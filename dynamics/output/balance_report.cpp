@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/output/section_report.h"
+#include "dynamics/system/constrained_equations.h"
+#include "tools/support/errors/numerical_error.h"
 #include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
@@ -31,6 +34,12 @@ struct RestingForces {
   }
 };
 
+std::string format_remarks(const std::vector<BodyRemark>& remarks) {
+  std::string text;
+  for (const BodyRemark& remark : remarks) text += fmt::format("\nwarning: {}\n", remark.text);
+  return text;
+}
+
 std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
   std::vector<std::string> texts;
   for (const NeutralDirection& direction : equilibrium.neutral) texts.push_back(direction.description);
@@ -38,6 +47,27 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 }
 
 }  // namespace
+
+SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
+                                        VehicleSections& sections) {
+  SectionStatistics statistics(sections);
+  if (sections.bodies().empty()) return statistics;
+  ConstrainedEquations equations(model, SystemTerms::Markers::kAll);
+  const Eigen::VectorXd v = equilibrium.motion.calc_velocity(model, equilibrium.q);
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  SystemTerms& terms = equations.terms();
+  terms.update_positions(0.0, equilibrium.q);
+  terms.update_jacobian();
+  terms.update_velocities(v);
+  terms.choose_branches(branches);
+  if (!equations.update_accelerations(branches)) {
+    throw support::NumericalError(
+        "the accelerations at the equilibrium cannot be computed: constraints depend on each other");
+  }
+  sections.update(terms, equations.multipliers(), equilibrium.q, v, equations.v_dot());
+  statistics.add(0.0);
+  return statistics;
+}
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
@@ -81,7 +111,9 @@ std::string format_equilibrium(const BalanceReport& report) {
     }
     text += fmt::format("\n{}", forces.str());
   }
-  return text;
+  if (report.sections == nullptr) return text;
+  text += format_sections(*report.sections);
+  return text + format_remarks(list_missing_parts(*report.sections));
 }
 
 std::string format_equilibrium_json(const BalanceReport& report) {
@@ -98,16 +130,18 @@ std::string format_equilibrium_json(const BalanceReport& report) {
       channels[report.model.forces[f]->channels()[c].name] = values[c];
     forces[report.model.forces[f]->name] = std::move(channels);
   }
-  return support::format_json({{"bodies", bodies},
-                               {"forces", forces},
-                               {"neutral", neutral_descriptions(report.equilibrium)},
-                               {"stable", report.equilibrium.stable},
-                               {"iterations", report.equilibrium.iterations},
-                               {"last_step", report.equilibrium.last_step}});
+  return support::format_json(
+      {{"bodies", bodies},
+       {"forces", forces},
+       {"sections", report.sections ? make_sections_json(*report.sections) : Json::object()},
+       {"neutral", neutral_descriptions(report.equilibrium)},
+       {"stable", report.equilibrium.stable},
+       {"iterations", report.equilibrium.iterations},
+       {"last_step", report.equilibrium.last_step}});
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         bool is_steady) {
+                         const SectionStatistics& sections, bool is_steady) {
   std::string text = fmt::format(
       "{}: modes about {}, {} freedoms\n"
       "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
@@ -125,10 +159,29 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
                      support::format_fixed(mode.damping_ratio, 4), mode.participants});
     }
   }
-  return text + table.str();
+  text += table.str();
+  return text + format_remarks(list_missing_parts(sections));
 }
 
-std::string format_modes_json(const std::vector<VehicleMode>& modes) {
+bool FrequencyBracket::holds(const std::vector<VehicleMode>& modes, std::size_t mode) const {
+  return !modes[mode].is_rigid_body && modes[mode].undamped_frequency_hz < highest_hz;
+}
+
+std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket) {
+  support::TextTable table({"mode", "at least Hz", "at most Hz", "width"});
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    if (!bracket.holds(modes, k)) continue;
+    const double lower = bracket.lower_hz[static_cast<Eigen::Index>(k)],
+                 upper = modes[k].undamped_frequency_hz;
+    table.add_row({fmt::format("{}", k + 1), fmt::format("{:.6f}", lower), fmt::format("{:.6f}", upper),
+                   fmt::format("{:.1e}", upper / lower - 1.0)});
+  }
+  return fmt::format("\nBrackets of the undamped frequencies up to {:.6g} Hz\n{}", bracket.highest_hz,
+                     table.str());
+}
+
+std::string format_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+                              const FrequencyBracket* bracket) {
   Json list = Json::array();
   for (const VehicleMode& mode : modes) {
     list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
@@ -136,8 +189,12 @@ std::string format_modes_json(const std::vector<VehicleMode>& modes) {
                     {"damping_ratio", mode.damping_ratio},
                     {"rigid_body", mode.is_rigid_body},
                     {"participants", mode.participants}});
+    if (bracket != nullptr && bracket->holds(modes, list.size() - 1)) {
+      list.back()["bracket"] = {bracket->lower_hz[static_cast<Eigen::Index>(list.size()) - 1],
+                                mode.undamped_frequency_hz};
+    }
   }
-  return support::format_json({{"modes", list}});
+  return support::format_json({{"modes", list}, {"sections", make_sections_json(sections)}});
 }
 
 }  // namespace sprung::dynamics

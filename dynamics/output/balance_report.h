@@ -7,6 +7,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
+#include "dynamics/output/section_statistics.h"
 
 namespace sprung::dynamics {
 
@@ -16,19 +17,39 @@ struct BalanceReport {
   const Vehicle& vehicle;
   const Equilibrium& equilibrium;
   const AssemblyReport& assembly;
-  bool is_steady = false;          ///< whether it is an equilibrium relative to a steady motion
-  Eigen::VectorXd file_positions;  ///< num_coordinates, as given in the vehicle file
+  bool is_steady = false;                       ///< whether it is an equilibrium relative to a steady motion
+  Eigen::VectorXd file_positions;               ///< num_coordinates, as given in the vehicle file
+  const SectionStatistics* sections = nullptr;  ///< at the equilibrium; null: not reported
 };
 
-/// Positions of the bodies, values of the force elements and neutral directions, as text tables.
+/// Lower bounds of the vehicle's undamped frequencies; the modes found are upper ones.
+struct FrequencyBracket {
+  Eigen::VectorXd lower_hz;  ///< of mode 1, 2, …, rigid-body modes among them
+  double highest_hz = 0.0;   ///< up to which the bounds hold
+  /// Whether the bounds of a mode hold. @param mode  0-based
+  bool holds(const std::vector<VehicleMode>& modes, std::size_t mode) const;
+};
+
+/// The forces and moments along the beams at an equilibrium.
+/// @param sections  of the model, brought up to date; has to outlive the result
+/// @throws support::NumericalError if the equations have no solution there
+SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
+                                        VehicleSections& sections);
+
+/// Positions of the bodies, values of the force elements, bending moments and neutral directions, as text
+/// tables, with a warning where the modes miss too much of the moments.
 std::string format_equilibrium(const BalanceReport& report);
 /// Positions, values and neutral directions as one JSON object, SI units.
 std::string format_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes.
+/// @param sections   at the equilibrium: a warning follows where the modes miss too much of the moments
 /// @param is_steady  about steady motion, not at rest
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         bool is_steady = false);
-std::string format_modes_json(const std::vector<VehicleMode>& modes);
+                         const SectionStatistics& sections, bool is_steady = false);
+/// @param bracket  null: none
+std::string format_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+                              const FrequencyBracket* bracket = nullptr);
+std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);
 
 }  // namespace sprung::dynamics

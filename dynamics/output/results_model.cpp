@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sprung::dynamics {
@@ -120,6 +121,33 @@ void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
   file.write("/model/modes/shapes", shapes, "mass-normalised");
 }
 
+void write_section_peaks(support::Hdf5Writer& file, const SectionStatistics& statistics) {
+  constexpr std::array<const char*, 3> kQuantities{"axial", "shear", "moment"};
+  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
+    const BodySections& body = statistics.sections().bodies()[b];
+    const SectionPeaks& peaks = statistics.peaks()[b];
+    const std::string group = "/summary/sections/" + body.name();
+    file.make_group(group);
+    for (std::size_t i = 0; i < kQuantities.size(); ++i) {
+      const auto write = [&](bool is_known, const char* ending, const SectionPeak& peak) {
+        if (is_known) file.attribute(group, std::string(kQuantities[i]) + ending, peak.value);
+      };
+      write(body.has_modes(), "", peaks.from_modes[i]);
+      write(body.has_loads(), "_from_loads", peaks.from_loads[i]);
+      write(body.has_modes() && body.has_loads(), "_difference", peaks.difference[i]);
+    }
+    if (!body.has_modes() || !body.has_loads()) continue;
+    file.attribute(group, "missing_moment_share", peaks.missing_moment_share());
+    file.attribute(group, "missing_moment_time", peaks.missing_moment.time);
+    file.attribute(group, "missing_deflection_share", peaks.missing_deflection_share());
+    file.attribute(group, "missing_deflection_time", peaks.missing_deflection.time);
+    if (body.points().empty()) continue;
+    const int place = peaks.missing_deflection.station;
+    file.attribute(group, "missing_deflection_point", body.points()[static_cast<std::size_t>(place / 3)]);
+    file.attribute(group, "missing_deflection_axis", std::string(place % 3 == 0 ? "x" : "y"));
+  }
+}
+
 }  // namespace
 
 RoadSamples sample_road(const ResultsHeader& header) {
@@ -176,6 +204,15 @@ void write_results_summary(support::Hdf5Writer& file, const RunStatistics& stati
     };
     write("displacement", point.displacement);
     write("acceleration", point.acceleration);
+  }
+  write_section_peaks(file, statistics.sections());
+  for (const BodyBending& body : statistics.bending()) {
+    const std::string group = "/summary/bending/" + body.name();
+    file.make_group(group);
+    file.attribute(group, "deflection", body.deflection_share());
+    file.attribute(group, "deflection_time", body.deflection_time());
+    file.attribute(group, "axial_effect", body.axial_effect());
+    file.attribute(group, "axial_effect_time", body.axial_effect_time());
   }
   file.attribute("/summary", "constraint_violation", statistics.constraint_violation());
   file.attribute("/summary", "velocity_violation", transient.stepper.velocity_violation);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "dynamics/output/partial_results.h"
 #include "dynamics/output/results_model.h"
@@ -38,7 +39,7 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   if (header.adaptivity) add_neglected_series(*header.adaptivity->full);
   add_joint_series();
   add_force_series();
-  add_recovery_series(header.vehicle);
+  add_section_series(header.sections);
   const auto add_energy = [this](const std::string& name, auto value) {
     add_series("/energy/" + name, 0, "J",
                [value](const Snapshot& now, std::vector<double>& row) { row[0] = value(now.energy); });
@@ -294,26 +295,21 @@ void ResultsWriter::add_wrench_series(std::size_t f) {
   }
 }
 
-void ResultsWriter::add_recovery_series(const Vehicle& vehicle) {
-  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    const Body& body = model_->bodies[b];
-    const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[b]);
-    if (!superelement || body.num_modes() == 0) continue;
-    recoveries_.push_back(std::make_unique<ResultantRecovery>(*superelement, body));
-    const ResultantRecovery* recovery = recoveries_.back().get();
-    const std::string group = "/recovery/" + body.name;
-    const auto stations = static_cast<std::size_t>(recovery->num_stations());
-    const int first = body.first_coordinate + 3, n = body.num_modes();
-    file_.write(group + "/station", recovery->positions(), "m");
-    const auto add = [&](const std::string& name, const std::string& unit, auto resultant) {
-      add_series(group + "/" + name, stations, unit,
-                 [recovery, first, n, resultant](const Snapshot& now, std::vector<double>& row) {
-                   put(row, (recovery->*resultant)(now.q.segment(first, n)));
-                 });
+void ResultsWriter::add_section_series(const VehicleSections& sections) {
+  constexpr std::array<const char*, 3> kNames{"axial", "shear", "moment"}, kUnits{"N", "N", "N m"};
+  for (const BodySections& body : sections.bodies()) {
+    const std::string group = "/recovery/" + body.name() + "/";
+    file_.write(group + "station", body.positions(), "m");
+    const auto add = [&](const std::string& ending, const Eigen::Matrix3Xd& values) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const auto quantity = static_cast<std::size_t>(i);
+        add_series(
+            group + kNames[quantity] + ending, static_cast<std::size_t>(values.cols()), kUnits[quantity],
+            [&values, i](const Snapshot&, std::vector<double>& row) { put(row, values.row(i).transpose()); });
+      }
     };
-    add("axial", "N", &ResultantRecovery::axial);
-    add("shear", "N", &ResultantRecovery::shear);
-    add("moment", "N m", &ResultantRecovery::moment);
+    if (body.has_modes()) add("", body.from_modes());
+    if (body.has_loads()) add("_from_loads", body.from_loads());
   }
 }
 

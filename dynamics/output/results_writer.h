@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/mode_choice/basis_choice.h"
-#include "dynamics/output/recovery.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
@@ -34,6 +32,7 @@ struct ResultsHeader {
   const Equilibrium* equilibrium = nullptr;       ///< null for a run that starts as given
   std::vector<VehicleMode> modes;                 ///< about the equilibrium
   const std::vector<std::string>& output_points;  ///< whose motion is reported
+  const VehicleSections& sections;                ///< up to date at each output; has to outlive the writer
   const AdaptivityOptions* adaptivity = nullptr;  ///< null without adaptivity and without indicator
   const BasisChoice* choice = nullptr;            ///< of modes "auto"; null if there are none
 };
@@ -105,7 +104,7 @@ class ResultsWriter {
   void add_force_series();
   void add_wrench_series(std::size_t force_index);
   void add_neglected_series(const Model& full);
-  void add_recovery_series(const Vehicle& vehicle);
+  void add_section_series(const VehicleSections& sections);
   void make_event_datasets(const Model& full);
 
   const Model* model_;
@@ -121,7 +120,6 @@ class ResultsWriter {
   State last_;  // at the last output; of a run that is resumed, before its first one at the checkpoint
   ResultsExtent extent_;
   bool has_checkpoint_ = false;
-  std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;
 };
 
 }  // namespace sprung::dynamics

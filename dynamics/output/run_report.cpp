@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "dynamics/output/section_report.h"
 #include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
@@ -113,8 +114,8 @@ std::string format_summary(const RunSummary& summary) {
   }
   std::string warnings;
   for (const std::string& text : texts) warnings += fmt::format("\nwarning: {}\n", text);
-  return fmt::format("\nVertical motion, relative to the equilibrium or the given start\n{}\n{}{}",
-                     points.str(), run.str(), warnings);
+  return fmt::format("\nVertical motion, relative to the equilibrium or the given start\n{}{}\n{}{}",
+                     points.str(), format_sections(summary.statistics.sections()), run.str(), warnings);
 }
 
 std::string format_summary_json(const Model& model, const RunSummary& summary) {
@@ -137,6 +138,13 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
     points[point.point] = {{"displacement", statistics(point.displacement)},
                            {"acceleration", statistics(point.acceleration)}};
   }
+  Json bending = Json::object();
+  for (const BodyBending& body : summary.statistics.bending()) {
+    bending[body.name()] = {{"deflection", body.deflection_share()},
+                            {"deflection_time", body.deflection_time()},
+                            {"axial_effect", body.axial_effect()},
+                            {"axial_effect_time", body.axial_effect_time()}};
+  }
   const TransientStatistics& transient = summary.transient;
   Json warnings = Json::array();
   for (const RunWarning& warning : summary.warnings) {
@@ -144,6 +152,8 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
   }
   return support::format_json({{"freedoms", model.num_freedoms()},
                                {"points", points},
+                               {"bending", bending},
+                               {"sections", make_sections_json(summary.statistics.sections())},
                                {"constraint_violation", summary.statistics.constraint_violation()},
                                {"velocity_violation", transient.stepper.velocity_violation},
                                {"energy_closure", summary.statistics.energy_closure()},

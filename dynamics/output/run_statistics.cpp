@@ -45,14 +45,24 @@ double calc_work_of_loads(const SystemTerms& terms) {
 }  // namespace
 
 RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>& points,
-                             const Eigen::VectorXd& reference_q, double from, double to)
-    : model_(&model), from_(from), to_(to), phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
+                             const Eigen::VectorXd& reference_q, double from, double to,
+                             const Vehicle& vehicle, const VehicleSections& sections)
+    : model_(&model),
+      from_(from),
+      to_(to),
+      sections_(sections),
+      phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
   SystemTerms terms(model);
   terms.update_positions(0.0, reference_q);
   for (const std::string& name : points) {
     const int marker = model.find_marker(name);
     if (marker < 0) throw std::invalid_argument(fmt::format("RunStatistics: there is no point '{}'", name));
     points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}});
+  }
+  for (const BodySections& body : sections.bodies()) {
+    if (!body.has_modes()) continue;
+    bending_.emplace_back(model.bodies[body.body()], *vehicle.superelement_of(vehicle.bodies[body.body()]),
+                          body.loads());
   }
 }
 
@@ -79,9 +89,15 @@ void RunStatistics::add(const Snapshot& snapshot) {
                            snapshot.energy.dissipated - snapshot.energy.input;
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(imbalance));
 
+  auto bending = bending_.begin();
+  for (const BodySections& body : sections_.sections().bodies()) {
+    if (body.has_modes()) (bending++)->add(snapshot.time, body.loads(), snapshot.q);
+  }
+
   const double tolerance = 1e-9;
   if (snapshot.time < from_ - tolerance || snapshot.time > to_ + tolerance) return;
   ++num_samples_;
+  sections_.add(snapshot.time);
   for (Point& point : points_) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
@@ -111,6 +127,8 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
       bytes.transfer(sample->sum_of_squares);
     }
   }
+  SectionStatistics::transfer(bytes, statistics.sections_);
+  for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);
   bytes.transfer(statistics.num_samples_);
   bytes.transfer(statistics.constraint_violation_);
   bytes.transfer(statistics.has_first_);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/output/bending_limits.h"
+#include "dynamics/output/section_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/files/bytes.h"
 
@@ -29,10 +31,13 @@ class RunStatistics {
  public:
   /// @param points       names of markers to report, "body.point"
   /// @param reference_q  positions that displacements refer to: the equilibrium, or the given start
-  /// @param from, to     window of time for the points [s]
+  /// @param from, to     window of time for the points and sections [s]
+  /// @param sections     of the model and vehicle; has to outlive this
   RunStatistics(const Model& model, const std::vector<std::string>& points,
-                const Eigen::VectorXd& reference_q, double from, double to);
+                const Eigen::VectorXd& reference_q, double from, double to, const Vehicle& vehicle,
+                const VehicleSections& sections);
 
+  /// Adds an output, at which the sections are up to date.
   void add(const Snapshot& snapshot);
 
   std::vector<PointStatistics> point_statistics() const;
@@ -41,6 +46,8 @@ class RunStatistics {
   /// Relative error of the energy balance (output, eq. 1).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
+  const SectionStatistics& sections() const { return sections_; }
+  const std::vector<BodyBending>& bending() const { return bending_; }  ///< of each body with modes
 
   /// What has been added so far, as bytes and back into statistics of the same model and points.
   void save(support::ByteWriter& bytes) const;
@@ -66,6 +73,8 @@ class RunStatistics {
   const Model* model_;
   double from_, to_;
   std::vector<Point> points_;
+  SectionStatistics sections_;
+  std::vector<BodyBending> bending_;
   long num_samples_ = 0;
   double constraint_violation_ = 0.0;
   Eigen::VectorXd phi_;

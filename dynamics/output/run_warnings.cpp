@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "dynamics/input/point_reference.h"
+#include "dynamics/output/section_report.h"
 
 namespace sprung::dynamics {
 
@@ -28,6 +29,20 @@ void warn_of_energy(const RunStatistics& statistics, std::vector<RunWarning>& wa
            statistics.energy_closure())});
 }
 
+std::vector<std::string> list_points_of(const std::string& body, const RunStatistics& statistics) {
+  std::vector<std::string> points;
+  for (const PointStatistics& point : statistics.point_statistics()) {
+    if (body_of_point(point.point) == body) points.push_back(point.point);
+  }
+  return points;
+}
+
+void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,
+                 std::vector<RunWarning>& warnings) {
+  for (const BodyRemark& remark : remarks)
+    warnings.push_back({kSummary, list_points_of(remark.body, statistics), remark.text});
+}
+
 void warn_of_missing_modes(const Model& model, const RunStatistics& statistics, const WorstNeglect& worst,
                            const AdaptivityOptions& adaptivity, std::vector<RunWarning>& warnings) {
   if (adaptivity.changes || worst.coordinate < 0 || !(worst.share.worst() > kTooMuchLeftOut)) return;
@@ -42,11 +57,7 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics, 
       is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
   const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(worst.coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
-  std::vector<std::string> points;
-  for (const PointStatistics& point : statistics.point_statistics()) {
-    if (body_of_point(point.point) == body) points.push_back(point.point);
-  }
-  warnings.push_back({kSummary, points, text});
+  warnings.push_back({kSummary, list_points_of(body, statistics), text});
   warnings.push_back({kModes, {body}, text});
 }
 
@@ -88,6 +99,8 @@ std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistic
   if (adaptivity != nullptr) {
     warn_of_missing_modes(model, statistics, transient.worst_neglect, *adaptivity, warnings);
   }
+  add_remarks(list_missing_parts(statistics.sections()), statistics, warnings);
+  add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
   return warnings;
 }
 

@@ -1,32 +1,63 @@
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "dynamics/input/soft_twin.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/program/commands.h"
+#include "tools/support/errors/input_error.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
 
+namespace {
+
+// The stiffness is that at the equilibrium of the model: forces that depend on the state nonlinearly are the
+// same in both models.
+FrequencyBracket calc_bracket(const PreparedRun& prepared) {
+  if (!prepared.equilibrium->motion.is_rest())
+    throw support::InputError({.path = "--bracket"},
+                              "is for frequencies about rest, not about steady motion");
+  const SoftTwin twin = make_soft_twin(prepared.vehicle, prepared.balance_model);
+  const Eigen::VectorXd q = insert_soft_modes(prepared.balance_model, twin, prepared.equilibrium->q);
+  return {.lower_hz = calc_undamped_frequencies(twin.model, q), .highest_hz = twin.highest_hz};
+}
+
+}  // namespace
+
 int equilibrium_command(const RunRequest& request, bool json) {
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
   const Model& model = prepared.balance_model;
+  VehicleSections sections(prepared.vehicle, model);
+  const SectionStatistics section_loads = calc_resting_sections(model, *prepared.equilibrium, sections);
   const BalanceReport report{model,
                              prepared.vehicle,
                              *prepared.equilibrium,
                              prepared.assembly,
                              prepared.run.start == Run::Start::kSteady,
-                             make_start_positions(model, prepared.vehicle)};
+                             make_start_positions(model, prepared.vehicle),
+                             &section_loads};
   fmt::print("{}", json ? format_equilibrium_json(report)
                         : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
 
-int modes_command(const RunRequest& request, bool json) {
+int modes_command(const RunRequest& request, const RunOutput& output) {
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
-  const std::vector<VehicleMode> modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
-  fmt::print("{}", json ? format_modes_json(modes)
-                        : format_modes(prepared.balance_model, prepared.vehicle, modes,
-                                       prepared.run.start == Run::Start::kSteady));
+  const Model& model = prepared.balance_model;
+  const std::vector<VehicleMode> modes = calc_vehicle_modes(model, *prepared.equilibrium);
+  VehicleSections sections(prepared.vehicle, model);
+  const SectionStatistics section_loads = calc_resting_sections(model, *prepared.equilibrium, sections);
+  std::optional<FrequencyBracket> bracket;
+  if (output.bracket) bracket = calc_bracket(prepared);
+  if (output.json) {
+    fmt::print("{}", format_modes_json(modes, section_loads, bracket ? &*bracket : nullptr));
+    return support::kGood;
+  }
+  fmt::print("{}", format_modes(model, prepared.vehicle, modes, section_loads,
+                                prepared.run.start == Run::Start::kSteady));
+  if (bracket) fmt::print("{}", format_bracket(modes, *bracket));
   return support::kGood;
 }
 

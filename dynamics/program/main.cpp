@@ -61,6 +61,10 @@ int run(int argc, char** argv) {
   CLI::App* modes =
       app.add_subcommand("modes", "frequencies, damping and participating bodies about the equilibrium");
   add_input_options(*modes, request, output);
+  modes->add_flag(
+      "--bracket", output.bracket,
+      "also prints, from the certificates of the flexible bodies, between which bounds each undamped "
+      "frequency of the band lies");
   CLI::App* response = app.add_subcommand(
       "response",
       "frequency response to the road about the equilibrium; on a random road spectra and r.m.s.");
@@ -81,7 +85,7 @@ int run(int argc, char** argv) {
   if (*equilibrium) return equilibrium_command(request, output.json);
   if (*select) return select_modes_command(request, output);
   if (*response) return response_command(request, output);
-  return modes_command(request, output.json);
+  return modes_command(request, output);
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ double cpu_time() {
 }
 
 ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request,
-                          const std::optional<AdaptivityOptions>& adaptivity) {
+                          const std::optional<AdaptivityOptions>& adaptivity,
+                          const VehicleSections& sections) {
   std::vector<VehicleMode> modes;
   if (prepared.equilibrium && prepared.equilibrium->stable)
     modes = calc_vehicle_modes(prepared.balance_model, *prepared.equilibrium);
@@ -91,6 +92,7 @@ ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request
           prepared.equilibrium ? &*prepared.equilibrium : nullptr,
           std::move(modes),
           prepared.output_points,
+          sections,
           adaptivity ? &*adaptivity : nullptr,
           prepared.choice ? &*prepared.choice : nullptr};
 }
@@ -126,7 +128,8 @@ void print_resumption(const std::optional<Checkpoint>& checkpoint) {
 // Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
 // that is interrupted or fails leaves a file with the results up to there.
 TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options, const WrittenRun& run,
-                              support::ProgressBar& progress, RunStatistics& statistics, RunTimes& times) {
+                              support::ProgressBar& progress, VehicleSections& sections,
+                              RunStatistics& statistics, RunTimes& times) {
   const double start_time = prepared.start.time;
   double time_reached = run.checkpoint ? run.checkpoint->state.time : start_time;
   ResultsWriter* writer = run.writer.get();
@@ -135,6 +138,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   double storing = 0.0;
   options.on_output = [&](const Snapshot& snapshot) {
     const double before = cpu_time();
+    sections.update(snapshot.terms(), snapshot.multipliers(), snapshot.q, snapshot.v, snapshot.v_dot);
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
     storing += cpu_time() - before;
@@ -197,11 +201,12 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   std::optional<Model> full_model;
   options.adaptivity = make_adaptivity(prepared, full_model);
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
+  VehicleSections sections(prepared.vehicle, prepared.model);
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
-                           run.statistics_to);
+                           run.statistics_to, prepared.vehicle, sections);
   WrittenRun written;
   if (!output.results.empty())
-    written = open_results(output, make_header(prepared, request, options.adaptivity), statistics);
+    written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);
   const bool prints = !output.json && !request.quiet;
   if (written.writer && prints)
     fmt::print("Results: {}\n", describe_storage(written.writer->storage(), run.output));
@@ -209,7 +214,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const support::DeferredInterrupts deferred;  // what was calculated is kept
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
   RunTimes times;
-  const TransientStatistics transient = integrate(prepared, options, written, progress, statistics, times);
+  const TransientStatistics transient =
+      integrate(prepared, options, written, progress, sections, statistics, times);
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings = list_run_warnings(prepared.model, statistics, transient, adaptivity);
   print_of_computation(warnings);

@@ -90,6 +90,9 @@ std::string format_summary(const Superelement& s) {
   text += format_points(s) + "\n";
   text += s.geometric_stiffness ? fmt::format("stiffening  of {} modes\n", s.geometric_stiffness->num_modes())
                                 : "stiffening  none: a file of version 1\n";
+  text +=
+      fmt::format("sections    loads along the beams {}\n",
+                  s.section_loads ? "from the loads on the body and from its modes" : "from its modes only");
   text += fmt::format("made by     sprung {}, algorithm revision {}\n", s.provenance.program_version,
                       s.provenance.algorithm_revision);
   text += fmt::format("design      sha256 {}\n", s.provenance.design_hash);

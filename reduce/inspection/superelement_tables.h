@@ -12,7 +12,7 @@ namespace sprung::reduce {
 struct ModeKinds {
   Eigen::VectorXd axial_share;  ///< n, share of the strain energy; the rest is bending and shear [-]
   /// 3×n, shares of m in x, of m in y, of J₀ about the reference, which take part in a motion of the
-  /// reference node: what each vector adds to those before it (reduce, eq. 24) [-]
+  /// reference node: what each vector adds to those before it (reduce, eq. 27) [-]
   Eigen::MatrixXd effective_mass;
 };
 ModeKinds calc_mode_kinds(const Superelement& superelement);

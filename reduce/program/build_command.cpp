@@ -54,7 +54,8 @@ void make_folder(const fs::path& folder) {
 }
 
 std::string describe(const Superelement& s) {
-  return fmt::format("{} elements, {} freedoms, {}", s.elements.cols(), s.num_elastic_dofs, format_basis(s));
+  return fmt::format("{} elements, {} freedoms, {}{}", s.elements.cols(), s.num_elastic_dofs, format_basis(s),
+                     s.section_loads ? "" : ", too large for section loads from the loads");
 }
 
 // Why the file is to be made, "" if it is up to date.

@@ -3,8 +3,12 @@
 namespace sprung::reduce {
 
 ElementWork calc_element_work(const Superelement& s) {
-  const Eigen::Index n = s.frequency_hz.size();
-  ElementWork work{.axial = Eigen::MatrixXd::Zero(n, n), .bending = Eigen::MatrixXd::Zero(n, n)};
+  return calc_element_work(s, s.resultants);
+}
+
+ElementWork calc_element_work(const Superelement& s, const Eigen::MatrixXd& resultants) {
+  const Eigen::Index n = s.frequency_hz.size(), k = resultants.cols();
+  ElementWork work{.axial = Eigen::MatrixXd::Zero(n, k), .bending = Eigen::MatrixXd::Zero(n, k)};
   for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
     const Eigen::Vector2d along =
         (s.node_positions.col(s.elements(1, e)) - s.node_positions.col(s.elements(0, e))).normalized();
@@ -13,7 +17,7 @@ ElementWork calc_element_work(const Superelement& s) {
     for (Eigen::Index end = 0; end < 2; ++end) {
       const double sign = end == 0 ? -1.0 : 1.0;
       const Eigen::MatrixXd shape = s.shapes.middleRows(3 * s.elements(end, e), 3);
-      const Eigen::MatrixXd force = s.resultants.middleRows(6 * e + 3 * end, 3);
+      const Eigen::MatrixXd force = resultants.middleRows(6 * e + 3 * end, 3);
       const Eigen::RowVectorXd u = tangent * shape.topRows<2>();
       const Eigen::RowVectorXd w = normal * shape.topRows<2>();
       work.axial += sign * u.transpose() * force.row(0);

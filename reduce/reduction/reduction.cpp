@@ -10,6 +10,7 @@
 #include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/inertia_invariants.h"
 #include "reduce/reduction/reference_stiffness.h"
+#include "reduce/reduction/static_response.h"
 #include "reduce/reduction/superelement_checks.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -118,6 +119,14 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.geometric_stiffness =
       calc_reference_stiffness(model, design.reference_node, *matrices.factor, moments, basis.shapes);
   s.certificate = basis.certificate;
+  if (std::optional<StaticResponse> response = calc_static_response(
+          model, design.reference_node, matrices.held.stiffness, matrices.full.mass, moments, basis.shapes)) {
+    // Symmetric by reciprocity, but for rounding.
+    Eigen::MatrixXd& flexibility = response->deflections.point_load;
+    flexibility = (0.5 * (flexibility + flexibility.transpose())).eval();
+    s.section_loads = std::move(response->resultants);
+    s.point_deflections = std::move(response->deflections);
+  }
   s.provenance = design.provenance;
 
   s.checks = basis.checks;

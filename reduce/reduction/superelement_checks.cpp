@@ -162,6 +162,28 @@ CheckResult check_flexibility(const Superelement& s) {
           .tolerance = 1e-8 + 100.0 * find_rounding(s)};
 }
 
+// By virtual work, the resultants of a unit load at a point do on each mode the work of the load itself
+// (reduce, eq. 26).
+CheckResult check_point_loads(const Superelement& s) {
+  const ElementWork work = calc_element_work(s, s.section_loads->point_load);
+  const Eigen::VectorXd per_omega = calc_omega(s).cwiseInverse();
+  double largest = 0.0;
+  for (std::size_t p = 0; p < s.points.size(); ++p) {
+    const auto column = 3 * static_cast<Eigen::Index>(p);
+    const Eigen::MatrixXd expected =
+        per_omega.asDiagonal() * s.shapes.middleRows(3 * s.points[p].node, 3).transpose();
+    const Eigen::MatrixXd found = per_omega.asDiagonal() * (work.axial + work.bending).middleCols(column, 3);
+    for (int freedom = 0; freedom < 3; ++freedom) {
+      const double scale = expected.col(freedom).lpNorm<Eigen::Infinity>();
+      const double error = (found - expected).col(freedom).lpNorm<Eigen::Infinity>();
+      if (error > 0.0) largest = std::max(largest, scale > 0.0 ? error / scale : error * calc_omega(s)(0));
+    }
+  }
+  return {.name = "work of the section loads on the modes",
+          .value = largest,
+          .tolerance = 1e-8 + 100.0 * find_rounding(s)};
+}
+
 // No load between an element's ends: N and Q constant, M' = −Q.
 CheckResult check_equilibrium(const Superelement& s) {
   double largest = 0.0;
@@ -193,6 +215,7 @@ std::vector<CheckResult> check_superelement(const Superelement& superelement) {
                                   check_held_node(superelement),          check_work(superelement),
                                   check_equilibrium(superelement)};
   if (superelement.certificate) checks.push_back(check_flexibility(superelement));
+  if (superelement.section_loads) checks.push_back(check_point_loads(superelement));
   return checks;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reduce/superelement/certificate.h"
+#include "reduce/superelement/unit_loads.h"
 
 namespace sprung::reduce {
 
@@ -97,6 +98,9 @@ struct Superelement {
                                ///< the second end of each element
   std::optional<GeometricStiffness> geometric_stiffness;  ///< none in files of version 1
   std::optional<Certificate> certificate;                 ///< none in files before version 3
+  /// Resultants (6E rows) and deflections of the points (3p rows) under unit loads. None in files before
+  /// version 4, and of large frames
+  std::optional<UnitLoads> section_loads, point_deflections;
 
   std::vector<CheckResult> checks;
   Provenance provenance;
@@ -116,10 +120,13 @@ inline constexpr std::string_view kSuperelementFormat = "sprung-superelement";
 inline constexpr std::int64_t kFirstVersion = 1;
 inline constexpr std::int64_t kStiffeningVersion = 2;   ///< brought the geometric stiffness
 inline constexpr std::int64_t kCertificateVersion = 3;  ///< brought kinds of vectors and the certificate
-inline constexpr std::int64_t kSuperelementVersion = kCertificateVersion;  ///< the newest
+inline constexpr std::int64_t kSectionLoadVersion =
+    4;  ///< brought section loads and deflections under unit loads
+inline constexpr std::int64_t kSuperelementVersion = kSectionLoadVersion;  ///< the newest
 
-/// Writes the file whole or not at all. Equal superelements give equal bytes. Without a certificate it
-/// is a file of version 2, without geometric stiffness of version 1.
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without section
+/// loads it is a file of version 3, without a certificate of version 2, without geometric stiffness of
+/// version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

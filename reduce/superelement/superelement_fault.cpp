@@ -28,6 +28,7 @@ Fault make_fault(std::string_view dataset, fmt::format_string<Arguments...> form
 
 // sign +1: symmetric, −1: skew.
 Fault check_symmetry(std::string_view dataset, const RowMatrix& matrix, double sign) {
+  if (matrix.size() == 0) return {};
   const double size = matrix.cwiseAbs().maxCoeff();
   const double error = (matrix - sign * matrix.transpose()).cwiseAbs().maxCoeff();
   if (error <= kSymmetryTolerance * size) return {};
@@ -102,6 +103,13 @@ Fault check_counts(const Superelement& s) {
   if (!s.kind.empty() && !s.certificate) return make_fault("/modes/kind", "stands without a certificate");
   if (s.certificate && !s.geometric_stiffness) {
     return make_fault("/certificate", "stands without the geometric stiffness of version 2");
+  }
+  if (s.section_loads && !s.certificate) {
+    return make_fault("/section_loads", "stands without the certificate of version 3");
+  }
+  if (s.section_loads.has_value() != s.point_deflections.has_value()) {
+    return s.section_loads ? make_fault("/section_loads", "stands without the deflections")
+                           : make_fault("/deflections", "stands without the section loads");
   }
   if (!s.geometric_stiffness) return {};
   const int m = s.geometric_stiffness->num_modes();

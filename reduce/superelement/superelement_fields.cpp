@@ -12,6 +12,7 @@ using I = InertiaInvariants;
 using G = GeometricStiffness;
 using C = Certificate;
 using E = InterfaceError;
+using L = UnitLoads;
 using S = Superelement;
 
 // Each type of member as a value of the file, and back.
@@ -155,6 +156,10 @@ constexpr FieldMember stiffening = member_of_optional<&S::geometric_stiffness, M
 template <auto Member>
 constexpr FieldMember certificate = member_of_optional<&S::certificate, Member>;
 template <auto Member>
+constexpr FieldMember section_loads = member_of_optional<&S::section_loads, Member>;
+template <auto Member>
+constexpr FieldMember deflections = member_of_optional<&S::point_deflections, Member>;
+template <auto Member>
 constexpr FieldMember interface = column_of_optional<&S::certificate, &C::interface, Member>;
 
 constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a row of the file
@@ -163,6 +168,12 @@ constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a
 
 constexpr std::string_view kShapeUnit = "m, m, rad per unit modal coordinate (m·√kg)";
 constexpr std::string_view kResultantUnit = "N, N, N·m per unit modal coordinate (m·√kg)";
+constexpr std::string_view kPointLoadUnit = "N, N, N·m per N, N, N·m";
+constexpr std::string_view kAccelerationLoadUnit = "N, N, N·m per m/s^2, m/s^2, rad/s^2, rad^2/s^2";
+constexpr std::string_view kModalLoadUnit = "N, N, N·m per unit modal acceleration (m·√kg/s^2)";
+constexpr std::string_view kPointDeflectionUnit = "m, m, rad per N, N, N·m";
+constexpr std::string_view kAccelerationDeflectionUnit = "m, m, rad per m/s^2, m/s^2, rad/s^2, rad^2/s^2";
+constexpr std::string_view kModalDeflectionUnit = "m, m, rad per unit modal acceleration (m·√kg/s^2)";
 constexpr std::string_view kFlexibilityUnit = "m/N; rad/(N·m) of a rotation";
 constexpr std::string_view kSoftLoadUnit = "1/√kg; 1/(m·√kg) of a rotation";
 constexpr std::string_view kLoadUnit = "1/(kg·m), 1/(kg·m), 1/(kg·m^2)";
@@ -220,6 +231,14 @@ constexpr SuperelementField kFields[] = {
     {"/certificate/error", kReals, "b", "1", interface<&E::error>, kNotNegative, kWhole, kCertificateVersion},
     {"/certificate/worst_frequency", kReals, "b", "Hz", interface<&E::worst_hz>, kNotNegative, kWhole, kCertificateVersion},
     {"/certificate/soft_load", kReals, "q×b", kSoftLoadUnit, certificate<&C::soft_loads>, kAny, kWhole, kCertificateVersion},
+    {"/section_loads/point_load", kReals, "E×6×3p", kPointLoadUnit, section_loads<&L::point_load>, kAny, kWhole, kSectionLoadVersion},
+    {"/section_loads/acceleration", kReals, "E×6×4", kAccelerationLoadUnit, section_loads<&L::acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/section_loads/modal_acceleration", kReals, "E×6×n", kModalLoadUnit, section_loads<&L::modal_acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/section_loads/turned_acceleration", kReals, "E×6×n", kModalLoadUnit, section_loads<&L::turned_acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/deflections/point_load", kReals, "3p×3p", kPointDeflectionUnit, deflections<&L::point_load>, kSymmetric, kWhole, kSectionLoadVersion},
+    {"/deflections/acceleration", kReals, "3p×4", kAccelerationDeflectionUnit, deflections<&L::acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/deflections/modal_acceleration", kReals, "3p×n", kModalDeflectionUnit, deflections<&L::modal_acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/deflections/turned_acceleration", kReals, "3p×n", kModalDeflectionUnit, deflections<&L::turned_acceleration>, kAny, kWhole, kSectionLoadVersion},
     {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
     {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
     {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
@@ -257,6 +276,8 @@ std::vector<SuperelementField> superelement_fields(std::int64_t version) {
 }
 
 std::int64_t find_version(const Superelement& superelement) {
+  if (superelement.section_loads && superelement.certificate && superelement.geometric_stiffness)
+    return kSectionLoadVersion;
   if (superelement.certificate && superelement.geometric_stiffness) return kCertificateVersion;
   return superelement.geometric_stiffness ? kStiffeningVersion : kFirstVersion;
 }

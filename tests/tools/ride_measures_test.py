@@ -12,6 +12,7 @@ from ride_results import (
     STEP,
     write_ride_results,
 )
+from synthetic_results import write_series
 from tool_test_case import ToolTestCase
 
 from sprung_tools.files.errors import InputError
@@ -20,6 +21,8 @@ from sprung_tools.runs.ride_measures import (
     calc_bending,
     calc_comfort,
     calc_contact,
+    calc_loaded_bending,
+    calc_moment_difference,
     calc_travel,
     find_forces,
     read_window,
@@ -121,7 +124,22 @@ class Tool(ToolTestCase):
         self.assertEqual((static, greatest, off_ground, unloaded), (50.0, 125.0, 0.41, 0.534))
         self.assertAlmostEqual(1e3 * dynamic / calc_dynamic_load(), 1.0, delta=1e-3)
         self.assertAlmostEqual(share, dynamic / static, delta=1e-3)
-        self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000"])
+        self.assertEqual(rows["body"][2:], ["-3", "0.250", "2.000", "–", "–"])
+
+    def test_the_moment_from_the_loads_comes_first_with_that_of_the_modes_and_the_largest_difference(self):
+        path = write_ride_results(self.folder / "a.h5")
+        with h5py.File(path, "a") as file:
+            moment = file["recovery/body/moment"][:]
+            moment[2000, 1] -= 600.0  # at 2 s, the time of the largest one
+            moment[1500, 0] += 900.0
+            write_series(file, "recovery/body/moment_from_loads", moment, "N m")
+        with open_results(path) as results:
+            self.assertAlmostEqual(calc_loaded_bending(results, "body", WINDOW).moment, -3600.0, places=6)
+            self.assertAlmostEqual(calc_moment_difference(results, "body", WINDOW), 900.0, places=6)
+            self.assertAlmostEqual(calc_moment_difference(results, "body", (1.8, 2.2)), 600.0, places=6)
+        rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
+        (found,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
+        self.assertEqual(found, ["-3.6", "0.250", "2.000", "-3", "0.9"])
 
     def test_no_share_of_travel_is_given_if_the_vehicle_rests_on_its_stop(self):
         write_ride_results(self.folder / "a.h5", stop=0.05)

@@ -101,6 +101,26 @@ class FrameLoads(ToolTestCase):
         values = decode(moment["v"]).reshape(times.size, 4)
         np.testing.assert_allclose(values[times == np.float32(0.25)][0], [2e3, 4e3, 3e3, 1e3], rtol=1e-6)
 
+    def test_loads_from_the_loads_are_shown_with_their_largest_difference_from_the_modes(self):
+        write_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            for name in ("moment", "shear"):
+                values = np.ones((file["time"].size, 2))
+                write_series(file, f"recovery/chassis/{name}", values, "N m")
+                values = values + 2.0
+                values[3, 1] = -5.0
+                write_series(file, f"recovery/chassis/{name}_from_loads", values, "N m")
+            write_series(file, "recovery/chassis/station", np.array([(0.0, 0.0), (2.0, 0.0)]), "m")
+            time = float(file["time"][3])
+        with open_results(self.folder / "a.h5") as results:
+            (packed,) = pack_frame_loads(results, read_bodies(results), 7)
+        for quantity in packed["quantities"]:
+            self.assertEqual([one["value"] for one in quantity["extremes"]], [3.0, -5.0])
+            self.assertEqual(
+                quantity["difference"],
+                {"what": "largest difference from that of the modes", "value": -6.0, "place": 2.0, "time": time},
+            )
+
     def test_a_frame_that_is_not_slender_is_drawn_along_its_elements(self):
         stations = np.array([(0.0, 0.0), (0.0, 3.0), (0.0, 3.0), (4.0, 3.0)])
         order, along, name = place_stations(stations)

@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from verification_case import ROOT, VerificationCase
+from verification_case import ROOT, VerificationCase, run_program
 
 BUMP = ROOT / "dynamics/models/truck/bump.toml"
 TRUCK_SUPERELEMENTS = os.environ["SPRUNG_TRUCK_SUPERELEMENTS"]
@@ -38,6 +38,28 @@ class CertifiedChassis(VerificationCase):
         in_band = truth < 2.0 * np.pi * 60.0
         certified = self.truck_modes(*CERTIFIED)
         self.assert_close(certified[: in_band.sum()], truth[in_band], relative=1e-3)
+
+    def test_brackets_hold_every_frequency_of_the_full_model_below_the_end_of_the_band(self):
+        for changes in ({}, {"bodies.rear_axle.mass": 900.0}, {"bodies.front_axle.mass": 300.0}):
+            changed = [part for key, value in changes.items() for part in ("--set", f"vehicle.{key}={value}")]
+            truth = self.truck_modes(*ALL, *changed) / (2.0 * np.pi)
+            process = ("modes", BUMP, *CERTIFIED, *changed, "--bracket")
+            modes = self.program(*process, superelements=TRUCK_SUPERELEMENTS)["modes"]
+            brackets = np.array([mode["bracket"] for mode in modes if "bracket" in mode])
+            self.assertGreaterEqual(len(brackets), 7)
+            self.assertEqual(len(brackets), np.sum(truth < 60.0))
+            rounding = 1e-7 * truth[: len(brackets)]  # of differences of the forces
+            self.assertTrue(np.all(brackets[:, 0] <= truth[: len(brackets)] + rounding))
+            self.assertTrue(np.all(truth[: len(brackets)] - rounding <= brackets[:, 1]))
+            self.assertLess(np.max(brackets[:, 1] / brackets[:, 0] - 1.0), 2e-3)
+
+    def test_there_is_no_bracket_for_a_part_of_a_basis(self):
+        process = run_program(
+            [os.environ["SPRUNG_DYNAMICS"], "modes", BUMP, "--bracket", "--superelements", TRUCK_SUPERELEMENTS,
+             *CERTIFIED[:2], "--set", "modes.chassis=5"],
+        )  # fmt: skip
+        self.assertEqual(process.returncode, 2)
+        self.assertIn("error: body 'chassis' has no bracket of its frequencies: it has 5 of 15 modes", process.stderr)
 
     # Without damping, since a ratio of clamped modes is another one of free modes; in the certified band.
     def test_a_run_over_the_bump_is_that_of_the_full_model_up_to_60_hz(self):

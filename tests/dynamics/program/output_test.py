@@ -34,6 +34,13 @@ class Results(DynamicsTestCase):
             self.assertEqual(n, 51)  # 0 to 0.05 s, every millisecond
             self.assertEqual(file["bodies/chassis/modal/amplitude"].shape, (n, 2))
             self.assertEqual(file["recovery/chassis/moment"].shape, (n, 24))  # both ends of 12 elements
+            moments = file["recovery/chassis/moment_from_loads"][:]
+            self.assertEqual(moments.shape, (n, 24))
+            largest = summary["sections"]["chassis"]["moment"]["from_loads"]
+            self.assertEqual(abs(largest["value"]), abs(moments).max())
+            self.assertEqual(file["summary/sections/chassis"].attrs["moment_from_loads"], largest["value"])
+            bending = file["summary/bending/chassis"].attrs
+            self.assertEqual(bending["deflection"], summary["bending"]["chassis"]["deflection"])
             height = file["bodies/chassis/position"][:, 1] - file["model/equilibrium/bodies/chassis"][1]
             written = file["summary/points/chassis.origin"].attrs
             self.assertEqual(written["displacement_max"], height.max())

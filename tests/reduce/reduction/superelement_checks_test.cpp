@@ -45,7 +45,7 @@ TEST_CASE("a sound superelement passes every check with room to spare") {
 }
 
 TEST_CASE("each check fails on the fault that it is there for") {
-  const Superelement body = make_body(true);
+  const Superelement body = make_body(true), with_point = testing::make_two_armed_body();
   using Names = std::vector<std::string>;
   CHECK(find_failed(body, [](Superelement& s) { s.mass(1, 1) += 1e-6; }) ==
         Names{"orthogonality of the modes"});
@@ -76,6 +76,8 @@ TEST_CASE("each check fails on the fault that it is there for") {
           s.resultants(12, 0) *= 1.001;
           s.resultants(15, 0) *= 1.001;
         }) == Names{"work of the resultants against stiffness"});
+  CHECK(find_failed(with_point, [](Superelement& s) { s.section_loads->point_load(14, 1) *= 1.01; }) ==
+        Names{"work of the section loads on the modes"});
   const Names unbalanced = find_failed(body, [](Superelement& s) { s.resultants(13, 0) *= 1.01; });
   CHECK(std::count(unbalanced.begin(), unbalanced.end(), "equilibrium of the elements") == 1);
 }

@@ -80,7 +80,11 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(superelement_fields(1).size() == 36);
   CHECK(superelement_fields(2).size() == 40);
   CHECK(superelement_fields(3).size() == 54);
+  CHECK(superelement_fields(4).size() == 62);
   Superelement body = testing::make_two_armed_body();
+  CHECK(find_version(body) == 4);
+  body.section_loads.reset();
+  body.point_deflections.reset();
   CHECK(find_version(body) == 3);
   body.certificate.reset();
   CHECK(find_version(body) == 2);
@@ -187,6 +191,14 @@ TEST_CASE("what contradicts the certificate is a fault") {
   };
   CHECK(fault_of([](Superelement& s) { s.kind[1] = "bent"; }) ==
         "/modes/kind is 'bent' for mode 2, expected free, residual, clamped, fixed-interface or constraint");
+  CHECK(fault_of([](Superelement& s) {
+          s.kind.clear();
+          s.certificate.reset();
+        }) == "/section_loads stands without the certificate of version 3");
+  CHECK(fault_of([](Superelement& s) { s.section_loads.reset(); }) ==
+        "/deflections stands without the section loads");
+  CHECK(fault_of([](Superelement& s) { s.point_deflections.reset(); }) ==
+        "/section_loads stands without the deflections");
   CHECK(fault_of([](Superelement& s) { s.certificate.reset(); }) ==
         "/modes/kind stands without a certificate");
   CHECK(fault_of([](Superelement& s) { s.geometric_stiffness.reset(); }) ==

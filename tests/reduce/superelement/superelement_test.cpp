@@ -94,6 +94,7 @@ TEST_CASE("a file of any version is read, and written again as it was") {
     const Superelement old = read_superelement(path);
     CHECK(old.geometric_stiffness.has_value() == (version >= 2));
     CHECK(old.certificate.has_value() == (version >= 3));
+    CHECK(old.section_loads.has_value() == (version >= 4));
     CHECK(old.num_modes() == 3);
     CHECK(old.provenance.algorithm_revision == version);
     CHECK(find_point(old, "tip") == 2);

@@ -7,9 +7,10 @@ The span of time is that of the run file's [statistics], or the one given. Vibra
 (Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Travel is from
 static equilibrium, compression is positive. Loads are those of all parallel members together. A tyre is also without
 load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
-of -y. With --superelements the tool also computes the bending moment of bodies that a run took as rigid, from the
-forces on them. Of a response file with the spectra on a random road (sprung-dynamics response), the tool prints the
-r.m.s. values and the absorbed power of the linear vehicle."""
+of -y. It is that from the loads on the body; beside it stand that from its modes and the largest difference of the
+two, which tells what the modes lack. With --superelements the tool also computes the bending moment of bodies that a
+run took as rigid, from the forces on them, where the file has none. Of a response file with the spectra on a random
+road (sprung-dynamics response), the tool prints the r.m.s. values and the absorbed power of the linear vehicle."""
 
 import argparse
 import json
@@ -32,7 +33,16 @@ from sprung_tools.runs.measures import (
     point_name,
 )
 from sprung_tools.runs.ride_assessment import calc_assessment
-from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel, find_forces, read_window
+from sprung_tools.runs.ride_measures import (
+    calc_bending,
+    calc_comfort,
+    calc_contact,
+    calc_loaded_bending,
+    calc_moment_difference,
+    calc_travel,
+    find_forces,
+    read_window,
+)
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.runs.stored_histories import list_gaps
@@ -47,7 +57,7 @@ LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch",
 TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
-BENDING = ("body", "run", "largest moment kN m", "at x m", "at s")
+BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "difference kN m")
 
 
 def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
@@ -111,9 +121,16 @@ def make_bending_rows(
     """The rows of the table of bending moments."""
     for body in runs[0].results.names("bodies"):
         for run, window in zip(runs, windows):
-            found = find_bending(run.results, body, window, superelements)
-            if found:
-                yield body, run.label, f"{1e-3 * found.moment:.4g}", f"{found.station:.3f}", f"{found.time:.3f}"
+            from_loads, from_modes = (find(run.results, body, window) for find in (calc_loaded_bending, calc_bending))
+            found = from_loads or find_bending(run.results, body, window, superelements)
+            if not found:
+                continue
+            difference = calc_moment_difference(run.results, body, window)
+            both = (from_modes.moment if from_modes and from_loads else None, difference)
+            yield (
+                body, run.label, f"{1e-3 * found.moment:.4g}", f"{found.station:.3f}", f"{found.time:.3f}",
+                *("–" if value is None else f"{1e-3 * value:.4g}" for value in both),
+            )  # fmt: skip
 
 
 def make_json(

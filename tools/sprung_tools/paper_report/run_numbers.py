@@ -12,7 +12,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
 from sprung_tools.files.results_file import open_results
 from sprung_tools.paper_report.paper_runs import name_modes
-from sprung_tools.paper_report.programs import list_warnings
+from sprung_tools.paper_report.programs import MODES_MISSING, list_warnings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import read_window, sampling_step
 from sprung_tools.signals.spectra import calc_band_rms, calc_rms, count_upward_crossings, find_dominant_frequency
@@ -106,8 +106,8 @@ class RunNumbers:
 
     @property
     def warnings(self) -> list[str]:
-        """The program's warnings at the end of the run, a line each."""
-        return list_warnings(self.said)
+        """The program's warnings of modes left out at the end of the run, a line each."""
+        return [warning for warning in list_warnings(self.said) if warning.startswith(MODES_MISSING)]
 
     @property
     def left_out(self) -> str:

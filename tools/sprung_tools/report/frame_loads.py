@@ -1,5 +1,6 @@
-"""Bending moment and shear along each flexible body: at each time of the animation, their envelope over the run, and
-where and when the extremes are."""
+"""Bending moment and shear along each flexible body, from the loads on it where the file has them, else from its modes:
+at each time of the animation, their envelope over the run, where and when the extremes are, and where the two ways
+differ most."""
 
 from collections.abc import Sequence
 
@@ -12,6 +13,7 @@ from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode
 
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
+FROM_LOADS = "_from_loads"  # ending of the datasets
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
 SLENDER = 0.1  # height over length up to which the loads of a body are drawn over its x
 
@@ -27,11 +29,17 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
         stations, _ = read_numbers(results.file, f"{where}/station")
         order, along, name = place_stations(stations)
         read = [read_numbers(results.file, f"{where}/{dataset}") for dataset, _ in QUANTITIES]
+        from_modes = [values for values, _ in read]
+        if has_loads := results.has(f"{where}/{QUANTITIES[0][0]}{FROM_LOADS}"):
+            read = [read_numbers(results.file, f"{where}/{dataset}{FROM_LOADS}") for dataset, _ in QUANTITIES]
         samples = np.unique(np.concatenate([even, *(find_extremes(values)[:, 0] for values, _ in read)]))
         quantities = [
             pack_quantity(values[:, order], along, results.time, samples, label, unit)
             for (values, unit), (_, label) in zip(read, QUANTITIES)
         ]
+        if has_loads:
+            for quantity, (values, _), modal in zip(quantities, read, from_modes):
+                quantity["difference"] = pack_difference(values[:, order], modal[:, order], along, results.time)
         packed.append({
             "body": body.name, "axis": name, "t": encode(results.time[samples]), "quantities": quantities,
         })  # fmt: skip
@@ -68,6 +76,14 @@ def pack_quantity(values: Floats, along: Floats, time: Floats, samples: Integers
         "low": encode(np.min(values, axis=0)[kept]), "high": encode(np.max(values, axis=0)[kept]),
         "extremes": extremes,
     }  # fmt: skip
+
+
+def pack_difference(from_loads: Floats, from_modes: Floats, along: Floats, time: Floats) -> Packed:
+    """Where and when the values from the loads and from the modes [n×stations] differ most."""
+    difference = from_loads - from_modes
+    row, column = np.unravel_index(int(np.argmax(np.abs(difference))), difference.shape)
+    return {"what": "largest difference from that of the modes", "value": float(difference[row, column]),
+            "place": float(along[column]), "time": float(time[row])}  # fmt: skip
 
 
 def find_extremes(values: Floats) -> Integers:

@@ -25,6 +25,8 @@ from sprung_tools.runs.ride_measures import (
     calc_bending,
     calc_comfort,
     calc_contact,
+    calc_loaded_bending,
+    calc_moment_difference,
     calc_travel,
     find_forces,
     find_largest_moment,
@@ -49,7 +51,8 @@ SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "sto
 TYRE_UNITS = {
     "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
 }  # fmt: skip
-LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N"}
+LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N", "moment_from_loads": "N m",
+              "moment_difference": "N m"}  # fmt: skip
 MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
 UNITS_OF = {
@@ -102,8 +105,9 @@ def point_name(folder: str) -> str:
 
 
 def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Bending | None:
-    """A body's largest moment; of a rigid body only if the folder of its superelement is given, else None."""
-    found = calc_bending(results, body, window)
+    """A body's largest moment: from its modes, of a rigid body from its loads. Where the file has none of a rigid body,
+    it takes the folder of its superelement, else the result is None."""
+    found = calc_bending(results, body, window) or calc_loaded_bending(results, body, window)
     name = results.superelement(body)
     if found is not None or superelements is None or not name:
         return found
@@ -172,13 +176,15 @@ def measure_tyre(results: ResultsFile, name: str, window: Span) -> Measures:
 
 
 def measure_loads(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Measures:
-    """The largest bending moment of a body, and the largest shear and axial force of a flexible one; none of a body
-    without moments."""
+    """The largest bending moment of a body, and the largest shear and axial force of a flexible one, all from its
+    modes; the largest moment from its loads, and the largest difference of the two; none of a body without moments."""
     found = find_bending(results, body, window, superelements)
     if found is None:
         return {}
     forces = [find_largest(results, f"recovery/{body}/{name}", window) for name in ("shear", "axial")]
-    return combine(f"loads/{body}", LOAD_UNITS, [*found, *forces])
+    from_loads = calc_loaded_bending(results, body, window)
+    loaded = (from_loads and from_loads.moment, calc_moment_difference(results, body, window))
+    return combine(f"loads/{body}", LOAD_UNITS, [*found, *forces, *loaded])
 
 
 def find_largest(results: ResultsFile, dataset: str, window: Span) -> float | None:

@@ -166,6 +166,25 @@ def calc_bending(results: ResultsFile, body: str, window: Span) -> Bending | Non
     return find_largest_moment(results, moments, stations, window)
 
 
+def calc_loaded_bending(results: ResultsFile, body: str, window: Span) -> Bending | None:
+    """A body's largest bending moment from its loads; None if the file holds none."""
+    if not results.has(f"recovery/{body}/moment_from_loads"):
+        return None
+    moments, _ = read_numbers(results.file, f"recovery/{body}/moment_from_loads")
+    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    return find_largest_moment(results, moments, stations, window)
+
+
+def calc_moment_difference(results: ResultsFile, body: str, window: Span) -> float | None:
+    """The largest difference between a body's bending moments from its loads and from its modes, N·m; None if the file
+    lacks one of them."""
+    names = [f"recovery/{body}/{name}" for name in ("moment_from_loads", "moment")]
+    if not all(results.has(name) for name in names):
+        return None
+    from_loads, from_modes = (read_numbers(results.file, name)[0] for name in names)
+    return float(np.max(np.abs(from_loads - from_modes)[samples_between(results, *window)]))
+
+
 def find_largest_moment(results: ResultsFile, moments: Floats, stations: Floats, window: Span) -> Bending:
     """The largest of the moments [n×stations] N·m. stations: their positions in the body frame [stations×2] m."""
     inside = np.flatnonzero(samples_between(results, *window))

@@ -118,7 +118,7 @@ function fillExtremes(found) {
   const body = element("tbody");
   let number = 0;
   for (const quantity of found.quantities) {
-    for (const extreme of quantity.extremes) {
+    for (const extreme of quantity.difference ? [...quantity.extremes, quantity.difference] : quantity.extremes) {
       const {unit, factor} = readable(quantity.unit, Math.abs(extreme.value));
       const button = element("button", {type: "button", id: `load-show-${++number}`, class: "save"}, `${extreme.time.toFixed(3)} s`);
       button.addEventListener("click", () => clock.set(extreme.time));

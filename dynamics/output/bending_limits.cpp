@@ -1,0 +1,111 @@
+#include "dynamics/output/bending_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sprung::dynamics {
+
+namespace {
+
+// Axial forces change the lowest modes of a body most; more of them would cost more than they tell.
+constexpr Eigen::Index kMostModes = 12;
+
+double calc_length(const Eigen::Matrix2Xd& nodes) {
+  return (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
+}
+
+// K_G of the lowest m active modes under unit loads: each a column of m².
+Eigen::MatrixXd make_geometric(const Body& body, const reduce::GeometricStiffness& geometric,
+                               const BodyLoads& loads) {
+  std::vector<int> columns;
+  for (const int number : body.mode_numbers) {
+    if (number <= geometric.num_modes() && static_cast<Eigen::Index>(columns.size()) < kMostModes)
+      columns.push_back(number - 1);
+  }
+  const auto m = static_cast<Eigen::Index>(columns.size());
+  const auto flatten = [&](const Eigen::MatrixXd& K) {
+    const Eigen::MatrixXd chosen = K(columns, columns);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(chosen.data(), m * m));
+  };
+  const auto num_points = static_cast<Eigen::Index>(geometric.point_loads.size());
+  Eigen::MatrixXd of_points(m * m, 3 * num_points), of_frame(m * m, 4);
+  for (Eigen::Index p = 0; p < num_points; ++p) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      of_points.col(3 * p + i) =
+          flatten(geometric.point_loads[static_cast<std::size_t>(p)][static_cast<std::size_t>(i)]);
+    }
+  }
+  of_frame << flatten(geometric.acceleration[0]), flatten(geometric.acceleration[1]),
+      flatten(geometric.angular_acceleration), flatten(geometric.centrifugal);
+  return loads.combine(of_points, of_frame);
+}
+
+}  // namespace
+
+BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads)
+    : name_(body.name),
+      is_stiffened_(body.stiffening.has_value()),
+      first_(body.first_coordinate + 3),
+      num_modes_(body.num_modes()),
+      length_(calc_length(superelement.node_positions)) {
+  const Eigen::Index num_nodes = superelement.num_nodes();
+  shapes_.resize(2 * num_nodes, num_modes_);
+  for (Eigen::Index node = 0; node < num_nodes; ++node) {
+    for (int k = 0; k < num_modes_; ++k) {
+      const int mode = body.mode_numbers[static_cast<std::size_t>(k)] - 1;
+      shapes_.block<2, 1>(2 * node, k) = superelement.shapes.block<2, 1>(3 * node, mode);
+    }
+  }
+  displacement_ = Eigen::VectorXd::Zero(2 * num_nodes);
+  if (is_stiffened_ || !superelement.geometric_stiffness) return;
+  geometric_ = make_geometric(body, *superelement.geometric_stiffness, loads);
+  stiffness_ = body.stiffness.diagonal();
+  present_ = Eigen::VectorXd::Zero(geometric_.rows());
+  half_ = Eigen::VectorXd::Zero(std::lround(std::sqrt(static_cast<double>(geometric_.rows()))));
+}
+
+void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd& q) {
+  const auto eta = q.segment(first_, num_modes_);
+  displacement_.noalias() = shapes_ * eta;
+  double largest = 0.0;  // squared
+  for (Eigen::Index node = 0; node < displacement_.size(); node += 2)
+    largest = std::max(largest, displacement_.segment<2>(node).squaredNorm());
+  if (largest > deflection_.value * deflection_.value) deflection_ = {std::sqrt(largest), time};
+  const Eigen::Index m = half_.size();
+  if (m == 0) return;
+  present_.noalias() = geometric_ * loads.coefficients();
+  half_.noalias() = Eigen::Map<const Eigen::MatrixXd>(present_.data(), m, m) * eta.head(m);
+  const double work = std::abs(eta.head(m).dot(half_));
+  if (work > stiffening_.value) stiffening_ = {work, time};
+  strain_ = std::max(strain_, stiffness_.dot(eta.cwiseAbs2()));
+}
+
+double BodyBending::axial_effect() const {
+  return deflection_share() > kNoDeflection && strain_ > 0.0 ? stiffening_.value / strain_ : 0.0;
+}
+
+std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {
+  std::vector<BodyRemark> remarks;
+  for (const BodyBending& body : bodies) {
+    if (body.deflection_share() > kLargeDeflection) {
+      remarks.push_back(
+          {body.name(),
+           fmt::format("{}: the deflection is {:.3g} % of the body's length (at t = {:.3g} s); beyond "
+                       "{:.0f} % linear bending does not hold",
+                       body.name(), 100.0 * body.deflection_share(), body.deflection_time(),
+                       100.0 * kLargeDeflection)});
+    }
+    if (body.axial_effect() > kLargeAxialEffect) {
+      remarks.push_back(
+          {body.name(),
+           fmt::format("{}: axial forces change the bending by {:.3g} % (at t = {:.3g} s): set "
+                       "stiffening.{} = true",
+                       body.name(), 100.0 * body.axial_effect(), body.axial_effect_time(), body.name())});
+    }
+  }
+  return remarks;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/output/body_remark.h"
+#include "dynamics/output/section_loads.h"
+#include "tools/support/files/bytes.h"
+
+namespace sprung::dynamics {
+
+/// Shares above which a run warns: the largest deflection over the length of the body, and the work of axial
+/// forces in bending over that of the bending stiffness (output, "Where linear bending ends").
+inline constexpr double kLargeDeflection = 0.1, kLargeAxialEffect = 0.1;
+/// Below this share of the length, axial forces may change a deflection as they like.
+inline constexpr double kNoDeflection = 1e-4;
+
+/// How large a flexible body's deflection has become in a run, and what axial forces that the model leaves
+/// out would have changed in it (output, eqs. 6, 7).
+class BodyBending {
+ public:
+  /// @param loads  of the body
+  BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads);
+
+  const std::string& name() const { return name_; }
+  bool is_stiffened() const { return is_stiffened_; }
+  /// @param loads  at this time   @param q  of the model
+  void add(double time, const BodyLoads& loads, const Eigen::VectorXd& q);
+
+  double deflection_share() const { return deflection_.value / length_; }
+  double deflection_time() const { return deflection_.time; }  ///< [s]
+  /// 0 for a body with stiffening, and one whose superelement has no geometric stiffness or that hardly
+  /// bends.
+  double axial_effect() const;
+  double axial_effect_time() const { return stiffening_.time; }  ///< [s]
+
+  template <class Bytes, class Bending>
+  static void transfer(Bytes& bytes, Bending& bending) {
+    for (auto* peak : {&bending.deflection_, &bending.stiffening_}) {
+      bytes.transfer(peak->value);
+      bytes.transfer(peak->time);
+    }
+    bytes.transfer(bending.strain_);
+  }
+
+ private:
+  struct Peak {
+    double value = 0.0, time = 0.0;
+  };
+
+  std::string name_;
+  bool is_stiffened_;
+  int first_, num_modes_;
+  double length_;                   // [m]
+  Eigen::MatrixXd shapes_;          // x and y of each node, 2N×n
+  Eigen::MatrixXd geometric_;       // K_G of unit loads, m² × coefficients; empty: not judged
+  Eigen::VectorXd stiffness_;       // of each mode
+  Eigen::VectorXd displacement_;    // 2N
+  Eigen::VectorXd present_, half_;  // K_G, m²; K_G η, m
+  Peak deflection_;                 // [m]
+  Peak stiffening_;                 // |ηᵀK_Gη| [J]
+  double strain_ = 0.0;             // largest ηᵀKη [J]
+};
+
+/// Remarks on the bodies that pass a limit.
+std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);
+
+}  // namespace sprung::dynamics

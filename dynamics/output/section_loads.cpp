@@ -1,0 +1,116 @@
+#include "dynamics/output/section_loads.h"
+
+#include <utility>
+
+namespace sprung::dynamics {
+
+namespace {
+
+Eigen::Map<Eigen::VectorXd> as_vector(Eigen::Matrix3Xd& values) {
+  return {values.data(), values.size()};
+}
+
+}  // namespace
+
+BodySections::BodySections(const Model& model, int body, const reduce::Superelement& superelement,
+                           const std::vector<VehiclePoint>& points)
+    : body_(static_cast<std::size_t>(body)), loads_(model, body, superelement, points) {
+  const Body& moving = model.bodies[body_];
+  name_ = moving.name;
+  first_ = moving.first_coordinate;
+  num_modes_ = moving.num_modes();
+  const Eigen::Index stations = 2 * superelement.elements.cols();
+  positions_.resize(stations, 2);
+  for (Eigen::Index station = 0; station < stations; ++station) {
+    const int node = superelement.elements(station % 2, station / 2);
+    positions_.row(station) = superelement.node_positions.col(node).transpose();
+  }
+  std::vector<int> columns;
+  for (const int number : moving.mode_numbers) columns.push_back(number - 1);
+  by_mode_ = superelement.resultants(Eigen::all, columns);
+  from_modes_ = from_loads_ = Eigen::Matrix3Xd::Zero(3, stations);
+  if (!superelement.section_loads || moving.stiffening) return;
+  by_load_ = combine(*superelement.section_loads, columns);
+  accelerations_ = Eigen::VectorXd::Zero(by_load_.cols());
+  if (has_modes()) prepare_missing(moving, superelement, columns);
+}
+
+Eigen::MatrixXd BodySections::combine(const reduce::UnitLoads& unit, const std::vector<int>& columns) const {
+  Eigen::MatrixXd combined(unit.acceleration.rows(), loads_.size() + 2 * num_modes_);
+  combined << loads_.combine(unit.point_load, unit.acceleration),
+      unit.modal_acceleration(Eigen::all, columns), unit.turned_acceleration(Eigen::all, columns);
+  return combined;
+}
+
+void BodySections::prepare_missing(const Body& body, const reduce::Superelement& superelement,
+                                   const std::vector<int>& columns) {
+  const Eigen::Index num_elements = superelement.elements.cols();
+  lengths_.resize(num_elements);
+  mean_moment_.resize(num_elements, num_modes_);
+  for (Eigen::Index e = 0; e < num_elements; ++e) {
+    lengths_[e] = (positions_.row(2 * e + 1) - positions_.row(2 * e)).norm();
+    mean_moment_.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
+  }
+  delay_ = body.damping.diagonal().cwiseQuotient(body.stiffness.diagonal());
+  missing_moment_ = Eigen::VectorXd::Zero(num_elements);
+  const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
+  deflection_by_load_ = combine(*superelement.point_deflections, columns);
+  deflection_by_mode_.resize(3 * num_points, num_modes_);
+  for (Eigen::Index p = 0; p < num_points; ++p) {
+    const reduce::NamedPoint& point = superelement.points[static_cast<std::size_t>(p)];
+    points_.push_back(name_ + "." + point.name);
+    for (int k = 0; k < num_modes_; ++k) {
+      deflection_by_mode_.block<3, 1>(3 * p, k) =
+          superelement.shapes.block<3, 1>(3 * point.node, columns[static_cast<std::size_t>(k)]);
+    }
+  }
+  deflections_ = missing_deflections_ = Eigen::Matrix3Xd::Zero(3, num_points);
+}
+
+void BodySections::update(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                          const Eigen::VectorXd& v_dot) {
+  const auto eta = q.segment(first_ + 3, num_modes_), eta_dot = v.segment(first_ + 3, num_modes_),
+             eta_ddot = v_dot.segment(first_ + 3, num_modes_);
+  loads_.update(loads, q, v, v_dot);
+  if (has_modes()) as_vector(from_modes_).noalias() = by_mode_ * eta;
+  if (!has_loads()) return;
+  const double rate = v[first_ + 2], turning = v_dot[first_ + 2];
+  accelerations_.head(loads_.size()) = loads_.coefficients();
+  accelerations_.segment(loads_.size(), num_modes_) = eta_ddot - rate * rate * eta;
+  accelerations_.tail(num_modes_) = turning * eta + 2.0 * rate * eta_dot;
+  as_vector(from_loads_).noalias() = by_load_ * accelerations_;
+  if (!has_modes()) return;
+  amplitudes_ = eta + delay_.cwiseProduct(eta_dot);
+  update_missing();
+}
+
+void BodySections::update_missing() {
+  missing_moment_.noalias() = -mean_moment_ * amplitudes_;
+  for (Eigen::Index e = 0; e < missing_moment_.size(); ++e) {
+    const auto first = from_loads_.col(2 * e), second = from_loads_.col(2 * e + 1);
+    missing_moment_[e] += 0.5 * (first[2] + second[2]) - lengths_[e] / 12.0 * (first[1] - second[1]);
+  }
+  as_vector(deflections_).noalias() = deflection_by_load_ * accelerations_;
+  as_vector(missing_deflections_).noalias() = deflection_by_mode_ * amplitudes_;
+  missing_deflections_ = deflections_ - missing_deflections_;
+}
+
+VehicleSections::VehicleSections(const Vehicle& vehicle, const Model& model) : loads_(model.markers.size()) {
+  const std::vector<VehiclePoint> points = list_points(vehicle);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[b]);
+    if (superelement == nullptr) continue;
+    BodySections sections(model, static_cast<int>(b), *superelement, points);
+    if (sections.has_modes() || sections.has_loads()) bodies_.push_back(std::move(sections));
+  }
+}
+
+void VehicleSections::update(const SystemTerms& terms, const Eigen::VectorXd& lambda,
+                             const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             const Eigen::VectorXd& v_dot) {
+  if (bodies_.empty()) return;
+  terms.calc_loads(lambda, loads_);
+  for (BodySections& body : bodies_) body.update(loads_, q, v, v_dot);
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/output/body_loads.h"
+#include "dynamics/system/system_terms.h"
+
+namespace sprung::dynamics {
+
+/// Axial force, shear force and bending moment along the beams of a body at an instant, and deflections of
+/// its named points, from its modes and from its loads (output, eqs. 2, 3). There is one station at each end
+/// of each element, in the superelement's order of elements, first end first. Values are 3×stations, rows N
+/// [N], Q [N], M [N·m]. `update` allocates nothing.
+class BodySections {
+ public:
+  /// @param body    0-based, of the model; with a superelement
+  /// @param points  of the vehicle, in the order of the model's markers
+  BodySections(const Model& model, int body, const reduce::Superelement& superelement,
+               const std::vector<VehiclePoint>& points);
+
+  const std::string& name() const { return name_; }
+  std::size_t body() const { return body_; }  ///< 0-based, of the model
+  /// Undeformed positions of the stations, body axes, stations×2 [m].
+  const Eigen::MatrixXd& positions() const { return positions_; }
+  bool has_modes() const { return num_modes_ > 0; }
+  /// Whether there are values from loads. There are none of a body with stiffening, whose equilibrium is that
+  /// of its deformed shape, and none where the superelement has no section loads.
+  bool has_loads() const { return by_load_.size() > 0; }
+
+  /// @param loads  force and torque on each marker of the model, world axes
+  /// @param q, v, v_dot  of the model
+  void update(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
+  const BodyLoads& loads() const { return loads_; }
+  const Eigen::Matrix3Xd& from_modes() const { return from_modes_; }
+  const Eigen::Matrix3Xd& from_loads() const { return from_loads_; }
+  /// What the modes lack of the mean bending moment of each element; where there are both ways (output, eq.
+  /// 4) [N·m].
+  const Eigen::VectorXd& missing_moment() const { return missing_moment_; }
+  /// Names of the superelement's points, "body.point".
+  const std::vector<std::string>& points() const { return points_; }
+  /// Deflections of these points from the loads, and what the modes lack of them, body axes (output, eq. 5);
+  /// where there are both ways. Rows x [m], y [m], rotation [rad], 3×points
+  const Eigen::Matrix3Xd& deflections() const { return deflections_; }
+  const Eigen::Matrix3Xd& missing_deflections() const { return missing_deflections_; }
+
+ private:
+  Eigen::MatrixXd combine(const reduce::UnitLoads& unit, const std::vector<int>& columns) const;
+  void prepare_missing(const Body& body, const reduce::Superelement& superelement,
+                       const std::vector<int>& columns);
+  void update_missing();
+
+  std::string name_;
+  std::size_t body_;
+  int first_, num_modes_;
+  BodyLoads loads_;
+  Eigen::MatrixXd positions_;
+  Eigen::MatrixXd by_mode_;        // 3 stations × modes
+  Eigen::MatrixXd by_load_;        // 3 stations × coefficients of the loads, modes, modes turned
+  Eigen::VectorXd accelerations_;  // by these
+  Eigen::Matrix3Xd from_modes_, from_loads_;
+  Eigen::VectorXd lengths_;      // of the elements
+  Eigen::MatrixXd mean_moment_;  // of each element by mode
+  Eigen::VectorXd delay_,
+      amplitudes_;  // damping over stiffness of each mode; with it, those that carry damping
+  Eigen::VectorXd missing_moment_;
+  std::vector<std::string> points_;
+  Eigen::MatrixXd deflection_by_load_;  // 3 points × columns of by_load_
+  Eigen::MatrixXd deflection_by_mode_;  // 3 points × modes
+  Eigen::Matrix3Xd deflections_, missing_deflections_;
+};
+
+/// The sections of all bodies of a vehicle that have a superelement.
+class VehicleSections {
+ public:
+  VehicleSections(const Vehicle& vehicle, const Model& model);
+
+  /// @param terms   positions, Jacobian, velocities and forces up to date; of the model, or of one with some
+  /// of
+  ///                its modes held
+  /// @param lambda  multipliers of the terms
+  /// @param q, v, v_dot  of the model
+  void update(const SystemTerms& terms, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
+              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
+  const std::vector<BodySections>& bodies() const { return bodies_; }
+
+ private:
+  std::vector<BodySections> bodies_;
+  std::vector<Wrench> loads_;  // on each marker
+};
+
+}  // namespace sprung::dynamics

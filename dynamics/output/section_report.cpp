@@ -1,0 +1,97 @@
+#include "dynamics/output/section_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+
+#include "tools/support/terminal/text_table.h"
+
+namespace sprung::dynamics {
+
+using support::Json;
+
+namespace {
+
+std::string format_value(double value) {
+  return fmt::format("{:.6g}", value);
+}
+
+}  // namespace
+
+std::string format_sections(const SectionStatistics& statistics) {
+  support::TextTable table({"body", "from loads N·m", "at x m", "y m", "time s", "from modes N·m",
+                            "largest difference N·m", "modes miss %"});
+  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
+    const BodySections& body = statistics.sections().bodies()[b];
+    const SectionPeaks& peaks = statistics.peaks()[b];
+    const bool has_both = body.has_loads() && body.has_modes();
+    const SectionPeak& peak = (body.has_loads() ? peaks.from_loads : peaks.from_modes)[SectionPeaks::kMoment];
+    table.add_row({body.name(), body.has_loads() ? format_value(peak.value) : "",
+                   format_value(body.positions()(peak.station, 0)),
+                   format_value(body.positions()(peak.station, 1)), fmt::format("{:.3f}", peak.time),
+                   body.has_modes() ? format_value(peaks.from_modes[SectionPeaks::kMoment].value) : "",
+                   has_both ? format_value(peaks.difference[SectionPeaks::kMoment].value) : "",
+                   has_both ? fmt::format("{:.3g}", 100.0 * peaks.missing_moment_share()) : ""});
+  }
+  if (statistics.peaks().empty()) return "";
+  return "\nLargest bending moments along the beams\n" + table.str();
+}
+
+std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics) {
+  std::vector<BodyRemark> remarks;
+  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
+    const BodySections& body = statistics.sections().bodies()[b];
+    const SectionPeaks& peaks = statistics.peaks()[b];
+    std::vector<std::string> parts;
+    if (peaks.missing_deflection_share() > kTooMuchMissing) {
+      const SectionPeak& peak = peaks.missing_deflection;
+      parts.push_back(fmt::format("{:.3g} % of the largest deflection (at {} along {}, t = {:.3g} s)",
+                                  100.0 * peaks.missing_deflection_share(),
+                                  body.points()[static_cast<std::size_t>(peak.station / 3)],
+                                  peak.station % 3 == 0 ? "x" : "y", peak.time));
+    }
+    if (peaks.missing_moment_share() > kTooMuchMissing) {
+      const Eigen::RowVector2d place = body.positions().row(peaks.missing_moment.station);
+      parts.push_back(
+          fmt::format("{:.3g} % of the largest bending moment (at x = {:.4g} m, y = {:.4g} m, t = {:.3g} s)",
+                      100.0 * peaks.missing_moment_share(), place.x(), place.y(), peaks.missing_moment.time));
+    }
+    if (parts.empty()) continue;
+    remarks.push_back(
+        {body.name(),
+         fmt::format(
+             "{}: its modes miss {}; take more modes or a certified basis, and moments from the loads",
+             body.name(), fmt::join(parts, " and "))});
+  }
+  return remarks;
+}
+
+Json make_sections_json(const SectionStatistics& statistics) {
+  constexpr std::array<const char*, 3> kQuantities{"axial", "shear", "moment"};
+  Json bodies = Json::object();
+  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
+    const BodySections& body = statistics.sections().bodies()[b];
+    const SectionPeaks& peaks = statistics.peaks()[b];
+    Json quantities = Json::object();
+    for (std::size_t i = 0; i < kQuantities.size(); ++i) {
+      const auto describe = [&](const SectionPeak& peak) -> Json {
+        return {{"value", peak.value},
+                {"position", {body.positions()(peak.station, 0), body.positions()(peak.station, 1)}},
+                {"time", peak.time}};
+      };
+      Json& quantity = quantities[kQuantities[i]];
+      if (body.has_loads()) quantity["from_loads"] = describe(peaks.from_loads[i]);
+      if (body.has_modes()) quantity["from_modes"] = describe(peaks.from_modes[i]);
+      if (body.has_loads() && body.has_modes()) quantity["difference"] = describe(peaks.difference[i]);
+    }
+    if (body.has_loads() && body.has_modes()) {
+      quantities["missing_moment_share"] = peaks.missing_moment_share();
+      quantities["missing_deflection_share"] = peaks.missing_deflection_share();
+    }
+    bodies[body.name()] = quantities;
+  }
+  return bodies;
+}
+
+}  // namespace sprung::dynamics

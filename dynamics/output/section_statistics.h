@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dynamics/output/section_loads.h"
+#include "tools/support/files/bytes.h"
+
+namespace sprung::dynamics {
+
+/// Where and when a quantity along the beams of a body has had its largest size.
+struct SectionPeak {
+  double value = 0.0;  ///< signed [N, N, N·m]
+  int station = 0;
+  double time = 0.0;  ///< [s]
+};
+
+/// The largest axial force, shear force and bending moment of a body in a run, and how much the two ways to
+/// find them differ.
+struct SectionPeaks {
+  enum Quantity { kAxial, kShear, kMoment };
+  std::array<SectionPeak, 3> from_modes, from_loads, difference;
+  /// What the modes lack of a bending moment (output, eq. 4); the station is the element's first end.
+  SectionPeak missing_moment;
+  /// Of the named points: the largest deflection; and what the modes lack of a deflection along x or y
+  /// (output, eq. 5). The station is 3 × point + direction [m].
+  SectionPeak deflection, missing_deflection;
+
+  /// What the modes lack as a share of the largest value from the loads; 0 where all are 0.
+  double missing_moment_share() const;
+  double missing_deflection_share() const;
+};
+
+/// Share of the largest bending moment, or deflection, above which the modes of a body miss too much of it.
+inline constexpr double kTooMuchMissing = 0.05;
+
+/// The largest section loads of a run, over outputs that are added one by one.
+class SectionStatistics {
+ public:
+  /// @param sections  has to outlive this
+  explicit SectionStatistics(const VehicleSections& sections);
+
+  void add(double time);  ///< the present values of the sections
+  const VehicleSections& sections() const { return *sections_; }
+  /// One for each of the sections' bodies.
+  const std::vector<SectionPeaks>& peaks() const { return peaks_; }
+
+  template <class Bytes, class Statistics>
+  static void transfer(Bytes& bytes, Statistics& statistics) {
+    for (auto& peaks : statistics.peaks_) {
+      const auto transfer_peak = [&](auto& peak) {
+        bytes.transfer(peak.value);
+        bytes.transfer(peak.station);
+        bytes.transfer(peak.time);
+      };
+      for (auto* three : {&peaks.from_modes, &peaks.from_loads, &peaks.difference}) {
+        for (auto& peak : *three) transfer_peak(peak);
+      }
+      transfer_peak(peaks.missing_moment);
+      transfer_peak(peaks.deflection);
+      transfer_peak(peaks.missing_deflection);
+    }
+  }
+
+ private:
+  const VehicleSections* sections_;
+  std::vector<SectionPeaks> peaks_;
+};
+
+}  // namespace sprung::dynamics
