@@ -114,8 +114,21 @@ std::string calc_file_hash(const std::filesystem::path& path) {
   return support::sha256(support::read_text_file(path));
 }
 
+support::TomlDocument read_document(const DesignSource& source) {
+  support::TomlDocument document = support::TomlDocument::read(source.path);
+  for (std::size_t i = 0; i < source.overrides.size(); ++i) {
+    document.set(source.overrides[i], fmt::format("--set {}", i + 1));
+  }
+  return document;
+}
+
 Design read_design(const std::filesystem::path& path) {
-  const support::TomlDocument document = support::TomlDocument::read(path);
+  return read_design(DesignSource{.path = path});
+}
+
+Design read_design(const DesignSource& source) {
+  const std::filesystem::path& path = source.path;
+  const support::TomlDocument document = read_document(source);
   const TomlTable root = document.root();
   expect_keys(root, {"name", "theory", "rotary_inertia", "materials", "sections", "points", "lines", "mesh",
                      "point_masses", "reference", "modes", "interface", "reduction"});

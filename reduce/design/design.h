@@ -10,6 +10,7 @@
 #include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::reduce {
 
@@ -33,6 +34,16 @@ struct Design {
 ///         frame in parts, faults of the mesh file
 /// Checked by tests/reduce/design/design_test.cpp
 Design read_design(const std::filesystem::path& path);
+
+/// A design file, of which some values may be replaced by others.
+struct DesignSource {
+  std::filesystem::path path;
+  std::vector<std::string> overrides = {};  ///< as `--set` takes them: "sections.rail.height=0.12"
+};
+/// @throws support::InputError as read_design, faults of an override at `--set N`
+Design read_design(const DesignSource& source);
+/// The text with its overrides, unchecked. @throws support::InputError if it is not TOML
+support::TomlDocument read_document(const DesignSource& source);
 
 /// SHA-256 of a file, as provenance keeps it.
 /// @throws support::InputError if it cannot be read
