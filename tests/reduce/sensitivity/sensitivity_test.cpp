@@ -124,7 +124,7 @@ TEST_CASE("derivatives by every number of a design are the differences of bodies
     const Eigen::VectorXd expected = (4.0 * difference(5e-4) - difference(1e-3)) / 3.0;
     const Eigen::VectorXd found = scale * stack(one.derivative);
     INFO(parameter.key);
-    CHECK((found - expected).cwiseQuotient(value).cwiseAbs().maxCoeff() < 1e-7);
+    CHECK((found - expected).cwiseQuotient(value).cwiseAbs().maxCoeff() < 1e-8);
   }
 }
 
