@@ -42,8 +42,13 @@ struct DesignSource {
 };
 /// @throws support::InputError as read_design, faults of an override at `--set N`
 Design read_design(const DesignSource& source);
-/// The text with its overrides, unchecked. @throws support::InputError if it is not TOML
+/// The document with its overrides, and with numbers in place of the names of its parameters
+/// ("=rail_height").
+/// @throws support::InputError if it is not TOML, or names a parameter that is not there
 support::TomlDocument read_document(const DesignSource& source);
+/// The text that provenance keeps: that of the file, and a comment for each override.
+/// @throws support::InputError if it cannot be read
+std::string read_source_text(const DesignSource& source);
 
 /// SHA-256 of a file, as provenance keeps it.
 /// @throws support::InputError if it cannot be read

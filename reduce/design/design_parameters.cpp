@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -46,32 +47,33 @@ void list_numbers(const TomlTable& root, const char* name, std::vector<Number>& 
   }
 }
 
+// The frame of a design with a number changed.
 class DesignVariation {
  public:
   DesignVariation(const DesignSource& source, const Design& design) : source_(source), design_(design) {}
 
-  // Each section's properties with a number changed.
-  std::vector<fem::BeamProperties> read_changed_sections(const Number& number, double value) const {
-    const TomlDocument changed = change(number, value);
+  fem::BeamModel read_changed_sections(const Number& number, double value) const {
+    const TomlDocument changed = read_document(change(number, value));
     const TomlTable root = changed.root();
     const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
-    std::vector<fem::BeamProperties> properties;
-    for (const std::string& name : design_.model.mesh.section_names) properties.push_back(sections.at(name));
-    return properties;
+    fem::BeamModel model = design_.model;
+    for (std::size_t i = 0; i < model.sections.size(); ++i)
+      model.sections[i] = sections.at(model.mesh.section_names[i]);
+    return model;
   }
 
-  // The nodes with a coordinate changed. None if they are other nodes, or the point lies on no node then.
-  std::optional<Eigen::Matrix2Xd> read_changed_nodes(const Number& number, double value) const {
-    const TomlDocument changed = change(number, value);
+  fem::BeamModel read_changed_nodes(const Number& number, double value) const {
+    const TomlDocument changed = read_document(change(number, value));
     const TomlTable root = changed.root();
-    try {
-      const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
-      const fem::Mesh mesh = read_design_frame(root, source_.path.parent_path(), sections).mesh;
-      if (mesh.node_ids != design_.model.mesh.node_ids) return std::nullopt;
-      return mesh.node_positions;
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
+    const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
+    fem::BeamModel model = design_.model;
+    model.mesh.node_positions =
+        read_design_frame(root, source_.path.parent_path(), sections).mesh.node_positions;
+    return model;
+  }
+
+  fem::BeamModel read_changed_model(const Number& number, double value) const {
+    return read_design(change(number, value)).model;
   }
 
   fem::BeamModelRates make_rates() const {
@@ -82,63 +84,106 @@ class DesignVariation {
   }
 
  private:
-  TomlDocument change(const Number& number, double value) const {
+  DesignSource change(const Number& number, double value) const {
     DesignSource changed = source_;
     changed.overrides.push_back(fmt::format("{}={:.17g}", number.key, value));
-    return read_document(changed);
+    return changed;
   }
 
   const DesignSource& source_;
   const Design& design_;
 };
 
-// f'(x) by f(x ± h), f(x ± 2h), in this order: exact for polynomials of the fourth degree.
-double calc_derivative(const std::array<double, 4>& f, double h) {
-  return (8.0 * (f[0] - f[1]) - (f[2] - f[3])) / (12.0 * h);
+using ModelReader = fem::BeamModel (DesignVariation::*)(const Number&, double) const;
+
+// f'(x) by f(x ± h), f(x ± 2h), in this order: exact for polynomials of the fourth degree. What is rounding
+// counts as 0.
+double calc_derivative(const std::array<double, 4>& f, double h, double scale) {
+  if (std::isinf(f[0])) return 0.0;
+  const double change = (8.0 * (f[0] - f[1]) - (f[2] - f[3])) / 12.0;
+  return std::abs(change) <= 1e-12 * scale ? 0.0 : change / h;
 }
 
-// None at the end of a range, where a section is no section any more.
-std::optional<fem::BeamModelRates> calc_section_rates(const DesignVariation& variation,
-                                                      const Number& number) {
-  const double h = kStep * (number.value == 0.0 ? 1.0 : std::abs(number.value));
-  std::vector<std::vector<fem::BeamProperties>> at;
+double calc_extent(const fem::Mesh& mesh) {
+  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
+}
+
+// None without effect, with other nodes, or at the end of a range, where there is no such design any more.
+std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, ModelReader read,
+                                              const Number& number, double h) {
+  std::vector<fem::BeamModel> at;
+  fem::BeamModelRates rates = variation.make_rates();
   try {
-    for (const double step : {h, -h, 2.0 * h, -2.0 * h})
-      at.push_back(variation.read_changed_sections(number, number.value + step));
+    for (const double step : {h, -h, 2.0 * h, -2.0 * h}) {
+      at.push_back((variation.*read)(number, number.value + step));
+      if (at.back().mesh.num_nodes() != rates.node_positions.cols()) return std::nullopt;
+    }
   } catch (const InputError&) {
     return std::nullopt;
   }
-  fem::BeamModelRates rates = variation.make_rates();
   double largest = 0.0;
+  const auto derive = [&](const auto& value, double scale) {
+    const double rate = calc_derivative({value(at[0]), value(at[1]), value(at[2]), value(at[3])}, h, scale);
+    largest = std::max(largest, std::abs(rate));
+    return rate;
+  };
   for (std::size_t i = 0; i < rates.sections.size(); ++i) {
-    const auto derive = [&](double fem::BeamProperties::*member) {
-      if (std::isinf(at[0][i].*member)) return 0.0;
-      const double rate =
-          calc_derivative({at[0][i].*member, at[1][i].*member, at[2][i].*member, at[3][i].*member}, h);
-      if (std::abs(rate) * h < 1e-12 * std::abs(at[0][i].*member)) return 0.0;  // rounding
-      largest = std::max(largest, std::abs(rate));
-      return rate;
+    const auto derive_member = [&](double fem::BeamProperties::*member) {
+      const auto value = [&](const fem::BeamModel& model) { return model.sections[i].*member; };
+      return derive(value, std::abs(value(at[0])));
     };
-    rates.sections[i] = {.axial_rigidity = derive(&fem::BeamProperties::axial_rigidity),
-                         .bending_rigidity = derive(&fem::BeamProperties::bending_rigidity),
-                         .shear_rigidity = derive(&fem::BeamProperties::shear_rigidity),
-                         .mass_per_length = derive(&fem::BeamProperties::mass_per_length),
-                         .rotary_inertia = derive(&fem::BeamProperties::rotary_inertia)};
+    rates.sections[i] = {.axial_rigidity = derive_member(&fem::BeamProperties::axial_rigidity),
+                         .bending_rigidity = derive_member(&fem::BeamProperties::bending_rigidity),
+                         .shear_rigidity = derive_member(&fem::BeamProperties::shear_rigidity),
+                         .mass_per_length = derive_member(&fem::BeamProperties::mass_per_length),
+                         .rotary_inertia = derive_member(&fem::BeamProperties::rotary_inertia)};
+  }
+  const double extent = calc_extent(at[0].mesh);
+  for (Eigen::Index i = 0; i < rates.node_positions.size(); ++i) {
+    rates.node_positions(i) =
+        derive([&](const fem::BeamModel& model) { return model.mesh.node_positions(i); }, extent);
+  }
+  for (std::size_t i = 0; i < rates.point_masses.size(); ++i) {
+    const fem::PointMass& one = at[0].point_masses[i];
+    rates.point_masses[i] << derive([&](const fem::BeamModel& m) { return m.point_masses[i].mass; },
+                                    one.mass),
+        derive([&](const fem::BeamModel& m) { return m.point_masses[i].inertia; }, one.inertia);
   }
   if (largest == 0.0) return std::nullopt;
   return rates;
 }
 
-void add_section_parameters(const DesignVariation& variation, const TomlTable& root,
-                            std::vector<DesignParameter>& parameters) {
+void add_parameter(const DesignVariation& variation, ModelReader read, const Number& number, double h,
+                   std::vector<DesignParameter>& parameters) {
+  auto rates = calc_rates(variation, read, number, h);
+  if (!rates) return;
+  parameters.push_back({.key = number.key,
+                        .value = number.value,
+                        .unit = number.unit,
+                        .is_coordinate = read == &DesignVariation::read_changed_nodes,
+                        .rates = std::move(*rates)});
+}
+
+double choose_difference(double value) {
+  return kStep * (value == 0.0 ? 1.0 : std::abs(value));
+}
+
+// Of [parameters], which may change anything; of materials and sections.
+void add_numbers(const DesignVariation& variation, const TomlTable& root,
+                 std::vector<DesignParameter>& parameters) {
+  if (const auto table = root.find_table("parameters")) {
+    for (const auto& [name, value] : table->entries()) {
+      const Number number{value.key(), "", value.number(support::any(""))};
+      add_parameter(variation, &DesignVariation::read_changed_model, number, choose_difference(number.value),
+                    parameters);
+    }
+  }
   std::vector<Number> numbers;
   list_numbers(root, "materials", numbers);
   list_numbers(root, "sections", numbers);
   for (const Number& number : numbers) {
-    if (auto rates = calc_section_rates(variation, number)) {
-      parameters.push_back(
-          {.key = number.key, .value = number.value, .unit = number.unit, .rates = std::move(*rates)});
-    }
+    add_parameter(variation, &DesignVariation::read_changed_sections, number, choose_difference(number.value),
+                  parameters);
   }
 }
 
@@ -146,21 +191,11 @@ void add_section_parameters(const DesignVariation& variation, const TomlTable& r
 void add_coordinates(const DesignVariation& variation, const TomlTable& root, const fem::Mesh& mesh,
                      std::vector<DesignParameter>& parameters) {
   if (root.has("mesh")) return;
-  const double h =
-      kStep * (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
   for (const auto& [name, point] : root.at("points").table().entries()) {
     for (const TomlValue& coordinate : point.items()) {
-      const Number number{coordinate.key(), "m", coordinate.number(support::any("m"))};
-      const auto up = variation.read_changed_nodes(number, number.value + h);
-      const auto down = up ? variation.read_changed_nodes(number, number.value - h) : std::nullopt;
-      if (!up || !down) continue;
-      fem::BeamModelRates rates = variation.make_rates();
-      rates.node_positions = (*up - *down) / (2.0 * h);
-      parameters.push_back({.key = number.key,
-                            .value = number.value,
-                            .unit = number.unit,
-                            .is_coordinate = true,
-                            .rates = std::move(rates)});
+      add_parameter(variation, &DesignVariation::read_changed_nodes,
+                    {coordinate.key(), "m", coordinate.number(support::any("m"))}, kStep * calc_extent(mesh),
+                    parameters);
     }
   }
 }
@@ -192,7 +227,7 @@ std::vector<DesignParameter> list_parameters(const DesignSource& source, const D
   const TomlTable root = document.root();
   const DesignVariation variation(source, design);
   std::vector<DesignParameter> parameters;
-  add_section_parameters(variation, root, parameters);
+  add_numbers(variation, root, parameters);
   add_coordinates(variation, root, design.model.mesh, parameters);
   add_point_masses(variation, root, parameters);
   return parameters;

@@ -10,6 +10,7 @@ namespace sprung::reduce {
 struct BuildOptions {
   std::vector<std::filesystem::path> designs;
   std::filesystem::path output_dir = ".";
+  std::vector<std::string> overrides = {};  ///< of values of the designs, as `--set` takes them
   bool force = false;  ///< make files again that are up to date, and replace files that are no superelement
   bool quiet = false;  ///< errors only
 };

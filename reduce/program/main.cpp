@@ -20,12 +20,19 @@ struct Arguments {
   bool json = false;
 };
 
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Value in place of the design's: key.path=value; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 void add_build(CLI::App& app, Arguments& arguments) {
   CLI::App* build =
       app.add_subcommand("build", "Make superelements from designs; what is up to date is left alone");
   build->add_option("designs", arguments.build.designs, "Design files (TOML)")->required();
   build->add_option("--output-dir,-o", arguments.build.output_dir, "Folder for the files, made if need be")
       ->capture_default_str();
+  add_overrides(*build, arguments.build.overrides);
   build->add_flag("--force,-f", arguments.build.force, "Make them in any case, and replace foreign files");
   build->add_flag("--quiet,-q", arguments.build.quiet, "Print errors only");
   build->footer("Example: sprung-reduce build meshes/truck/*.toml --output-dir build/truck");
@@ -48,8 +55,7 @@ void add_sensitivity(CLI::App& app, reduce::SensitivityOptions& options) {
   CLI::App* sensitivity = app.add_subcommand(
       "sensitivity", "Show how frequencies, mass and flexibility change with the numbers of a design");
   sensitivity->add_option("design", options.design.path, "Design file (TOML)")->required();
-  sensitivity->add_option("--set", options.design.overrides,
-                          "Value in place of the design's: key.path=value");
+  add_overrides(*sensitivity, options.design.overrides);
   sensitivity->add_option("--modes", options.num_modes, "Number of free and of clamped modes")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -62,7 +68,7 @@ void add_sweep(CLI::App& app, reduce::SweepCommand& command) {
       app.add_subcommand("sweep", "Follow the modes while a number of a design takes other values");
   sweep->add_option("design", command.design.path, "Design file (TOML)")->required();
   sweep->add_option("--vary", command.vary, "The number and its values: key.path=FROM:TO:STEPS")->required();
-  sweep->add_option("--set", command.design.overrides, "Value in place of the design's: key.path=value");
+  add_overrides(*sweep, command.design.overrides);
   sweep->add_option("--modes", command.num_modes, "Number of free and of clamped modes")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

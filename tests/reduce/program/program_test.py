@@ -178,6 +178,18 @@ class Program(ReduceTestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("unknown key 'are' in 'sections.frame'", result.stderr)
 
+    def test_a_value_set_in_place_of_the_design_s_is_kept_with_the_file(self):
+        self.build("chassis.toml", "--set", "sections.frame.second_moment=2.09e-4")
+        set_before = self.read("chassis.h5")
+        modes = json.loads(self.run_program("info", "out/chassis.h5", "--json").stdout)["modes"]
+        self.assertAlmostEqual(modes[0]["frequency_hz"], 6.4095, places=4)
+        result = self.build("chassis.toml", "--set", "sections.frame.second_moment=2.09e-4")
+        self.assertIn("up to date", result.stdout)
+        self.assertIn("(the design changed)", self.build("chassis.toml").stdout)
+        self.assertNotEqual(self.read("chassis.h5"), set_before)
+        result = self.build("chassis.toml", "--set", "sections.frame.second_momnt=1", code=2)
+        self.assertIn("unknown key 'second_momnt'", result.stderr)
+
     def test_sweep_follows_the_modes_of_a_design(self):
         vary = "sections.frame.second_moment=1.9e-4:7.6e-4:6"
         result = self.run_program("sweep", "chassis.toml", "--vary", vary, "--modes", "6", "--json")

@@ -244,5 +244,43 @@ TEST_CASE("an override of a design is read in its place, and its faults are loca
         Approx(8.0 * plain.model.sections[0].bending_rigidity).epsilon(1e-12));
 }
 
+// Both heights and the right end are the parameter's: its derivative is the sum of theirs.
+TEST_CASE("a parameter of a design stands for all numbers that name it") {
+  const DesignSensitivity apart = calc_all(write_design("apart.toml", make_cantilevers(0.04)), 5);
+  std::string text = make_cantilevers(0.04);
+  for (std::size_t at = text.find("height = 0.04"); at != std::string::npos; at = text.find("height = 0.04"))
+    text.replace(at, 13, "height = \"=high\"");
+  text.replace(text.find("[2.0, 0.0]"), 10, "[\"=long\", 0.0]");
+  text += "[parameters]\nhigh = 0.04\nlong = 2\n";
+  const DesignSource source = write_design("named.toml", text);
+  const DesignSensitivity named = calc_all(source, 5);
+  CHECK((stack(named.value) - stack(apart.value)).cwiseQuotient(stack(apart.value)).norm() < 1e-12);
+  const BodyQuantities& high = find(named, "parameters.high").derivative;
+  const BodyQuantities& first = find(apart, "sections.first.height").derivative;
+  const BodyQuantities& second = find(apart, "sections.second.height").derivative;
+  CHECK(high.mass == Approx(first.mass + second.mass).epsilon(1e-9));
+  for (Eigen::Index i = 0; i < 5; ++i) {  // free modes are single
+    CHECK(high.free_hz(i) == Approx(first.free_hz(i) + second.free_hz(i)).epsilon(1e-7).margin(1e-6));
+    CHECK(find(named, "parameters.long").derivative.free_hz(i) ==
+          Approx(find(apart, "points.right.0").derivative.free_hz(i)).epsilon(1e-7));
+  }
+  const Design longer = read_design(DesignSource{source.path, {"parameters.long=3.5"}});
+  CHECK(longer.model.mesh.node_positions.row(0).maxCoeff() == Approx(3.5));
+}
+
+TEST_CASE("a parameter that is not there is an error where it is named, and so is a wrong value of one") {
+  std::string text = make_cantilevers(0.04);
+  text.replace(text.find("[2.0, 0.0]"), 10, "[\"=lang\", 0.0]");
+  const auto message = [&](const std::string& parameters) {
+    const DesignSource source = write_design("wrong.toml", text + parameters);
+    return testing::message_of<support::InputError>([&] { read_design(source); });
+  };
+  CHECK_THAT(
+      message("[parameters]\nlong = 2.0\n"),
+      Contains("wrong.toml:8:10: error: ") &&
+          Contains("names the parameter 'lang', which [parameters] does not have (did you mean 'long'?)"));
+  CHECK_THAT(message("[parameters]\nlang = \"two\"\n"), Contains("parameters.lang"));
+}
+
 }  // namespace
 }  // namespace sprung::reduce
