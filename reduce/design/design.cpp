@@ -108,17 +108,75 @@ void read_wanted_modes(const TomlTable& root, const TomlTable& table, Design& de
   }
 }
 
+support::TomlDocument read_with_overrides(const DesignSource& source) {
+  support::TomlDocument document = support::TomlDocument::read(source.path);
+  for (std::size_t i = 0; i < source.overrides.size(); ++i) {
+    document.set(source.overrides[i], fmt::format("--set {}", i + 1));
+  }
+  return document;
+}
+
+// The value of a parameter that a text names: "=rail_height".
+double find_parameter(const TomlTable& parameters, const TomlValue& value) {
+  const std::string name = value.string().substr(1);
+  std::vector<std::string> names;
+  for (const auto& [known, number] : parameters.entries()) {
+    if (known == name) return number.number(support::any(""));
+    names.push_back(known);
+  }
+  throw value.error(fmt::format("names the parameter '{}', which [parameters] does not have{}", name,
+                                support::nearest_name_hint(name, names)));
+}
+
+// Replaces the texts that name parameters, in a value and what it contains, by numbers.
+void insert_in_value(const TomlTable& parameters, const TomlValue& value, support::TomlDocument& document) {
+  if (value.is_table()) {
+    for (const auto& [name, entry] : value.table().entries()) insert_in_value(parameters, entry, document);
+  } else if (value.is_array()) {
+    for (const TomlValue& item : value.items()) insert_in_value(parameters, item, document);
+  } else if (value.is_string() && value.string().starts_with('=')) {
+    const support::SourceLocation& at = value.location();
+    document.set(fmt::format("{}={:.17g}", value.key(), find_parameter(parameters, value)),
+                 at.line > 0 ? fmt::format("{}:{}:{}", at.path, at.line, at.column) : at.path);
+  }
+}
+
+// Walking through a document marks its keys as known, so that another one is changed.
+void insert_parameters(const support::TomlDocument& walked, support::TomlDocument& document) {
+  const TomlTable root = walked.root(), parameters = root.at("parameters").table();
+  for (const auto& [name, value] : root.entries()) {
+    if (name != "parameters" && name != "name") insert_in_value(parameters, value, document);
+  }
+}
+
 }  // namespace
+
+std::string read_source_text(const DesignSource& source) {
+  std::string text = support::read_text_file(source.path);
+  for (const std::string& one : source.overrides) text += fmt::format("\n# --set {}", one);
+  return text;
+}
 
 std::string calc_file_hash(const std::filesystem::path& path) {
   return support::sha256(support::read_text_file(path));
 }
 
+support::TomlDocument read_document(const DesignSource& source) {
+  support::TomlDocument document = read_with_overrides(source);
+  if (document.root().has("parameters")) insert_parameters(read_with_overrides(source), document);
+  return document;
+}
+
 Design read_design(const std::filesystem::path& path) {
-  const support::TomlDocument document = support::TomlDocument::read(path);
+  return read_design(DesignSource{.path = path});
+}
+
+Design read_design(const DesignSource& source) {
+  const std::filesystem::path& path = source.path;
+  const support::TomlDocument document = read_document(source);
   const TomlTable root = document.root();
-  expect_keys(root, {"name", "theory", "rotary_inertia", "materials", "sections", "points", "lines", "mesh",
-                     "point_masses", "reference", "modes", "interface", "reduction"});
+  expect_keys(root, {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points",
+                     "lines", "mesh", "point_masses", "reference", "modes", "interface", "reduction"});
   Design design;
   design.name = root.string_or("name", path.stem().string());
   if (design.name.empty()) throw root.at("name").error("is empty");
@@ -136,8 +194,9 @@ Design read_design(const std::filesystem::path& path) {
   design.reduction = read_reduction(root, design.model.mesh, design.reference_node, has_wanted_modes(modes));
   read_wanted_modes(root, modes, design);
   read_damping(modes, design);
-  design.provenance = {.design_text = document.text(),
-                       .design_hash = support::sha256(document.text()),
+  const std::string text = read_source_text(source);
+  design.provenance = {.design_text = text,
+                       .design_hash = support::sha256(text),
                        .input_names = std::move(frame.input_names),
                        .input_hashes = std::move(frame.input_hashes),
                        .program_version = get_program_version(),

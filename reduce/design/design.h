@@ -10,6 +10,7 @@
 #include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/toml/toml.h"
 
 namespace sprung::reduce {
 
@@ -33,6 +34,21 @@ struct Design {
 ///         frame in parts, faults of the mesh file
 /// Checked by tests/reduce/design/design_test.cpp
 Design read_design(const std::filesystem::path& path);
+
+/// A design file, of which some values may be replaced by others.
+struct DesignSource {
+  std::filesystem::path path;
+  std::vector<std::string> overrides = {};  ///< as `--set` takes them: "sections.rail.height=0.12"
+};
+/// @throws support::InputError as read_design, faults of an override at `--set N`
+Design read_design(const DesignSource& source);
+/// The document with its overrides, and with numbers in place of the names of its parameters
+/// ("=rail_height").
+/// @throws support::InputError if it is not TOML, or names a parameter that is not there
+support::TomlDocument read_document(const DesignSource& source);
+/// The text that provenance keeps: that of the file, and a comment for each override.
+/// @throws support::InputError if it cannot be read
+std::string read_source_text(const DesignSource& source);
 
 /// SHA-256 of a file, as provenance keeps it.
 /// @throws support::InputError if it cannot be read

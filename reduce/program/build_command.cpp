@@ -68,7 +68,7 @@ std::string find_reason(const PreviousFile& previous, const fs::path& design, co
   }
   if (!previous.exists) return "new";
   if (!previous.superelement) return fmt::format("the file there cannot be used: {}", previous.reason);
-  const std::string reason = find_reason_to_rebuild(*previous.superelement, design);
+  const std::string reason = find_reason_to_rebuild(*previous.superelement, {design, options.overrides});
   return reason.empty() && options.force ? "forced" : reason;
 }
 
@@ -81,7 +81,7 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
     return;
   }
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
-  const Design read = read_design(design);
+  const Design read = read_design({design, options.overrides});
   for (const std::string& remark : list_unit_remarks(read))
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   const Superelement made = make_superelement(read);

@@ -3,13 +3,29 @@
 #include <filesystem>
 #include <vector>
 
+#include "reduce/design/design.h"
+
 namespace sprung::reduce {
 
 struct BuildOptions {
   std::vector<std::filesystem::path> designs;
   std::filesystem::path output_dir = ".";
+  std::vector<std::string> overrides = {};  ///< of values of the designs, as `--set` takes them
   bool force = false;  ///< make files again that are up to date, and replace files that are no superelement
   bool quiet = false;  ///< errors only
+};
+
+struct SensitivityOptions {
+  DesignSource design;
+  int num_modes = 6;  ///< free and clamped ones
+  bool json = false;
+};
+
+struct SweepCommand {
+  DesignSource design;
+  std::string vary;  ///< KEY=FROM:TO:STEPS
+  int num_modes = 6;
+  bool json = false;
 };
 
 // The subcommands of sprung-reduce. Each returns the program's exit code.
@@ -26,6 +42,14 @@ int run_info(const std::filesystem::path& path, bool json);
 
 /// Verifies files. @return 0, or 1 if a check failed, recorded or made again. @throws support::InputError
 int run_check(const std::vector<std::filesystem::path>& paths, bool json);
+
+/// Prints how a body changes with the numbers of its design.
+/// @throws support::InputError, support::NumericalError
+int run_sensitivity(const SensitivityOptions& options);
+
+/// Prints frequencies, mass and inertia while a number of a design takes other values.
+/// @throws support::InputError, support::NumericalError
+int run_sweep(const SweepCommand& command);
 
 /// Prints old and new frequencies and the MAC. @throws support::InputError
 int run_diff(const std::filesystem::path& old_path, const std::filesystem::path& new_path, bool json);

@@ -13,10 +13,18 @@ using namespace sprung;
 // What the command line asked for; filled by CLI11's callbacks.
 struct Arguments {
   reduce::BuildOptions build;
+  reduce::SensitivityOptions sensitivity;
+  reduce::SweepCommand sweep;
   std::vector<std::filesystem::path> files;
   std::filesystem::path old_file, new_file;
   bool json = false;
 };
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Value in place of the design's: key.path=value; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
 
 void add_build(CLI::App& app, Arguments& arguments) {
   CLI::App* build =
@@ -24,6 +32,7 @@ void add_build(CLI::App& app, Arguments& arguments) {
   build->add_option("designs", arguments.build.designs, "Design files (TOML)")->required();
   build->add_option("--output-dir,-o", arguments.build.output_dir, "Folder for the files, made if need be")
       ->capture_default_str();
+  add_overrides(*build, arguments.build.overrides);
   build->add_flag("--force,-f", arguments.build.force, "Make them in any case, and replace foreign files");
   build->add_flag("--quiet,-q", arguments.build.quiet, "Print errors only");
   build->footer("Example: sprung-reduce build meshes/truck/*.toml --output-dir build/truck");
@@ -42,8 +51,37 @@ void add_inspections(CLI::App& app, Arguments& arguments) {
   diff->add_flag("--json", arguments.json, "As one JSON object");
 }
 
+void add_sensitivity(CLI::App& app, reduce::SensitivityOptions& options) {
+  CLI::App* sensitivity = app.add_subcommand(
+      "sensitivity", "Show how frequencies, mass and flexibility change with the numbers of a design");
+  sensitivity->add_option("design", options.design.path, "Design file (TOML)")->required();
+  add_overrides(*sensitivity, options.design.overrides);
+  sensitivity->add_option("--modes", options.num_modes, "Number of free and of clamped modes")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  sensitivity->add_flag("--json", options.json, "As one JSON object, derivatives in SI units");
+  sensitivity->footer("Example: sprung-reduce sensitivity meshes/truck/chassis.toml");
+}
+
+void add_sweep(CLI::App& app, reduce::SweepCommand& command) {
+  CLI::App* sweep =
+      app.add_subcommand("sweep", "Follow the modes while a number of a design takes other values");
+  sweep->add_option("design", command.design.path, "Design file (TOML)")->required();
+  sweep->add_option("--vary", command.vary, "The number and its values: key.path=FROM:TO:STEPS")->required();
+  add_overrides(*sweep, command.design.overrides);
+  sweep->add_option("--modes", command.num_modes, "Number of free and of clamped modes")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  sweep->add_flag("--json", command.json, "As one JSON object");
+  sweep->footer(
+      "Example: sprung-reduce sweep meshes/truck/chassis.toml --vary "
+      "sections.frame.second_moment=1e-4:3e-4:10");
+}
+
 int run(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("build")) return reduce::run_build(arguments.build);
+  if (app.got_subcommand("sensitivity")) return reduce::run_sensitivity(arguments.sensitivity);
+  if (app.got_subcommand("sweep")) return reduce::run_sweep(arguments.sweep);
   if (app.got_subcommand("info")) return reduce::run_info(arguments.new_file, arguments.json);
   if (app.got_subcommand("check")) return reduce::run_check(arguments.files, arguments.json);
   return reduce::run_diff(arguments.old_file, arguments.new_file, arguments.json);
@@ -58,6 +96,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     Arguments arguments;
     add_build(app, arguments);
+    add_sensitivity(app, arguments.sensitivity);
+    add_sweep(app, arguments.sweep);
     add_inspections(app, arguments);
     try {
       app.parse(argc, argv);

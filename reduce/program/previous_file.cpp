@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "reduce/design/design.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/files/content_hash.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/hdf5/hdf5_file.h"
 
@@ -39,17 +39,16 @@ PreviousFile read_previous_file(const std::filesystem::path& path) {
   return previous;
 }
 
-std::string find_reason_to_rebuild(const Superelement& superelement,
-                                   const std::filesystem::path& design_path) {
+std::string find_reason_to_rebuild(const Superelement& superelement, const DesignSource& design) {
   const Provenance& provenance = superelement.provenance;
   if (provenance.algorithm_revision != kAlgorithmRevision) {
     return fmt::format("algorithm revision {} instead of {}", kAlgorithmRevision,
                        provenance.algorithm_revision);
   }
-  if (calc_file_hash(design_path) != provenance.design_hash) return "the design changed";
+  if (support::sha256(read_source_text(design)) != provenance.design_hash) return "the design changed";
   for (std::size_t i = 0; i < provenance.input_names.size(); ++i) {
     const std::string& name = provenance.input_names[i];
-    if (calc_file_hash(design_path.parent_path() / name) != provenance.input_hashes[i])
+    if (calc_file_hash(design.path.parent_path() / name) != provenance.input_hashes[i])
       return name + " changed";
   }
   const bool passed = std::all_of(superelement.checks.begin(), superelement.checks.end(),

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "reduce/design/design.h"
 #include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce {
@@ -21,9 +22,8 @@ PreviousFile read_previous_file(const std::filesystem::path& path);
 
 /// Why a file has to be made again, or nothing if it is up to date: the design and its mesh files are hashed
 /// anew.
-/// @param design_path  the design it is to be made from
+/// @param design  that it is to be made from
 /// @throws support::InputError if the design or a mesh file cannot be read
-std::string find_reason_to_rebuild(const Superelement& superelement,
-                                   const std::filesystem::path& design_path);
+std::string find_reason_to_rebuild(const Superelement& superelement, const DesignSource& design);
 
 }  // namespace sprung::reduce

@@ -123,6 +123,18 @@ class Judging(unittest.TestCase):
 
 
 class Tool(ToolTestCase):
+    def test_builds_of_lattices_are_measured(self):
+        process = self.run_tool(
+            "benchmark", "reduce", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out"
+        )
+        self.assert_succeeds(process)
+        self.assertEqual((self.folder / "out/benchmark_reduce.txt").read_text(encoding="utf-8"), process.stdout)
+        rows = [line.split() for line in process.stdout.splitlines()[2:]]
+        self.assertEqual([row[:2] for row in rows], [["1320", "4"], ["240", "2"]])
+        for row in rows:
+            self.assertIn("freedoms,", row)  # what the program says of a superelement
+            self.assertGreater(float(row[3]), 1.0)  # of memory; CPU time has no lower bound
+
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
         self.assert_succeeds(process)

@@ -24,6 +24,7 @@ WRITTEN = {
     "export_csv": ("bump.csv",), "report": ("report.html",), "export_paraview": ("modes.pvd", "bump.pvd"),
     "plot_response": ("response.png",),
     "plot_modes": ("choice.png", "bump_modes.png"),
+    "plot_sensitivity": ("first.png", "all.png"),
     "study": ("quarter_car_study/table.csv", "quarter_car_study/table.h5", "quarter_car_study/study.html"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
@@ -58,6 +59,8 @@ class PythonTools(Examples):
         for name, modes in RESPONSES.items():
             cls.drive("response", "terrain", name, f"modes.chassis={modes}")
         cls.drive("select-modes", "terrain", "choice", 'modes.chassis="auto"')
+        command = [os.environ["SPRUNG_REDUCE"], "sensitivity", ROOT / "meshes/truck/chassis.toml", "--json"]
+        (cls.made / "chassis.json").write_text(run_program(command, check=True).stdout, encoding="utf-8")
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
         shutil.copytree(ROOT / "dynamics/models/examples", cls.made / "dynamics/models/examples")

@@ -9,8 +9,9 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
 BASH = ("setup", "build", "test", "run-truck", "fuzz")
 PYTHON = (
-    "plot_results", "plot_response", "plot_modes", "report_peaks", "compare_frequencies", "make_road.py", "ride",
-    "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark", "study",
+    "plot_results", "plot_response", "plot_modes", "plot_sensitivity", "report_peaks", "compare_frequencies",
+    "make_road.py", "ride", "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
+    "study",
 )  # fmt: skip
 
 

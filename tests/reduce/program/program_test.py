@@ -162,6 +162,49 @@ class Program(ReduceTestCase):
         self.assertEqual(result.returncode, 0)
         self.assertIn("-4.151", result.stdout)  # √(1561.8057/1700) − 1
 
+    # f ∝ √I of a clamped beam in bending; its axial modes have nothing of I.
+
+    def test_sensitivity_tells_what_each_number_of_a_design_changes(self):
+        result = self.run_program("sensitivity", "chassis.toml", "--modes", "6")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        clamped = result.stdout[result.stdout.index("clamped") :]
+        row = next(line.split() for line in clamped.splitlines() if line.startswith("sections.frame.second_moment"))
+        self.assertEqual(row[-6:], ["0.5000"] * 4 + ["0.0000"] * 2)
+        data = json.loads(self.run_program("sensitivity", "chassis.toml", "--json").stdout)
+        by_mass = next(one for one in data["parameters"] if one["key"] == "sections.frame.mass_per_length")
+        self.assertAlmostEqual(by_mass["derivative"]["mass_kg"], 2 * 3.8257)
+        self.assertEqual(len(data["elements"]), 12)
+        result = self.run_program("sensitivity", "chassis.toml", "--set", "sections.frame.are=1")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("unknown key 'are' in 'sections.frame'", result.stderr)
+
+    def test_a_value_set_in_place_of_the_design_s_is_kept_with_the_file(self):
+        self.build("chassis.toml", "--set", "sections.frame.second_moment=2.09e-4")
+        set_before = self.read("chassis.h5")
+        modes = json.loads(self.run_program("info", "out/chassis.h5", "--json").stdout)["modes"]
+        self.assertAlmostEqual(modes[0]["frequency_hz"], 6.4095, places=4)
+        result = self.build("chassis.toml", "--set", "sections.frame.second_moment=2.09e-4")
+        self.assertIn("up to date", result.stdout)
+        self.assertIn("(the design changed)", self.build("chassis.toml").stdout)
+        self.assertNotEqual(self.read("chassis.h5"), set_before)
+        result = self.build("chassis.toml", "--set", "sections.frame.second_momnt=1", code=2)
+        self.assertIn("unknown key 'second_momnt'", result.stderr)
+
+    def test_sweep_follows_the_modes_of_a_design(self):
+        vary = "sections.frame.second_moment=1.9e-4:7.6e-4:6"
+        result = self.run_program("sweep", "chassis.toml", "--vary", vary, "--modes", "6", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        points = json.loads(result.stdout)["points"]
+        self.assertEqual(len(points), 7)
+        first, last = (point["clamped"]["frequency_hz"] for point in (points[0], points[-1]))
+        for mode in range(4):
+            self.assertAlmostEqual(last[mode] / first[mode], 2.0, places=6)
+        self.assertAlmostEqual(last[4], first[4], places=6)  # the axial pair, which bending has passed
+        for bad in ("sections.frame.area", "a=1:2", "a=1:2:0", "a=1:x:3"):
+            result = self.run_program("sweep", "chassis.toml", "--vary", bad)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"'{bad}' is not of the form key.path=FROM:TO:STEPS", result.stderr)
+
     def test_quiet_prints_nothing_and_errors_still(self):
         result = self.build("chassis.toml", "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))

@@ -1,10 +1,13 @@
-"""Measures the cost of evaluations and runs, against a plain dense program in the same session."""
+"""Measures the cost of evaluations and runs, against a plain dense program in the same session.
+
+With `reduce` it measures whole builds of large lattices instead: processor time and memory of stage one."""
 
 import argparse
 import os
 import tempfile
 from pathlib import Path
 
+from sprung_tools.benchmark.lattices import LATTICES, QUICK_LATTICES, format_builds, measure_build
 from sprung_tools.benchmark.programs import measure_evaluations, measure_growth, run_program
 from sprung_tools.benchmark.tables import format_evaluations, format_growth, format_runs
 from sprung_tools.benchmark.targets import check_targets, format_targets
@@ -21,6 +24,7 @@ QUICK_DURATION = 1.2  # s
 
 def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/benchmark --output-dir build/benchmark")
+    parser.add_argument("what", nargs="?", choices=("reduce",), help="stage one instead of stage two")
     parser.add_argument(
         "--programs", metavar="FOLDER", type=Path, default=ROOT / "build/release", help="where the programs are built"
     )
@@ -48,8 +52,22 @@ def make_plan(arguments: argparse.Namespace) -> Plan:
     return Plan(RUNS, arguments.modes, arguments.methods, LADDER, arguments.repetitions, None)
 
 
+def measure_reduction(arguments: argparse.Namespace) -> str:
+    """Builds lattices, and writes what that took. The largest needs 8 GB."""
+    program = arguments.programs.resolve() / "reduce/sprung-reduce"
+    with tempfile.TemporaryDirectory() as folder:
+        costs = [measure_build(program, one, Path(folder)) for one in (QUICK_LATTICES if arguments.quick else LATTICES)]
+    text = "Whole builds of lattices, about 20 free modes\n" + format_builds(costs)
+    write_whole(arguments.output_dir / "benchmark_reduce.txt", text + "\n")
+    return text
+
+
 def main() -> int:
     arguments = parse_arguments()
+    if arguments.what == "reduce":
+        os.makedirs(arguments.output_dir, exist_ok=True)
+        print(measure_reduction(arguments))
+        return 0
     plan = make_plan(arguments)
     programs = arguments.programs / "tests/benchmark"
     os.makedirs(arguments.output_dir, exist_ok=True)

@@ -1,0 +1,236 @@
+#include "reduce/design/design_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "reduce/design/design_frame.h"
+#include "reduce/design/design_sections.h"
+
+namespace sprung::reduce {
+
+namespace {
+
+using support::InputError;
+using support::TomlDocument;
+using support::TomlTable;
+using support::TomlValue;
+
+constexpr double kStep = 1e-3;  // of a number, or of the frame's extent
+
+struct Number {
+  std::string key, unit;
+  double value;
+};
+
+std::string find_unit(const std::string& name) {
+  if (name == "youngs_modulus") return "Pa";
+  if (name == "density") return "kg/m³";
+  if (name == "area") return "m²";
+  if (name == "second_moment") return "m⁴";
+  if (name == "mass_per_length") return "kg/m";
+  if (name == "poissons_ratio" || name == "shear_coefficient") return "";
+  return "m";
+}
+
+// Numbers of the tables in [materials] or [sections]; `count` is a whole number, and no parameter.
+void list_numbers(const TomlTable& root, const char* name, std::vector<Number>& numbers) {
+  for (const auto& [item, table] : root.at(name).table().entries()) {
+    for (const auto& [key, value] : table.table().entries()) {
+      if (!value.is_number() || key == "count") continue;
+      numbers.push_back({value.key(), find_unit(key), value.number(support::any(""))});
+    }
+  }
+}
+
+// The frame of a design with a number changed.
+class DesignVariation {
+ public:
+  DesignVariation(const DesignSource& source, const Design& design) : source_(source), design_(design) {}
+
+  fem::BeamModel read_changed_sections(const Number& number, double value) const {
+    const TomlDocument changed = read_document(change(number, value));
+    const TomlTable root = changed.root();
+    const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
+    fem::BeamModel model = design_.model;
+    for (std::size_t i = 0; i < model.sections.size(); ++i)
+      model.sections[i] = sections.at(model.mesh.section_names[i]);
+    return model;
+  }
+
+  fem::BeamModel read_changed_nodes(const Number& number, double value) const {
+    const TomlDocument changed = read_document(change(number, value));
+    const TomlTable root = changed.root();
+    const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
+    fem::BeamModel model = design_.model;
+    model.mesh.node_positions =
+        read_design_frame(root, source_.path.parent_path(), sections).mesh.node_positions;
+    return model;
+  }
+
+  fem::BeamModel read_changed_model(const Number& number, double value) const {
+    return read_design(change(number, value)).model;
+  }
+
+  fem::BeamModelRates make_rates() const {
+    return {.node_positions = Eigen::Matrix2Xd::Zero(2, design_.model.mesh.num_nodes()),
+            .sections = std::vector<fem::BeamPropertyRates>(design_.model.sections.size()),
+            .point_masses =
+                std::vector<Eigen::Vector2d>(design_.model.point_masses.size(), Eigen::Vector2d::Zero())};
+  }
+
+ private:
+  DesignSource change(const Number& number, double value) const {
+    DesignSource changed = source_;
+    changed.overrides.push_back(fmt::format("{}={:.17g}", number.key, value));
+    return changed;
+  }
+
+  const DesignSource& source_;
+  const Design& design_;
+};
+
+using ModelReader = fem::BeamModel (DesignVariation::*)(const Number&, double) const;
+
+// f'(x) by f(x ± h), f(x ± 2h), in this order: exact for polynomials of the fourth degree. What is rounding
+// counts as 0.
+double calc_derivative(const std::array<double, 4>& f, double h, double scale) {
+  if (std::isinf(f[0])) return 0.0;
+  const double change = (8.0 * (f[0] - f[1]) - (f[2] - f[3])) / 12.0;
+  return std::abs(change) <= 1e-12 * scale ? 0.0 : change / h;
+}
+
+double calc_extent(const fem::Mesh& mesh) {
+  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
+}
+
+// None without effect, with other nodes, or at the end of a range, where there is no such design any more.
+std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, ModelReader read,
+                                              const Number& number, double h) {
+  std::vector<fem::BeamModel> at;
+  fem::BeamModelRates rates = variation.make_rates();
+  try {
+    for (const double step : {h, -h, 2.0 * h, -2.0 * h}) {
+      at.push_back((variation.*read)(number, number.value + step));
+      if (at.back().mesh.num_nodes() != rates.node_positions.cols()) return std::nullopt;
+    }
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  double largest = 0.0;
+  const auto derive = [&](const auto& value, double scale) {
+    const double rate = calc_derivative({value(at[0]), value(at[1]), value(at[2]), value(at[3])}, h, scale);
+    largest = std::max(largest, std::abs(rate));
+    return rate;
+  };
+  for (std::size_t i = 0; i < rates.sections.size(); ++i) {
+    const auto derive_member = [&](double fem::BeamProperties::*member) {
+      const auto value = [&](const fem::BeamModel& model) { return model.sections[i].*member; };
+      return derive(value, std::abs(value(at[0])));
+    };
+    rates.sections[i] = {.axial_rigidity = derive_member(&fem::BeamProperties::axial_rigidity),
+                         .bending_rigidity = derive_member(&fem::BeamProperties::bending_rigidity),
+                         .shear_rigidity = derive_member(&fem::BeamProperties::shear_rigidity),
+                         .mass_per_length = derive_member(&fem::BeamProperties::mass_per_length),
+                         .rotary_inertia = derive_member(&fem::BeamProperties::rotary_inertia)};
+  }
+  const double extent = calc_extent(at[0].mesh);
+  for (Eigen::Index i = 0; i < rates.node_positions.size(); ++i) {
+    rates.node_positions(i) =
+        derive([&](const fem::BeamModel& model) { return model.mesh.node_positions(i); }, extent);
+  }
+  for (std::size_t i = 0; i < rates.point_masses.size(); ++i) {
+    const fem::PointMass& one = at[0].point_masses[i];
+    rates.point_masses[i] << derive([&](const fem::BeamModel& m) { return m.point_masses[i].mass; },
+                                    one.mass),
+        derive([&](const fem::BeamModel& m) { return m.point_masses[i].inertia; }, one.inertia);
+  }
+  if (largest == 0.0) return std::nullopt;
+  return rates;
+}
+
+void add_parameter(const DesignVariation& variation, ModelReader read, const Number& number, double h,
+                   std::vector<DesignParameter>& parameters) {
+  auto rates = calc_rates(variation, read, number, h);
+  if (!rates) return;
+  parameters.push_back({.key = number.key,
+                        .value = number.value,
+                        .unit = number.unit,
+                        .is_coordinate = read == &DesignVariation::read_changed_nodes,
+                        .rates = std::move(*rates)});
+}
+
+double choose_difference(double value) {
+  return kStep * (value == 0.0 ? 1.0 : std::abs(value));
+}
+
+// Of [parameters], which may change anything; of materials and sections.
+void add_numbers(const DesignVariation& variation, const TomlTable& root,
+                 std::vector<DesignParameter>& parameters) {
+  if (const auto table = root.find_table("parameters")) {
+    for (const auto& [name, value] : table->entries()) {
+      const Number number{value.key(), "", value.number(support::any(""))};
+      add_parameter(variation, &DesignVariation::read_changed_model, number, choose_difference(number.value),
+                    parameters);
+    }
+  }
+  std::vector<Number> numbers;
+  list_numbers(root, "materials", numbers);
+  list_numbers(root, "sections", numbers);
+  for (const Number& number : numbers) {
+    add_parameter(variation, &DesignVariation::read_changed_sections, number, choose_difference(number.value),
+                  parameters);
+  }
+}
+
+// Of the points that lines end at; those of a mesh file are no numbers of the design.
+void add_coordinates(const DesignVariation& variation, const TomlTable& root, const fem::Mesh& mesh,
+                     std::vector<DesignParameter>& parameters) {
+  if (root.has("mesh")) return;
+  for (const auto& [name, point] : root.at("points").table().entries()) {
+    for (const TomlValue& coordinate : point.items()) {
+      add_parameter(variation, &DesignVariation::read_changed_nodes,
+                    {coordinate.key(), "m", coordinate.number(support::any("m"))}, kStep * calc_extent(mesh),
+                    parameters);
+    }
+  }
+}
+
+void add_point_masses(const DesignVariation& variation, const TomlTable& root,
+                      std::vector<DesignParameter>& parameters) {
+  const auto masses = root.find("point_masses");
+  if (!masses) return;
+  std::size_t i = 0;
+  for (const TomlValue& item : masses->items()) {
+    for (const auto& [name, row, unit] : {std::tuple{"mass", 0, "kg"}, std::tuple{"inertia", 1, "kg·m²"}}) {
+      const auto value = item.table().find(name);
+      if (!value) continue;
+      fem::BeamModelRates rates = variation.make_rates();
+      rates.point_masses[i](row) = 1.0;
+      parameters.push_back({.key = value->key(),
+                            .value = value->number(support::any(unit)),
+                            .unit = unit,
+                            .rates = std::move(rates)});
+    }
+    ++i;
+  }
+}
+
+}  // namespace
+
+std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design) {
+  const TomlDocument document = read_document(source);
+  const TomlTable root = document.root();
+  const DesignVariation variation(source, design);
+  std::vector<DesignParameter> parameters;
+  add_numbers(variation, root, parameters);
+  add_coordinates(variation, root, design.model.mesh, parameters);
+  add_point_masses(variation, root, parameters);
+  return parameters;
+}
+
+}  // namespace sprung::reduce

@@ -1,0 +1,49 @@
+"""tools/plot_sensitivity: the frame of a sensitivity, coloured by element, and files that hold none."""
+
+import json
+import os
+import unittest
+
+import numpy as np
+from tool_test_case import ROOT, ToolTestCase, run_program
+
+from sprung_tools.plots.sensitivity_picture import read_elements
+
+
+class PlotSensitivity(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        process = run_program(
+            [os.environ["SPRUNG_REDUCE"], "sensitivity", ROOT / "meshes/truck/chassis.toml", "--json"], check=True
+        )
+        self.data = json.loads(process.stdout)
+        (self.folder / "chassis.json").write_text(process.stdout, encoding="utf-8")
+
+    def test_the_elements_have_places_and_effects(self):
+        elements = read_elements(self.folder / "chassis.json")
+        self.assertEqual(elements.ends.shape, (12, 2, 2))
+        # More of all steel, stiffness and mass alike, moves no frequency.
+        np.testing.assert_allclose(elements.effect.sum(axis=0), 0.0, atol=1e-8)
+        # In the first bending of a free beam the middle is bent most, and the ends move most.
+        first = elements.effect[:, 0]
+        self.assertGreater(first[5], 0.0)
+        self.assertLess(first[0], 0.0)
+
+    def test_a_panel_for_each_mode(self):
+        self.assert_succeeds(self.run_tool("plot_sensitivity", "-o", "out.svg", "chassis.json", "--modes", "1", "3"))
+        text = (self.folder / "out.svg").read_text(encoding="utf-8")
+        for part in ("free mode 1, 9.722 Hz", "free mode 3, 52.57 Hz", "Where steel moves chassis"):
+            self.assertIn(part, text)
+
+    def test_other_files_and_modes_are_refused(self):
+        process = self.run_tool("plot_sensitivity", "-o", "out.svg", "chassis.json", "--modes", "7")
+        self.assert_refuses(process, "--modes: error: 7 is no mode of the file, expected 1 … 6")
+        self.assert_refuses(self.run_tool("plot_sensitivity", "-o", "out.svg", "none.json"), "none.json: error: ")
+        for name, text in (("a.json", "{"), ("b.json", "{}"), ("c.json", json.dumps({**self.data, "elements": []}))):
+            (self.folder / name).write_text(text, encoding="utf-8")
+            process = self.run_tool("plot_sensitivity", "-o", "out.svg", name)
+            self.assert_refuses(process, f"{name}: error: is not what sprung-reduce sensitivity --json prints")
+
+
+if __name__ == "__main__":
+    unittest.main()

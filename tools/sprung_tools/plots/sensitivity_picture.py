@@ -1,0 +1,78 @@
+"""A picture of a frame, coloured by what more steel in each element changes of a frequency."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
+from sprung_tools.plots.picture_file import make_figure
+
+PANEL_HEIGHT = 2.6  # inches
+LINE_WIDTH = 5.0  # points
+
+
+class Elements(NamedTuple):
+    """The elements of a body, and what they do in its free modes."""
+
+    name: str
+    frequency: Floats  # [modes] Hz
+    ends: Floats  # [elements, 2, 2] m
+    effect: Floats  # [elements, modes]: relative change of the frequency by that of the cross section
+
+
+def read_elements(path: str | Path) -> Elements:
+    """Reads what sprung-reduce sensitivity --json printed. InputError for anything else.
+
+    A frequency changes by (U − T)/2 of the change of a cross section, U and T the element's shares of the strain and
+    kinetic energy.
+    """
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8"))
+        elements = data["elements"]
+        effect = np.array([one["strain_energy_share"] for one in elements], dtype=float)
+        effect = 0.5 * (effect - np.array([one["kinetic_energy_share"] for one in elements], dtype=float))
+        ends = np.array([[one["from_m"], one["to_m"]] for one in elements], dtype=float)
+        frequency = np.array(data["value"]["free_frequency_hz"], dtype=float)
+        found = Elements(str(data["name"]), frequency, ends, effect)
+    except OSError as error:
+        raise InputError(f"{path}: error: cannot be read ({error.strerror})") from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: error: is not what sprung-reduce sensitivity --json prints") from error
+    if found.effect.shape != (len(elements), len(frequency)) or found.ends.shape != (len(elements), 2, 2):
+        raise InputError(f"{path}: error: is not what sprung-reduce sensitivity --json prints")
+    return found
+
+
+def draw_mode(axes: Axes, elements: Elements, mode: int) -> LineCollection:
+    """Draws the frame for one mode, 0-based: per metre of element, so that long and short ones compare."""
+    length = np.linalg.norm(elements.ends[:, 1] - elements.ends[:, 0], axis=1)
+    density = elements.effect[:, mode] / length
+    largest = float(np.max(np.abs(density)))
+    lines = LineCollection(list(elements.ends), array=density, cmap="RdBu_r", linewidths=LINE_WIDTH)
+    lines.set_clim(-largest, largest)
+    axes.add_collection(lines)
+    axes.autoscale()
+    axes.margins(0.05)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_ylabel("y in m")
+    axes.set_title(f"free mode {mode + 1}, {elements.frequency[mode]:.4g} Hz")
+    return lines
+
+
+def make_sensitivity_figure(elements: Elements, modes: Sequence[int]) -> Figure:
+    """Draws a panel for each mode, numbered from 1. InputError for a mode that is not there."""
+    for mode in modes:
+        if not 1 <= mode <= len(elements.frequency):
+            raise InputError(f"--modes: error: {mode} is no mode of the file, expected 1 … {len(elements.frequency)}")
+    caption = "colour: change of the frequency in %, by 1 % more cross section of one metre of beam there;  x in m"
+    figure, panels = make_figure([PANEL_HEIGHT] * len(modes), f"Where steel moves {elements.name}", caption)
+    for axes, mode in zip(panels, modes):
+        figure.colorbar(draw_mode(axes, elements, mode - 1), ax=axes, label="% per m")
+    return figure
