@@ -15,6 +15,7 @@ constexpr int kCorrections = 2;
 // How far the determinant has to fall for a change point to lie within the step, and how far it may still be
 // below the determinant of the beginning where the step ends.
 constexpr double kFallen = 2.0, kRecovered = 1.1;
+constexpr double kGrown = 2.0;  // the smallest pivot, where the step leaves a change point that lies behind
 constexpr double kNear = 1e-5;  // of the natural size: how far joints may be open before they are closed
 
 double find_rate(const Model& model, const Eigen::VectorXd& v) {
@@ -64,8 +65,10 @@ bool ChangePointStep::pass(const ConstrainedEquations& from, const Partition& pa
     dependents.factorise(equations_.terms().jacobian());
     const double decay = dependents.decay();
     has_fallen = has_fallen || decay > kFallen || dependents.is_mirrored();
-    if (!has_fallen || decay > kRecovered) continue;
-    return correct(time, branches);
+    const bool is_beyond =
+        has_fallen ? decay <= kRecovered
+                   : choose_partition(equations_.terms()).smallest_pivot >= kGrown * partition.smallest_pivot;
+    if (is_beyond) return correct(time, branches);
   }
   return false;
 }

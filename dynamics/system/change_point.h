@@ -25,7 +25,8 @@ class ChangePointStep {
   explicit ChangePointStep(const Model& model);
 
   /// Steps from where the equations stand, accelerations included, to the first place tried at which the
-  /// determinant of φ_d is as large again. @param longest  step [s]
+  /// determinant of φ_d is as large again; where a change point lies just behind, to the first at which the
+  /// smallest pivot of φ_q is much larger. @param longest  step [s]
   /// @return false where there is none, or where the joints do not close near the motion continued
   bool pass(const ConstrainedEquations& from, const Partition& partition, std::span<const int> branches,
             double longest);

@@ -86,7 +86,7 @@ void ConstrainedEquations::improve_accelerations() {
 }
 
 // Bodies without mass: M has no inverse, but with M_s in its place the error of a solution falls to the share
-// of the stand-ins in the mass that moves (system, eq. 12).
+// of the stand-ins in the mass that moves (system, eq. 13).
 bool ConstrainedEquations::solve_without_mass() {
   if (model_->num_constraints > 0 && !factorise()) return false;
   v_dot_.setZero();

@@ -91,7 +91,8 @@ class PartitionedEquations {
   /// Entries of the factors that an evaluation computes: its work grows with them.
   int num_factor_entries() const { return dependents_.num_factor_entries() + full_.num_factor_entries(); }
 
-  /// How much worse the dependents follow the independents than when the partition was chosen, at least 1.
+  /// How much worse the dependents follow the independents than at the best accepted motion since the
+  /// partition was chosen, at least 1.
   double partition_decay() const { return dependents_.decay(); }
 
  private:
@@ -105,6 +106,7 @@ class PartitionedEquations {
   Partition partition_;
   DependentSolver dependents_;
   int num_freedoms_, num_constraints_;
+  double closing_tolerance_ = 0.0;     // of joints
   std::vector<int> dependent_angles_;  // coordinates
 
   double accepted_time_ = 0.0;
