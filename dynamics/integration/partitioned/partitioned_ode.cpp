@@ -97,6 +97,8 @@ void PartitionedOde::continue_small_motion(const KnownMotion& known) {
 // The motion that was set; without one, by differences of the accelerations at the branches that hold:
 // M δq̈ = −C δv − K δq. The stiffness of the bodies' modes is added without a difference: those of stiff modes
 // turn with the bodies, and the part of second order in the shift would exceed the stiffness of soft ones.
+// Where only velocities are shifted, dependent modal coordinates move by the error to which joints are
+// closed.
 bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
   if (known_ && known_->independent == equations_.partition().independent) {
     motion = std::move(known_->motion);
@@ -121,12 +123,9 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
     const bool good = calc_derivative(time, moved, y_dot);
     moved[i] = y[i];
     if (!good) return false;
-    gradient.col(k) = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base;
-    if (k < f) {
-      equations_.calc_response(apply_modal_stiffness(*model_, equations_.q() - q), response);
-      gradient.col(k) += response(independent);
-    }
-    gradient.col(k) /= shift;
+    equations_.calc_response(apply_modal_stiffness(*model_, equations_.q() - q), response);
+    gradient.col(k) =
+        (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base + response(independent)) / shift;
   }
   motion.stiffness = directions.transpose() * apply_modal_stiffness(*model_, directions) -
                      motion.mass * gradient.leftCols(f);
