@@ -255,11 +255,13 @@ class ChangePoints(VerificationCase):
             for tolerance in ("1e-4", "1e-5", "1e-7", "1e-8"):
                 with self.subTest(method=method, tolerance=tolerance):
                     self.tolerance = 10.0 * float(tolerance)
-                    self.run_parallelograms(1, 4.0, "--set", "output_step=1e-3", "--set", f"integrator.method={method}", "--set",
-                                            f"integrator.relative_tolerance={tolerance}")  # fmt: skip
+                    self.run_parallelograms(1, 4.0, "--set", "output_step=1e-3",
+                                            "--set", f"integrator.method={method}",
+                                            "--set", f"integrator.relative_tolerance={tolerance}")  # fmt: skip
 
     def test_generalized_alpha_passes_them_wherever_its_steps_fall(self):
-        for number, tolerance in ((1, "1e-4"), (1, "1e-6"), (1, "1e-8"), (2, "1e-6"), (10, "1e-6"), (40, "1e-5")):
+        cases = ((1, "1e-4"), (1, "1e-6"), (1, "1e-8"), (2, "1e-6"), (10, "1e-6"), (40, "1e-5"))
+        for number, tolerance in cases:
             with self.subTest(number=number, tolerance=tolerance):
                 self.tolerance = 30.0 * float(tolerance)
                 self.run_parallelograms(number, 3.0 if number == 40 else 10.0, "--set",
