@@ -57,9 +57,7 @@ void PartitionedEquations::accept_motion(double time, const Eigen::VectorXd& q, 
 }
 
 void PartitionedEquations::accept_motion() {
-  if (!terms().has(SystemTerms::Term::kVelocities)) return;
-  accept_motion(terms().time(), q(), v());
-  dependents_.raise_reference();
+  if (terms().has(SystemTerms::Term::kVelocities)) accept_motion(terms().time(), q(), v());
 }
 
 void PartitionedEquations::return_to_accepted() {

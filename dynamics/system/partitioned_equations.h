@@ -91,9 +91,11 @@ class PartitionedEquations {
   /// Entries of the factors that an evaluation computes: its work grows with them.
   int num_factor_entries() const { return dependents_.num_factor_entries() + full_.num_factor_entries(); }
 
-  /// How much worse the dependents follow the independents than at the best accepted motion since the
-  /// partition was chosen, at least 1.
+  /// How much worse the dependents follow the independents than when the partition was chosen, or than at the
+  /// best motion that was marked since, at least 1.
   double partition_decay() const { return dependents_.decay(); }
+  /// Marks the present motion, for a partition that was not a good one when it was chosen.
+  void mark_if_best() { dependents_.raise_reference(); }
 
  private:
   SystemTerms& mutable_terms() { return full_.terms(); }
