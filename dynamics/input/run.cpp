@@ -143,19 +143,6 @@ std::vector<JointRateRequest> read_joint_rates(const support::TomlTable& table) 
   return rates;
 }
 
-std::vector<PointReference> read_output(const support::TomlTable& table) {
-  std::vector<PointReference> points;
-  if (const std::optional<support::TomlValue> list = table.find("points")) {
-    for (const support::TomlValue& item : list->items()) points.push_back(read_point(item));
-    if (points.empty()) {
-      throw list->error(
-          "must name at least one point \"body.point\"; leave it out for those of the vehicle's 'monitor'");
-    }
-  }
-  table.reject_unknown_keys();
-  return points;
-}
-
 // Names of the points without repetition.
 std::vector<std::string> resolve_points(const std::vector<PointReference>& points, const Vehicle& vehicle) {
   const std::vector<std::string> known = point_names(vehicle);
@@ -228,7 +215,7 @@ Run read_run(const support::TomlDocument& document) {
   if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
   if (const auto table = root.find_table("joint_rates")) run.joint_rates = read_joint_rates(*table);
-  if (const auto table = root.find_table("output")) run.output_points = read_output(*table);
+  if (const auto table = root.find_table("output")) run.output = read_output(*table, run.output_step);
   run.response.location = {.path = document.name()};
   if (const auto table = root.find_table("response")) run.response = read_response(*table);
   root.reject_unknown_keys();
@@ -280,7 +267,8 @@ StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selectio
 }
 
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle) {
-  return resolve_points(run.output_points.empty() ? vehicle.monitor : run.output_points, vehicle);
+  check_stored_names(run.output, vehicle);
+  return resolve_points(run.output.points.empty() ? vehicle.monitor : run.output.points, vehicle);
 }
 
 std::vector<std::string> resolve_response_points(const Run& run, const Vehicle& vehicle) {

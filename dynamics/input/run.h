@@ -11,6 +11,7 @@
 
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/input/mode_selection.h"
+#include "dynamics/input/output_input.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
@@ -84,7 +85,7 @@ struct Run {
   AdaptivitySettings adaptivity;
   std::map<std::string, InitialMotion> initial;  ///< by body
   std::vector<JointRateRequest> joint_rates;     ///< in the order of the file
-  std::vector<PointReference> output_points;     ///< if empty, the vehicle's `monitor`
+  OutputSettings output;
   ResponseRequest response;
 };
 
@@ -105,7 +106,8 @@ ModalDamping resolve_modal_damping(const Run& run, const ModeSelection& selectio
 StiffenedBodies resolve_stiffening(const Run& run, const ModeSelection& selection, const Vehicle& vehicle);
 
 /// Names of the points whose motion is reported: the run's, else the vehicle's, without repetition.
-/// @throws support::InputError at a reference to a point that the vehicle lacks
+/// @throws support::InputError at a reference to a point that the vehicle lacks, or to anything in
+///         `[output.store]`
 std::vector<std::string> resolve_output_points(const Run& run, const Vehicle& vehicle);
 /// Names of the points whose frequency response is reported: those of `[response]`, else those of
 /// resolve_output_points.

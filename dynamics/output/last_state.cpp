@@ -55,22 +55,16 @@ void check_joints(const support::Hdf5Reader& file, const Model& model, const Sta
   fail(file, fmt::format("its last positions leave a joint open by {:.3g}: it is of another vehicle", open));
 }
 
-}  // namespace
-
-State read_last_state(const std::filesystem::path& results, const Model& model) {
-  const support::Hdf5Reader file(results);
-  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kResultsFormat)
-    fail(file, "is no results file");
+// Files of programs that stored all histories in double precision have the last state in their last rows.
+State read_last_rows(const support::Hdf5Reader& file, const Model& model) {
   const auto rows = static_cast<std::size_t>(file.shape("/time").at(0));
   if (rows == 0) fail(file, "has no outputs");
   State state{.time = file.real_rows("/time", rows - 1, 1)[0],
               .q = Eigen::VectorXd::Zero(model.num_coordinates),
               .v = Eigen::VectorXd::Zero(model.num_coordinates),
-              .branches = std::vector<int>(static_cast<std::size_t>(model.num_branches))};
+              .branches = {}};
   for (const Body& body : model.bodies) {
     const std::string group = "/bodies/" + body.name;
-    if (!file.has(group)) fail(file, fmt::format("has no body '{}', which the vehicle has", body.name));
-    check_modes(file, body);
     const int first = body.first_coordinate, num_modes = body.num_modes();
     state.q.segment(first, 3) = read_last_row(file, group + "/position", rows, 3);
     state.v.segment(first, 3) = read_last_row(file, group + "/velocity", rows, 3);
@@ -78,6 +72,33 @@ State read_last_state(const std::filesystem::path& results, const Model& model) 
     state.q.segment(first + 3, num_modes) = read_last_row(file, group + "/modal/amplitude", rows, num_modes);
     state.v.segment(first + 3, num_modes) = read_last_row(file, group + "/modal/rate", rows, num_modes);
   }
+  return state;
+}
+
+State read_stored_state(const support::Hdf5Reader& file, const Model& model) {
+  const auto read = [&](const std::string& name) {
+    const std::vector<double> values = file.reals("/last_state/" + name, {model.num_coordinates});
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), model.num_coordinates));
+  };
+  return {.time = file.reals("/last_state/time", {1})[0],
+          .q = read("coordinates"),
+          .v = read("velocities"),
+          .branches = {}};
+}
+
+}  // namespace
+
+State read_last_state(const std::filesystem::path& results, const Model& model) {
+  const support::Hdf5Reader file(results);
+  if (!file.has_attribute("/", "format") || file.string_attribute("/", "format") != kResultsFormat)
+    fail(file, "is no results file");
+  for (const Body& body : model.bodies) {
+    const std::string group = "/bodies/" + body.name;
+    if (!file.has(group)) fail(file, fmt::format("has no body '{}', which the vehicle has", body.name));
+    check_modes(file, body);
+  }
+  State state = file.has("/last_state/time") ? read_stored_state(file, model) : read_last_rows(file, model);
+  state.branches.resize(static_cast<std::size_t>(model.num_branches));
   check_joints(file, model, state);
   return state;
 }

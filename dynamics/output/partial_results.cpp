@@ -19,7 +19,7 @@ support::Hdf5Reader open_partial(const fs::path& results) {
     throw support::InputError({.path = partial.string()},
                               "there is no such file, so there is no run to resume; run without --resume");
   }
-  return support::Hdf5Reader(partial);
+  return support::Hdf5Reader(partial, support::Hdf5Reader::Compression::kAllowed);
 }
 
 template <class Bytes, class Extent>

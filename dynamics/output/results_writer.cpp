@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::int64_t kResultsVersion = 2;
 
-constexpr std::size_t kRowsAtOnce = 1024;  // whole chunks of most histories
+constexpr std::size_t kMostBuffered = std::size_t{1} << 28U;  // bytes of rows that are not written yet
+constexpr std::size_t kRowsAtOnce = 1024;                     // whole chunks of most histories
 
 void put(std::vector<double>& row, const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::copy(values.data(), values.data() + values.size(), row.begin());
@@ -48,14 +49,70 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
   add_energy("spring", [](const EnergyBook& book) { return book.stored.spring; });
   add_energy("dissipated", [](const EnergyBook& book) { return book.dissipated; });
   add_energy("input", [](const EnergyBook& book) { return book.input; });
+  make_datasets(header);
+  make_last_state();
   make_event_datasets(header.adaptivity ? *header.adaptivity->full : header.model);
 }
 
-void ResultsWriter::add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
-                               std::function<void(const Snapshot&, std::vector<double>&)> fill) {
-  support::Hdf5GrowingDataset& growing = file_.make_growing(dataset, columns, unit);
-  series_.push_back(
-      {dataset, &growing, std::vector<double>(std::max<std::size_t>(columns, 1)), std::move(fill)});
+ResultsWriter::Series& ResultsWriter::add_series(
+    const std::string& dataset, std::size_t columns, const std::string& unit,
+    std::function<void(const Snapshot&, std::vector<double>&)> fill) {
+  series_.push_back({.name = dataset,
+                     .columns = columns,
+                     .unit = unit,
+                     .row = std::vector<double>(std::max<std::size_t>(columns, 1)),
+                     .fill = std::move(fill)});
+  return series_.back();
+}
+
+// Makes the datasets of the histories that are stored, and forgets the others.
+void ResultsWriter::make_datasets(const ResultsHeader& header) {
+  const double num_outputs = header.run.duration / header.run.output_step + 1.0;
+  StorageConditions conditions{.num_outputs = num_outputs,
+                               .output_step = header.run.output_step,
+                               .reported = header.output_points,
+                               .stiffened_bodies = {}};
+  for (const Body& body : model_->bodies) {
+    if (body.stiffening) conditions.stiffened_bodies.insert(body.name);
+  }
+  std::vector<HistorySize> histories;
+  for (const Series& series : series_) histories.push_back({series.name, series.row.size()});
+  storage_ = std::make_unique<StoragePlan>(header.run.output, histories, std::move(conditions));
+  std::erase_if(series_, [&](const Series& series) { return storage_->every(series.name) == 0; });
+  std::size_t row_size = 0;  // of all histories
+  for (const Series& series : series_) row_size += series.row.size() * sizeof(double);
+  const std::size_t most_rows = kMostBuffered / row_size;
+  for (Series& series : series_) {
+    using support::Hdf5Precision;
+    series.every = storage_->every(series.name);
+    series.dataset = &file_.make_growing(
+        series.name, series.columns, series.unit,
+        storage_->is_single(series.name) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
+        std::min(num_rows(series, static_cast<std::size_t>(num_outputs)), most_rows));
+    if (!series.role.empty()) file_.attribute(series.name, "role", series.role);
+    if (series.every > 1) file_.attribute(series.name, "every", std::int64_t{series.every});
+  }
+}
+
+std::size_t ResultsWriter::num_rows(const Series& series, std::size_t num_outputs) const {
+  const auto every = static_cast<std::size_t>(series.every);
+  return (num_outputs + every - 1) / every;
+}
+
+void ResultsWriter::make_last_state() {
+  last_ = {.q = Eigen::VectorXd::Zero(model_->num_coordinates),
+           .v = Eigen::VectorXd::Zero(model_->num_coordinates),
+           .branches = {}};
+  file_.write("/last_state/time", std::vector<double>{0.0}, "s");
+  file_.write("/last_state/coordinates", last_.q, "m, rad, kg^0.5 m");
+  file_.write("/last_state/velocities", last_.v, "m/s, rad/s, kg^0.5 m/s");
+}
+
+void ResultsWriter::write_last_state() {
+  file_.overwrite("/last_state/time", std::vector<double>{last_.time});
+  const auto size = static_cast<std::size_t>(last_.q.size());
+  file_.overwrite("/last_state/coordinates", {last_.q.data(), size});
+  file_.overwrite("/last_state/velocities", {last_.v.data(), size});
 }
 
 void ResultsWriter::add_marker_motion(const std::string& group, std::size_t marker) {
@@ -89,7 +146,7 @@ void ResultsWriter::add_body_series() {
     const Body& body = model_->bodies[b];
     const std::string group = "/bodies/" + body.name;
     const int first = body.first_coordinate, n = body.num_modes();
-    const std::string per_second = " 1/s", per_second_squared = " 1/s^2";
+    file_.make_group(group);
     add_series(group + "/position", 3, "m, m, rad",
                [first](const Snapshot& now, std::vector<double>& row) { put(row, now.q.segment<3>(first)); });
     add_series(group + "/velocity", 3, "m/s, m/s, rad/s",
@@ -165,6 +222,7 @@ void ResultsWriter::add_joint_series() {
                    put(row, reaction);
                  });
     }
+    file_.make_group("/joints/" + joint.name);
     file_.attribute("/joints/" + joint.name, "kind", joint.kind());
     add_joint_coordinate(joint, row_of_joint);
   }
@@ -207,9 +265,10 @@ void ResultsWriter::add_force_series() {
                    if (c == 0)
                      force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
                    row[0] = values[c];
-                 });
-      file_.attribute(dataset, "role", role_name(channel.role));
+                 })
+          .role = role_name(channel.role);
     }
+    file_.make_group("/forces/" + force.name);
     file_.attribute("/forces/" + force.name, "kind", force.kind());
     add_wrench_series(f);
   }
@@ -260,9 +319,13 @@ void ResultsWriter::add_recovery_series(const Vehicle& vehicle) {
 
 void ResultsWriter::add(const Snapshot& snapshot) {
   for (Series& series : series_) {
+    if (extent_.rows % static_cast<std::size_t>(series.every) != 0) continue;
     series.fill(snapshot, series.row);
     file_.append(*series.dataset, series.row);
   }
+  last_.time = snapshot.time;
+  last_.q = snapshot.q;
+  last_.v = snapshot.v;
   ++extent_.rows;
 }
 
@@ -286,15 +349,17 @@ void ResultsWriter::add(const Event& event) {
   ++extent_.events;
 }
 
-void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent& extent) {
+void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent& extent,
+                              const Checkpoint& checkpoint) {
   const support::Hdf5Reader& earlier = partial.file();
   for (const Series& series : series_) {
-    for (std::size_t row = 0; row < extent.rows; row += kRowsAtOnce) {
-      file_.append(*series.dataset,
-                   earlier.real_rows(series.name, row, std::min(kRowsAtOnce, extent.rows - row)));
+    const std::size_t rows = num_rows(series, extent.rows);
+    for (std::size_t row = 0; row < rows; row += kRowsAtOnce) {
+      file_.append(*series.dataset, earlier.real_rows(series.name, row, std::min(kRowsAtOnce, rows - row)));
     }
   }
   extent_.rows = extent.rows;
+  last_ = checkpoint.state;
   for (const Event& event : partial.read_events(extent.events)) add(event);
 }
 
@@ -308,10 +373,13 @@ void ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStat
 
 void ResultsWriter::write_summary(const RunStatistics& statistics, const TransientStatistics& transient) {
   write_results_summary(file_, statistics, transient);
+  write_last_state();
 }
 
-void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient) {
+void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient,
+                           const std::vector<RunWarning>& warnings) {
   write_summary(statistics, transient);
+  write_warnings(file_, warnings);
   if (has_checkpoint_) file_.remove(std::string(kCheckpointDataset));
   file_.attribute("/", "complete", std::int64_t{1});
   file_.commit();

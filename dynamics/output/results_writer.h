@@ -16,6 +16,8 @@
 #include "dynamics/mode_choice/basis_choice.h"
 #include "dynamics/output/recovery.h"
 #include "dynamics/output/run_statistics.h"
+#include "dynamics/output/run_warnings.h"
+#include "dynamics/output/storage_plan.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/hdf5/hdf5_file.h"
 
@@ -43,7 +45,7 @@ class PartialResults;
 
 /// How much a results file holds.
 struct ResultsExtent {
-  std::size_t rows = 0;  ///< of each time history
+  std::size_t rows = 0;  ///< outputs, the rows of time histories that are stored at each of them
   std::size_t events = 0;
 };
 
@@ -55,8 +57,9 @@ class ResultsWriter {
   ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header);
 
   /// Takes over what a partial file of the same run holds, before anything is added.
+  /// @param checkpoint  its last one, to which `extent` belongs
   /// @throws support::InputError if it holds less than `extent`, or is damaged
-  void take_over(const PartialResults& partial, const ResultsExtent& extent);
+  void take_over(const PartialResults& partial, const ResultsExtent& extent, const Checkpoint& checkpoint);
 
   void add(const Snapshot& snapshot);
   void add(const Event& event);
@@ -67,23 +70,33 @@ class ResultsWriter {
   /// Writes the summary of what has been added, or writes it anew.
   void write_summary(const RunStatistics& statistics, const TransientStatistics& transient);
 
-  /// Writes the summary and gives the file its final name.
-  void finish(const RunStatistics& statistics, const TransientStatistics& transient);
+  /// Writes summary and warnings and gives the file its final name.
+  void finish(const RunStatistics& statistics, const TransientStatistics& transient,
+              const std::vector<RunWarning>& warnings);
   /// Closes the file under its partial name, with the last checkpoint. @return that name
   std::filesystem::path abandon();
   const std::filesystem::path& partial() const { return file_.partial(); }
+  const StoragePlan& storage() const { return *storage_; }
 
  private:
   // A time history: its dataset, and the function that fills a row.
   struct Series {
     std::string name;
-    support::Hdf5GrowingDataset* dataset;
+    std::size_t columns;  // of the dataset, 0 for rank 1
+    std::string unit;
     std::vector<double> row;
     std::function<void(const Snapshot&, std::vector<double>& row)> fill;
+    std::string role = {};                           // of a channel, else empty
+    support::Hdf5GrowingDataset* dataset = nullptr;  // once it is known that it is stored
+    long every = 1;                                  // outputs from one row to the next
   };
 
-  void add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
-                  std::function<void(const Snapshot&, std::vector<double>&)> fill);
+  void make_datasets(const ResultsHeader& header);
+  void make_last_state();
+  void write_last_state();
+  std::size_t num_rows(const Series& series, std::size_t num_outputs) const;
+  Series& add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
+                     std::function<void(const Snapshot&, std::vector<double>&)> fill);
   void add_marker_motion(const std::string& group, std::size_t marker);
   void add_point_series();
   void add_body_series();
@@ -104,6 +117,8 @@ class ResultsWriter {
   // Of the events.
   support::Hdf5GrowingDataset *event_time_ = nullptr, *event_kind_ = nullptr, *event_object_ = nullptr,
                               *event_text_ = nullptr;
+  std::unique_ptr<StoragePlan> storage_;
+  State last_;  // at the last output; of a run that is resumed, before its first one at the checkpoint
   ResultsExtent extent_;
   bool has_checkpoint_ = false;
   std::vector<std::unique_ptr<ResultantRecovery>> recoveries_;

@@ -14,18 +14,6 @@ using support::Json;
 
 namespace {
 
-constexpr double kTooMuchLeftOut = 0.05;  // share above which the summary warns
-
-// Whether a body is stiffened; adaptivity is then not allowed.
-bool is_stiffened(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.stiffening.has_value(); });
-}
-
-}  // namespace
-
-namespace {
-
 std::string describe_modes(const Model& model) {
   std::vector<std::string> flexible;
   for (const Body& body : model.bodies) {
@@ -75,7 +63,7 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
   return text;
 }
 
-std::string format_summary(const Model& model, const RunSummary& summary) {
+std::string format_summary(const RunSummary& summary) {
   support::TextTable points({"point", "displacement min m", "max m", "r.m.s. m", "acceleration min m/s²",
                              "max m/s²", "r.m.s. m/s²"});
   for (const PointStatistics& point : summary.statistics.point_statistics()) {
@@ -99,7 +87,6 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
   run.add_row({"evaluations (and for output)",
                fmt::format("{} ({})", transient.stepper.evaluations, transient.output_evaluations)});
   run.add_row({"switches of forces", fmt::format("{}", transient.switches)});
-  std::string warning;
   if (summary.adaptivity) {
     const WorstNeglect& worst = transient.worst_neglect;
     if (summary.adaptivity->changes) {
@@ -112,18 +99,22 @@ std::string format_summary(const Model& model, const RunSummary& summary) {
           fmt::format("{:.3g} % of the largest deflection, {:.3g} % of the largest acceleration",
                       100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
-      if (!summary.adaptivity->changes && worst.share.worst() > kTooMuchLeftOut) {
-        warning = fmt::format(
-            "\nwarning: modes are missing: {}, which was left out, would have reached {} of the points "
-            "asked for (at t = {:.3g} s); take more modes{}\n",
-            name, shares, worst.time, is_stiffened(model) ? "" : ", or [adaptivity] enabled = true");
-      }
     }
   }
-  run.add_row({"time", fmt::format("{:.3f} s", summary.elapsed)});
-  run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / summary.elapsed)});
+  const RunTimes& times = summary.times;
+  run.add_row({"wall time of the run", fmt::format("{:.3f} s", times.wall)});
+  run.add_row({"CPU time of the program", fmt::format("{:.3f} s", times.cpu)});
+  run.add_row({"CPU time of the integration", fmt::format("{:.3f} s", times.integration)});
+  run.add_row({"real-time factor", fmt::format("{:.0f}", summary.duration / times.wall)});
+  std::vector<std::string> texts;
+  for (const RunWarning& warning : summary.warnings) {
+    if (!is_of_computation(warning) && std::find(texts.begin(), texts.end(), warning.text) == texts.end())
+      texts.push_back(warning.text);
+  }
+  std::string warnings;
+  for (const std::string& text : texts) warnings += fmt::format("\nwarning: {}\n", text);
   return fmt::format("\nVertical motion, relative to the equilibrium or the given start\n{}\n{}{}",
-                     points.str(), run.str(), warning);
+                     points.str(), run.str(), warnings);
 }
 
 std::string format_summary_json(const Model& model, const RunSummary& summary) {
@@ -147,6 +138,10 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
                            {"acceleration", statistics(point.acceleration)}};
   }
   const TransientStatistics& transient = summary.transient;
+  Json warnings = Json::array();
+  for (const RunWarning& warning : summary.warnings) {
+    warnings.push_back({{"concerns", warning.concerns}, {"of", warning.of}, {"text", warning.text}});
+  }
   return support::format_json({{"freedoms", model.num_freedoms()},
                                {"points", points},
                                {"constraint_violation", summary.statistics.constraint_violation()},
@@ -158,8 +153,11 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
                                {"switches", transient.switches},
                                {"modes", modes},
                                {"repartitions", transient.stepper.repartitions},
-                               {"elapsed", summary.elapsed},
-                               {"real_time_factor", summary.duration / summary.elapsed}});
+                               {"warnings", warnings},
+                               {"elapsed", summary.times.wall},
+                               {"cpu_time", summary.times.cpu},
+                               {"integration_cpu_time", summary.times.integration},
+                               {"real_time_factor", summary.duration / summary.times.wall}});
 }
 
 }  // namespace sprung::dynamics

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dynamics/input/run.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/output/run_statistics.h"
+#include "dynamics/output/run_warnings.h"
 
 namespace sprung::dynamics {
 
@@ -15,17 +17,26 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
                          const AssemblyReport& assembly, const VelocityReport& velocities,
                          const Equilibrium* equilibrium);
 
+/// What a run took.
+struct RunTimes {
+  double wall = 0.0;  ///< from the first step to the last output [s]
+  double cpu = 0.0;   ///< of the whole program until then [s]
+  double integration =
+      0.0;  ///< CPU time of the integration and of evaluating its outputs, without storing them [s]
+};
+
 /// The outcome of a run.
 struct RunSummary {
   const RunStatistics& statistics;
   const TransientStatistics& transient;
-  double duration = 0.0;                          ///< simulated [s]
-  double elapsed = 0.0;                           ///< wall clock [s]
+  double duration = 0.0;  ///< simulated [s]
+  RunTimes times;
   const AdaptivityOptions* adaptivity = nullptr;  ///< null if no modes were left out
+  const std::vector<RunWarning>& warnings;
 };
 
-/// The summary as text tables, with a warning if a mode left out would contribute much.
-std::string format_summary(const Model& model, const RunSummary& summary);
+/// The summary as text tables, with the warnings that do not concern the computation as a whole.
+std::string format_summary(const RunSummary& summary);
 /// The summary as one JSON object, SI units.
 std::string format_summary_json(const Model& model, const RunSummary& summary);
 

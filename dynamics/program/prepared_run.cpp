@@ -13,6 +13,7 @@
 #include "dynamics/program/massless_check.h"
 #include "dynamics/program/start_state.h"
 #include "dynamics/road/flat_road.h"
+#include "tools/support/terminal/progress_bar.h"
 
 namespace sprung::dynamics {
 
@@ -127,7 +128,8 @@ Flexibility choose_modes(PreparedRun& prepared) {
 
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
-Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, PreparedRun& prepared) {
+Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, bool is_quiet,
+                             PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   prepared.balance_model = make_model(
@@ -137,8 +139,12 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   check_massless_bodies(vehicle, prepared.balance_model, q);
   if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
+  support::ProgressBar progress("static equilibrium", is_quiet);
+  const auto show = [&progress](int iteration, double step) {
+    progress.update(fmt::format("iteration {}, step {:.1e} of the natural size", iteration, step));
+  };
   prepared.equilibrium =
-      find_equilibrium(prepared.balance_model, q, {}, find_motion(run, prepared.balance_model, q));
+      find_equilibrium(prepared.balance_model, q, show, find_motion(run, prepared.balance_model, q));
   check_steady(run, prepared.balance_model, *prepared.equilibrium);
   return prepared.equilibrium->q;
 }
@@ -155,7 +161,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Flexibility flexibility = choose_modes(prepared);
   if (preparation == Preparation::kChoice) return prepared;
 
-  const Eigen::VectorXd q = find_balance(flexibility, preparation, prepared);
+  const Eigen::VectorXd q = find_balance(flexibility, preparation, request.quiet, prepared);
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,

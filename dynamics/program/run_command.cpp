@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "dynamics/linear/vehicle_modes.h"
@@ -44,9 +45,6 @@ TransientOptions make_options(const Run& run, const Model& model) {
   return options;
 }
 
-constexpr double kSmallestScale = 1e-4;    // m: a hundred thousand times the dead band of switches
-constexpr double kAlarmingClosure = 1e-3;  // far above the closure at any useful tolerance
-
 [[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
   throw support::Interrupted(
@@ -65,23 +63,17 @@ void print_description(const PreparedRun& prepared) {
   if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
 }
 
-void warn_of_small_scale(double length_scale) {
-  if (length_scale >= kSmallestScale) return;
-  fmt::print(stderr,
-             "warning: no point is farther than {:.1e} m from its body's origin; the dead band of switching "
-             "forces, 1e-9 m, is not small against that: use smaller units, as mm with g and ms\n",
-             length_scale);
+void print_of_computation(const std::vector<RunWarning>& warnings) {
+  for (const RunWarning& warning : warnings) {
+    if (is_of_computation(warning)) fmt::print(stderr, "warning: {}\n", warning.text);
+  }
 }
 
-// Warns if the energy balance does not close. @return whether it closes
-bool check_energy_balance(double closure) {
-  if (closure <= kAlarmingClosure) return true;
-  fmt::print(
-      stderr,
-      "warning: the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
-      "relative tolerance, and look for motion much smaller than the vehicle\n",
-      closure);
-  return false;
+// CPU time of the program so far [s].
+double cpu_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request,
@@ -116,7 +108,7 @@ WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, Ru
   if (output.resume) state = PartialResults(output.results, header).read_state(statistics);
   WrittenRun run{std::make_unique<ResultsWriter>(output.results, header), std::nullopt};
   if (!state) return run;
-  run.writer->take_over(PartialResults(output.results, header), state->extent);
+  run.writer->take_over(PartialResults(output.results, header), state->extent, state->checkpoint);
   run.writer->write_checkpoint(state->checkpoint, statistics);
   run.checkpoint = std::move(state->checkpoint);
   return run;
@@ -133,19 +125,26 @@ void print_resumption(const std::optional<Checkpoint>& checkpoint) {
 // Runs the model in time and passes its results to `statistics` and to the writer, if there is one. A run
 // that is interrupted or fails leaves a file with the results up to there.
 TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options, const WrittenRun& run,
-                              support::ProgressBar& progress, RunStatistics& statistics) {
+                              support::ProgressBar& progress, RunStatistics& statistics, RunTimes& times) {
   const double start_time = prepared.start.time;
   double time_reached = run.checkpoint ? run.checkpoint->state.time : start_time;
   ResultsWriter* writer = run.writer.get();
+  const double cpu_before = cpu_time();
+  const auto start = std::chrono::steady_clock::now();
+  double storing = 0.0;
   options.on_output = [&](const Snapshot& snapshot) {
+    const double before = cpu_time();
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
+    storing += cpu_time() - before;
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
   };
   options.on_checkpoint = [&](const Checkpoint& checkpoint) {
+    const double before = cpu_time();
     if (writer) writer->write_checkpoint(checkpoint, statistics);
+    storing += cpu_time() - before;
   };
   options.on_step = [&](double time) {
     time_reached = time;
@@ -166,6 +165,8 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
                               fmt::format("cannot be resumed: {}; run without --resume", error.what()));
   }
   progress.finish();
+  times.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  times.integration = cpu_time() - cpu_before - storing;
   if (transient.completed) return transient;
   if (writer) writer->write_summary(statistics, transient);
   throw_interrupted(time_reached, writer);
@@ -187,9 +188,9 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
     return support::kGood;
   }
-  if (support::interrupt_requested()) throw support::Interrupted("before the run began; nothing was written");
   if (!output.json && !request.quiet) print_description(prepared);
-  warn_of_small_scale(prepared.model.length_scale);
+  const std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model);
+  print_of_computation(model_warnings);
 
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
@@ -200,20 +201,25 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   WrittenRun written;
   if (!output.results.empty())
     written = open_results(output, make_header(prepared, request, options.adaptivity), statistics);
-  if (output.resume && !output.json && !request.quiet) print_resumption(written.checkpoint);
+  const bool prints = !output.json && !request.quiet;
+  if (written.writer && prints)
+    fmt::print("Results: {}\n", describe_storage(written.writer->storage(), run.output));
+  if (output.resume && prints) print_resumption(written.checkpoint);
+  const support::DeferredInterrupts deferred;  // what was calculated is kept
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
-  const auto start = std::chrono::steady_clock::now();
-  const TransientStatistics transient = integrate(prepared, options, written, progress, statistics);
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (written.writer) written.writer->finish(statistics, transient);
-
-  const RunSummary summary{statistics, transient, run.duration - prepared.start.time, elapsed,
-                           options.adaptivity ? &*options.adaptivity : nullptr};
-  const bool is_trusted = check_energy_balance(statistics.energy_closure());
-  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary)
-                               : format_summary(prepared.model, summary));
+  RunTimes times;
+  const TransientStatistics transient = integrate(prepared, options, written, progress, statistics, times);
+  const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
+  std::vector<RunWarning> warnings = list_run_warnings(prepared.model, statistics, transient, adaptivity);
+  print_of_computation(warnings);
+  warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
+  if (written.writer) written.writer->finish(statistics, transient, warnings);
+  times.cpu = cpu_time();
+  const RunSummary summary{statistics, transient,  run.duration - prepared.start.time,
+                           times,      adaptivity, warnings};
+  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary) : format_summary(summary));
   if (written.writer && !output.json) fmt::print("Results: {}\n", output.results.string());
-  return is_trusted ? support::kGood : support::kCheckFailed;
+  return is_balanced(statistics) ? support::kGood : support::kCheckFailed;
 }
 
 }  // namespace sprung::dynamics

@@ -102,15 +102,9 @@ int run_build(const BuildOptions& options) {
   make_folder(options.output_dir);
   int code = support::kGood;
   for (const fs::path& design : options.designs) {
-    if (support::interrupt_requested()) {
-      throw support::Interrupted(fmt::format("before {}; the files made so far are whole", design.string()));
-    }
     const fs::path output = options.output_dir / (design.stem().string() + ".h5");
     try {
       build_one(design, output, options);
-    } catch (const support::Interrupted&) {
-      throw support::Interrupted(
-          fmt::format("while {} was built; the files made so far are whole", design.string()));
     } catch (const InputError& error) {
       report_failure(error.what());
       if (code == support::kGood) code = support::kBadInput;

@@ -19,7 +19,6 @@ struct BuildOptions {
 /// reported and the others are made all the same; a file that is there stays whole.
 /// @return 0, or that of the first kind of failure: 2 for input, 3 for numerics
 /// @throws support::InputError if the folder cannot be used or two designs have one stem
-///         support::Interrupted between two designs
 int run_build(const BuildOptions& options);
 
 /// Prints what a file contains. @throws support::InputError

@@ -68,7 +68,8 @@ class Interruption(StudyCase):
 
     def test_an_interrupted_study_says_so_and_goes_on(self):
         process, held = self.start_and_wait()
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does, to all processes
+        for _ in range(5):  # as a terminal does, to all processes, for a user without patience
+            os.killpg(process.pid, signal.SIGINT)
         _, complaints = process.communicate()
         self.assertEqual(process.returncode, 130)
         self.assertIn("out: the runs that have ended are kept; the same command goes on", complaints)

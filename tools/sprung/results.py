@@ -94,6 +94,12 @@ class Results:
         found: list[str] = []
         for group in SERIES:
             self._collect(group, found)
+        listed = {name.rpartition(".")[0] for name in found}
+        for point in self._file.names("points"):
+            for what in ("position", "velocity", "acceleration", "deflection"):
+                path = f"points/{point}/{what}"
+                if path not in listed and path in self:
+                    found += [f"{path}.{component}" for component in COMPONENTS[:2]]
         return found
 
     def measures(
@@ -132,9 +138,12 @@ class Results:
         if shape is None:
             for name in file.names(path) if path.count("/") < DEEPEST else ():
                 self._collect(f"{path}/{name}", found)
-        elif shape[:1] == self.time.shape and len(shape) == 1:
+            return
+        if shape[:1] != (-(-self.time.size // file.every(path)),):
+            return
+        if len(shape) == 1:
             found.append(path)
-        elif shape[:1] == self.time.shape and len(shape) == 2:
+        elif len(shape) == 2:
             is_vector = path.startswith(("bodies/", "points/")) and "/modal/" not in path
             columns = COMPONENTS[: shape[1]] if is_vector else [str(k + 1) for k in range(shape[1])]
             found += [f"{path}.{column}" for column in columns]

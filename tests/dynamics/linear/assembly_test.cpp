@@ -9,6 +9,7 @@
 #include "dynamics/system/system_terms.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
+#include "tests/dynamics/chains.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/small_models.h"
 #include "tests/tools/support/error_message.h"
@@ -69,6 +70,15 @@ TEST_CASE("A mechanism at rough positions is closed, and the report says how far
   VectorXd again = q;
   CHECK(dynamics::assemble_positions(model, again).largest_movement == 0.0);
   CHECK(again == q);
+}
+
+TEST_CASE("A ring of 10,000 links that is drawn to a centimetre is closed", "[analysis]") {
+  const test::Chain ring = test::make_closed_chain(10'000);
+  test::RandomNumbers random(1);
+  VectorXd q = ring.state.q + random.vector(ring.state.q.size(), 0.01);
+  const dynamics::AssemblyReport report = dynamics::assemble_positions(ring.model, q);
+  CHECK(largest_residual(ring.model, q) < 1e-11);  // the ring's diameter is 640 m, whose rounding is 1e-13
+  CHECK(report.largest_movement < 0.1);
 }
 
 TEST_CASE("Assembly moves heavy bodies least", "[analysis]") {

@@ -136,6 +136,28 @@ class ResumeTest(ProgramTestCase):
         self.assertNotEqual(self.partial.stat().st_ino, number)
         self.assert_resumes(self.resume())
 
+    def test_a_killed_run_whose_histories_are_compressed_and_chosen_is_resumed(self):
+        chosen = ("--set", "output.precision=single", "--set", "output.step.joints=1e-3",
+                  "--set", "output.store.points=none")  # fmt: skip
+        run_program(make_command("--quiet", "-o", "whole.h5", *chosen), cwd=self.folder, check=True)
+        self.partial.unlink()
+        for _ in range(ATTEMPTS):
+            self.partial.unlink(missing_ok=True)
+            code, _ = signal_when(self.folder, signal.SIGKILL, self.partial.exists, *chosen)
+            if code != 0 and self.partial.exists():
+                break
+        self.assertEqual(code, -signal.SIGKILL)
+        process = self.resume(*chosen)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        whole, found = read_all(self.folder / "whole.h5"), read_all(self.folder / "cut.h5")
+        self.assertEqual(sorted(whole), sorted(found))
+        self.assertEqual([name for name in whole if whole[name] != found[name]], [])
+        with h5py.File(self.folder / "cut.h5") as file:
+            reaction = file[f"joints/{next(iter(file['joints']))}/reaction"]
+            self.assertEqual((reaction.dtype, reaction.attrs["every"]), (np.float32, 10))
+            self.assertEqual(len(reaction), -(-len(file["time"]) // 10))
+            self.assertNotIn("points", file)
+
     def test_a_partial_file_shows_events_and_summary_up_to_its_checkpoint(self):
         with h5py.File(self.partial) as file, h5py.File(self.made / "whole.h5") as whole:
             rows = file["time"].shape[0]

@@ -2,7 +2,9 @@
 #include <hdf5.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <stdexcept>
@@ -129,6 +131,82 @@ TEST_CASE("what was written up to a checkpoint can be read after the program was
   const Hdf5Reader reader(folder / "run.partial.h5");
   CHECK(reader.reals("a/pairs", {3002, 2})[6002] == 3001.0);
   for (int i = 0; i < 30; ++i) CHECK(reader.reals(fmt::format("t{}", i), {3002})[3001] == 6002.0);
+}
+
+TEST_CASE("compressed histories of a killed program can be read up to its last checkpoint") {
+  // Chunks of 1024 rows are written in part at each checkpoint, and compressed when they are full.
+  const TemporaryFolder folder;
+  const int kill_at = GENERATE(700, 1400, 2100, 3600);  // right behind a checkpoint, or after more rows
+  const ChildResult result = run_in_child([&] {
+    Hdf5Writer writer(folder / "run.h5", folder / "run.partial.h5");
+    std::vector<Hdf5GrowingDataset*> series;
+    for (int i = 0; i < 30; ++i) {
+      series.push_back(&writer.make_growing(fmt::format("t{}", i), 0, "s", Hdf5Precision::kCompressedSingle));
+    }
+    for (int row = 1; row <= kill_at; ++row) {
+      for (Hdf5GrowingDataset* t : series) writer.append(*t, std::vector{0.5 * row});
+      if (row % 700 == 0) writer.checkpoint();
+    }
+    return ::raise(SIGKILL);
+  });
+  CHECK(result.signal == SIGKILL);
+  const Hdf5Reader reader(folder / "run.partial.h5", Hdf5Reader::Compression::kAllowed);
+  const std::int64_t rows = kill_at - kill_at % 700;
+  for (int i = 0; i < 30; ++i) {
+    const std::vector<double> values = reader.reals(fmt::format("t{}", i), {rows});
+    CHECK(values[0] == 0.5);
+    CHECK(values.back() == 0.5 * static_cast<double>(rows));
+    CHECK(values[static_cast<std::size_t>(rows / 2)] == 0.5 * static_cast<double>(rows / 2 + 1));
+  }
+}
+
+TEST_CASE("compressed histories are those that were written, to single precision, in less space") {
+  const TemporaryFolder folder;
+  const auto value = [](int row, int column) { return std::sin(1e-3 * row) * std::pow(10.0, column); };
+  for (const Hdf5Precision precision : {Hdf5Precision::kDouble, Hdf5Precision::kCompressedSingle}) {
+    const bool is_single = precision == Hdf5Precision::kCompressedSingle;
+    Hdf5Writer writer(folder / (is_single ? "single.h5" : "double.h5"), folder / "partial.h5");
+    Hdf5GrowingDataset& rows = writer.make_growing("rows", 3, "m", precision);
+    for (int row = 0; row < 5000; ++row) {
+      writer.append(rows, std::vector{value(row, 0), value(row, 1), value(row, 2)});
+      if (row % 1500 == 1499) writer.checkpoint();
+    }
+    writer.commit();
+  }
+  const Hdf5Reader single(folder / "single.h5", Hdf5Reader::Compression::kAllowed);
+  const std::vector<double> found = single.reals("rows", {5000, 3});
+  const std::vector<double> exact = Hdf5Reader(folder / "double.h5").reals("rows", {5000, 3});
+  double largest = 0.0;
+  for (std::size_t i = 0; i < exact.size(); ++i)
+    largest = std::max(largest, std::abs(found[i] - exact[i]) / std::max(std::abs(exact[i]), 1e-30));
+  CHECK(largest <= 6e-8);  // half a unit in the last place of 24 bits
+  CHECK(largest > 1e-9);
+  CHECK(100 * read_bytes(folder / "single.h5").size() < 45 * read_bytes(folder / "double.h5").size());
+  const std::string path = folder / "single.h5";
+  CHECK(error_message<InputError>([&] {
+          Hdf5Reader(path).reals("rows", {5000, 3});
+        }) == path + ": error: dataset 'rows' is compressed or coded by a filter, which is not read");
+}
+
+TEST_CASE("a value beyond single precision is refused, not stored as infinity") {
+  const TemporaryFolder folder;
+  Hdf5Writer writer(folder / "a.h5");
+  Hdf5GrowingDataset& x = writer.make_growing("x", 0, "m", Hdf5Precision::kCompressedSingle);
+  writer.append(x, std::vector{1e39});
+  const std::string path = folder / "a.h5";
+  CHECK(error_message<InputError>([&] { writer.commit(); }) ==
+        path + ": error: dataset 'x' cannot hold 1e+39: single precision ends at 3.4e+38");
+}
+
+TEST_CASE("a dataset of doubles can be written anew, with as many values") {
+  const TemporaryFolder folder;
+  Hdf5Writer writer(folder / "a.h5");
+  writer.write("x", kValues, "m");
+  writer.overwrite("x", std::array{7.0, 8.0, 9.0});
+  CHECK(error_message<std::invalid_argument>([&] { writer.overwrite("x", std::array{1.0}); }) ==
+        "Hdf5Writer::overwrite: 'x' has 3 values, got 1");
+  writer.commit();
+  CHECK(Hdf5Reader(folder / "a.h5").reals("x", {3}) == std::vector{7.0, 8.0, 9.0});
 }
 
 TEST_CASE("the bytes of a checkpoint are those of the last one, whenever the program is killed") {

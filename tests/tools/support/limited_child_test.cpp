@@ -73,7 +73,7 @@ TEST_CASE("A child process reads nothing, prints nothing and writes no file") {
   CHECK(read_bytes(file).empty());
 }
 
-TEST_CASE("A signal that asks the program to stop ends the child and the work") {
+TEST_CASE("An interruption ends the child and the program") {
   const ChildResult result = run_in_child([] {
     return run_program("sprung-test", []() -> int {
       const pid_t parent = ::getpid();
@@ -87,5 +87,5 @@ TEST_CASE("A signal that asks the program to stop ends the child and the work") 
     });
   });
   CHECK(result.exit_code == kInterrupted);
-  CHECK(result.output == "sprung-test: interrupted: the work under way was given up\n");
+  CHECK(result.output == "sprung-test: interrupted: the files made before are whole\n");
 }

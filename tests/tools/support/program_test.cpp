@@ -65,10 +65,23 @@ TEST_CASE("the message comes after what was printed before") {
   CHECK(result.output == "step 1\nsprung-test: error: stuck\n");
 }
 
-TEST_CASE("the first interrupt sets a flag and does not end the program") {
+TEST_CASE("an interruption ends the program where it is, with a message") {
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
   std::signal(signal, SIG_DFL);  // nohup has the program ignore SIGHUP
   const ChildResult result = run([signal]() -> int {
+    { const DeferredInterrupts earlier; }
+    std::raise(signal);
+    return 50;
+  });
+  CHECK(result.exit_code == 130);
+  CHECK(result.output == "sprung-test: interrupted: the files made before are whole\n");
+}
+
+TEST_CASE("the first interruption that is deferred sets a flag and does not end the program") {
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  std::signal(signal, SIG_DFL);  // nohup has the program ignore SIGHUP
+  const ChildResult result = run([signal]() -> int {
+    const DeferredInterrupts deferred;
     if (interrupt_requested()) return 50;
     std::raise(signal);
     if (!interrupt_requested()) return 51;
@@ -78,8 +91,9 @@ TEST_CASE("the first interrupt sets a flag and does not end the program") {
   CHECK(result.output == "sprung-test: interrupted: closed\n");
 }
 
-TEST_CASE("the second interrupt ends the program at once") {
+TEST_CASE("the second interruption that is deferred ends the program at once") {
   const ChildResult result = run([]() -> int {
+    const DeferredInterrupts deferred;
     std::raise(SIGINT);
     std::raise(SIGINT);
     return 50;

@@ -34,6 +34,8 @@ from sprung_tools.runs.measures import (
 from sprung_tools.runs.ride_assessment import calc_assessment
 from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel, find_forces, read_window
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
+from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
@@ -131,6 +133,16 @@ def make_json(
                       allow_nan=False)  # fmt: skip
 
 
+def list_doubts(runs: Sequence[Run]) -> list[str]:
+    """What the runs warned of, and what their files do not hold, each in a line."""
+    doubts = []
+    for run in runs:
+        warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
+        doubts += [f"warning: {run.label}: {text}" for text in warnings]
+        doubts += [f"note: {run.label}: {text}" for text in list_gaps(run.results)]
+    return doubts
+
+
 def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/ride rigid=terrain_rigid.h5 '2 modes=terrain_2modes.h5' --points chassis.seat")
     parser.add_argument(
@@ -174,6 +186,9 @@ def main() -> int:
     for response in responses:
         low, high = response.frequency[0], response.frequency[-1]
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
+    doubts = list_doubts(runs)
+    if doubts:
+        text.append("\n".join(doubts))
     for headings, rows in tables:
         cells = list(rows)
         if cells:

@@ -6,7 +6,7 @@ dataset along one of its axes is a number; None if any will do; or a dataset tha
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 Size = int | str | tuple[str, int] | None
@@ -39,11 +39,14 @@ class Found(NamedTuple):
 
 
 class Layout:
-    """The rules of a format. attributes: pattern of a group → the attributes that it must have, and their types."""
+    """The rules of a format. attributes: pattern of a group → the attributes that it must have, and their types;
+    chosen: keys of [output.store], with which a run file chooses the datasets that are there."""
 
     def __init__(
-        self, datasets: Mapping[str, Rule], attributes: Mapping[str, Mapping[str, type]] | None = None
-    ) -> None:
+        self, datasets: Mapping[str, Rule], attributes: Mapping[str, Mapping[str, type]] | None = None,
+        chosen: Collection[str] = (),
+    ) -> None:  # fmt: skip
+        self.chosen = frozenset(chosen)
         self._datasets = [(compile_pattern(pattern), rule) for pattern, rule in datasets.items()]
         self._attributes = [(compile_pattern(pattern), rule) for pattern, rule in (attributes or {}).items()]
 

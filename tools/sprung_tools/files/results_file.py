@@ -21,6 +21,13 @@ import numpy as np
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESULTS, open_hdf5, read_numbers, read_text
+from sprung_tools.files.point_motion import (
+    BodyMotion,
+    calc_derived,
+    find_derived,
+    list_derived_points,
+    read_body_motion,
+)
 from sprung_tools.files.stored_file import StoredFile
 
 COMPONENTS = ("x", "y", "angle")
@@ -58,6 +65,7 @@ class ResultsFile:
     def __init__(self, file: StoredFile) -> None:
         self.file = file
         self.path: str = file.filename
+        self._motions: dict[str, BodyMotion] = {}  # of bodies, from which those of points were computed
         if file.attribute("", "complete", int, 0) != 1:
             raise InputError(
                 f"{self.path}: error: the run that wrote this file did not finish (complete = 0); "
@@ -85,12 +93,41 @@ class ResultsFile:
         return self.file.has_group(group) and self.file.attribute(group, "is_static_equilibrium", int, 0) == 1
 
     def names(self, group: str) -> list[str]:
-        """The names in a group, e.g. names("bodies"); empty if there is no such group."""
-        return self.file.names(group)
+        """The names in a group, e.g. names("bodies"); empty if there is no such group. Among the points are those that
+        are not stored, but follow from the motion of their bodies."""
+        names = self.file.names(group)
+        if group.strip("/") == "points":
+            return sorted({*names, *list_derived_points(self.file)})
+        return names
 
     def has(self, quantity: str) -> bool:
-        """Whether the file holds the dataset behind a quantity."""
-        return self.file.has_dataset(parse_quantity(quantity).dataset)
+        """Whether the file holds the dataset behind a quantity, or what it follows from."""
+        dataset = parse_quantity(quantity).dataset
+        return self.file.has_dataset(dataset) or find_derived(self.file, dataset) is not None
+
+    def history(self, dataset: str) -> tuple[Floats, str]:
+        """Reads a dataset, or computes it if it is the motion of a point that is not stored. Returns (values, unit)."""
+        derived = None if self.file.has_dataset(dataset) else find_derived(self.file, dataset)
+        if derived is None:
+            return read_numbers(self.file, dataset)
+        if derived.body not in self._motions:
+            self._motions[derived.body] = read_body_motion(self.file, derived.body)
+        return calc_derived(self.file, derived, self._motions)
+
+    def check_every_output(self, quantity: str) -> None:
+        """Throws InputError if the dataset behind a quantity is not stored at every output: for spectra, filters and
+        counts interpolation is not enough."""
+        dataset = parse_quantity(quantity).dataset
+        if not self.file.has_dataset(dataset):
+            derived = find_derived(self.file, dataset)
+            dataset = f"bodies/{derived.body}/acceleration" if derived else dataset
+        every = self.file.every(dataset)
+        if every > 1:
+            step = 1e3 * every * float(np.median(np.diff(self.time)))
+            raise InputError(
+                f"{self.path}: error: '{dataset}' is stored every {step:g} ms only, but is needed at every output; "
+                "[output.step] of the run file chooses how often"
+            )
 
     def num_modes(self, body: str) -> int:
         """The number of modes that a body has in the run, 0 if it is rigid."""
@@ -128,7 +165,7 @@ class ResultsFile:
         wanted = parse_quantity(quantity)
         if not self.has(quantity):
             raise self._no_such(quantity, wanted.dataset)
-        values, unit = read_numbers(self.file, wanted.dataset)
+        values, unit = self.history(wanted.dataset)
         if values.ndim not in (1, 2) or values.shape[0] != self.time.size:
             raise InputError(
                 f"{self.path}: error: dataset '{wanted.dataset}' has shape {values.shape}, "
@@ -144,6 +181,10 @@ class ResultsFile:
         return values, (units[column] if column < len(units) else unit)
 
     def _no_such(self, quantity: str, dataset: str) -> InputError:
+        group, name, *_ = (*dataset.split("/"), "")
+        owner = "bodies" if group == "recovery" else group
+        if self.file.has_group(f"model/resolved/{owner}/{name}") and not self.file.names(f"{group}/{name}"):
+            return self.file.fail(self.file.describe_missing(dataset))
         folder = dataset
         while folder and not self.file.has_group(folder):
             folder = folder.rpartition("/")[0]

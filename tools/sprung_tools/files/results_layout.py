@@ -28,6 +28,10 @@ DATASETS: dict[str, Rule] = {
     "energy/*": Numbers(("time",)),
     "events/time": Numbers((None,)),
     "events/*": Texts("events/time"),
+    "warnings/concerns": Texts("warnings/text"),
+    "warnings/of": Texts("warnings/text"),
+    "warnings/text": Texts(),
+    "last_state/*": Numbers((None,)),
     "model/run_text": Texts(1),
     "model/vehicle_text": Texts(1),
     "model/overrides": Texts(),
@@ -80,4 +84,5 @@ RESULTS_LAYOUT = Layout(
         f"{RESOLVED}/forces/*": ELEMENT,
         f"{RESOLVED}/road": {"shape": str, "file": str},
     },
+    chosen=("points", "bodies", "joints", "forces", "wrenches", "recovery"),
 )  # fmt: skip

@@ -112,26 +112,42 @@ class StoredFile:
         return values[key]
 
     def numbers(self, name: str) -> tuple[Floats, str]:
-        """Reads a dataset of numbers. Returns (values, unit)."""
+        """Reads a dataset of numbers. Returns (values, unit). Of a history that is not stored at every output, the
+        values between are interpolated linearly, so that all histories have the rows of `time`."""
         dataset = self._dataset(name)
         if dataset is None:
-            raise self.fail(f"no dataset '{name}'")
+            raise self.fail(self.describe_missing(name))
         with reading(self.filename, f"dataset '{name}'"):
             kind = dataset.dtype.kind
         if kind not in "fiu":
             raise self.fail(f"dataset '{name}' does not hold numbers")
         found = self._layout.find(name)
         rule = found.rule if found and isinstance(found.rule, Numbers) else None
+        every = self.every(name)
         if found and rule:
-            self._check_shape(name, dataset, tuple(self._resolve(name, size, found.names) for size in rule.shape))
+            shape = [self._resolve(name, size, found.names) for size in rule.shape]
+            if every > 1 and shape[0] is not None:
+                shape[0] = -(-shape[0] // every)
+            self._check_shape(name, dataset, tuple(shape))
         self._check_size(name, dataset)
         with reading(self.filename, f"dataset '{name}'"):
             values = np.asarray(dataset[()], dtype=float)
+        if every > 1:
+            values = interpolate_rows(values, every, (self.shape("time") or (0,))[0])
         if not np.all(np.isfinite(values)):
             raise self.fail(f"dataset '{name}' holds values that are not finite")
         if found and rule and rule.within is not None:
             self._check_indices(name, values, self._resolve(name, rule.within, found.names))
         return values, self.attribute(name, "unit", str, "")
+
+    def every(self, name: str) -> int:
+        """The number of outputs from one stored row of a history to the next. 1 for a history that is not stored."""
+        if not self.has_dataset(name):
+            return 1
+        every: int = self.attribute(name, "every", int, 1)
+        if every < 1:
+            raise self.fail(f"attribute 'every' of '{name}' is {every}, expected 1 or more")
+        return every
 
     def texts(self, name: str) -> list[str]:
         """Reads a dataset of strings."""
@@ -164,6 +180,14 @@ class StoredFile:
     def _dataset(self, name: str) -> h5py.Dataset | None:
         found = self._find(name)
         return found if isinstance(found, h5py.Dataset) else None
+
+    def describe_missing(self, name: str) -> str:
+        """Says that there is no such dataset, and for a history what chooses whether it is stored."""
+        group = name.partition("/")[0]
+        key = "wrenches" if "/on_" in name else group
+        if key in self._layout.chosen:
+            return f"'{name}' is not stored; '{key}' in [output.store] of the run file chooses what is"
+        return f"no dataset '{name}'"
 
     def _check_attribute(self, values: dict[str, Any], name: str, key: str, wanted: type) -> None:
         """Throws InputError if an attribute is missing or of another type; makes it of the type wanted."""
@@ -212,6 +236,18 @@ class StoredFile:
         if outside.size:
             expected = f"expected a whole number from 0 to {(count or 0) - 1}"
             raise self.fail(f"dataset '{name}' holds {outside.flat[0]:g}, {expected}")
+
+
+def interpolate_rows(values: Floats, every: int, count: int) -> Floats:
+    """Values at `count` outputs from those at each `every`-th; behind the last one they stay as they are."""
+    if len(values) == 0:
+        return values
+    at = np.arange(count)
+    before = np.minimum(at // every, len(values) - 1)
+    after = np.minimum(before + 1, len(values) - 1)
+    share = ((at - before * every) / every).reshape(-1, *(1,) * (values.ndim - 1))
+    interpolated: Floats = values[before] + share * (values[after] - values[before])
+    return interpolated
 
 
 def decode(value: Any) -> str:

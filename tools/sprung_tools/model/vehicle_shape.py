@@ -2,9 +2,7 @@
 
 A body is drawn by nodes and straight lines in its body frame. A body with a superelement has the superelement's nodes
 and elements; a named point away from all nodes is joined to the node with which it moves. A rigid body has its named
-points, joined to its origin. Nodes move with the body frame and the modes:
-
-    r = R + A(θ) (u₀ + s Φη),   s is the magnification of the deflection, 1 for none            (bodies, eq. 1)
+points, joined to its origin.
 """
 
 from collections.abc import Mapping, Sequence
@@ -15,6 +13,8 @@ import numpy as np
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real
+from sprung_tools.files.point_motion import BodyMotion, Motion, read_body_motion
+from sprung_tools.files.point_motion import calc_motion as calc_point_motion
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import GROUND, Point, read_elements, read_points
 
@@ -35,14 +35,6 @@ class DrawnBody(NamedTuple):
     shapes: Floats  # [N×2×n] m per unit amplitude
     points: dict[str, int]  # name of a point without its body → node
     num_elements: int  # of the superelement; 0 without one
-
-
-class Motion(NamedTuple):
-    """The motion of N nodes in k samples, world axes."""
-
-    position: Floats  # [k×N×2] m, with the deflection magnified
-    velocity: Floats  # [k×N×2] m/s
-    acceleration: Floats  # [k×N×2] m/s²
 
 
 class Wheel(NamedTuple):
@@ -123,34 +115,8 @@ def join_to_nodes(results: ResultsFile, name: str, superelement: str, points: Ma
 
 def calc_motion(results: ResultsFile, body: DrawnBody, samples: Samples, magnification: float = 1.0) -> Motion:
     """The positions, velocities and accelerations of a body's nodes in some samples."""
-    state = {}
-    for what in ("position", "velocity", "acceleration"):
-        state[what] = read_numbers(results.file, f"bodies/{body.name}/{what}")[0][samples]
-    rigid = np.zeros((len(state["position"]), 0))
-    eta: dict[str, Floats] = {what: rigid for what in ("amplitude", "rate", "acceleration")}
-    if body.shapes.shape[2] > 0:
-        for what in eta:
-            eta[what] = read_numbers(results.file, f"bodies/{body.name}/modal/{what}")[0][samples]
-    bend, rate, change = (np.einsum("ndm,km->knd", body.shapes, one) for one in eta.values())
-    angle = state["position"][:, 2, None]
-    omega, alpha = state["velocity"][:, 2, None, None], state["acceleration"][:, 2, None, None]
-
-    def to_world(local: Floats) -> Floats:
-        c, s = np.cos(angle), np.sin(angle)
-        return np.stack([c * local[..., 0] - s * local[..., 1], s * local[..., 0] + c * local[..., 1]], axis=-1)
-
-    def cross_z(vector: Floats) -> Floats:
-        """e_z × vector."""
-        return np.stack([-vector[..., 1], vector[..., 0]], axis=-1)
-
-    arm = to_world(body.places + bend)
-    bending = to_world(rate)
-    return Motion(
-        state["position"][:, None, :2] + to_world(body.places + magnification * bend),
-        state["velocity"][:, None, :2] + omega * cross_z(arm) + bending,
-        state["acceleration"][:, None, :2] + alpha * cross_z(arm) - omega**2 * arm + 2.0 * omega * cross_z(bending)
-        + to_world(change),
-    )  # fmt: skip
+    state = BodyMotion(*(values[samples] for values in read_body_motion(results.file, body.name)))
+    return calc_point_motion(state, body.places, body.shapes, magnification)
 
 
 def read_wheels(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[Wheel]:

@@ -7,7 +7,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.force_channels import CONTACT, FORCE, read_force_channel
+from sprung_tools.model.force_channels import CONTACT, FORCE, list_force_channels, read_force_channel
 from sprung_tools.model.resolved_model import read_direction
 from sprung_tools.model.vehicle_shape import DrawnBody, Wheel, calc_motion, read_links, read_road
 from sprung_tools.report.histories import find_heavy, list_monitored
@@ -35,6 +35,10 @@ def pack_frames(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Seque
             amplitudes[body.name] = [at(column) for column in values.T]
     nearest = np.clip(np.searchsorted(results.time, time), 0, results.time.size - 1)
     for wheel in wheels:
+        if not list_force_channels(results, wheel.name):  # not stored: drawn as on the ground, without its force
+            ones = np.ones_like(time)
+            tyres[wheel.name] = {"contact": encode(ones), "force": encode(0.0 * ones), "off": encode(ones[:0])}
+            continue
         contact, force = (read_force_channel(results, wheel.name, role)[0] for role in (CONTACT, FORCE))
         spans = find_spans(contact < 0.5, results.time)
         tyres[wheel.name] = {"contact": encode(contact[nearest]), "force": at(force), "off": encode(spans.ravel())}

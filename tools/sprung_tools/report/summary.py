@@ -24,6 +24,7 @@ from sprung_tools.report.histories import Channel, list_monitored
 from sprung_tools.report.packing import Packed
 from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
+from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.terminal.number_ranges import format_ranges
 
 Statistic = tuple[str, str, str, float]  # what it is of, name, unit, value
@@ -118,6 +119,9 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
         facts.append(("initial speed", f"{settings['speed']:g} m/s"))
     step = float(np.median(np.diff(results.time)))
     facts.append(("duration", f"{results.time[-1] - results.time[0]:g} s, a sample every {1e3 * step:g} ms"))
+    gaps = list_gaps(results)
+    if gaps:
+        facts.append(("results file", "; ".join(gaps)))
     flexible = []
     for body in results.names("bodies"):
         if results.num_modes(body):

@@ -32,6 +32,7 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
+from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
@@ -89,7 +90,7 @@ def find_points(results: ResultsFile, wanted: Sequence[str] = ()) -> list[str]:
     points = []
     for name in wanted:
         body, _, point = name.partition(".")
-        is_centre = point == CENTRE and not results.has(f"points/{name}/acceleration")
+        is_centre = point == CENTRE and not results.file.has_dataset(f"points/{name}/acceleration")
         points.append(f"bodies/{body}/{CENTRE}" if is_centre else f"points/{name}")
     return points
 
@@ -240,7 +241,7 @@ def describe_run(results: ResultsFile, window: Span) -> dict[str, Any]:
     return {
         "kind": "run", "title": results.title, "set": read_overrides(results.file),
         "span": {"from": window[0], "to": window[1], "unit": "s"},
-        "converged": is_converged(results), "warnings": warnings,
+        "converged": is_converged(results), "warnings": warnings, "not_stored": list_gaps(results),
     }  # fmt: skip
 
 

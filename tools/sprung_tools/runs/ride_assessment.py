@@ -66,6 +66,7 @@ def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
     """The angular acceleration [n], rad/s², of the body at a point. point: as calc_vibration() takes it."""
     group, name, *_ = point.split("/")
     body = name.partition(".")[0] if group == "points" else name
+    results.check_every_output(f"bodies/{body}/acceleration.angle")
     angular, _ = results.series(f"bodies/{body}/acceleration.angle")
     if group == "points" and results.num_modes(body):
         modal, _ = read_numbers(results.file, f"bodies/{body}/modal/acceleration")
@@ -83,6 +84,7 @@ def calc_vibration(results: ResultsFile, point: str) -> Vibration:
         except ValueError as error:
             raise InputError(f"{results.path}: error: {error}") from error
 
+    results.check_every_output(f"{point}/acceleration")
     along, up = (results.series(f"{point}/acceleration.{axis}")[0] for axis in ("x", "y"))
     vertical = weigh(up, WK)
     pitch = weigh(read_pitch_acceleration(results, point), WE)

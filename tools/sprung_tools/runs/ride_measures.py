@@ -8,7 +8,13 @@ from sprung_tools.files.array_types import Flags, Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.force_channels import CONTACT, DEFLECTION, FORCE, read_force_channel
+from sprung_tools.model.force_channels import (
+    CONTACT,
+    DEFLECTION,
+    FORCE,
+    list_force_channels,
+    read_force_channel,
+)
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
@@ -85,6 +91,7 @@ def calc_comfort(results: ResultsFile, point: str, window: Span) -> Comfort:
     `bodies/chassis/center_of_mass`."""
     step = sampling_step(results)
     inside = samples_between(results, *window)
+    results.check_every_output(f"{point}/acceleration.y")
     acceleration, _ = results.series(f"{point}/acceleration.y")
     try:
         weighted = weight_acceleration(acceleration, step)[inside]
@@ -105,8 +112,10 @@ def list_seats(results: ResultsFile) -> list[str]:
 
 
 def find_forces(results: ResultsFile, drawing: str) -> list[str]:
-    """The names of the force elements that are drawn as `spring` (suspensions) or as `wheel` (tyres)."""
-    return [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]
+    """The names of the force elements that are drawn as `spring` (suspensions) or as `wheel` (tyres), and whose
+    histories are stored."""
+    drawn = [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]
+    return [name for name in drawn if list_force_channels(results, name)]
 
 
 def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
@@ -152,7 +161,7 @@ def calc_bending(results: ResultsFile, body: str, window: Span) -> Bending | Non
     """A flexible body's largest bending moment; None if the file holds no moments of the body."""
     if not results.has(f"recovery/{body}/moment"):
         return None
-    moments, _ = read_numbers(results.file, f"recovery/{body}/moment")
+    moments, _ = results.history(f"recovery/{body}/moment")
     stations, _ = read_numbers(results.file, f"recovery/{body}/station")
     return find_largest_moment(results, moments, stations, window)
 

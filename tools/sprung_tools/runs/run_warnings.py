@@ -1,19 +1,20 @@
-"""Warnings about the numbers of a run, from its results file: those of sprung-dynamics at the end of a run, and where
-the linear modes of the vehicle are not valid."""
+"""Warnings about the numbers of a run, from its results file: those that sprung-dynamics gave, and where the linear
+modes of the vehicle are not valid. Files of programs that did not store their warnings have them computed anew."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from sprung_tools.files.array_types import Flags
+from sprung_tools.files.hdf5_file import read_texts
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.force_channels import CONTACT, read_force_channel
+from sprung_tools.model.force_channels import CONTACT, find_force_channel
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.mode_history import read_neglected
 
-# The limits at which sprung-dynamics itself warns; report_page_test.py compares the warnings.
-TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration (dynamics/output/run_report.cpp)
-ALARMING_CLOSURE = 1e-3  # relative (dynamics/program/run_command.cpp)
+# The limits at which sprung-dynamics itself warns (dynamics/output/run_warnings.cpp).
+TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration
+ALARMING_CLOSURE = 1e-3  # relative
 NEARLY = 0.9  # of the run's largest acceleration
 
 SUMMARY, MODES, EQUILIBRIUM = "summary", "modes", "equilibrium"  # which numbers a warning concerns
@@ -30,7 +31,20 @@ class RunWarning(NamedTuple):
 
 def list_warnings(results: ResultsFile) -> list[RunWarning]:
     """All warnings of a run, the gravest first."""
-    return [*warn_of_energy(results), *warn_of_missing_modes(results), *warn_of_wheels_in_the_air(results)]
+    if results.file.has_group("warnings"):
+        given = read_warnings(results)
+    else:
+        given = [*warn_of_energy(results), *warn_of_missing_modes(results)]
+    return [*given, *warn_of_wheels_in_the_air(results)]
+
+
+def read_warnings(results: ResultsFile) -> list[RunWarning]:
+    """The warnings that sprung-dynamics gave."""
+    concerns, of, texts = (read_texts(results.file, f"warnings/{name}") for name in ("concerns", "of", "text"))
+    return [
+        RunWarning(section, tuple(filter(None, names.split(", "))), text)
+        for section, names, text in zip(concerns, of, texts)
+    ]
 
 
 def warn_of_energy(results: ResultsFile) -> list[RunWarning]:
@@ -91,7 +105,8 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
     if not results.has("model/modes/undamped_frequency"):
         return []
     tyres = [force.name for force in read_elements(results, "forces").values() if force.on_road]
-    airborne = [name for name in tyres if np.any(read_force_channel(results, name, CONTACT)[0] < 0.5)]
+    contacts = {name: find_force_channel(results, name, CONTACT) for name in tyres}
+    airborne = [name for name, one in contacts.items() if one and np.any(results.series(one)[0] < 0.5)]
     if not airborne:
         return []
     text = (

@@ -9,7 +9,8 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from types import FrameType
+from typing import NamedTuple, NoReturn
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.programs.calls import BAD_INPUT, INTERRUPTED, call, end_with_parent, make_command
@@ -146,16 +147,24 @@ def open_pool(options: Options) -> Iterator[ProcessPoolExecutor]:
     shutil.rmtree(scratch, ignore_errors=True)  # of a study that was killed
     scratch.mkdir()
     pool = ProcessPoolExecutor(options.jobs, multiprocessing.get_context("fork"), prepare_process)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # else it is ignored, as under nohup
+        signal.signal(signal.SIGINT, interrupt_once)
     try:
         yield pool
     except BaseException:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second interruption would leave processes at work
         for child in multiprocessing.active_children():
             child.kill()
         raise
     finally:
         pool.shutdown(cancel_futures=True)
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def interrupt_once(_signal: int, _frame: FrameType | None) -> NoReturn:
+    """Interrupts this process, which ignores further interruptions: one that came while it ends its processes would
+    leave them at work."""
+    signal.signal(signal.SIGINT, lambda *_: None)
+    raise KeyboardInterrupt
 
 
 def prepare_process() -> None:

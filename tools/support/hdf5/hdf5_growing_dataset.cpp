@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
+#include "tools/support/hdf5/chunk_compressor.h"
 #include "tools/support/hdf5/fletcher32.h"
 #include "tools/support/hdf5/hdf5_library.h"
 
@@ -15,27 +18,41 @@ namespace sprung::support {
 
 namespace {
 
-constexpr std::size_t kMostChunkRows = 1024;
 constexpr std::size_t kTextChunkRows = 64;
 constexpr std::size_t kMostChunkValues = (std::size_t{1} << 20U) / sizeof(double);
+
+// Two rows at least, and no odd number: the checksum of numbers of single precision needs an even number of
+// them.
+std::size_t find_chunk_rows(std::size_t most, std::size_t row_size) {
+  const std::size_t rows = std::min({most, kMostChunkValues / row_size, Hdf5GrowingDataset::kMostChunkRows});
+  return std::max<std::size_t>((rows + 1) / 2 * 2, 2);
+}
 
 // One or two dimensions, as HDF5 takes them: the rank is that of the dataset.
 std::span<const hsize_t> shape_of(const std::array<hsize_t, 2>& rows_and_columns, std::size_t columns) {
   return std::span<const hsize_t>(rows_and_columns).first(columns == 0 ? 1 : 2);
 }
 
+std::string describe_overflow(const std::string& path, double value) {
+  return fmt::format("dataset '{}' cannot hold {:.3g}: single precision ends at {:.1e}", path, value,
+                     std::numeric_limits<float>::max());
+}
+
 }  // namespace
 
 Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns,
-                                       std::string_view unit)
+                                       std::string_view unit, ChunkCompressor* compressor,
+                                       std::size_t chunk_rows)
     : path_(path),
       columns_(columns),
       row_size_(std::max<std::size_t>(columns, 1)),
-      chunk_rows_(std::clamp<std::size_t>(kMostChunkValues / row_size_, 1, kMostChunkRows)) {
+      chunk_rows_(find_chunk_rows(chunk_rows, row_size_)),
+      compressor_(compressor) {
   const std::array<hsize_t, 2> shape{0, columns};
   const std::array<hsize_t, 2> chunk{chunk_rows_, columns};
-  dataset_ = hdf5::make_dataset(parent, path, H5T_IEEE_F64LE, shape_of(shape, columns),
-                                shape_of(chunk, columns), true);
+  dataset_ = hdf5::make_dataset(parent, path, compressor ? H5T_IEEE_F32LE : H5T_IEEE_F64LE,
+                                shape_of(shape, columns), shape_of(chunk, columns),
+                                compressor ? hdf5::Storage::kCompressed : hdf5::Storage::kGrowing);
   hdf5::write_string_attribute(dataset_.get(), "unit", unit);
   chunk_.assign(chunk_rows_ * row_size_ + 1, 0.0);
 }
@@ -44,7 +61,8 @@ Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& p
     : path_(path), columns_(0), row_size_(text_size / sizeof(double) + 1), chunk_rows_(kTextChunkRows) {
   const Hdf5Handle type = hdf5::make_string_type(row_size_ * sizeof(double));
   const std::array<hsize_t, 2> shape{0, 0}, chunk{chunk_rows_, 0};
-  dataset_ = hdf5::make_dataset(parent, path, type.get(), shape_of(shape, 0), shape_of(chunk, 0), true);
+  dataset_ = hdf5::make_dataset(parent, path, type.get(), shape_of(shape, 0), shape_of(chunk, 0),
+                                hdf5::Storage::kGrowing);
   chunk_.assign(chunk_rows_ * row_size_ + 1, 0.0);
 }
 
@@ -85,31 +103,85 @@ void Hdf5GrowingDataset::append_row(const double* values) {
 void Hdf5GrowingDataset::finish_row() {
   filled_ += row_size_;
   if (filled_ < chunk_.size() - 1) return;
-  write_chunk();
+  if (compressor_) {
+    write_single(true);
+  } else {
+    write_chunk();
+  }
   rows_before_ += chunk_rows_;
   filled_ = 0;
+  pending_is_written_ = false;
 }
 
 void Hdf5GrowingDataset::write_pending() {
   if (filled_ == 0) return;
   std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(),
             0.0);  // rows of the chunk before
-  write_chunk();
+  if (compressor_) {
+    write_single(false);
+  } else {
+    write_chunk();
+  }
+}
+
+void Hdf5GrowingDataset::write_last() {
+  if (filled_ == 0) return;
+  if (!compressor_) return write_pending();
+  std::fill(chunk_.begin() + static_cast<std::ptrdiff_t>(filled_), chunk_.end(), 0.0);
+  write_single(true);
+  rows_before_ += filled_ / row_size_;
+  filled_ = 0;
+}
+
+void Hdf5GrowingDataset::write_replacements() {
+  if (replacement_.empty()) return;
+  put_chunk(replaced_row_, rows_before_ + filled_ / row_size_, replacement_, 0);
+  replacement_.clear();
 }
 
 // Writes the chunk with its checksum directly: the library would copy it twice, and its own checksum is slow.
 void Hdf5GrowingDataset::write_chunk() {
   static_assert(std::endian::native == std::endian::little, "chunks are written as they are in memory");
-  const std::string what = fmt::format("dataset '{}' cannot be written", path_);
   const std::size_t size = chunk_rows_ * row_size_;
-  const std::array<hsize_t, 2> shape{rows_before_ + filled_ / row_size_, columns_};
-  const std::array<hsize_t, 2> start{rows_before_, 0};
   const std::uint32_t checksum = calc_fletcher32(std::span(chunk_).first(size));
   std::memcpy(chunk_.data() + size, &checksum, sizeof checksum);
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(chunk_.data()),
+                        size * sizeof(double) + sizeof checksum);
+  put_chunk(rows_before_, rows_before_ + filled_ / row_size_, bytes, 0);
+}
+
+// Writes the chunk in single precision, compressed if it is final.
+void Hdf5GrowingDataset::write_single(bool is_final) {
+  constexpr std::uint32_t kShuffleAndDeflate = 0b110;  // bits of the filters in their order
+  const std::size_t rows = rows_before_ + filled_ / row_size_;
+  std::vector<float> values(chunk_rows_ * row_size_);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<float>(chunk_[i]);
+    if (std::isinf(values[i]) && std::isfinite(chunk_[i]))
+      throw hdf5::Failure(describe_overflow(path_, chunk_[i]));
+  }
+  const std::vector<std::uint8_t> bytes = ChunkCompressor::append_checksum(values);
+  if (!is_final) {
+    put_chunk(rows_before_, rows, bytes, kShuffleAndDeflate);
+    pending_is_written_ = true;
+  } else if (pending_is_written_) {
+    replacement_ = compressor_->compress(bytes);
+    replaced_row_ = rows_before_;
+  } else {
+    put_chunk(rows_before_, rows, compressor_->compress(bytes), 0);
+  }
+}
+
+// @param rows  of the dataset from then on
+void Hdf5GrowingDataset::put_chunk(std::size_t first_row, std::size_t rows,
+                                   std::span<const std::uint8_t> bytes, std::uint32_t filters_left_out) {
+  const std::string what = fmt::format("dataset '{}' cannot be written", path_);
+  const std::array<hsize_t, 2> shape{rows, columns_};
+  const std::array<hsize_t, 2> start{first_row, 0};
   hdf5::check(H5Dset_extent(dataset_.get(), shape.data()), what);
-  hdf5::check(H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, start.data(),
-                             size * sizeof(double) + sizeof checksum, chunk_.data()),
-              what);
+  hdf5::check(
+      H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, filters_left_out, start.data(), bytes.size(), bytes.data()),
+      what);
 }
 
 }  // namespace sprung::support

@@ -102,15 +102,19 @@ std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t ele
 }
 
 Hdf5Handle make_dataset(hid_t file, const std::string& path, hid_t type, std::span<const hsize_t> shape,
-                        std::span<const hsize_t> chunk, bool growing) {
+                        std::span<const hsize_t> chunk, Storage storage) {
   const std::string what = fmt::format("dataset '{}' cannot be made", path);
   const int rank = static_cast<int>(shape.size());
   std::vector<hsize_t> limits(shape.begin(), shape.end());
-  if (growing) limits.front() = H5S_UNLIMITED;
+  if (storage != Storage::kFixed) limits.front() = H5S_UNLIMITED;
   const Hdf5Handle space = own(H5Screate_simple(rank, shape.data(), limits.data()), H5Sclose, what);
   const Hdf5Handle properties = make_properties(H5P_DATASET_CREATE);
   check(H5Pset_chunk(properties.get(), rank, chunk.data()), what);
   check(H5Pset_fletcher32(properties.get()), what);
+  if (storage == Storage::kCompressed) {
+    check(H5Pset_shuffle(properties.get()), what);
+    check(H5Pset_deflate(properties.get(), 1), what);
+  }
   return own(H5Dcreate2(file, path.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
              H5Dclose, what);
 }

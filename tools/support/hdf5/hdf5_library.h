@@ -55,10 +55,16 @@ std::string parent_path(const std::string& path);
 /// Chunk of a dataset: whole rows, at most about 1 MiB, at least one element.
 std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t element_size);
 
-/// A dataset with checksums. @param growing  its first dimension has no limit
+enum class Storage {
+  kFixed,
+  kGrowing,     ///< the first dimension has no limit
+  kCompressed,  ///< likewise; filters "shuffle" and "deflate" after the checksum
+};
+
+/// A dataset with checksums.
 /// @param chunk  as many numbers as `shape`
 Hdf5Handle make_dataset(hid_t file, const std::string& path, hid_t type, std::span<const hsize_t> shape,
-                        std::span<const hsize_t> chunk, bool growing);
+                        std::span<const hsize_t> chunk, Storage storage);
 
 /// Fixed-length UTF-8, padded with NUL.
 Hdf5Handle make_string_type(std::size_t size);

@@ -21,7 +21,8 @@ auto Hdf5Reader::attempt(Function&& function) const {
   }
 }
 
-Hdf5Reader::Hdf5Reader(fs::path path) : path_(std::move(path)) {
+Hdf5Reader::Hdf5Reader(fs::path path, Compression compression)
+    : path_(std::move(path)), compression_(compression) {
   hdf5::initialize();
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
@@ -51,7 +52,7 @@ bool Hdf5Reader::has(const std::string& object) const {
 
 std::vector<std::int64_t> Hdf5Reader::shape(const std::string& dataset) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
     return std::vector<std::int64_t>(stored.shape().begin(), stored.shape().end());
   });
 }
@@ -59,7 +60,7 @@ std::vector<std::int64_t> Hdf5Reader::shape(const std::string& dataset) const {
 std::vector<double> Hdf5Reader::reals(const std::string& dataset,
                                       const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
     stored.expect_shape(shape);
     return stored.read_doubles();
   });
@@ -68,7 +69,7 @@ std::vector<double> Hdf5Reader::reals(const std::string& dataset,
 std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_t first,
                                           std::size_t count) const {
   return attempt([&] {
-    hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
     stored.select_rows(first, count);
     return stored.read_doubles();
   });
@@ -77,7 +78,7 @@ std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_
 std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
                                                const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
     stored.expect_shape(shape);
     return stored.read_integers();
   });
@@ -86,7 +87,7 @@ std::vector<std::int64_t> Hdf5Reader::integers(const std::string& dataset,
 std::vector<std::string> Hdf5Reader::strings(const std::string& dataset,
                                              const std::vector<std::int64_t>& shape) const {
   return attempt([&] {
-    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_);
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
     stored.expect_shape(shape);
     return stored.read_strings();
   });

@@ -12,12 +12,15 @@ namespace sprung::support {
 
 /// Reads an HDF5 file strictly. A missing dataset, an unexpected type or shape, NaN, infinity or a wrong
 /// checksum throws InputError `path: error: dataset '…' …`. Declared sizes are compared with the size of the
-/// file before memory is allocated. Compressed datasets and strings of variable length are refused: this
-/// project's files have none, and such strings have no checksum.
+/// file before memory is allocated. Strings of variable length are refused: this project's files have none,
+/// and they have no checksum.
 class Hdf5Reader {
  public:
+  /// Whether datasets may be compressed by "shuffle" and "deflate". A few bytes may then stand for a thousand
+  /// times as many, so only files with histories may have them.
+  enum class Compression { kRefused, kAllowed };
   /// @throws InputError if the file is missing, empty, truncated, not HDF5, or was left open by its writer.
-  explicit Hdf5Reader(std::filesystem::path path);
+  explicit Hdf5Reader(std::filesystem::path path, Compression compression = Compression::kRefused);
 
   bool has(const std::string& object) const;
   std::vector<std::int64_t> shape(const std::string& dataset) const;
@@ -43,6 +46,7 @@ class Hdf5Reader {
   auto attempt(Function&& function) const;  // HDF5's failures as InputError of this file
 
   std::filesystem::path path_;
+  Compression compression_;
   std::uint64_t file_size_ = 0;
   Hdf5Handle file_;
 };

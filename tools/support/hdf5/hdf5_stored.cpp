@@ -71,8 +71,12 @@ std::size_t expect_string(hid_t type, const std::string& label) {
   return H5Tget_size(type);
 }
 
-// Refuses filters other than the checksum: compressed data may have any size when they are unpacked.
-void expect_plain(hid_t properties, const std::string& label) {
+constexpr std::uint64_t kMostCompressed = 1100;  // bytes that deflate makes of one at most
+
+// Refuses filters other than the checksum, and those of compressed histories unless they are allowed:
+// compressed data may have any size when they are unpacked. @return whether the data is compressed
+bool check_filters(hid_t properties, bool may_be_compressed, const std::string& label) {
+  bool is_compressed = false;
   const int num_filters = check(H5Pget_nfilters(properties), label);
   for (int i = 0; i < num_filters; ++i) {
     unsigned flags = 0;
@@ -80,10 +84,13 @@ void expect_plain(hid_t properties, const std::string& label) {
     const H5Z_filter_t filter = check(H5Pget_filter2(properties, static_cast<unsigned>(i), &flags,
                                                      &num_values, nullptr, 0, nullptr, nullptr),
                                       label);
-    if (filter != H5Z_FILTER_FLETCHER32) {
+    if (filter == H5Z_FILTER_FLETCHER32) continue;
+    if (!may_be_compressed || (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE)) {
       throw Failure(label + " is compressed or coded by a filter, which is not read");
     }
+    is_compressed = true;
   }
+  return is_compressed;
 }
 
 // The content of a padded string.
@@ -112,7 +119,8 @@ Hdf5Handle open_dataset(std::int64_t file, const std::string& path) {
 
 }  // namespace
 
-StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size)
+StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size,
+                             bool may_be_compressed)
     : label_(fmt::format("dataset '{}'", path)), dataset_(open_dataset(file, path)) {
   const std::string what = label_ + " cannot be read";
   type_ = own(H5Dget_type(dataset_.get()), H5Tclose, what);
@@ -121,29 +129,30 @@ StoredDataset::StoredDataset(std::int64_t file, const std::string& path, std::ui
   std::vector<hsize_t> dimensions(check(H5Sget_simple_extent_ndims(space_.get()), what));
   check(H5Sget_simple_extent_dims(space_.get(), dimensions.data(), nullptr), what);
   shape_.assign(dimensions.begin(), dimensions.end());
-  check_storage(file_size);
+  check_storage(file_size, may_be_compressed);
   for (const std::size_t size : shape_) count_ *= size;
 }
 
 // A damaged or hostile header may declare any size. So the data must be in the file before memory is
 // allocated.
-void StoredDataset::check_storage(std::uint64_t file_size) const {
+void StoredDataset::check_storage(std::uint64_t file_size, bool may_be_compressed) const {
   const std::string what = label_ + " cannot be read";
   const Hdf5Handle properties = own(H5Dget_create_plist(dataset_.get()), H5Pclose, what);
   const H5D_layout_t layout = H5Pget_layout(properties.get());
   const bool elsewhere = (layout != H5D_CHUNKED && layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) ||
                          H5Pget_external_count(properties.get()) != 0;
   if (elsewhere) throw Failure(label_ + " has its data in another file, which is not read");
-  expect_plain(properties.get(), label_);
+  const bool is_compressed = check_filters(properties.get(), may_be_compressed, label_);
   const std::uint64_t stored = H5Dget_storage_size(dataset_.get());
-  const std::uint64_t limit = std::min(stored, file_size);
+  const std::uint64_t held = std::min(stored, file_size),
+                      limit = is_compressed ? kMostCompressed * held : held;
   const bool empty = std::find(shape_.begin(), shape_.end(), std::size_t{0}) != shape_.end();
   std::uint64_t declared = empty ? 0 : std::max<std::uint64_t>(H5Tget_size(type_.get()), 1);
   for (const std::size_t size : shape_) {
     if (declared != 0 && size > limit / declared) {
       throw Failure(
           fmt::format("{} declares {} values, but holds only {} bytes (it is damaged, or compressed)", label_,
-                      format_shape(std::span<const std::size_t>(shape_)), limit));
+                      format_shape(std::span<const std::size_t>(shape_)), held));
     }
     declared *= size;
   }

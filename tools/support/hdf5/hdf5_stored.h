@@ -11,12 +11,13 @@
 
 namespace sprung::support::hdf5 {
 
-/// A dataset that is stored plainly: chunked or contiguous, not compressed, and in this file.
+/// A dataset that is stored plainly: chunked or contiguous, not compressed unless that is allowed, and in
+/// this file.
 class StoredDataset {
  public:
   /// @param file_size  [bytes]; a dataset that declares more than this is refused
   /// @throws Failure if it is missing, damaged, or declares more data than the file holds
-  StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size);
+  StoredDataset(std::int64_t file, const std::string& path, std::uint64_t file_size, bool may_be_compressed);
 
   const std::vector<std::size_t>& shape() const { return shape_; }
   /// @param expected  -1 accepts any  @throws Failure naming both shapes
@@ -30,7 +31,7 @@ class StoredDataset {
   std::vector<std::string> read_strings() const;
 
  private:
-  void check_storage(std::uint64_t file_size) const;
+  void check_storage(std::uint64_t file_size, bool may_be_compressed) const;
   void read(std::int64_t memory_type, void* values) const;
 
   std::string label_;  // "dataset '/modes/shape'"

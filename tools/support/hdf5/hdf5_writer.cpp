@@ -8,6 +8,7 @@
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/output_target.h"
+#include "tools/support/hdf5/chunk_compressor.h"
 #include "tools/support/hdf5/created_file.h"
 #include "tools/support/hdf5/hdf5_library.h"
 #include "tools/support/hdf5/open_mark.h"
@@ -190,7 +191,8 @@ void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
   attempt([&] {
     prepare_dataset(dataset);
     const std::vector<hsize_t> chunk = hdf5::chunk_shape(array.shape, array.element_size);
-    Hdf5Handle handle = hdf5::make_dataset(file_.get(), dataset, array.file_type, array.shape, chunk, false);
+    Hdf5Handle handle =
+        hdf5::make_dataset(file_.get(), dataset, array.file_type, array.shape, chunk, hdf5::Storage::kFixed);
     if (array.unit) hdf5::write_string_attribute(handle.get(), "unit", *array.unit);
     const std::string what = fmt::format("dataset '{}' cannot be written", dataset);
     if (count > 0) {
@@ -230,10 +232,16 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
 }
 
 Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::size_t columns,
-                                             std::string_view unit) {
+                                             std::string_view unit, Hdf5Precision precision,
+                                             std::size_t chunk_rows) {
   attempt([&] {
     prepare_dataset(dataset);
-    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit);
+    ChunkCompressor* compressor = nullptr;
+    if (precision == Hdf5Precision::kCompressedSingle) {
+      if (!compressor_) compressor_ = std::make_unique<ChunkCompressor>();
+      compressor = compressor_.get();
+    }
+    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit, compressor, chunk_rows);
   });
   return growing_.at(dataset);
 }
@@ -261,6 +269,7 @@ void Hdf5Writer::write_pending() {
 void Hdf5Writer::flush() {
   attempt([this] {
     write_pending();
+    for (auto& [name, dataset] : growing_) dataset.write_replacements();
     hdf5::set_open_mark(file_.get());
     hdf5::check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), "cannot be written");
   });
@@ -273,6 +282,21 @@ void Hdf5Writer::move_to(const fs::path& name) {
   if (error)
     throw InputError({.path = target_.string()}, fmt::format("cannot be written: {}", error.message()));
   name_ = name;
+}
+
+void Hdf5Writer::overwrite(const std::string& dataset, std::span<const double> values) {
+  attempt([&] {
+    const std::string what = fmt::format("dataset '{}' cannot be written", dataset);
+    const Hdf5Handle handle = hdf5::own(H5Dopen2(file_.get(), dataset.c_str(), H5P_DEFAULT), H5Dclose, what);
+    const Hdf5Handle space = hdf5::own(H5Dget_space(handle.get()), H5Sclose, what);
+    const auto count = static_cast<std::size_t>(hdf5::check(H5Sget_simple_extent_npoints(space.get()), what));
+    if (count != values.size()) {
+      throw std::invalid_argument(
+          fmt::format("Hdf5Writer::overwrite: '{}' has {} values, got {}", dataset, count, values.size()));
+    }
+    hdf5::check(H5Dwrite(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                what);
+  });
 }
 
 void Hdf5Writer::remove(const std::string& object) {
@@ -310,6 +334,9 @@ void Hdf5Writer::checkpoint(const std::string& dataset, std::span<const std::uin
 
 void Hdf5Writer::close() {
   move_to(temporary_);
+  attempt([this] {
+    for (auto& [name, dataset] : growing_) dataset.write_last();
+  });
   flush();
   growing_.clear();
   attempt([this] {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -15,6 +16,12 @@
 #include "tools/support/hdf5/row_matrix.h"
 
 namespace sprung::support {
+
+/// How the numbers of a growing dataset are stored.
+enum class Hdf5Precision {
+  kDouble,
+  kCompressedSingle,  ///< relative accuracy 6e-8, and 3 bytes or less for a value of a smooth history
+};
 
 /// Writes an HDF5 file under a temporary name beside the target; `commit` renames it when it is whole.
 ///
@@ -66,8 +73,12 @@ class Hdf5Writer {
   void attribute(const std::string& object, const std::string& name, std::int64_t value);
 
   /// An empty dataset of `columns` columns (rank 1 where columns is 0) whose rows grow by `append`.
+  /// @param chunk_rows  the most rows that are collected and written at once: memory and file take whole
+  /// chunks
   /// @return valid until `commit` or `keep_partial`
-  Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit);
+  Hdf5GrowingDataset& make_growing(const std::string& dataset, std::size_t columns, std::string_view unit,
+                                   Hdf5Precision precision = Hdf5Precision::kDouble,
+                                   std::size_t chunk_rows = Hdf5GrowingDataset::kMostChunkRows);
   /// Likewise of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
   Hdf5GrowingDataset& make_growing_texts(const std::string& dataset, std::size_t text_size);
   /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
@@ -81,6 +92,8 @@ class Hdf5Writer {
   /// @param dataset  where `bytes` are written, in place of those of the last checkpoint; "" for none
   void checkpoint(const std::string& dataset = {}, std::span<const std::uint8_t> bytes = {});
 
+  /// Writes a dataset of doubles anew, which was written before with as many values.
+  void overwrite(const std::string& dataset, std::span<const double> values);
   void remove(const std::string& object);  ///< a group or dataset that was made before
 
   void commit();        ///< closes, syncs and renames to the target
@@ -106,7 +119,8 @@ class Hdf5Writer {
   std::filesystem::path target_, temporary_, partial_;
   std::filesystem::path name_;  // of the file as it is now: the temporary or the partial one
   Hdf5Handle file_;
-  std::set<std::string> objects_;  // paths of the groups and datasets made
+  std::set<std::string> objects_;                // paths of the groups and datasets made
+  std::unique_ptr<ChunkCompressor> compressor_;  // where a dataset needs it
   std::map<std::string, Hdf5GrowingDataset> growing_;
   bool finished_ = false;
 };

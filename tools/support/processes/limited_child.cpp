@@ -18,8 +18,6 @@
 #include <exception>
 #include <new>
 
-#include "tools/support/terminal/program.h"
-
 // The address sanitizer reserves far more address space than any limit would allow.
 #if defined(__SANITIZE_ADDRESS__)
 #define SPRUNG_ADDRESS_SANITIZER 1
@@ -130,7 +128,6 @@ std::string receive(std::string_view name, const Child& child, const ChildLimits
   std::string bytes;
   std::array<char, 1 << 16> buffer{};
   for (;;) {
-    if (interrupt_requested()) throw Interrupted("the work under way was given up");
     if (Clock::now() > end) {
       throw ChildFailure(fmt::format("{} came to no end within {} s", name, 10 * limits.processor_seconds));
     }

@@ -30,7 +30,7 @@ class ChildFailure : public std::runtime_error {
 /// @param name    of the library, for messages
 /// @param work    returns its result as bytes; what else it changes stays in the child
 /// @return the bytes. They come from a process that may have been damaged by its input: check them.
-/// @throws ChildFailure; Interrupted if the user asks to stop while the child runs
+/// @throws ChildFailure
 /// Checked by tests/tools/support/limited_child_test.cpp
 std::string run_in_limited_child(std::string_view name, const std::function<std::string()>& work,
                                  const ChildLimits& limits);

@@ -1,6 +1,7 @@
 #include "tools/support/terminal/program.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -21,8 +22,21 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
-// The first signal requests the end; the second ends the process at once, as usual.
+std::atomic<int> num_deferrals{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler reads it");
+
+const char* program_name = "";
+
+// Only calls that are safe in a signal handler.
+[[noreturn]] void end_at_once() {
+  for (const char* text : {program_name, ": interrupted: the files made before are whole\n"})
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  ::_exit(kInterrupted);
+}
+
+// Where interruptions are deferred, the first one is noted; the second ends the process at once, as usual.
 void handle_interrupt(int signal) {
+  if (num_deferrals == 0) end_at_once();
   if (interrupted.exchange(true)) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -89,11 +103,20 @@ int run_body(const char* name, const std::function<int()>& body) {
 
 }  // namespace
 
+DeferredInterrupts::DeferredInterrupts() {
+  ++num_deferrals;
+}
+
+DeferredInterrupts::~DeferredInterrupts() {
+  --num_deferrals;
+}
+
 bool interrupt_requested() {
   return interrupted.load(std::memory_order_relaxed);
 }
 
 int run_program(const char* name, const std::function<int()>& body) {
+  program_name = name;
   install_signal_handlers();
   return run_body(name, body);
 }

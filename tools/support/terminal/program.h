@@ -9,15 +9,26 @@ namespace sprung::support {
 /// Exit codes of every program.
 enum ExitCode : int { kGood = 0, kCheckFailed = 1, kBadInput = 2, kNumerics = 3, kInterrupted = 130 };
 
-/// The user pressed Ctrl-C, or the process received SIGTERM, or its terminal was closed. It is thrown after
-/// open files have been closed.
+/// An interruption that was deferred; it is thrown after open files have been closed.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Whether SIGINT, SIGTERM or SIGHUP has arrived since `run_program` started. A SIGHUP that was ignored from
-/// the start, as by nohup, does not count. Long calculations ask this repeatedly.
+/// An interruption is SIGINT (Ctrl-C), SIGTERM, or a SIGHUP (the terminal was closed) that was not ignored
+/// from the start, as by nohup. It ends the program there and then, with a message and kInterrupted: no file
+/// of ours is ever half-written under its own name. While an object of this class exists, the first
+/// interruption is only noted: a calculation that has results to save asks for it repeatedly and then ends in
+/// order.
+class DeferredInterrupts {
+ public:
+  DeferredInterrupts();
+  ~DeferredInterrupts();
+  DeferredInterrupts(const DeferredInterrupts&) = delete;
+  DeferredInterrupts& operator=(const DeferredInterrupts&) = delete;
+};
+
+/// Whether an interruption has come that was deferred.
 bool interrupt_requested();
 
 /// Runs a program's body: installs the signal handlers, turns exceptions into one message on stderr and an

@@ -11,6 +11,7 @@ namespace sprung::support {
 namespace {
 
 constexpr auto kDrawInterval = std::chrono::milliseconds(100);
+constexpr double kSecondsOfSilence = 1.0;
 constexpr int kWidth = 30;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -30,14 +31,25 @@ void ProgressBar::update(double fraction) {
   if (quiet_) return;
   fraction = std::clamp(fraction, 0.0, 1.0);
   if (is_terminal_) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_drawn_ < kDrawInterval) return;
-    last_drawn_ = now;
-    draw(fraction);
+    if (is_time_to_draw()) draw(fraction);
   } else if (static_cast<int>(10.0 * fraction) > tenths_) {
     tenths_ = static_cast<int>(10.0 * fraction);
     fmt::print(stderr, "{}: {} %\n", label_, 10 * tenths_);
   }
+}
+
+void ProgressBar::update(const std::string& state) {
+  if (quiet_ || !is_terminal_ || seconds_since(start_) < kSecondsOfSilence || !is_time_to_draw()) return;
+  fmt::print(stderr, "\r{}: {}\x1b[K", label_, state);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+bool ProgressBar::is_time_to_draw() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_drawn_ < kDrawInterval) return false;
+  last_drawn_ = now;
+  return true;
 }
 
 void ProgressBar::draw(double fraction) {

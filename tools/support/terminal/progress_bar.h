@@ -16,10 +16,14 @@ class ProgressBar {
 
   /// @param fraction  part that is done, from 0 to 1
   void update(double fraction);
+  /// Of a calculation of unknown length: on a terminal what it is at, from a second after the beginning on;
+  /// elsewhere nothing.
+  void update(const std::string& state);
   /// Ends the line. Called by the destructor too.
   void finish();
 
  private:
+  bool is_time_to_draw();  // on a terminal
   void draw(double fraction);
 
   std::string label_;

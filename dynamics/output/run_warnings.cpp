@@ -1,0 +1,95 @@
+#include "dynamics/output/run_warnings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "dynamics/input/point_reference.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
+constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
+constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
+constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
+constexpr const char* kModes = "modes";
+
+void warn_of_energy(const RunStatistics& statistics, std::vector<RunWarning>& warnings) {
+  if (is_balanced(statistics)) return;
+  warnings.push_back(
+      {kSummary,
+       {std::string(kComputation)},
+       fmt::format(
+           "the energy balance does not close (relative {:.1e}): do not trust this run; try a smaller "
+           "relative tolerance, and look for motion much smaller than the vehicle",
+           statistics.energy_closure())});
+}
+
+void warn_of_missing_modes(const Model& model, const RunStatistics& statistics, const WorstNeglect& worst,
+                           const AdaptivityOptions& adaptivity, std::vector<RunWarning>& warnings) {
+  if (adaptivity.changes || worst.coordinate < 0 || !(worst.share.worst() > kTooMuchLeftOut)) return;
+  const bool is_stiffened = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                        [](const Body& body) { return body.stiffening.has_value(); });
+  const std::string text = fmt::format(
+      "modes are missing: {}, which was left out, would have reached {:.3g} % of the largest deflection, "
+      "{:.3g} "
+      "% of the largest acceleration of the points asked for (at t = {:.3g} s); take more modes{}",
+      adaptivity.full->coordinate_name(worst.coordinate), 100.0 * worst.share.deflection,
+      100.0 * worst.share.acceleration, worst.time,
+      is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
+  const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(worst.coordinate).body);
+  const std::string& body = adaptivity.full->bodies[place].name;
+  std::vector<std::string> points;
+  for (const PointStatistics& point : statistics.point_statistics()) {
+    if (body_of_point(point.point) == body) points.push_back(point.point);
+  }
+  warnings.push_back({kSummary, points, text});
+  warnings.push_back({kModes, {body}, text});
+}
+
+}  // namespace
+
+bool is_of_computation(const RunWarning& warning) {
+  return warning.of == std::vector<std::string>{std::string(kComputation)};
+}
+
+bool is_balanced(const RunStatistics& statistics) {
+  return statistics.energy_closure() <= kAlarmingClosure;
+}
+
+std::vector<RunWarning> list_model_warnings(const Model& model) {
+  if (model.length_scale >= kSmallestScale) return {};
+  return {{kSummary,
+           {std::string(kComputation)},
+           fmt::format("no point is farther than {:.1e} m from its body's origin; the dead band of switching "
+                       "forces, 1e-9 m, is not small against that: use smaller units, as mm with g and ms",
+                       model.length_scale)}};
+}
+
+std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
+                                          const TransientStatistics& transient,
+                                          const AdaptivityOptions* adaptivity) {
+  std::vector<RunWarning> warnings;
+  warn_of_energy(statistics, warnings);
+  if (adaptivity != nullptr) {
+    warn_of_missing_modes(model, statistics, transient.worst_neglect, *adaptivity, warnings);
+  }
+  return warnings;
+}
+
+void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings) {
+  std::vector<std::string> concerns, of, texts;
+  for (const RunWarning& warning : warnings) {
+    concerns.push_back(warning.concerns);
+    of.push_back(fmt::format("{}", fmt::join(warning.of, ", ")));
+    texts.push_back(warning.text);
+  }
+  file.write("/warnings/concerns", concerns);
+  file.write("/warnings/of", of);
+  file.write("/warnings/text", texts);
+}
+
+}  // namespace sprung::dynamics

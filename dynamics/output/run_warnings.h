@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/output/run_statistics.h"
+#include "dynamics/simulation/transient.h"
+#include "tools/support/hdf5/hdf5_file.h"
+
+namespace sprung::dynamics {
+
+/// What a warning is of that concerns all numbers of a run.
+inline constexpr std::string_view kComputation = "computation";
+
+/// A doubt about numbers of a run.
+struct RunWarning {
+  std::string concerns;         ///< which numbers: "summary", "modes"
+  std::vector<std::string> of;  ///< their points or bodies, or "computation"
+  std::string text;
+};
+
+/// Whether it concerns all numbers of the run.
+bool is_of_computation(const RunWarning& warning);
+/// Whether the energy balance closes well enough to trust the run.
+bool is_balanced(const RunStatistics& statistics);
+
+/// The warnings that need no run.
+std::vector<RunWarning> list_model_warnings(const Model& model);
+/// The warnings about a run that has come to its end, the gravest first, without those of the model.
+/// @param adaptivity  null if no modes were left out
+/// Checked by tests/dynamics/program/warnings_test.py
+std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
+                                          const TransientStatistics& transient,
+                                          const AdaptivityOptions* adaptivity);
+
+/// Writes /warnings (dynamics/output/results.md).
+void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/output_input.h"
+
+namespace sprung::dynamics {
+
+/// A time history of the results file.
+struct HistorySize {
+  std::string name;  ///< of its dataset: "/points/chassis.seat/position"
+  std::size_t columns = 1;
+};
+
+/// What the choice of histories depends on, besides `[output]`.
+struct StorageConditions {
+  double num_outputs = 0.0;
+  double output_step = 0.0;           ///< [s]
+  std::vector<std::string> reported;  ///< points in the summary
+  std::set<std::string>
+      stiffened_bodies;  ///< whose points do not follow from the motion by its linear shapes
+};
+
+/// Which histories of a run are stored, how often, and in which precision: what `[output]` asks for, and for
+/// the rest all that fits into `output.size`. What does not fit is reduced in this order, until it does:
+/// single precision, compressed; only the points in the summary, of which the others follow from the motion
+/// of bodies and modes; stress resultants every 10 ms; reactions and wrenches every 10 ms. Checked by
+/// tests/dynamics/output/storage_plan_test.cpp
+class StoragePlan {
+ public:
+  StoragePlan(const OutputSettings& settings, const std::vector<HistorySize>& histories,
+              StorageConditions conditions);
+
+  /// Outputs from one stored row of a history to the next; 0 if it is not stored.
+  long every(const std::string& history) const;
+  /// Whether a history is stored in single precision. Time and energies are not.
+  bool is_single(const std::string& history) const;
+  double size() const { return size_; }  ///< estimate for all histories [MB]
+  /// What was reduced to make it fit, in words.
+  const std::vector<std::string>& reductions() const { return reductions_; }
+
+ private:
+  struct Choice {
+    StorageRequest::Which which;
+    std::set<std::string> names;
+    long every;
+  };
+  Choice& choice(StoredGroup group) { return choices_[static_cast<std::size_t>(group)]; }
+  void reduce(const OutputSettings& settings, const std::vector<HistorySize>& histories);
+  bool thin_out(const OutputSettings& settings, StoredGroup group);
+  double estimate(const std::vector<HistorySize>& histories) const;
+
+  StorageConditions conditions_;
+  bool is_single_ = false;
+  std::array<Choice, kStoredGroupNames.size()> choices_;
+  double size_ = 0.0;
+  std::vector<std::string> reductions_;
+};
+
+/// The plan in a line of text: "about 18 MB; …".
+std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings);
+
+}  // namespace sprung::dynamics

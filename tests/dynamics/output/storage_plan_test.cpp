@@ -1,0 +1,105 @@
+#include "dynamics/output/storage_plan.h"
+
+#include "tests/catch.h"
+
+using namespace sprung::dynamics;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+using Which = StorageRequest::Which;
+
+// 10,001 outputs of 8 bytes: 0.08 MB for a column.
+const std::vector<HistorySize> kHistories{
+    {"/time", 1},
+    {"/points/frame.seat/acceleration", 20},
+    {"/points/frame.front/acceleration", 20},
+    {"/points/blade.tip/acceleration", 20},
+    {"/bodies/frame/position", 20},
+    {"/bodies/frame/center_of_mass/position", 20},
+    {"/joints/pivot/reaction", 20},
+    {"/forces/tyre/force", 20},
+    {"/forces/tyre/on_wheel", 20},
+    {"/recovery/frame/moment", 40},
+    {"/energy/kinetic", 1},
+};
+
+StoragePlan make_plan(const OutputSettings& settings) {
+  return StoragePlan(settings, kHistories,
+                     {.num_outputs = 10001.0,
+                      .output_step = 1e-3,
+                      .reported = {"frame.seat"},
+                      .stiffened_bodies = {"blade"}});
+}
+
+// A column of 10,001 rows [MB], in double and in single precision.
+constexpr double kDouble = 0.080008, kSingle = 0.0290029;
+
+}  // namespace
+
+TEST_CASE("What fits into the size is stored at every output in double precision") {
+  const StoragePlan plan = make_plan({});
+  for (const HistorySize& history : kHistories) {
+    CHECK(plan.every(history.name) == 1);
+    CHECK_FALSE(plan.is_single(history.name));
+  }
+  CHECK_THAT(plan.size(), WithinRel(202 * kDouble, 1e-9));
+  CHECK(plan.reductions().empty());
+  CHECK(describe_storage(plan, {}) == "about 16 MB");
+}
+
+TEST_CASE("What does not fit is reduced step by step, and no further than needed") {
+  OutputSettings settings;
+  settings.size = 15.0;  // without two of the points
+  StoragePlan plan = make_plan(settings);
+  CHECK(plan.every("/points/frame.seat/acceleration") == 1);
+  CHECK(plan.every("/points/frame.front/acceleration") == 0);
+  CHECK(plan.every("/bodies/frame/center_of_mass/position") == 0);
+  CHECK(plan.every("/points/blade.tip/acceleration") == 1);  // it does not follow from the body's motion
+  CHECK_FALSE(plan.is_single("/points/frame.seat/acceleration"));
+  CHECK_THAT(plan.size(), WithinRel(162 * kDouble, 1e-9));
+
+  settings.size = 5.0;
+  plan = make_plan(settings);
+  CHECK(plan.is_single("/points/frame.seat/acceleration"));
+  CHECK_FALSE(plan.is_single("/time"));
+  CHECK_FALSE(plan.is_single("/energy/kinetic"));
+  CHECK(plan.every("/recovery/frame/moment") == 1);
+  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + 160 * kSingle, 1e-9));
+
+  settings.size = 4.0;
+  plan = make_plan(settings);
+  CHECK(plan.every("/recovery/frame/moment") == 10);
+  CHECK(plan.every("/joints/pivot/reaction") == 1);
+
+  settings.size = 1.0;  // which cannot be reached
+  plan = make_plan(settings);
+  CHECK(plan.every("/joints/pivot/reaction") == 10);
+  CHECK(plan.every("/forces/tyre/on_wheel") == 10);
+  CHECK(plan.every("/forces/tyre/force") == 1);
+  CHECK(plan.every("/bodies/frame/position") == 1);
+  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + (80 + 8) * kSingle, 1e-9));
+  CHECK(describe_storage(plan, settings) ==
+        "about 2.7 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
+        "single "
+        "precision; stress resultants every 10 ms; reactions of joints and loads of force elements every 10 "
+        "ms");
+}
+
+TEST_CASE("What the run file asks for is stored, however large it is") {
+  OutputSettings settings;
+  settings.size = 1.0;
+  settings.is_single = false;
+  settings.groups[static_cast<std::size_t>(StoredGroup::kPoints)].which = Which::kAll;
+  settings.groups[static_cast<std::size_t>(StoredGroup::kRecovery)].every = 5;
+  settings.groups[static_cast<std::size_t>(StoredGroup::kForces)] = {
+      .which = Which::kListed, .names = {"spring"}, .locations = {}, .every = {}};
+  settings.groups[static_cast<std::size_t>(StoredGroup::kJoints)].which = Which::kNone;
+  const StoragePlan plan = make_plan(settings);
+  CHECK_FALSE(plan.is_single("/bodies/frame/position"));
+  CHECK(plan.every("/points/frame.front/acceleration") == 1);
+  CHECK(plan.every("/recovery/frame/moment") == 5);
+  CHECK(plan.every("/forces/tyre/force") == 0);
+  CHECK(plan.every("/forces/tyre/on_wheel") == 10);
+  CHECK(plan.every("/joints/pivot/reaction") == 0);
+}

@@ -1,0 +1,73 @@
+#!/usr/bin/python3
+"""What a run warns of is in its results, with the numbers that it concerns, and in what --json prints."""
+
+import json
+import sys
+import unittest
+
+from dynamics_test_case import ROOT, DynamicsTestCase, run_program
+
+sys.path.insert(0, str(ROOT / "tools"))
+
+from sprung_tools.files.results_file import open_results  # noqa: E402  after the path
+from sprung_tools.runs.run_warnings import read_warnings  # noqa: E402
+
+
+class Warnings(DynamicsTestCase):
+    def run_to_json(self, *settings):
+        """Runs to results.h5. Returns the exit code, stderr and what --json printed."""
+        words = [word for setting in settings for word in ("--set", setting)]
+        process = self.run_program(*words, "--json", "--quiet", "-o", "results.h5")
+        return process.returncode, process.stderr, json.loads(process.stdout)
+
+    def read_warnings(self):
+        with open_results(self.results) as results:
+            return [one._asdict() for one in read_warnings(results)]
+
+    def test_missing_modes_are_said_of_the_points_of_their_body(self):
+        # Over the bump the third mode, left out, would carry much of the acceleration.
+        code, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2")
+        self.assertEqual(code, 0)
+        first, second = printed["warnings"]
+        self.assertTrue(first["text"].startswith("modes are missing: chassis.mode 3, which was left out"))
+        self.assertEqual((first["concerns"], first["of"]), ("summary", ["chassis.origin", "chassis.seat"]))
+        self.assertEqual((second["concerns"], second["of"], second["text"]), ("modes", ["chassis"], first["text"]))
+        stored = [
+            {"concerns": one["section"], "of": list(one["of"]), "text": one["text"]} for one in self.read_warnings()
+        ]
+        self.assertEqual(stored, printed["warnings"])
+
+    def test_an_energy_balance_that_does_not_close_concerns_the_computation(self):
+        code, said, printed = self.run_to_json(
+            "duration=0.5", "integrator.method=generalized-alpha", "integrator.fixed_step=0.005", "output_step=0.005"
+        )
+        self.assertEqual(code, 1)
+        warning = printed["warnings"][0]
+        self.assertEqual((warning["concerns"], warning["of"]), ("summary", ["computation"]))
+        self.assertIn("the energy balance does not close", warning["text"])
+        self.assertEqual(self.read_warnings()[0]["text"], warning["text"])
+        self.assertIn(f"warning: {warning['text']}\n", said)
+
+    def test_a_good_run_has_none(self):
+        _, _, printed = self.run_to_json("duration=0.2", "adaptivity.indicator=false")
+        self.assertEqual((printed["warnings"], self.read_warnings()), ([], []))
+
+    def test_ride_prints_the_warnings_above_its_tables(self):
+        _, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2")
+        ride = run_program([ROOT / "tools/ride", "results.h5"], cwd=self.folder)
+        text = f"warning: chassis 2 modes: {printed['warnings'][0]['text']}"
+        self.assertEqual(ride.stdout.count(text), 1)
+        self.assertLess(ride.stdout.index(text), ride.stdout.index("point "))
+
+    def test_wall_time_and_the_times_of_program_and_integration_are_told_apart(self):
+        _, _, printed = self.run_to_json("duration=0.2")
+        self.assertGreater(printed["integration_cpu_time"], 0.0)
+        self.assertGreater(printed["cpu_time"], printed["integration_cpu_time"])
+        self.assertGreater(printed["elapsed"], 0.0)
+        table = self.run_program("--set", "duration=0.2", "--quiet").stdout
+        for name in ("wall time of the run", "CPU time of the program", "CPU time of the integration"):
+            self.assertIn(name, table)
+
+
+if __name__ == "__main__":
+    unittest.main()

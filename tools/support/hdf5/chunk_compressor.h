@@ -1,0 +1,35 @@
+#pragma once
+
+// Private to this room.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace sprung::support {
+
+/// Packs chunks of numbers of single precision as HDF5's filters "fletcher32", "shuffle" and "deflate" do,
+/// one after the other: the checksum follows the values, then come all first bytes of the numbers, all second
+/// ones and so on, and these are compressed. Neighbours in a history have the same leading bytes.
+class ChunkCompressor {
+ public:
+  ChunkCompressor();
+  ~ChunkCompressor();
+  ChunkCompressor(const ChunkCompressor&) = delete;
+  ChunkCompressor& operator=(const ChunkCompressor&) = delete;
+
+  /// @param values  of a chunk, an even number of them
+  /// @return the chunk without "shuffle" and "deflate", of one size for all chunks of a shape
+  static std::vector<std::uint8_t> append_checksum(std::span<const float> values);
+  /// @param chunk  with its checksum
+  /// @throws hdf5::Failure if there is no memory
+  std::vector<std::uint8_t> compress(std::span<const std::uint8_t> chunk);
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+  std::vector<std::uint8_t> shuffled_;
+};
+
+}  // namespace sprung::support
