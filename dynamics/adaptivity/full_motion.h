@@ -11,7 +11,7 @@
 namespace sprung::dynamics {
 
 /// Motion in coordinates of a full model, while models are run in which some of its modes are held: it
-/// carries the state from one such model to the next (system, eq. 11; adaptivity, eqs. 4, 5).
+/// carries the state from one such model to the next (system, eq. 12; adaptivity, eqs. 4, 5).
 class FullMotion {
  public:
   /// @param full   has to outlive this

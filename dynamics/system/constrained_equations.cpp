@@ -86,7 +86,7 @@ void ConstrainedEquations::improve_accelerations() {
 }
 
 // Bodies without mass: M has no inverse, but with M_s in its place the error of a solution falls to the share
-// of the stand-ins in the mass that moves (system, eq. 12).
+// of the stand-ins in the mass that moves (system, eq. 13).
 bool ConstrainedEquations::solve_without_mass() {
   if (model_->num_constraints > 0 && !factorise()) return false;
   v_dot_.setZero();
@@ -128,6 +128,19 @@ bool ConstrainedEquations::update_accelerations(std::span<const int> branches) {
   return true;
 }
 
+void ConstrainedEquations::set_motion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                      const Eigen::VectorXd& v_dot, const Eigen::VectorXd& lambda,
+                                      std::span<const int> branches) {
+  terms_.update_positions(time, q);
+  terms_.update_jacobian();
+  terms_.update_mass();
+  terms_.update_velocities(v);
+  terms_.update_forces(branches);
+  v_dot_ = v_dot;
+  lambda_ = lambda;
+  terms_.set_has_accelerations();
+}
+
 double ConstrainedEquations::calc_motion_power() {
   if (!model_->has_motions) return 0.0;
   terms_.calc_time_rate(motion_rate_);
@@ -155,6 +168,16 @@ bool ConstrainedEquations::close_joints(double time, const Eigen::VectorXd& q) {
     terms_.update_positions(time, closing_q_);
   }
   return false;
+}
+
+void ConstrainedEquations::calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x) {
+  x = force;
+  apply_inverse_mass(x);
+  if (model_->num_constraints == 0) return;
+  violation_.setZero();
+  terms_.jacobian().add_product(x, violation_);
+  calc_correction();
+  x -= correction_;
 }
 
 double ConstrainedEquations::close_rates(const Eigen::VectorXd& v) {

@@ -26,6 +26,9 @@ class ConstrainedEquations {
   /// Accelerations and multipliers, after positions, Jacobian and velocities of the terms.
   /// @return false where NaN or infinity came out, or constraints have become dependent
   bool update_accelerations(std::span<const int> branches);
+  /// Takes accelerations and multipliers from elsewhere, for positions and velocities that close the joints.
+  void set_motion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                  const Eigen::VectorXd& v_dot, const Eigen::VectorXd& lambda, std::span<const int> branches);
   /// Entries of the factor for the multipliers.
   int num_factor_entries() const { return multipliers_.num_factor_entries(); }
   /// Whether `v_dot` and `multipliers` belong to the present time, q and v.
@@ -36,6 +39,9 @@ class ConstrainedEquations {
   /// Positions and Jacobian where the joints close, moved from q by the least distance in the mass metric.
   /// @return false where they do not close
   bool close_joints(double time, const Eigen::VectorXd& q);
+  /// Accelerations that additional forces would cause, after update_accelerations:
+  /// M x + φ_qᵀμ = force, φ_q x = 0. @param force, x  nq
+  void calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x);
   /// Velocities nearest to v, in the mass metric, that the joints allow; after close_joints.
   /// @return largest |φ_q v + φ_t| before [m/s, rad/s]; NaN where there is no such velocity
   double close_rates(const Eigen::VectorXd& v);

@@ -196,6 +196,14 @@ void DependentSolver::set_reference() {
   for (DiagonalBlock& block : blocks_) block.reference_determinant = block.lu.determinant();
 }
 
+void DependentSolver::raise_reference() {
+  const auto raise = [](double& reference, double value) {
+    if (std::abs(value) > std::abs(reference)) reference = value;
+  };
+  for (Single& single : singles_) raise(single.reference, values_[single.source]);
+  for (DiagonalBlock& block : blocks_) raise(block.reference_determinant, block.lu.determinant());
+}
+
 bool DependentSolver::is_mirrored() const {
   return std::any_of(
              singles_.begin(), singles_.end(),

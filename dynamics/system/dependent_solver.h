@@ -35,11 +35,13 @@ class DependentSolver {
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
   /// Marks the present factors as those of a good partition.
   void set_reference();
-  /// Largest factor by which the determinant of a block has fallen since `set_reference`.
+  /// Moves the reference to the present factors in the blocks whose determinant is larger than it was there.
+  void raise_reference();
+  /// Largest factor by which the determinant of a block has fallen since the reference.
   double decay() const;
   /// Whether the determinant of a block has changed sign since `set_reference`. It cannot do so along a
   /// motion: a mechanism passes det φ_d = 0 only at a turning point of its independent coordinates, before
-  /// which another partition is chosen.
+  /// which another partition is chosen, and at a change point, which is passed in a step of its own.
   bool is_mirrored() const;
   int num_factor_entries() const;
   int num_blocks() const { return static_cast<int>(singles_.size() + blocks_.size()); }

@@ -8,7 +8,7 @@
 namespace sprung::dynamics {
 
 /// A model in which some modal coordinates of another stand still at a value of their own: their bodies keep
-/// that deformation, with the inertia that belongs to it, and have the remaining modes (system, eq. 11).
+/// that deformation, with the inertia that belongs to it, and have the remaining modes (system, eq. 12).
 struct HeldModes {
   Model model;                   ///< same markers, joints, forces and constraints
   std::vector<int> coordinates;  ///< of `model`: their place in the other model's, ascending

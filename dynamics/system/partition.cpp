@@ -26,8 +26,11 @@ Partition choose_partition(const SystemTerms& terms) {
   const Model& model = terms.model();
   Partition partition;
   std::vector<bool> is_dependent(static_cast<std::size_t>(model.num_coordinates), false);
-  for (const int column : choose_columns(scaled_jacobian(terms)).columns) {
-    is_dependent[static_cast<std::size_t>(column)] = true;
+  const ColumnPivots pivots = choose_columns(scaled_jacobian(terms));
+  for (const int column : pivots.columns) is_dependent[static_cast<std::size_t>(column)] = true;
+  if (!pivots.sizes.empty()) {
+    const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
+    partition.smallest_pivot = *smallest / *largest;
   }
   for (int i = 0; i < model.num_coordinates; ++i) {
     (is_dependent[static_cast<std::size_t>(i)] ? partition.dependent : partition.independent).push_back(i);

@@ -11,6 +11,8 @@ namespace sprung::dynamics {
 struct Partition {
   std::vector<int> independent;  ///< ascending, num_freedoms
   std::vector<int> dependent;    ///< ascending, num_constraints
+  /// Of the pivots of φ_q, of the largest: it vanishes where constraints become dependent.
+  double smallest_pivot = 1.0;
 };
 
 /// Chooses the partition by pivoting φ_q with its columns scaled by 1/√M_ii, so that light bodies follow

@@ -40,6 +40,9 @@ class PartitionedEquations {
   /// Accepts the motion at which the equations stand, if it is complete.
   void accept_motion();
 
+  /// Goes back to the accepted motion, without its velocities.
+  void return_to_accepted();
+
   /// Positions: dependents from independents, Jacobian and its factors. Where it fails, the positions are
   /// those of the accepted motion, without velocities.
   Outcome update_positions(double time, std::span<const double> q_independent);
@@ -65,6 +68,9 @@ class PartitionedEquations {
     mutable_terms().set_fading_forces(std::move(fading));
   }
 
+  /// For positions at which the independents do not give the dependents, see ConstrainedEquations; after it
+  /// `return_to_accepted`.
+  ConstrainedEquations& all_coordinates() { return full_; }
   /// The equations in all coordinates, at the motion evaluated last.
   const ConstrainedEquations& constrained() const { return full_; }
   const SystemTerms& terms() const { return full_.terms(); }
@@ -77,20 +83,24 @@ class PartitionedEquations {
   Eigen::MatrixXd calc_directions() const;
   /// Dᵀ M D, f×f, after update_accelerations.
   Eigen::MatrixXd calc_reduced_mass(const Eigen::MatrixXd& directions) const;
+  /// Accelerations that additional forces would cause, see ConstrainedEquations.
+  void calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x) { full_.calc_response(force, x); }
   /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
   Eigen::VectorXd calc_reduced_force(const Eigen::MatrixXd& directions) const;
 
   /// Entries of the factors that an evaluation computes: its work grows with them.
   int num_factor_entries() const { return dependents_.num_factor_entries() + full_.num_factor_entries(); }
 
-  /// How much worse the dependents follow the independents than when the partition was chosen, at least 1.
+  /// How much worse the dependents follow the independents than when the partition was chosen, or than at the
+  /// best motion that was marked since, at least 1.
   double partition_decay() const { return dependents_.decay(); }
+  /// Marks the present motion, for a partition that was not a good one when it was chosen.
+  void mark_if_best() { dependents_.raise_reference(); }
 
  private:
   SystemTerms& mutable_terms() { return full_.terms(); }
   bool solve_dependents(double time);
   bool has_lost_turns() const;
-  void return_to_accepted();
   void refactor();
 
   const Model* model_;
@@ -98,6 +108,7 @@ class PartitionedEquations {
   Partition partition_;
   DependentSolver dependents_;
   int num_freedoms_, num_constraints_;
+  double closing_tolerance_ = 0.0;     // of joints
   std::vector<int> dependent_angles_;  // coordinates
 
   double accepted_time_ = 0.0;

@@ -148,6 +148,7 @@ BumpResult drive_over_bump(const BumpRun& run) {
   const int chassis = model.bodies[static_cast<std::size_t>(model.find_body("chassis"))].first_coordinate;
   VectorXd phi(model.num_constraints);
   std::vector<Eigen::Vector3d> rows;
+  std::vector<double> accelerations;
   TransientOptions options;
   options.end_time = run.duration;
   options.integrator = {.method = run.method, .relative_tolerance = run.relative_tolerance};
@@ -157,6 +158,7 @@ BumpResult drive_over_bump(const BumpRun& run) {
     const double mirror = run.mirrored ? -1.0 : 1.0;
     rows.emplace_back(start.direction * (q[chassis] - balance[0]), q[chassis + 1] - balance[1],
                       mirror * q[chassis + 2]);
+    accelerations.push_back(snapshot.v_dot[chassis + 1]);
     snapshot.terms().calc_residual(phi);
     result.largest_violation = std::max(result.largest_violation, phi.cwiseAbs().maxCoeff());
     closure.add(snapshot.energy);
@@ -164,6 +166,8 @@ BumpResult drive_over_bump(const BumpRun& run) {
   result.statistics = run_transient(model, start.state, options);
   result.chassis.resize(3, static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) result.chassis.col(static_cast<Eigen::Index>(i)) = rows[i];
+  result.acceleration =
+      Eigen::Map<const VectorXd>(accelerations.data(), static_cast<Eigen::Index>(accelerations.size()));
   result.lowest = result.chassis.row(1).minCoeff();
   result.highest = result.chassis.row(1).maxCoeff();
   result.closure = closure.value();

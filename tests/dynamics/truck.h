@@ -52,6 +52,7 @@ struct BumpResult {
   /// Chassis frame at each output (1 ms): distance along the heading and height from static equilibrium [m],
   /// angle [rad], mirrored back where the truck was mirrored; 3×outputs.
   Eigen::Matrix3Xd chassis;
+  Eigen::VectorXd acceleration;        ///< of the chassis frame, vertical, at each output [m/s²]
   double lowest = 0.0, highest = 0.0;  ///< of the height
   double largest_violation = 0.0;      ///< of the constraints [m]
   double closure = 0.0;                ///< of the energy book

@@ -94,6 +94,27 @@ TEST_CASE("Generalized-α without a partition takes the truck over the bump alik
   }
 }
 
+TEST_CASE("Generalized-α neither shakes stiff modes that its steps do not resolve, nor pays for them",
+          "[truck]") {
+  // An error of position in the highest mode, 4250 Hz, is 7e8 1/s² of it in the acceleration. Restarts from
+  // such accelerations made vibrations: 1.5 m/s² and 6.1e4 evaluations at 1e-3, 7e4 evaluations at 1e-4.
+  const test::BumpRun run{.num_chassis_modes = 36, .relative_tolerance = 1e-7};
+  const test::BumpResult reference = test::drive_over_bump(run);
+  for (const double tolerance : {1e-3, 1e-4}) {
+    test::BumpRun other_run = run;
+    other_run.relative_tolerance = tolerance;
+    other_run.method = dynamics::SteppingMethod::kGeneralizedAlpha;
+    const test::BumpResult other = test::drive_over_bump(other_run);
+    const Eigen::VectorXd error = other.acceleration - reference.acceleration;
+    const double mean = error.norm() / std::sqrt(static_cast<double>(error.size()));
+    INFO("tolerance " << tolerance << ", root mean square " << mean << " m/s², largest "
+                      << error.lpNorm<Eigen::Infinity>() << " m/s², closure " << other.closure
+                      << ", evaluations " << other.statistics.stepper.evaluations);
+    CHECK(mean < (tolerance > 5e-4 ? 1.0 : 0.3));
+    CHECK(other.statistics.stepper.evaluations < (tolerance > 5e-4 ? 20'000 : 40'000));
+  }
+}
+
 TEST_CASE("Stiff modes cost few additional evaluations: steps follow their excitation", "[truck]") {
   const auto evaluations = [](int num_modes) {
     const test::BumpResult run =

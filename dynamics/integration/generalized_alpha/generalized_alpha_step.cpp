@@ -14,6 +14,9 @@ constexpr double kIterationShare = 0.05;   // error of the iteration, of what is
 constexpr double kNothingLeft = 1e-3;      // of what is allowed
 constexpr double kSlowContraction = 0.15;  // beyond it another matrix is cheaper than the iterations
 constexpr double kUselessContraction = 0.7;
+// An iteration with the matrix of another length leaves this share of an error in a stiff mode, or makes it
+// larger, and the norm of positions does not see it.
+constexpr double kOutdated = 0.1;
 constexpr double kRounding =
     64.0 * std::numeric_limits<double>::epsilon();  // of a coordinate and its natural size
 
@@ -95,6 +98,7 @@ void GeneralizedAlphaStep::apply_auxiliary(double length) {
 void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
   if (renewal_ == Renewal::kAll) newton_.linearise(residual_, end_.motion, piece_->branches());
   newton_.factorise(residual_.terms(), weights);  // a singular one gives infinities
+  factored_weights_ = weights;
   renewal_ = Renewal::kNone;
   is_fresh_ = true;
 }
@@ -127,6 +131,7 @@ double GeneralizedAlphaStep::calc_iteration_norm(double length) const {
 
 bool GeneralizedAlphaStep::iterate(double length) {
   const Index3Newton::Weights step_weights = weights(length);
+  if (!(std::abs(step_weights.position / factored_weights_.position - 1.0) <= kOutdated)) renew_factors();
   predict(length);
   contraction_ = 0.0;
   double last = 0.0;
@@ -216,6 +221,25 @@ void GeneralizedAlphaStep::interpolate_motion(double time, Vector& q, Vector& v)
   const HermiteWeights w(a.time, b.time, time);
   q = w.begin * a.q + w.end * b.q + w.begin_rate * a.v + w.end_rate * b.v;
   v = w.begin * a.v + w.end * b.v + w.begin_rate * a.v_dot + w.end_rate * b.v_dot;
+}
+
+// Accelerations and multipliers between those of the ends, less those of the equations.
+void GeneralizedAlphaStep::calc_departure(const End& exact, End& departure) const {
+  const ConstrainedMotion &a = begin_.motion, &b = end_.motion;
+  const double share = (exact.motion.time - a.time) / (b.time - a.time);
+  departure.motion.v_dot = (1.0 - share) * a.v_dot + share * b.v_dot - exact.motion.v_dot;
+  departure.motion.lambda = (1.0 - share) * a.lambda + share * b.lambda - exact.motion.lambda;
+  departure.lead = end_.lead - exact.lead;
+  departure.jerk = end_.jerk - exact.jerk;
+  departure.lambda_rate = end_.lambda_rate - exact.lambda_rate;
+}
+
+void GeneralizedAlphaStep::depart(const End& departure) {
+  begin_.motion.v_dot += departure.motion.v_dot;
+  begin_.motion.lambda += departure.motion.lambda;
+  begin_.lead += departure.lead;
+  begin_.jerk += departure.jerk;
+  begin_.lambda_rate += departure.lambda_rate;
 }
 
 GeneralizedAlphaStep::Pair GeneralizedAlphaStep::interpolate_energy(double time) const {

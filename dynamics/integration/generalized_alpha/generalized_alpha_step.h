@@ -56,6 +56,10 @@ class GeneralizedAlphaStep {
   /// Positions and velocities within the step.
   void interpolate_motion(double time, Vector& q, Vector& v) const;
   Pair interpolate_energy(double time) const;  ///< likewise [J]
+  /// How far accelerations, multipliers and their rates within the step are from those that the equations
+  /// give at the positions and velocities there.
+  void calc_departure(const End& exact, End& departure) const;
+  void depart(const End& departure);  ///< adds it to the beginning
 
   Index3Residual& residual() { return residual_; }  ///< at the motion before the iteration's last change
   const Index3Residual& residual() const { return residual_; }
@@ -85,6 +89,7 @@ class GeneralizedAlphaStep {
   // The part of Newton's matrix that is renewed before the next iteration.
   enum class Renewal { kNone, kFactors, kAll };
   Renewal renewal_ = Renewal::kAll;
+  Index3Newton::Weights factored_weights_;
   bool is_fresh_ = false;     // renewed in this step
   double contraction_ = 0.0;  // of the last iteration
   long iteration_failures_ = 0;

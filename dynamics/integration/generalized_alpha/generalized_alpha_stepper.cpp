@@ -43,6 +43,8 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double rela
       equations_(model, SystemTerms::Markers::kActing),
       step_(model, piece_, method_, relative_tolerance),
       next_length_(kFirstLength),
+      exact_(model, piece_.num_switches()),
+      departure_(exact_),
       probe_(model),
       switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()),
@@ -58,7 +60,7 @@ void GeneralizedAlphaStepper::start(const State& state) {
   piece_.set_branches(state.branches);
   equations_.terms().set_fading_forces(state.fading);
   step_.residual().terms().set_fading_forces(state.fading);
-  has_step_ = false;
+  has_step_ = has_departure_ = has_passed_ = false;
 }
 
 // The equations at a motion that need not satisfy the constraints of the velocities.
@@ -98,16 +100,12 @@ void GeneralizedAlphaStepper::resume(double time, double end_time) {
   if (!equations_.update_accelerations(piece_.branches())) {
     throw_stopped(time_, "no accelerations can be found there");
   }
-  ConstrainedMotion& motion = step_.begin().motion;
-  motion.time = time_;
-  motion.q = equations_.q();
-  motion.v = equations_.v();
-  motion.v_dot = equations_.v_dot();
-  motion.lambda = equations_.multipliers();
+  const ConstrainedMotion& motion = step_.begin().motion;
+  calc_exact(step_.begin(), kProbe * std::min(next_length_, end_time_ - time_));
+  if (has_departure_) step_.depart(departure_);
   step_.begin().energy = energy_;
   step_.begin().step_before = 0.0;
-  has_step_ = false;
-  if (end_time_ - time_ > kShortestStep) find_rates();
+  has_step_ = has_departure_ = false;
   step_.residual().update(motion, piece_.branches());
   piece_.calc_switches(step_.residual().terms(), {step_.begin().switches.data(),
                                                   static_cast<std::size_t>(step_.begin().switches.size())});
@@ -117,20 +115,36 @@ void GeneralizedAlphaStepper::resume(double time, double end_time) {
   touch_search_.forget();
 }
 
-// The auxiliary acceleration leads q̈ by αm − αf of a step. To second order this takes the rate of q̈
-// (integration/generalized_alpha, eq. 4), which is found from the accelerations a little later.
-void GeneralizedAlphaStepper::find_rates() {
-  const ConstrainedMotion& motion = step_.begin().motion;
-  step_.begin().power = calc_power();
-  const double shift = kProbe * std::min(next_length_, end_time_ - time_);
-  probe_.time = motion.time + shift;
+// What the equations give where they stand. The auxiliary acceleration leads q̈ by αm − αf of a step. To
+// second order this takes the rate of q̈ (integration/generalized_alpha, eq. 4), which is found from the
+// accelerations a little later or before.
+void GeneralizedAlphaStepper::calc_exact(GeneralizedAlphaStep::End& end, double shift) {
+  ConstrainedMotion& motion = end.motion;
+  motion.time = time_;
+  motion.q = equations_.q();
+  motion.v = equations_.v();
+  motion.v_dot = equations_.v_dot();
+  motion.lambda = equations_.multipliers();
+  end.power = calc_power();
+  if (std::abs(shift) < kProbe * kShortestStep) return;
+  probe_.time = piece_.evaluation_time(motion.time + shift);
   probe_.q = motion.q + (shift * motion.v + 0.5 * shift * shift * motion.v_dot);
   probe_.v = motion.v + shift * motion.v_dot;
   if (!evaluate_equations(probe_)) throw_stopped(time_, "no accelerations can be found there");
-  step_.begin().jerk = (equations_.v_dot() - motion.v_dot) / shift;
-  step_.begin().lambda_rate = (equations_.multipliers() - motion.lambda) / shift;
-  step_.begin().lead = method_.offset() * step_.begin().jerk;
-  step_.begin().power_rate = (calc_power() - step_.begin().power) / shift;
+  end.jerk = (equations_.v_dot() - motion.v_dot) / shift;
+  end.lambda_rate = (equations_.multipliers() - motion.lambda) / shift;
+  end.lead = method_.offset() * end.jerk;
+  end.power_rate = (calc_power() - end.power) / shift;
+}
+
+// Accelerations of stiff modes, which a step does not resolve, differ from those of the equations by the
+// error of a position times stiffness over mass. A restart from the latter would make a vibration of that
+// error. So what jumps from one piece to the next is added to the accelerations of the method.
+void GeneralizedAlphaStepper::leave_piece() {
+  evaluate(time_, Level::kAccelerations);
+  calc_exact(exact_, -kProbe * next_length_);
+  step_.calc_departure(exact_, departure_);
+  has_departure_ = true;
 }
 
 double GeneralizedAlphaStepper::choose_length(double longest_step) const {
@@ -142,6 +156,7 @@ double GeneralizedAlphaStepper::choose_length(double longest_step) const {
 }
 
 Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
+  has_departure_ = has_passed_ = false;
   if (end_time_ - time_ <= kShortestStep) {
     time_ = end_time_;
     return Integrator::StepResult::kEnded;
@@ -152,14 +167,19 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   while (true) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
+      if (pass_change_point(longest_step)) {
+        return time_ < end_time_ ? Integrator::StepResult::kStepped : Integrator::StepResult::kEnded;
+      }
       throw_stopped(time_, std::string("the step has become too short; look at forces and positions just "
                                        "before that time, which may be a singular one") +
                                remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {
       if (fixed_step_ > 0.0)
-        throw_stopped(time_, std::string("the iteration of a step does not converge; shorten fixed_step") +
-                                 remark_on_radius(spectral_radius_));
+        throw_stopped(time_,
+                      std::string("the iteration of a step does not converge; shorten fixed_step, or leave "
+                                  "it out: a step of chosen length passes the change points of a mechanism") +
+                          remark_on_radius(spectral_radius_));
       next_length_ = 0.25 * length;
       continue;
     }
@@ -175,8 +195,38 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   if (factor < 1.0 / kWorthwhile) next_length_ = factor * length;
   if (factor > kWorthwhile) next_length_ = std::max(next_length_, factor * length);
   finish_step(length);
-  if (piece_.num_switches() > 0 && locate_switch()) return Integrator::StepResult::kSwitched;
-  return time_ >= end_time_ ? Integrator::StepResult::kEnded : Integrator::StepResult::kStepped;
+  const bool has_switched = piece_.num_switches() > 0 && locate_switch();
+  if (!has_switched && time_ < end_time_) return Integrator::StepResult::kStepped;
+  leave_piece();
+  return has_switched ? Integrator::StepResult::kSwitched : Integrator::StepResult::kEnded;
+}
+
+// Near a change point the rounding of positions is amplified more, the shorter the step.
+bool GeneralizedAlphaStepper::pass_change_point(double longest_step) {
+  const ConstrainedMotion& motion = step_.begin().motion;
+  if (!evaluate_closed(piece_.evaluation_time(time_), motion.q, motion.v)) return false;
+  if (!change_point_) change_point_.emplace(*model_);
+  change_point_->terms().set_fading_forces(equations_.terms().fading_forces());
+  if (!change_point_->pass(equations_, choose_partition(equations_.terms()), piece_.branches(),
+                           std::min(longest_step, end_time_ - time_)))
+    return false;
+  const ChangePointStep::End &begin = change_point_->begin(), &end = change_point_->end();
+  energy_before_ = step_.begin().energy;
+  energy_ = energy_before_ + change_point_->calc_work(end.time);
+  time_ = end.time;
+  ++statistics_.integrator.steps;
+  equations_.set_motion(end.time, end.q, end.v, end.v_dot, end.lambda, piece_.branches());
+  next_length_ = end.time - begin.time;
+  resume(time_, end_time_);
+  has_passed_ = true;
+  return true;
+}
+
+bool GeneralizedAlphaStepper::evaluate_passage(double time) {
+  change_point_->interpolate(time, inside_);
+  equations_.set_motion(time, inside_.q, inside_.v, inside_.v_dot, inside_.lambda, piece_.branches());
+  energy_ = energy_before_ + change_point_->calc_work(time);
+  return true;
 }
 
 void GeneralizedAlphaStepper::finish_step(double length) {
@@ -219,23 +269,34 @@ bool GeneralizedAlphaStepper::locate_switch() {
   return theta.has_value();
 }
 
-// Accelerations are evaluated at all levels: without them a singular position would not be noticed.
+// Accelerations are evaluated always: without them a singular position would not be noticed.
+bool GeneralizedAlphaStepper::evaluate_closed(double time, const Vector& q, const Vector& v) {
+  if (!equations_.close_joints(time, q)) return false;
+  const double violation = equations_.close_rates(v);
+  statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
+  return std::isfinite(violation) && equations_.update_accelerations(piece_.branches());
+}
+
 void GeneralizedAlphaStepper::evaluate(double time, Level level) {
-  if (has_step_) {
+  bool is_evaluated;
+  if (has_passed_ && change_point_->contains(time)) {
+    is_evaluated = evaluate_passage(time);
+  } else if (has_departure_ && time == time_) {  // the branches may be others than in the step
+    energy_ = step_.interpolate_energy(time);
+    is_evaluated = evaluate_equations(exact_.motion);
+  } else if (has_step_) {
     step_.interpolate_motion(time, interpolated_q_, interpolated_v_);
     energy_ = step_.interpolate_energy(time);
+    is_evaluated = evaluate_closed(piece_.evaluation_time(time), interpolated_q_, interpolated_v_);
   } else {
+    const ConstrainedMotion& motion = step_.begin().motion;
     energy_ = step_.begin().energy;
+    is_evaluated = evaluate_closed(piece_.evaluation_time(time), motion.q, motion.v);
   }
-  const Vector& q = has_step_ ? interpolated_q_ : step_.begin().motion.q;
-  const Vector& v = has_step_ ? interpolated_v_ : step_.begin().motion.v;
-  const bool is_closed = equations_.close_joints(piece_.evaluation_time(time), q);
-  const double violation = is_closed ? equations_.close_rates(v) : std::numeric_limits<double>::quiet_NaN();
-  if (!std::isfinite(violation) || !equations_.update_accelerations(piece_.branches())) {
+  if (!is_evaluated) {
     throw support::NumericalError(fmt::format(
         "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
   }
-  statistics_.velocity_violation = std::max(statistics_.velocity_violation, violation);
   if (level == Level::kAllMarkers) equations_.terms().update_all_markers();
 }
 

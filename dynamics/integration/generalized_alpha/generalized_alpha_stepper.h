@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "dynamics/integration/generalized_alpha/generalized_alpha_step.h"
 #include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/switch_search.h"
 #include "dynamics/integration/system_stepper.h"
 #include "dynamics/integration/touch_search.h"
+#include "dynamics/system/change_point.h"
 
 namespace sprung::dynamics {
 
@@ -47,7 +49,11 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   bool evaluate_equations(const ConstrainedMotion& motion);
   Pair calc_power();
   bool update_end_power();
-  void find_rates();
+  bool evaluate_closed(double time, const Vector& q, const Vector& v);
+  bool pass_change_point(double longest_step);
+  bool evaluate_passage(double time);
+  void leave_piece();
+  void calc_exact(GeneralizedAlphaStep::End& end, double shift);
 
   const Model* model_;
   GeneralizedAlpha method_;
@@ -62,9 +68,16 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   double time_ = 0.0, end_time_ = 0.0, next_length_;
   Pair energy_ = Pair::Zero();  // at the time evaluated last [J]
 
+  std::optional<ChangePointStep> change_point_;  // made at the first
+  bool has_passed_ = false;                      // the last step was one over a change point
+  Pair energy_before_ = Pair::Zero();            // that step [J]
+  ChangePointStep::End inside_;
+
   // Work space.
   Vector interpolated_q_, interpolated_v_;
-  ConstrainedMotion probe_;   // a little after a start
+  GeneralizedAlphaStep::End exact_, departure_;  // where the last piece ended
+  bool has_departure_ = false;
+  ConstrainedMotion probe_;   // a little after or before a start
   Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
   SwitchSearch switch_search_;
   TouchSearch touch_search_;

@@ -9,6 +9,20 @@
 
 namespace sprung::dynamics {
 
+namespace {
+
+// K x of the bodies' modes. @param x  nq×k   @return nq×k
+Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  for (const Body& body : model.bodies) {
+    const Eigen::Index first = body.first_coordinate + 3, n = body.num_modes();
+    if (n > 0) product.middleRows(first, n) = body.stiffness * x.middleRows(first, n);
+  }
+  return product;
+}
+
+}  // namespace
+
 PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), piece_(model), scales_(model) {
   y_.resize(static_cast<std::size_t>(size()));
@@ -81,7 +95,10 @@ void PartitionedOde::continue_small_motion(const KnownMotion& known) {
 }
 
 // The motion that was set; without one, by differences of the accelerations at the branches that hold:
-// M δq̈ = −C δv − K δq.
+// M δq̈ = −C δv − K δq. The stiffness of the bodies' modes is added without a difference: those of stiff modes
+// turn with the bodies, and the part of second order in the shift would exceed the stiffness of soft ones.
+// Where only velocities are shifted, dependent modal coordinates move by the error to which joints are
+// closed.
 bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) {
   if (known_ && known_->independent == equations_.partition().independent) {
     motion = std::move(known_->motion);
@@ -90,11 +107,15 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
   }
   constexpr double kShift = 1e-6;  // of the natural size
   const Eigen::Index f = num_freedoms();
+  const std::vector<int>& independent = equations_.partition().independent;
   std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
   if (!calc_derivative(time, moved, y_dot)) return false;
-  motion.mass = equations_.calc_reduced_mass(equations_.calc_directions());
+  const Eigen::MatrixXd directions = equations_.calc_directions();
+  const Eigen::VectorXd q = equations_.q();
+  motion.mass = equations_.calc_reduced_mass(directions);
   const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f);
   Eigen::MatrixXd gradient(f, 2 * f);
+  Eigen::VectorXd response;
   for (Eigen::Index k = 0; k < 2 * f; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const double shift = kShift * natural_sizes_[static_cast<std::size_t>(k % f)];
@@ -102,9 +123,12 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
     const bool good = calc_derivative(time, moved, y_dot);
     moved[i] = y[i];
     if (!good) return false;
-    gradient.col(k) = (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base) / shift;
+    equations_.calc_response(apply_modal_stiffness(*model_, equations_.q() - q), response);
+    gradient.col(k) =
+        (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base + response(independent)) / shift;
   }
-  motion.stiffness = -motion.mass * gradient.leftCols(f);
+  motion.stiffness = directions.transpose() * apply_modal_stiffness(*model_, directions) -
+                     motion.mass * gradient.leftCols(f);
   motion.damping = -motion.mass * gradient.rightCols(f);
   return true;
 }

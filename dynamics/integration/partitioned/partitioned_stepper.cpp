@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "dynamics/integration/partitioned/make_integrator.h"
 #include "tools/support/errors/numerical_error.h"
@@ -12,12 +13,22 @@ namespace {
 
 constexpr double kPartitionDecay = 3.0;  // partition_decay() at which another one is chosen
 constexpr double kSamePlace = 1e-9;      // s
+// Smallest pivot, of the largest that it had, at which a change point is passed: nearer to it rounding grows
+// in the dependent coordinates, farther from it the step is longer.
+constexpr double kChangePoint = 1e-3;
+// Of the smallest pivot, of the largest that it had: a partition chosen with a smaller one becomes better
+// first.
+constexpr double kPoorPivot = 0.5;
+constexpr double kUntilRenewal = 50.0;  // steps over a change point, until the partition is chosen well
 
 }  // namespace
 
 PartitionedStepper::PartitionedStepper(const Model& model, const Integrator::Options& options,
                                        std::function<void(double)> on_repartition)
-    : ode_(model), integrator_(make_integrator(ode_, options)), on_repartition_(std::move(on_repartition)) {}
+    : model_(&model),
+      ode_(model),
+      integrator_(make_integrator(ode_, options)),
+      on_repartition_(std::move(on_repartition)) {}
 
 std::optional<KnownMotion> PartitionedStepper::small_motion() const {
   const SmallMotion* motion = integrator_->small_motion();
@@ -27,6 +38,8 @@ std::optional<KnownMotion> PartitionedStepper::small_motion() const {
 
 void PartitionedStepper::start(const State& state) {
   ode_.set_state(state, 0.0, 0.0);
+  last_pivot_ = best_pivot_ = ode_.equations().partition().smallest_pivot;
+  has_passed_ = false;
   y_.assign(ode_.y().begin(), ode_.y().end());
   start_time_ = state.time;
   is_running_ = false;
@@ -41,12 +54,23 @@ void PartitionedStepper::resume(double time, double end_time) {
 // An independent coordinate may come to a turning point of the mechanism, beyond which there is no position,
 // before the decay of the partition shows. Then the integrator fails, and continues with another partition.
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
-  if (ode_.equations().partition_decay() > kPartitionDecay) choose_partition();
+  if (has_passed_) ode_.equations().return_to_accepted();
+  has_passed_ = false;
+  if (ode_.equations().partition_decay() > kPartitionDecay || time() >= renewal_time_) {
+    const double before = last_pivot_;
+    choose_partition();
+    const bool is_near = last_pivot_ < before && last_pivot_ < kChangePoint * best_pivot_;
+    if (is_near && pass_change_point(longest_step)) return end_passage();
+  }
+  if (last_pivot_ < kPoorPivot * best_pivot_) ode_.equations().mark_if_best();
   ode_.equations().accept_motion();
   try {
     return integrator_->step(longest_step);
   } catch (const support::NumericalError&) {
-    if (time() - last_rescue_ < kSamePlace) throw;
+    if (time() - last_rescue_ < kSamePlace) {
+      if (pass_change_point(longest_step)) return end_passage();
+      throw;
+    }
     last_rescue_ = time();
     choose_partition();
     return Integrator::StepResult::kStepped;
@@ -57,12 +81,70 @@ void PartitionedStepper::choose_partition() {
   const double now = time();
   y_.assign(integrator_->y().begin(), integrator_->y().end());
   ode_.set_state(ode_.make_state(now, y_), ode_.dissipated(y_), ode_.input(y_));
+  last_pivot_ = ode_.equations().partition().smallest_pivot;
+  best_pivot_ = std::max(best_pivot_, last_pivot_);
+  renewal_time_ = std::numeric_limits<double>::infinity();
   ++repartitions_;
   if (on_repartition_) on_repartition_(now);
   integrator_->start(now, ode_.y(), end_time_);
 }
 
+// A step over a position at which no choice of independent coordinates is good.
+bool PartitionedStepper::pass_change_point(double longest_step) {
+  const double now = time();
+  y_.assign(integrator_->y().begin(), integrator_->y().end());
+  State state;
+  try {
+    state = ode_.make_state(now, y_);
+  } catch (const support::NumericalError&) {
+    return false;
+  }
+  if (!change_point_) change_point_.emplace(*model_);
+  change_point_->terms().set_fading_forces(state.fading);
+  if (!change_point_->pass(equations(), ode_.equations().partition(), state.branches,
+                           std::min(longest_step, end_time_ - now)))
+    return false;
+  const ChangePointStep::End &begin = change_point_->begin(), &end = change_point_->end();
+  flow_before_ = {ode_.dissipated(y_), ode_.input(y_)};
+  state.time = end.time;
+  state.q = end.q;
+  state.v = end.v;
+  const Eigen::Vector2d flow = flow_before_ + change_point_->calc_work(end.time);
+  ode_.set_state(state, flow[0], flow[1]);
+  last_pivot_ = ode_.equations().partition().smallest_pivot;
+  renewal_time_ = end.time + kUntilRenewal * (end.time - begin.time);
+  ++repartitions_;
+  if (on_repartition_) on_repartition_(end.time);
+  integrator_->start(end.time, ode_.y(), end_time_);
+  has_passed_ = true;
+  return true;
+}
+
+Integrator::StepResult PartitionedStepper::end_passage() {
+  if (time() >= end_time_) return Integrator::StepResult::kEnded;
+  std::vector<double> values(static_cast<std::size_t>(piece().num_switches()));
+  ode_.calc_switches(time(), integrator_->y(), values);
+  const bool has_switched =
+      std::any_of(values.begin(), values.end(), [](double value) { return value < 0.0; });
+  return has_switched ? Integrator::StepResult::kSwitched : Integrator::StepResult::kStepped;
+}
+
+void PartitionedStepper::evaluate_passage(double time) {
+  change_point_->interpolate(time, inside_);
+  ode_.equations().all_coordinates().set_motion(ode_.piece().evaluation_time(time), inside_.q, inside_.v,
+                                                inside_.v_dot, inside_.lambda, ode_.piece().branches());
+  y_.assign(integrator_->y().begin(), integrator_->y().end());
+  const Eigen::Vector2d flow = flow_before_ + change_point_->calc_work(time);
+  std::copy(flow.begin(), flow.end(), y_.end() - 2);
+}
+
 void PartitionedStepper::evaluate(double time, Level level) {
+  if (has_passed_) ode_.equations().return_to_accepted();
+  if (is_inside_passage(time)) {
+    evaluate_passage(time);
+    if (level == Level::kAllMarkers) ode_.equations().update_all_markers();
+    return;
+  }
   if (is_running_) {
     if (time >= integrator_->time())
       std::copy(integrator_->y().begin(), integrator_->y().end(), y_.begin());

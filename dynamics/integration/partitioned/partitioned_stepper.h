@@ -9,11 +9,13 @@
 
 #include "dynamics/integration/partitioned/partitioned_ode.h"
 #include "dynamics/integration/system_stepper.h"
+#include "dynamics/system/change_point.h"
 
 namespace sprung::dynamics {
 
 /// Steps in independent coordinates, by any Integrator. It chooses other independent coordinates where the
-/// dependent ones follow the present ones badly (system, "Equations of motion").
+/// dependent ones follow the present ones badly (system, "Equations of motion"), and passes change points, at
+/// which all choices are bad, in a step of its own (ChangePointStep).
 class PartitionedStepper final : public SystemStepper {
  public:
   PartitionedStepper(const Model& model, const Integrator::Options& options,
@@ -38,7 +40,12 @@ class PartitionedStepper final : public SystemStepper {
 
  private:
   void choose_partition();
+  bool pass_change_point(double longest_step);
+  bool is_inside_passage(double time) const { return has_passed_ && change_point_->contains(time); }
+  void evaluate_passage(double time);
+  Integrator::StepResult end_passage();
 
+  const Model* model_;
   PartitionedOde ode_;
   std::unique_ptr<Integrator> integrator_;
   std::function<void(double)> on_repartition_;
@@ -47,6 +54,13 @@ class PartitionedStepper final : public SystemStepper {
   bool is_running_ = false;
   double last_rescue_ = -std::numeric_limits<double>::infinity();
   long repartitions_ = 0;
+
+  double last_pivot_ = 1.0, best_pivot_ = 0.0;   // smallest ones of the partitions chosen
+  std::optional<ChangePointStep> change_point_;  // made at the first
+  bool has_passed_ = false;                      // the last step was one over a change point
+  ChangePointStep::End inside_;
+  Eigen::Vector2d flow_before_ = Eigen::Vector2d::Zero();  // dissipated and put in [J]
+  double renewal_time_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace sprung::dynamics
