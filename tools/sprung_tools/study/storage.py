@@ -14,7 +14,7 @@ def choose_storage(measures: Iterable[str], overrides: Sequence[str]) -> list[st
     where a pattern stands for the kind of a measure."""
     if any(override.startswith(CHOICE) for override in overrides):
         return []
-    needed = set()
+    needed: set[str] = set()
     for name in measures:
         first = name.removeprefix("histories/").partition("/")[0]
         if "*" in first:
