@@ -110,6 +110,10 @@ class Storage(DynamicsTestCase):
         self.assertEqual(export.returncode, 2)
         self.assertIn("few.h5: error: 'joints/front_long_axle/reaction' is not stored; 'joints' in [output.store] of "
                       "the run file chooses what is", export.stderr)  # fmt: skip
+        paraview = run_program([ROOT / "tools/export_paraview", "few.h5", "-o", "few.pvd", "--every", "0.1"],
+                               cwd=self.folder)  # fmt: skip
+        self.assertEqual(paraview.returncode, 0, paraview.stderr)
+        self.assertIn("note: stress resultants not stored: all", paraview.stdout)
         page = run_program([ROOT / "tools/report", "few.h5", "-o", "page.html"], cwd=self.folder)
         self.assertEqual(page.returncode, 0, page.stderr)
         self.assertIn("stress resultants not stored: all", (self.folder / "page.html").read_text(encoding="utf-8"))

@@ -82,25 +82,29 @@ def calc_motion(body: BodyMotion, places: Floats, shapes: Floats, magnification:
     )  # fmt: skip
 
 
+def is_linear(file: StoredFile, body: str) -> bool:
+    """Whether the motions of a body's points follow linearly from those of its frame and its modes, and the file holds
+    these. Where axial forces stiffen the body they do not: the file then holds the motions themselves."""
+    about = f"{RESOLVED}/bodies/{body}"
+    if not file.has_group(about) or file.attribute(about, "is_stiffened", int, 0):
+        return False
+    return file.has_dataset(f"bodies/{body}/position") and file.has_dataset(f"bodies/{body}/acceleration")
+
+
 def find_derived(file: StoredFile, dataset: str) -> DerivedPoint | None:
-    """The point's motion that a dataset's name stands for, if it follows from what the file holds. Where axial forces
-    stiffen the body the deflection is not linear in the amplitudes: the file then holds the motion itself."""
+    """The point's motion that a dataset's name stands for, if it follows from what the file holds."""
     found = HISTORY.fullmatch(dataset)
     if not found:
         return None
     point = found["point"] or f"{found['body']}.{CENTRE}"
+    body = point.partition(".")[0]
     group = f"{RESOLVED}/points/{point}"
-    if not file.has_group(group):
-        return None
-    body: str = file.attribute(group, "body", str)
-    about = f"{RESOLVED}/bodies/{body}"
-    if not file.has_group(about) or file.attribute(about, "is_stiffened", int, 0):
+    if not file.has_group(group) or not is_linear(file, body):
         return None
     what = found["what"] or found["motion"]
     if what == "deflection" and not file.has_dataset(f"{group}/shapes"):
         return None
-    is_there = file.has_dataset(f"bodies/{body}/position") and file.has_dataset(f"bodies/{body}/acceleration")
-    return DerivedPoint(point, body, what) if is_there else None
+    return DerivedPoint(point, body, what)
 
 
 def calc_derived(file: StoredFile, derived: DerivedPoint, known: Mapping[str, BodyMotion]) -> tuple[Floats, str]:
@@ -119,6 +123,8 @@ def calc_derived(file: StoredFile, derived: DerivedPoint, known: Mapping[str, Bo
 
 
 def list_derived_points(file: StoredFile) -> list[str]:
-    """The points of bodies whose motion is known from the model as run, centres of mass excepted."""
+    """The points of bodies whose motion is known from that of their bodies, centres of mass excepted."""
     names = [name for name in file.names(f"{RESOLVED}/points") if name.partition(".")[2] != CENTRE]
-    return [name for name in names if find_derived(file, f"points/{name}/position")]
+    bodies = {name.partition(".")[0] for name in names}
+    known = {body for body in bodies if is_linear(file, body)}
+    return [name for name in names if name.partition(".")[0] in known]

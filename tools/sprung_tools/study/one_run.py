@@ -27,6 +27,7 @@ from sprung_tools.runs.measures import (
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.study.kept_rows import Row, keep_row
+from sprung_tools.study.storage import choose_storage
 
 PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
 
@@ -86,9 +87,10 @@ def make_run(task: Task, setting: Setting) -> Row:
         for file in task.superelements:
             (folder / "bodies" / file.name).symlink_to(file.resolve())
         output = folder / "results.h5" if setting.needs_file else None
-        command = make_command(
-            setting.program, setting.command, setting.run, folder / "bodies", task.overrides, output
-        )  # fmt: skip
+        overrides = list(task.overrides)
+        if setting.command == "run" and setting.results is None and output is not None:
+            overrides += choose_storage(setting.measures, task.overrides)
+        command = make_command(setting.program, setting.command, setting.run, folder / "bodies", overrides, output)
         outcome = call(command, is_tied=True)
         exit_code, error = outcome.exit_code, outcome.error
         measured = Measured(False, (), {})
