@@ -191,4 +191,8 @@ void check_mesh(const Mesh& mesh, const support::SourceLocation& where) {
   check_connected(mesh, where);
 }
 
+double calc_extent(const Mesh& mesh) {
+  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
+}
+
 }  // namespace sprung::fem

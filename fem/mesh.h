@@ -38,6 +38,9 @@ int find_node(const Mesh& mesh, std::string_view name);
 /// Distance between the ends of an element [m].
 double calc_length(const Mesh& mesh, const Mesh::Element& element);
 
+/// Diagonal of the box around all nodes [m].
+double calc_extent(const Mesh& mesh);
+
 /// The text by which messages name a node: `node 12 at (0.5, 0.25)`, with its name if it has one.
 std::string describe_node(const Mesh& mesh, int node);
 

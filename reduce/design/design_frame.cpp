@@ -96,10 +96,6 @@ void read_line(const TomlTable& table, const Sections& sections, const std::vect
   }
 }
 
-double calc_extent(const fem::Mesh& mesh) {
-  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
-}
-
 double calc_distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
                                 const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -118,7 +114,7 @@ double calc_distance_to_frame(const fem::Mesh& mesh, const Eigen::Vector2d& posi
 
 // Gives a point's name to the node at its place.
 void name_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
-  const double tolerance = kSamePlace * calc_extent(mesh);
+  const double tolerance = kSamePlace * fem::calc_extent(mesh);
   Eigen::Index node = 0;
   const double distance = (mesh.node_positions.colwise() - point.position).colwise().norm().minCoeff(&node);
   if (distance <= tolerance) {

@@ -104,10 +104,6 @@ double calc_derivative(const std::array<double, 4>& f, double h, double scale) {
   return std::abs(change) <= 1e-12 * scale ? 0.0 : change / h;
 }
 
-double calc_extent(const fem::Mesh& mesh) {
-  return (mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff()).norm();
-}
-
 // None without effect, with other nodes, or at the end of a range, where there is no such design any more.
 std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, ModelReader read,
                                               const Number& number, double h) {
@@ -138,7 +134,7 @@ std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, 
                          .mass_per_length = derive_member(&fem::BeamProperties::mass_per_length),
                          .rotary_inertia = derive_member(&fem::BeamProperties::rotary_inertia)};
   }
-  const double extent = calc_extent(at[0].mesh);
+  const double extent = fem::calc_extent(at[0].mesh);
   for (Eigen::Index i = 0; i < rates.node_positions.size(); ++i) {
     rates.node_positions(i) =
         derive([&](const fem::BeamModel& model) { return model.mesh.node_positions(i); }, extent);
@@ -194,7 +190,7 @@ void add_coordinates(const DesignVariation& variation, const TomlTable& root, co
   for (const auto& [name, point] : root.at("points").table().entries()) {
     for (const TomlValue& coordinate : point.items()) {
       add_parameter(variation, &DesignVariation::read_changed_nodes,
-                    {coordinate.key(), "m", coordinate.number(support::any("m"))}, kStep * calc_extent(mesh),
+                    {coordinate.key(), "m", coordinate.number(support::any("m"))}, kStep * fem::calc_extent(mesh),
                     parameters);
     }
   }
