@@ -18,12 +18,6 @@ constexpr double kLeastElementLength = 1e-9;  // of the extent; nearer is the sa
 constexpr double kSmallestExtent = 1e-12, kLargestExtent = 1e12;  // m
 constexpr std::size_t kMaxListed = 8;                             // nodes listed in a message
 
-double calc_extent(const Mesh& mesh) {
-  const Eigen::Vector2d size =
-      mesh.node_positions.rowwise().maxCoeff() - mesh.node_positions.rowwise().minCoeff();
-  return size.norm();
-}
-
 std::string describe_nodes(const Mesh& mesh, const std::vector<int>& nodes) {
   std::string text;
   for (std::size_t i = 0; i < std::min(nodes.size(), kMaxListed); ++i) {

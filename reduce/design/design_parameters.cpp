@@ -190,8 +190,8 @@ void add_coordinates(const DesignVariation& variation, const TomlTable& root, co
   for (const auto& [name, point] : root.at("points").table().entries()) {
     for (const TomlValue& coordinate : point.items()) {
       add_parameter(variation, &DesignVariation::read_changed_nodes,
-                    {coordinate.key(), "m", coordinate.number(support::any("m"))}, kStep * fem::calc_extent(mesh),
-                    parameters);
+                    {coordinate.key(), "m", coordinate.number(support::any("m"))},
+                    kStep * fem::calc_extent(mesh), parameters);
     }
   }
 }
