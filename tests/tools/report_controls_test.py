@@ -36,7 +36,7 @@ class Controls(PageTestCase):
         for chart in (*(f"history-{k}" for k in (1, 2, 3, 4)), "bands-diagram", "loads-diagram", "spectrum",
                       "mode-amplitudes"):  # fmt: skip
             cases |= {f"{chart}-csv": self.save_csv(chart), f"{chart}-png": self.save_png(f"{chart}-png")}
-        cases |= {f"load-show-{number}": self.show_extreme(number) for number in (1, 2, 3, 4)}
+        cases |= {f"load-show-{number}": self.show_extreme(number) for number in range(1, 7)}
         cases |= {f"checks-of-{name}": self.unfold_checks(name) for name in ("chassis", "long_arm")}
         return cases | {
             "labels": self.use_labels,

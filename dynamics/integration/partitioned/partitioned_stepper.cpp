@@ -16,9 +16,6 @@ constexpr double kSamePlace = 1e-9;      // s
 // Smallest pivot, of the largest that it had, at which a change point is passed: nearer to it rounding grows
 // in the dependent coordinates, farther from it the step is longer.
 constexpr double kChangePoint = 1e-3;
-// Of the smallest pivot, of the largest that it had: a partition chosen with a smaller one becomes better
-// first.
-constexpr double kPoorPivot = 0.5;
 constexpr double kUntilRenewal = 50.0;  // steps over a change point, until the partition is chosen well
 
 }  // namespace
@@ -62,7 +59,8 @@ Integrator::StepResult PartitionedStepper::step(double longest_step) {
     const bool is_near = last_pivot_ < before && last_pivot_ < kChangePoint * best_pivot_;
     if (is_near && pass_change_point(longest_step)) return end_passage();
   }
-  if (last_pivot_ < kPoorPivot * best_pivot_) ode_.equations().mark_if_best();
+  // A partition that was chosen behind a change point becomes better before it decays.
+  if (change_point_) ode_.equations().mark_if_best();
   ode_.equations().accept_motion();
   try {
     return integrator_->step(longest_step);

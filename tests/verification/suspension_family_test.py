@@ -1,0 +1,161 @@
+#!/usr/bin/python3
+"""Random small vehicles on each force element of a suspension: the default method against generalized-alpha.
+
+The two share the elements, but neither the equations nor the steps. No run of the default method that ends well may be
+off by more than ten times its tolerance. By hand with more vehicles: SPRUNG_FAMILY=300 suspension_family_test.py
+"""
+
+import os
+import unittest
+
+import h5py
+import numpy as np
+
+from verification_case import VerificationCase
+
+COUNT = int(os.environ.get("SPRUNG_FAMILY", "12"))
+TOLERANCE = 1e-5
+REFERENCE = 1e-8  # the error of generalized-alpha falls with its tolerance to the power 2/3
+
+HEAD = """
+name = "random"
+gravity = [0.0, -9.81]
+[bodies.base]
+mass = 5.0
+inertia = 1.0
+position = [0.0, 0.0]
+[bodies.load]
+mass = {mass:.6g}
+inertia = {inertia:.6g}
+position = [0.0, {height:.6g}]
+[[joints]]
+name = "lift"
+type = "translational"
+a = "ground.origin"
+b = "base.origin"
+axis = [0.0, 1.0]
+[[motions]]
+name = "shake"
+joint = "lift"
+function = {{ sum = [{waves}] }}
+"""
+GUIDE = """
+[[joints]]
+name = "guide"
+type = "translational"
+a = "base.origin"
+b = "load.origin"
+axis = [0.0, 1.0]
+"""
+SPRING = """
+[[forces]]
+name = "spring"
+type = "spring-damper"
+a = "base.origin"
+b = "load.origin"
+free_length = {length:.6g}
+spring = {{ polynomial = [0.0, {stiffness:.6g}] }}
+damper = {{ coefficient = {damping:.6g} }}
+"""
+
+
+class Family(VerificationCase):
+    def head(self, random, amplitude):
+        """A load on a base that shakes in a sum of three waves. Returns the text and the mass of the load."""
+        waves = ", ".join(
+            f"{{ harmonic = {{ amplitude = {random.uniform(0.2, 1.0) * amplitude:.6g}, "
+            f"frequency = {random.uniform(0.5, 6.0):.6g}, phase = {random.uniform(0.0, 6.0):.6g} }} }}"
+            for _ in range(3)
+        )
+        mass = random.uniform(5.0, 50.0)
+        text = HEAD.format(mass=mass, inertia=0.1 * mass * random.uniform(0.2, 1.0), height=0.5, waves=waves)
+        return text, mass
+
+    def spring(self, random, mass):
+        """Parallel spring that bears the load at 0.5 m, at 1 Hz to 3 Hz, with little damping."""
+        stiffness = mass * (2.0 * np.pi * random.uniform(1.0, 3.0)) ** 2
+        damping = random.uniform(0.02, 0.3) * 2.0 * np.sqrt(mass * stiffness)
+        return SPRING.format(length=0.5 + 9.81 * mass / stiffness, stiffness=stiffness, damping=damping), stiffness
+
+    def positions(self, vehicle, name, method):
+        """Positions of both bodies at all outputs; None where the program gives up."""
+        path = self.folder / f"{name}.h5"
+        run = self.write_model(
+            vehicle, f'start = "as-given"\nduration = 1.5\noutput_step = 0.01\n[integrator]\n{method}\n'
+        )
+        summary = self.program("run", run, "-o", str(path))
+        with h5py.File(path) as results:
+            position = np.hstack([results[f"bodies/{body}/position"][:] for body in ("base", "load")])
+        return position, summary
+
+    def compare(self, make, seed):
+        """Vehicle by vehicle, with one natural size for positions: no point is off its body's frame."""
+        worst, restarts = 0.0, 0
+        for number in range(COUNT):
+            with self.subTest(number=number):
+                vehicle = make(np.random.default_rng([seed, number]))
+                found, summary = self.positions(vehicle, "default", f"relative_tolerance = {TOLERANCE:g}")
+                reference, _ = self.positions(
+                    vehicle, "reference", f'method = "generalized-alpha"\nrelative_tolerance = {REFERENCE:g}'
+                )
+                error = np.abs(found - reference).max()
+                worst, restarts = max(worst, error), restarts + summary["switches"]
+                self.assertLess(error, 10.0 * TOLERANCE, vehicle)
+        if "SPRUNG_FAMILY" in os.environ:
+            print(f"{self.id()}: {COUNT} vehicles, largest error {worst:.2e}, {restarts} switches")
+        return restarts
+
+    def test_hydraulic_stops(self):
+        def make(random):
+            text, mass = self.head(random, 0.05)
+            spring, stiffness = self.spring(random, mass)
+            text += GUIDE + spring
+            for name, a, b in (("bump", "base.origin", "load.origin"), ("floor", "ground.origin", "load.origin")):
+                c = random.uniform(0.5, 5.0) * mass
+                rows = f"[[0.0, {c * random.uniform(0.0, 1.0):.6g}], [0.02, {c:.6g}], [0.05, {2.0 * c:.6g}]]"
+                text += f"""
+[[forces]]
+name = "{name}"
+type = "hydraulic-stop"
+a = "{a}"
+b = "{b}"
+contact_length = {random.uniform(0.42, 0.5):.6g}
+spring = {{ polynomial = [0.0, {stiffness * random.uniform(0.5, 10.0):.6g}] }}
+metering = {{ table = {rows} }}
+damping = {stiffness * random.uniform(0.0, 2.0):.6g}
+"""
+            return text
+
+        self.assertGreater(self.compare(make, 1), 10 * COUNT)
+
+    def test_bushings(self):
+        def make(random):
+            text, mass = self.head(random, 0.02)
+
+            def direction(stiffness, reach):
+                force = stiffness * reach
+                law = f"spring = {{ table = [[{-reach:.6g}, {-2.0 * force:.6g}], [0.0, 0.0], "
+                law += f"[{reach:.6g}, {force:.6g}], [{2.0 * reach:.6g}, {6.0 * force:.6g}]] }}, "
+                law += f"damper = {{ coefficient = {random.uniform(0.005, 0.03) * stiffness:.6g} }}"
+                return "{ " + law + " }"
+
+            stiffness = mass * (2.0 * np.pi * random.uniform(2.0, 6.0)) ** 2
+            return text + f"""
+[[forces]]
+name = "mount"
+type = "bushing"
+a = "base.origin"
+b = "load.origin"
+angle = {random.uniform(-0.5, 0.5):.6g}
+free_position = [{random.uniform(-0.02, 0.02):.6g}, {random.uniform(0.48, 0.52):.6g}]
+free_angle = {random.uniform(-0.1, 0.1):.6g}
+x = {direction(stiffness, 0.02)}
+y = {direction(stiffness, 0.01)}
+rotation = {direction(stiffness * 0.3, 0.1)}
+"""
+
+        self.assertGreater(self.compare(make, 2), 5 * COUNT)
+
+
+if __name__ == "__main__":
+    unittest.main()
