@@ -236,13 +236,16 @@ class Controls(PageTestCase):
         self.choose(page, "speed", "1")
 
     def show_extreme(self, number):
-        """The time of the extreme, at which the line meets the envelope."""
+        """The time of the extreme, at which the line meets the envelope; or of the largest difference of both ways."""
 
         def use(page):
             self.set_time(page, 0.0)
             page.click(f"#load-show-{number}")
-            quantity, extreme = divmod(number - 1, 2)
+            quantity, extreme = divmod(number - 1, 3)
             found = f"loads.shown.quantities[{quantity}]"
+            if extreme == 2:
+                self.assertEqual(page.evaluate("clock.time"), page.evaluate(f"{found}.difference.time"))
+                return
             time, value = page.evaluate(f"[{found}.extremes[{extreme}].time, {found}.extremes[{extreme}].value]")
             self.assertEqual(page.evaluate("clock.time"), time)
             most = "Math.max" if extreme == 0 else "Math.min"
