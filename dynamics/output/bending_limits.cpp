@@ -77,13 +77,12 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
   if (m == 0) return;
   present_.noalias() = geometric_ * loads.coefficients();
   half_.noalias() = Eigen::Map<const Eigen::MatrixXd>(present_.data(), m, m) * eta.head(m);
-  const double work = std::abs(eta.head(m).dot(half_));
-  if (work > stiffening_.value) stiffening_ = {work, time};
-  strain_ = std::max(strain_, stiffness_.dot(eta.cwiseAbs2()));
+  stiffening_ += eta.head(m).dot(half_);
+  strain_ += stiffness_.dot(eta.cwiseAbs2());
 }
 
 double BodyBending::axial_effect() const {
-  return deflection_share() > kNoDeflection && strain_ > 0.0 ? stiffening_.value / strain_ : 0.0;
+  return deflection_share() > kNoDeflection && strain_ > 0.0 ? std::abs(stiffening_) / strain_ : 0.0;
 }
 
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {
@@ -100,9 +99,8 @@ std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodie
     if (body.axial_effect() > kLargeAxialEffect) {
       remarks.push_back(
           {body.name(),
-           fmt::format("{}: axial forces change the bending by {:.3g} % (at t = {:.3g} s): set "
-                       "stiffening.{} = true",
-                       body.name(), 100.0 * body.axial_effect(), body.axial_effect_time(), body.name())});
+           fmt::format("{}: axial forces change the bending by {:.3g} %: set stiffening.{} = true",
+                       body.name(), 100.0 * body.axial_effect(), body.name())});
     }
   }
   return remarks;

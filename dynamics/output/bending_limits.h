@@ -11,7 +11,8 @@
 namespace sprung::dynamics {
 
 /// Shares above which a run warns: the largest deflection over the length of the body, and the work of axial
-/// forces in bending over that of the bending stiffness (output, "Where linear bending ends").
+/// forces in bending over that of the stiffness, both summed over the run (output, "Where linear bending
+/// ends").
 inline constexpr double kLargeDeflection = 0.1, kLargeAxialEffect = 0.1;
 /// Below this share of the length, axial forces may change a deflection as they like.
 inline constexpr double kNoDeflection = 1e-4;
@@ -33,14 +34,12 @@ class BodyBending {
   /// 0 for a body with stiffening, and one whose superelement has no geometric stiffness or that hardly
   /// bends.
   double axial_effect() const;
-  double axial_effect_time() const { return stiffening_.time; }  ///< [s]
 
   template <class Bytes, class Bending>
   static void transfer(Bytes& bytes, Bending& bending) {
-    for (auto* peak : {&bending.deflection_, &bending.stiffening_}) {
-      bytes.transfer(peak->value);
-      bytes.transfer(peak->time);
-    }
+    bytes.transfer(bending.deflection_.value);
+    bytes.transfer(bending.deflection_.time);
+    bytes.transfer(bending.stiffening_);
     bytes.transfer(bending.strain_);
   }
 
@@ -59,8 +58,8 @@ class BodyBending {
   Eigen::VectorXd displacement_;    // 2N
   Eigen::VectorXd present_, half_;  // K_G, m²; K_G η, m
   Peak deflection_;                 // [m]
-  Peak stiffening_;                 // |ηᵀK_Gη| [J]
-  double strain_ = 0.0;             // largest ηᵀKη [J]
+  double stiffening_ = 0.0;         // sum of ηᵀK_Gη over the outputs [J]
+  double strain_ = 0.0;             // sum of ηᵀKη [J]
 };
 
 /// Remarks on the bodies that pass a limit.

@@ -212,7 +212,6 @@ void write_results_summary(support::Hdf5Writer& file, const RunStatistics& stati
     file.attribute(group, "deflection", body.deflection_share());
     file.attribute(group, "deflection_time", body.deflection_time());
     file.attribute(group, "axial_effect", body.axial_effect());
-    file.attribute(group, "axial_effect_time", body.axial_effect_time());
   }
   file.attribute("/summary", "constraint_violation", statistics.constraint_violation());
   file.attribute("/summary", "velocity_violation", transient.stepper.velocity_violation);

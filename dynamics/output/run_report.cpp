@@ -142,8 +142,7 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
   for (const BodyBending& body : summary.statistics.bending()) {
     bending[body.name()] = {{"deflection", body.deflection_share()},
                             {"deflection_time", body.deflection_time()},
-                            {"axial_effect", body.axial_effect()},
-                            {"axial_effect_time", body.axial_effect_time()}};
+                            {"axial_effect", body.axial_effect()}};
   }
   const TransientStatistics& transient = summary.transient;
   Json warnings = Json::array();

@@ -286,12 +286,15 @@ class LinearBending(VerificationCase):
         return results.summary["bending"]["rod"], np.max(np.abs(results["points/rod.tip/deflection"][:, 1]))
 
     def test_axial_forces_in_a_fast_connecting_rod_are_told_where_stiffening_changes_the_deflection(self):
-        # Their effect is that of the first order, so it is compared with the real change by its size only.
-        bending, deflection = self.run_crank(4.0)
-        stiffened, right = self.run_crank(4.0, stiffening=True)
-        self.assertEqual(stiffened["axial_effect"], 0.0)
-        self.assertGreater(bending["axial_effect"], 0.1)
-        self.assertGreater(abs(deflection / right - 1.0), 0.1)
+        # Their effect is that of the first order and a mean over the run: it is the real change of the largest
+        # deflection to a tenth of the deflection. The start gives the slow rod axial vibration, whose forces are
+        # larger than those of the motion and change nothing.
+        for speed, is_told in ((0.5, False), (1.0, False), (4.0, True)):
+            bending, deflection = self.run_crank(speed)
+            stiffened, right = self.run_crank(speed, stiffening=True)
+            self.assertEqual(stiffened["axial_effect"], 0.0)
+            self.assertEqual(bending["axial_effect"] > 0.1, is_told)
+            self.assertAlmostEqual(bending["axial_effect"], abs(deflection / right - 1.0), delta=0.1)
 
     def test_a_deflection_beyond_a_tenth_of_the_length_is_told(self):
         # A cantilever with EI = 4000 N m² and L = 2 m deflects by F L³/3EI under the force F at its tip.
