@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "dynamics/output/section_report.h"
-#include "dynamics/system/constrained_equations.h"
-#include "tools/support/errors/numerical_error.h"
+#include "dynamics/section_loads/body_remarks.h"
+#include "dynamics/system/system_terms.h"
 #include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
@@ -47,27 +47,6 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 }
 
 }  // namespace
-
-SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
-                                        VehicleSections& sections) {
-  SectionStatistics statistics(sections);
-  if (sections.bodies().empty()) return statistics;
-  ConstrainedEquations equations(model, SystemTerms::Markers::kAll);
-  const Eigen::VectorXd v = equilibrium.motion.calc_velocity(model, equilibrium.q);
-  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
-  SystemTerms& terms = equations.terms();
-  terms.update_positions(0.0, equilibrium.q);
-  terms.update_jacobian();
-  terms.update_velocities(v);
-  terms.choose_branches(branches);
-  if (!equations.update_accelerations(branches)) {
-    throw support::NumericalError(
-        "the accelerations at the equilibrium cannot be computed: constraints depend on each other");
-  }
-  sections.update(terms, equations.multipliers(), equilibrium.q, v, equations.v_dot());
-  statistics.add(0.0);
-  return statistics;
-}
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;

@@ -7,7 +7,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
-#include "dynamics/output/section_statistics.h"
+#include "dynamics/section_loads/section_statistics.h"
 
 namespace sprung::dynamics {
 
@@ -29,12 +29,6 @@ struct FrequencyBracket {
   /// Whether the bounds of a mode hold. @param mode  0-based
   bool holds(const std::vector<VehicleMode>& modes, std::size_t mode) const;
 };
-
-/// The forces and moments along the beams at an equilibrium.
-/// @param sections  of the model, brought up to date; has to outlive the result
-/// @throws support::NumericalError if the equations have no solution there
-SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
-                                        VehicleSections& sections);
 
 /// Positions of the bodies, values of the force elements, bending moments and neutral directions, as text
 /// tables, with a warning where the modes miss too much of the moments.

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +13,7 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/mode_choice/basis_choice.h"
+#include "dynamics/output/run_histories.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/output/run_warnings.h"
 #include "dynamics/output/storage_plan.h"
@@ -78,41 +79,24 @@ class ResultsWriter {
   const StoragePlan& storage() const { return *storage_; }
 
  private:
-  // A time history: its dataset, and the function that fills a row.
-  struct Series {
-    std::string name;
-    std::size_t columns;  // of the dataset, 0 for rank 1
-    std::string unit;
+  // A history that is stored, and its dataset.
+  struct Stored {
+    const History* history;
+    long every;  // outputs from one row to the next
     std::vector<double> row;
-    std::function<void(const Snapshot&, std::vector<double>& row)> fill;
-    std::string role = {};                           // of a channel, else empty
-    support::Hdf5GrowingDataset* dataset = nullptr;  // once it is known that it is stored
-    long every = 1;                                  // outputs from one row to the next
+    support::Hdf5GrowingDataset* dataset = nullptr;
+    std::size_t num_rows(std::size_t num_outputs) const;
   };
 
+  void write_descriptions(const ResultsHeader& header);
   void make_datasets(const ResultsHeader& header);
-  void make_last_state();
+  void make_last_state(const Model& model);
   void write_last_state();
-  std::size_t num_rows(const Series& series, std::size_t num_outputs) const;
-  Series& add_series(const std::string& dataset, std::size_t columns, const std::string& unit,
-                     std::function<void(const Snapshot&, std::vector<double>&)> fill);
-  void add_marker_motion(const std::string& group, std::size_t marker);
-  void add_point_series();
-  void add_body_series();
-  void add_joint_series();
-  void add_joint_coordinate(const Joint& joint, int row_of_joint);
-  void add_force_series();
-  void add_wrench_series(std::size_t force_index);
-  void add_neglected_series(const Model& full);
-  void add_section_series(const VehicleSections& sections);
   void make_event_datasets(const Model& full);
 
-  const Model* model_;
-  std::vector<VehiclePoint> points_;  // in the order of the model's markers
   support::Hdf5Writer file_;
-  std::vector<Series> series_;
-  std::vector<std::vector<double>> channels_;  // for each force element, of the present snapshot
-  std::vector<Wrench> wrenches_;               // on all markers, by the present force element
+  RunHistories histories_;
+  std::vector<Stored> stored_;
   // Of the events.
   support::Hdf5GrowingDataset *event_time_ = nullptr, *event_kind_ = nullptr, *event_object_ = nullptr,
                               *event_text_ = nullptr;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/output/bending_limits.h"
-#include "dynamics/output/section_statistics.h"
+#include "dynamics/section_loads/body_bending.h"
+#include "dynamics/section_loads/section_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/files/bytes.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "dynamics/input/point_reference.h"
-#include "dynamics/output/section_report.h"
+#include "dynamics/section_loads/body_remarks.h"
 
 namespace sprung::dynamics {
 

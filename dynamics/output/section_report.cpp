@@ -1,7 +1,6 @@
 #include "dynamics/output/section_report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 
@@ -36,35 +35,6 @@ std::string format_sections(const SectionStatistics& statistics) {
   }
   if (statistics.peaks().empty()) return "";
   return "\nLargest bending moments along the beams\n" + table.str();
-}
-
-std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics) {
-  std::vector<BodyRemark> remarks;
-  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
-    const BodySections& body = statistics.sections().bodies()[b];
-    const SectionPeaks& peaks = statistics.peaks()[b];
-    std::vector<std::string> parts;
-    if (peaks.missing_deflection_share() > kTooMuchMissing) {
-      const SectionPeak& peak = peaks.missing_deflection;
-      parts.push_back(fmt::format("{:.3g} % of the largest deflection (at {} along {}, t = {:.3g} s)",
-                                  100.0 * peaks.missing_deflection_share(),
-                                  body.points()[static_cast<std::size_t>(peak.station / 3)],
-                                  peak.station % 3 == 0 ? "x" : "y", peak.time));
-    }
-    if (peaks.missing_moment_share() > kTooMuchMissing) {
-      const Eigen::RowVector2d place = body.positions().row(peaks.missing_moment.station);
-      parts.push_back(
-          fmt::format("{:.3g} % of the largest bending moment (at x = {:.4g} m, y = {:.4g} m, t = {:.3g} s)",
-                      100.0 * peaks.missing_moment_share(), place.x(), place.y(), peaks.missing_moment.time));
-    }
-    if (parts.empty()) continue;
-    remarks.push_back(
-        {body.name(),
-         fmt::format(
-             "{}: its modes miss {}; take more modes or a certified basis, and moments from the loads",
-             body.name(), fmt::join(parts, " and "))});
-  }
-  return remarks;
 }
 
 Json make_sections_json(const SectionStatistics& statistics) {

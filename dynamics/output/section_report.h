@@ -1,10 +1,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "dynamics/output/body_remark.h"
-#include "dynamics/output/section_statistics.h"
+#include "dynamics/section_loads/section_statistics.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
@@ -12,9 +10,6 @@ namespace sprung::dynamics {
 /// The largest bending moment along the beams of each body, from its loads and from its modes, as a table
 /// with a heading; empty where there are none.
 std::string format_sections(const SectionStatistics& statistics);
-
-/// A remark on each body of whose deflections or bending moments the modes miss too much.
-std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics);
 
 /// The largest axial force, shear force and bending moment of each body, SI units.
 support::Json make_sections_json(const SectionStatistics& statistics);

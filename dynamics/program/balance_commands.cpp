@@ -6,6 +6,7 @@
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/program/commands.h"
+#include "dynamics/section_loads/resting_sections.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/terminal/program.h"
 

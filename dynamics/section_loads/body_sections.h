@@ -5,15 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/output/body_loads.h"
-#include "dynamics/system/system_terms.h"
+#include "dynamics/section_loads/body_loads.h"
 
 namespace sprung::dynamics {
 
 /// Axial force, shear force and bending moment along the beams of a body at an instant, and deflections of
-/// its named points, from its modes and from its loads (output, eqs. 2, 3). There is one station at each end
-/// of each element, in the superelement's order of elements, first end first. Values are 3×stations, rows N
-/// [N], Q [N], M [N·m]. `update` allocates nothing.
+/// its named points, from its modes and from its loads (section_loads, eqs. 1, 2). There is one station at
+/// each end of each element, in the superelement's order of elements, first end first. Values are 3×stations,
+/// rows N [N], Q [N], M [N·m]. `update` allocates nothing.
 class BodySections {
  public:
   /// @param body    0-based, of the model; with a superelement
@@ -37,13 +36,13 @@ class BodySections {
   const BodyLoads& loads() const { return loads_; }
   const Eigen::Matrix3Xd& from_modes() const { return from_modes_; }
   const Eigen::Matrix3Xd& from_loads() const { return from_loads_; }
-  /// What the modes lack of the mean bending moment of each element; where there are both ways (output, eq.
-  /// 4) [N·m].
+  /// What the modes lack of the mean bending moment of each element; where there are both ways
+  /// (section_loads, eq. 3) [N·m].
   const Eigen::VectorXd& missing_moment() const { return missing_moment_; }
   /// Names of the superelement's points, "body.point".
   const std::vector<std::string>& points() const { return points_; }
-  /// Deflections of these points from the loads, and what the modes lack of them, body axes (output, eq. 5);
-  /// where there are both ways. Rows x [m], y [m], rotation [rad], 3×points
+  /// Deflections of these points from the loads, and what the modes lack of them, body axes (section_loads,
+  /// eq. 4); where there are both ways. Rows x [m], y [m], rotation [rad], 3×points
   const Eigen::Matrix3Xd& deflections() const { return deflections_; }
   const Eigen::Matrix3Xd& missing_deflections() const { return missing_deflections_; }
 
@@ -64,32 +63,13 @@ class BodySections {
   Eigen::Matrix3Xd from_modes_, from_loads_;
   Eigen::VectorXd lengths_;      // of the elements
   Eigen::MatrixXd mean_moment_;  // of each element by mode
-  Eigen::VectorXd delay_,
-      amplitudes_;  // damping over stiffness of each mode; with it, those that carry damping
+  Eigen::VectorXd delay_;        // damping over stiffness of each mode
+  Eigen::VectorXd amplitudes_;   // η + delay η̇: what the elastic and the damping forces belong to
   Eigen::VectorXd missing_moment_;
   std::vector<std::string> points_;
   Eigen::MatrixXd deflection_by_load_;  // 3 points × columns of by_load_
   Eigen::MatrixXd deflection_by_mode_;  // 3 points × modes
   Eigen::Matrix3Xd deflections_, missing_deflections_;
-};
-
-/// The sections of all bodies of a vehicle that have a superelement.
-class VehicleSections {
- public:
-  VehicleSections(const Vehicle& vehicle, const Model& model);
-
-  /// @param terms   positions, Jacobian, velocities and forces up to date; of the model, or of one with some
-  /// of
-  ///                its modes held
-  /// @param lambda  multipliers of the terms
-  /// @param q, v, v_dot  of the model
-  void update(const SystemTerms& terms, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
-              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
-  const std::vector<BodySections>& bodies() const { return bodies_; }
-
- private:
-  std::vector<BodySections> bodies_;
-  std::vector<Wrench> loads_;  // on each marker
 };
 
 }  // namespace sprung::dynamics

@@ -1,4 +1,4 @@
-#include "dynamics/output/section_statistics.h"
+#include "dynamics/section_loads/section_statistics.h"
 
 #include <cmath>
 

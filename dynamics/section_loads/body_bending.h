@@ -2,30 +2,24 @@
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
-#include "dynamics/output/body_remark.h"
-#include "dynamics/output/section_loads.h"
+#include "dynamics/bodies/body.h"
+#include "dynamics/section_loads/body_loads.h"
 #include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
 
-/// Shares above which a run warns: the largest deflection over the length of the body, and the work of axial
-/// forces in bending over that of the stiffness, both summed over the run (output, "Where linear bending
-/// ends").
-inline constexpr double kLargeDeflection = 0.1, kLargeAxialEffect = 0.1;
 /// Below this share of the length, axial forces may change a deflection as they like.
 inline constexpr double kNoDeflection = 1e-4;
 
 /// How large a flexible body's deflection has become in a run, and what axial forces that the model leaves
-/// out would have changed in it (output, eqs. 6, 7).
+/// out would have changed in it (section_loads, eqs. 5, 6).
 class BodyBending {
  public:
   /// @param loads  of the body
   BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads);
 
   const std::string& name() const { return name_; }
-  bool is_stiffened() const { return is_stiffened_; }
   /// @param loads  at this time   @param q  of the model
   void add(double time, const BodyLoads& loads, const Eigen::VectorXd& q);
 
@@ -49,7 +43,6 @@ class BodyBending {
   };
 
   std::string name_;
-  bool is_stiffened_;
   int first_, num_modes_;
   double length_;                   // [m]
   Eigen::MatrixXd shapes_;          // x and y of each node, 2N×n
@@ -61,8 +54,5 @@ class BodyBending {
   double stiffening_ = 0.0;         // sum of ηᵀK_Gη over the outputs [J]
   double strain_ = 0.0;             // sum of ηᵀKη [J]
 };
-
-/// Remarks on the bodies that pass a limit.
-std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);
 
 }  // namespace sprung::dynamics

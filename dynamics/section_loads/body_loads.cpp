@@ -1,4 +1,4 @@
-#include "dynamics/output/body_loads.h"
+#include "dynamics/section_loads/body_loads.h"
 
 #include <algorithm>
 

@@ -1,6 +1,4 @@
-#include "dynamics/output/bending_limits.h"
-
-#include <fmt/format.h>
+#include "dynamics/section_loads/body_bending.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +44,6 @@ Eigen::MatrixXd make_geometric(const Body& body, const reduce::GeometricStiffnes
 
 BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelement, const BodyLoads& loads)
     : name_(body.name),
-      is_stiffened_(body.stiffening.has_value()),
       first_(body.first_coordinate + 3),
       num_modes_(body.num_modes()),
       length_(calc_length(superelement.node_positions)) {
@@ -59,7 +56,7 @@ BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelem
     }
   }
   displacement_ = Eigen::VectorXd::Zero(2 * num_nodes);
-  if (is_stiffened_ || !superelement.geometric_stiffness) return;
+  if (body.stiffening || !superelement.geometric_stiffness) return;
   geometric_ = make_geometric(body, *superelement.geometric_stiffness, loads);
   stiffness_ = body.stiffness.diagonal();
   present_ = Eigen::VectorXd::Zero(geometric_.rows());
@@ -83,27 +80,6 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
 
 double BodyBending::axial_effect() const {
   return deflection_share() > kNoDeflection && strain_ > 0.0 ? std::abs(stiffening_) / strain_ : 0.0;
-}
-
-std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {
-  std::vector<BodyRemark> remarks;
-  for (const BodyBending& body : bodies) {
-    if (body.deflection_share() > kLargeDeflection) {
-      remarks.push_back(
-          {body.name(),
-           fmt::format("{}: the deflection is {:.3g} % of the body's length (at t = {:.3g} s); beyond "
-                       "{:.0f} % linear bending does not hold",
-                       body.name(), 100.0 * body.deflection_share(), body.deflection_time(),
-                       100.0 * kLargeDeflection)});
-    }
-    if (body.axial_effect() > kLargeAxialEffect) {
-      remarks.push_back(
-          {body.name(),
-           fmt::format("{}: axial forces change the bending by {:.3g} %: set stiffening.{} = true",
-                       body.name(), 100.0 * body.axial_effect(), body.name())});
-    }
-  }
-  return remarks;
 }
 
 }  // namespace sprung::dynamics

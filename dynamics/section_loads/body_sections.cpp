@@ -1,6 +1,4 @@
-#include "dynamics/output/section_loads.h"
-
-#include <utility>
+#include "dynamics/section_loads/body_sections.h"
 
 namespace sprung::dynamics {
 
@@ -93,24 +91,6 @@ void BodySections::update_missing() {
   as_vector(deflections_).noalias() = deflection_by_load_ * accelerations_;
   as_vector(missing_deflections_).noalias() = deflection_by_mode_ * amplitudes_;
   missing_deflections_ = deflections_ - missing_deflections_;
-}
-
-VehicleSections::VehicleSections(const Vehicle& vehicle, const Model& model) : loads_(model.markers.size()) {
-  const std::vector<VehiclePoint> points = list_points(vehicle);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[b]);
-    if (superelement == nullptr) continue;
-    BodySections sections(model, static_cast<int>(b), *superelement, points);
-    if (sections.has_modes() || sections.has_loads()) bodies_.push_back(std::move(sections));
-  }
-}
-
-void VehicleSections::update(const SystemTerms& terms, const Eigen::VectorXd& lambda,
-                             const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                             const Eigen::VectorXd& v_dot) {
-  if (bodies_.empty()) return;
-  terms.calc_loads(lambda, loads_);
-  for (BodySections& body : bodies_) body.update(loads_, q, v, v_dot);
 }
 
 }  // namespace sprung::dynamics

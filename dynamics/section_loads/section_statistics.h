@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "dynamics/output/section_loads.h"
+#include "dynamics/section_loads/vehicle_sections.h"
 #include "tools/support/files/bytes.h"
 
 namespace sprung::dynamics {
@@ -20,19 +20,16 @@ struct SectionPeak {
 struct SectionPeaks {
   enum Quantity { kAxial, kShear, kMoment };
   std::array<SectionPeak, 3> from_modes, from_loads, difference;
-  /// What the modes lack of a bending moment (output, eq. 4); the station is the element's first end.
+  /// What the modes lack of a bending moment (section_loads, eq. 3); the station is the element's first end.
   SectionPeak missing_moment;
   /// Of the named points: the largest deflection; and what the modes lack of a deflection along x or y
-  /// (output, eq. 5). The station is 3 × point + direction [m].
+  /// (section_loads, eq. 4). The station is 3 × point + direction [m].
   SectionPeak deflection, missing_deflection;
 
   /// What the modes lack as a share of the largest value from the loads; 0 where all are 0.
   double missing_moment_share() const;
   double missing_deflection_share() const;
 };
-
-/// Share of the largest bending moment, or deflection, above which the modes of a body miss too much of it.
-inline constexpr double kTooMuchMissing = 0.05;
 
 /// The largest section loads of a run, over outputs that are added one by one.
 class SectionStatistics {

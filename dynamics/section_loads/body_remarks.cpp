@@ -1,0 +1,66 @@
+#include "dynamics/section_loads/body_remarks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kTooMuchMissing = 0.05;   // of the largest bending moment or deflection
+constexpr double kLargeDeflection = 0.1;   // over the length of the body
+constexpr double kLargeAxialEffect = 0.1;  // work of axial forces in bending over that of the stiffness
+
+}  // namespace
+
+std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics) {
+  std::vector<BodyRemark> remarks;
+  for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
+    const BodySections& body = statistics.sections().bodies()[b];
+    const SectionPeaks& peaks = statistics.peaks()[b];
+    std::vector<std::string> parts;
+    if (peaks.missing_deflection_share() > kTooMuchMissing) {
+      const SectionPeak& peak = peaks.missing_deflection;
+      parts.push_back(fmt::format("{:.3g} % of the largest deflection (at {} along {}, t = {:.3g} s)",
+                                  100.0 * peaks.missing_deflection_share(),
+                                  body.points()[static_cast<std::size_t>(peak.station / 3)],
+                                  peak.station % 3 == 0 ? "x" : "y", peak.time));
+    }
+    if (peaks.missing_moment_share() > kTooMuchMissing) {
+      const Eigen::RowVector2d place = body.positions().row(peaks.missing_moment.station);
+      parts.push_back(
+          fmt::format("{:.3g} % of the largest bending moment (at x = {:.4g} m, y = {:.4g} m, t = {:.3g} s)",
+                      100.0 * peaks.missing_moment_share(), place.x(), place.y(), peaks.missing_moment.time));
+    }
+    if (parts.empty()) continue;
+    remarks.push_back(
+        {body.name(),
+         fmt::format(
+             "{}: its modes miss {}; take more modes or a certified basis, and moments from the loads",
+             body.name(), fmt::join(parts, " and "))});
+  }
+  return remarks;
+}
+
+std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {
+  std::vector<BodyRemark> remarks;
+  for (const BodyBending& body : bodies) {
+    if (body.deflection_share() > kLargeDeflection) {
+      remarks.push_back(
+          {body.name(),
+           fmt::format("{}: the deflection is {:.3g} % of the body's length (at t = {:.3g} s); beyond "
+                       "{:.0f} % linear bending does not hold",
+                       body.name(), 100.0 * body.deflection_share(), body.deflection_time(),
+                       100.0 * kLargeDeflection)});
+    }
+    if (body.axial_effect() > kLargeAxialEffect) {
+      remarks.push_back(
+          {body.name(),
+           fmt::format("{}: axial forces change the bending by {:.3g} %: set stiffening.{} = true",
+                       body.name(), 100.0 * body.axial_effect(), body.name())});
+    }
+  }
+  return remarks;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/section_loads/body_bending.h"
+#include "dynamics/section_loads/section_statistics.h"
+
+namespace sprung::dynamics {
+
+/// A doubt about the numbers of a body; the text names it.
+struct BodyRemark {
+  std::string body, text;
+};
+
+/// A remark on each body of whose largest deflection or bending moment the modes miss more than a twentieth.
+std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics);
+/// A remark on each body for which linear bending without axial forces does not hold: one that deflects by
+/// more than a tenth of its length, or whose bending axial forces change by more than a tenth.
+std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,31 @@
+#include "dynamics/section_loads/resting_sections.h"
+
+#include <vector>
+
+#include "dynamics/system/constrained_equations.h"
+#include "tools/support/errors/numerical_error.h"
+
+namespace sprung::dynamics {
+
+SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
+                                        VehicleSections& sections) {
+  SectionStatistics statistics(sections);
+  if (sections.bodies().empty()) return statistics;
+  ConstrainedEquations equations(model, SystemTerms::Markers::kAll);
+  const Eigen::VectorXd v = equilibrium.motion.calc_velocity(model, equilibrium.q);
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  SystemTerms& terms = equations.terms();
+  terms.update_positions(0.0, equilibrium.q);
+  terms.update_jacobian();
+  terms.update_velocities(v);
+  terms.choose_branches(branches);
+  if (!equations.update_accelerations(branches)) {
+    throw support::NumericalError(
+        "the accelerations at the equilibrium cannot be computed: constraints depend on each other");
+  }
+  sections.update(terms, equations.multipliers(), equilibrium.q, v, equations.v_dot());
+  statistics.add(0.0);
+  return statistics;
+}
+
+}  // namespace sprung::dynamics

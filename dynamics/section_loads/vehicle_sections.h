@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/section_loads/body_sections.h"
+#include "dynamics/system/system_terms.h"
+
+namespace sprung::dynamics {
+
+/// The sections of all bodies of a vehicle that have a superelement.
+class VehicleSections {
+ public:
+  VehicleSections(const Vehicle& vehicle, const Model& model);
+
+  /// @param terms   positions, Jacobian, velocities and forces up to date; of the model, or of one with some
+  ///                of its modes held
+  /// @param lambda  multipliers of the terms
+  /// @param q, v, v_dot  of the model
+  void update(const SystemTerms& terms, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
+              const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
+  const std::vector<BodySections>& bodies() const { return bodies_; }
+
+ private:
+  std::vector<BodySections> bodies_;
+  std::vector<Wrench> loads_;  // on each marker
+};
+
+}  // namespace sprung::dynamics
