@@ -109,7 +109,7 @@ std::optional<SteadyMotion> find_steady_motion(const Model& model, const Eigen::
   rigid.col(1) = SteadyMotion{.velocity = {0.0, 1.0}}.calc_velocity(model, q);
   rigid.col(2) = SteadyMotion{.omega = 1.0}.calc_velocity(model, q);
   const Eigen::MatrixXd allowed = terms.jacobian().dense() * rigid;
-  const Eigen::Vector3d found = support::solve_minimum_norm(allowed, -phi_t);
+  const Eigen::Vector3d found = support::solve_least_squares(allowed, -phi_t);
   if ((allowed * found + phi_t).norm() > kAllowed * phi_t.norm()) return std::nullopt;
   return SteadyMotion{.velocity = found.head<2>(), .omega = found[2]};
 }

@@ -105,7 +105,7 @@ std::string format_certificate(const Superelement& s) {
                        ? "missing"
                        : format_share(certificate.free_error(i), certificate.rounding_floor)});
   }
-  if (shown > 0) text += "\n" + modes.str();
+  if (shown > 0) text += fmt::format("\n{}", modes.str());
   if (shown < certificate.free_hz.size())
     text += fmt::format("and {} more\n", certificate.free_hz.size() - shown);
   TextTable interface(
@@ -118,7 +118,7 @@ std::string format_certificate(const Superelement& s) {
          format_share(one.error, certificate.rounding_floor),
          one.error >= kUnbounded ? "" : fmt::format("{:.3g}", one.worst_hz)});
   }
-  if (!certificate.interface.empty()) text += "\n" + interface.str();
+  if (!certificate.interface.empty()) text += fmt::format("\n{}", interface.str());
   return text;
 }
 

@@ -42,10 +42,10 @@ TEST_CASE("Too many equations are solved for the least residual, too few by the 
   const MatrixXd x =
       support::solve_least_squares(MatrixXd::Ones(2, 1), (MatrixXd(2, 1) << 1.0, 3.0).finished());
   CHECK(x(0, 0) == Approx(2.0).epsilon(1e-14));
-  const VectorXd xy = support::solve_minimum_norm(MatrixXd::Ones(1, 2), VectorXd::Constant(1, 2.0));
+  const VectorXd xy = support::solve_least_squares(MatrixXd::Ones(1, 2), VectorXd::Constant(1, 2.0));
   CHECK((xy - VectorXd::Ones(2)).norm() < 1e-14);
   // The same equation twice, which leaves the rank 1.
-  const VectorXd twice = support::solve_minimum_norm(MatrixXd::Ones(2, 2), VectorXd::Constant(2, 2.0));
+  const VectorXd twice = support::solve_least_squares(MatrixXd::Ones(2, 2), VectorXd::Constant(2, 2.0));
   CHECK((twice - VectorXd::Ones(2)).norm() < 1e-14);
 }
 

@@ -1,40 +1,67 @@
 #include "tools/support/dense/dense_solvers.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <limits>
+
+#include "tools/support/dense/lapack.h"
 
 namespace sprung::support {
 
+namespace {
+
+int solve_in_place(Eigen::MatrixXd& A, std::vector<int>& pivots, Eigen::MatrixXd& x) {
+  return LAPACKE_dgesv(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(x), A.data(), lapack::stride(A),
+                       pivots.data(), x.data(), lapack::stride(x));
+}
+int solve_in_place(Eigen::MatrixXcd& A, std::vector<int>& pivots, Eigen::MatrixXcd& x) {
+  return LAPACKE_zgesv(LAPACK_COL_MAJOR, lapack::rows(A), lapack::cols(x), A.data(), lapack::stride(A),
+                       pivots.data(), x.data(), lapack::stride(x));
+}
+
+template <class Matrix>
+Matrix solve_general_system(Matrix A, Matrix x) {
+  std::vector<int> pivots(static_cast<std::size_t>(A.rows()));
+  if (solve_in_place(A, pivots, x) != 0) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return x;
+}
+
+}  // namespace
+
 Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b) {
-  return Eigen::PartialPivLU<Eigen::MatrixXd>(A).solve(b);
+  return solve_general_system(A, b);
 }
 
 Eigen::MatrixXcd solve_lu(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
-  return Eigen::PartialPivLU<Eigen::MatrixXcd>(A).solve(b);
+  return solve_general_system(A, b);
 }
 
 LuFactors factorise_lu(const Eigen::MatrixXd& A) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(A);
-  return {.lu = factors.matrixLU(),
-          .permutation = factors.permutationP().indices(),
-          .reciprocal_condition = factors.rcond()};
+  LuFactors factors{.lu = A, .pivots = std::vector<int>(static_cast<std::size_t>(A.rows()))};
+  const double norm = A.size() > 0 ? A.cwiseAbs().colwise().sum().maxCoeff() : 0.0;
+  const int n = lapack::rows(A), stride = lapack::stride(A);
+  if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, factors.lu.data(), stride, factors.pivots.data()) != 0)
+    return factors;
+  LAPACKE_dgecon(LAPACK_COL_MAJOR, '1', n, factors.lu.data(), stride, norm, &factors.reciprocal_condition);
+  return factors;
 }
 
 Eigen::MatrixXd LuFactors::solve(const Eigen::MatrixXd& b) const {
-  Eigen::MatrixXd x(b.rows(), b.cols());
-  for (Eigen::Index i = 0; i < b.rows(); ++i) x.row(permutation[i]) = b.row(i);
-  lu.triangularView<Eigen::UnitLower>().solveInPlace(x);
-  lu.triangularView<Eigen::Upper>().solveInPlace(x);
+  Eigen::MatrixXd x = b;
+  LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', lapack::rows(lu), lapack::cols(x), lu.data(), lapack::stride(lu),
+                 pivots.data(), x.data(), lapack::stride(x));
   return x;
 }
 
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b) {
-  if (A.size() == 0) return b;
-  return Eigen::LLT<Eigen::MatrixXd>(A).solve(b);
+  Eigen::MatrixXd factor = A, x = b;
+  const int failure = LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', lapack::rows(A), lapack::cols(x), factor.data(),
+                                    lapack::stride(A), x.data(), lapack::stride(x));
+  if (failure != 0) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return x;
 }
 
 bool is_positive_definite(const Eigen::MatrixXd& A) {
-  return A.size() == 0 || Eigen::LLT<Eigen::MatrixXd>(A).info() == Eigen::Success;
+  Eigen::MatrixXd factor = A;
+  return LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', lapack::rows(A), factor.data(), lapack::stride(A)) == 0;
 }
 
 }  // namespace sprung::support

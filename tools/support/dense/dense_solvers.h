@@ -1,25 +1,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace sprung::support {
 
 /// Solves A x = b by LU factors with partial pivoting.
-/// @param A  n×n   @param b  n×k   @return n×k; NaN or infinity where A is singular
+/// @param A  n×n   @param b  n×k   @return n×k; NaN where A is singular
 Eigen::MatrixXd solve_lu(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 Eigen::MatrixXcd solve_lu(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
 
 /// LU factors with partial pivoting, for several right-hand sides and an estimate of the condition.
 struct LuFactors {
   Eigen::MatrixXd lu;                 ///< n×n, L below the diagonal (its own is 1), U
-  Eigen::VectorXi permutation;        ///< row i of A is row permutation[i] of L U
-  double reciprocal_condition = 0.0;  ///< estimated in the 1-norm
+  std::vector<int> pivots = {};       ///< row i was exchanged with row pivots[i], from 1
+  double reciprocal_condition = 0.0;  ///< estimated in the 1-norm; 0 where A is singular
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 };
 LuFactors factorise_lu(const Eigen::MatrixXd& A);
 
-/// Solves A x = b by Cholesky factors. @param A  n×n, symmetric positive definite, which is not checked
+/// Solves A x = b by Cholesky factors. @param A  n×n, symmetric positive definite, or the
+///           result is NaN
 /// @param b  n×k
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 /// Whether the Cholesky factorisation of a symmetric matrix succeeds.

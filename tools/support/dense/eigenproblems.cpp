@@ -1,30 +1,37 @@
 #include "tools/support/dense/eigenproblems.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <complex>
+#include <limits>
+
+#include "tools/support/dense/lapack.h"
 
 namespace sprung::support {
 
 std::optional<SymmetricEigenpairs> solve_symmetric(const Eigen::MatrixXd& A) {
-  if (A.size() == 0) return SymmetricEigenpairs{};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return SymmetricEigenpairs{solver.eigenvalues(), solver.eigenvectors()};
+  SymmetricEigenpairs pairs{.values = Eigen::VectorXd(A.rows()), .vectors = A};
+  if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'L', lapack::rows(A), pairs.vectors.data(), lapack::stride(A),
+                     pairs.values.data()) != 0)
+    return std::nullopt;
+  return pairs;
 }
 
 Eigen::VectorXd calc_symmetric_eigenvalues(const Eigen::MatrixXd& A) {
-  if (A.size() == 0) return {};
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
+  Eigen::MatrixXd overwritten = A;
+  Eigen::VectorXd values(A.rows());
+  if (LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'N', 'L', lapack::rows(A), overwritten.data(), lapack::stride(A),
+                     values.data()) != 0)
+    values.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return values;
 }
 
 std::optional<SymmetricEigenpairs> solve_undamped(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
-  if (M.size() == 0) return SymmetricEigenpairs{};
-  if (Eigen::LLT<Eigen::MatrixXd>(M).info() != Eigen::Success) return std::nullopt;
-  const Eigen::MatrixXd symmetric = 0.5 * (K + K.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric, M);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return SymmetricEigenpairs{solver.eigenvalues(), solver.eigenvectors()};
+  constexpr int kFormKxEqualsLambdaMx = 1;
+  SymmetricEigenpairs pairs{.values = Eigen::VectorXd(K.rows()), .vectors = 0.5 * (K + K.transpose())};
+  Eigen::MatrixXd factor = M;
+  if (LAPACKE_dsygvd(LAPACK_COL_MAJOR, kFormKxEqualsLambdaMx, 'V', 'L', lapack::rows(K), pairs.vectors.data(),
+                     lapack::stride(K), factor.data(), lapack::stride(M), pairs.values.data()) != 0)
+    return std::nullopt;
+  return pairs;
 }
 
 Eigen::VectorXcd GeneralEigenpairs::vector(Eigen::Index k) const {
@@ -41,15 +48,28 @@ Eigen::VectorXcd GeneralEigenpairs::vector(Eigen::Index k) const {
 }
 
 std::optional<GeneralEigenpairs> solve_general(const Eigen::MatrixXd& A) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return GeneralEigenpairs{solver.eigenvalues(), solver.pseudoEigenvectors()};
+  Eigen::MatrixXd overwritten = A;
+  Eigen::VectorXd real(A.rows()), imaginary(A.rows());
+  GeneralEigenpairs pairs{.values = Eigen::VectorXcd(A.rows()),
+                          .real_vectors = Eigen::MatrixXd(A.rows(), A.cols())};
+  double* const no_left_vectors = nullptr;
+  if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', lapack::rows(A), overwritten.data(), lapack::stride(A),
+                    real.data(), imaginary.data(), no_left_vectors, 1, pairs.real_vectors.data(),
+                    lapack::stride(A)) != 0)
+    return std::nullopt;
+  pairs.values.real() = real;
+  pairs.values.imag() = imaginary;
+  return pairs;
 }
 
 std::optional<ComplexSchurForm> make_schur_form(const Eigen::MatrixXd& A) {
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<std::complex<double>>());
-  if (schur.info() != Eigen::Success) return std::nullopt;
-  return ComplexSchurForm{schur.matrixU(), schur.matrixT()};
+  ComplexSchurForm form{.U = Eigen::MatrixXcd(A.rows(), A.cols()), .T = A.cast<std::complex<double>>()};
+  Eigen::VectorXcd values(A.rows());
+  int num_selected = 0;
+  if (LAPACKE_zgees(LAPACK_COL_MAJOR, 'V', 'N', nullptr, lapack::rows(A), form.T.data(), lapack::stride(A),
+                    &num_selected, values.data(), form.U.data(), lapack::stride(A)) != 0)
+    return std::nullopt;
+  return form;
 }
 
 }  // namespace sprung::support

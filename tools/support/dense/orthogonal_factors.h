@@ -16,21 +16,21 @@ ColumnSpace find_column_space(const Eigen::MatrixXd& A, Eigen::Index num_columns
 /// An orthogonal matrix whose first column lies along a vector. @param direction  n, not zero   @return n×n
 Eigen::MatrixXd make_rotation_onto(const Eigen::VectorXd& direction);
 
-/// x that makes |A x − b| least, by QR factors with column pivoting. @param A  m×n   @param b  m×k
+/// Among the x that make |A x − b| least, the shortest. @param A  m×n, of any rank   @param b  m×k
 Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
-/// Among the x that make |A x − b| least, the shortest. @param A  m×n, of any rank
-Eigen::VectorXd solve_minimum_norm(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// Singular values, descending, with singular vectors as columns.
+/// Singular values, descending, with singular vectors as columns. They are NaN where the iteration does not
+/// converge, as for an A that is not finite. Values much smaller than the largest are accurate to its
+/// rounding.
 struct SingularPairs {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
-/// Of the smaller matrices, where small singular values must be right. @param A  m×n   @return min(m, n)
+/// @param A  m×n   @return min(m, n)
 Eigen::VectorXd calc_singular_values(const Eigen::MatrixXd& A);
 /// As above, with all m left vectors: those beyond min(m, n) complete the basis.
 SingularPairs calc_left_singular_pairs(const Eigen::MatrixXd& A);
-/// With the right vectors, n×min(m, n); divide and conquer, for matrices of any size.
+/// With the right vectors, n×min(m, n).
 SingularPairs calc_right_singular_pairs(const Eigen::MatrixXd& A);
 
 }  // namespace sprung::support
