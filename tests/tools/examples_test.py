@@ -24,7 +24,7 @@ WRITTEN = {
     "export_csv": ("bump.csv",), "report": ("report.html",), "export_paraview": ("modes.pvd", "bump.pvd"),
     "plot_response": ("response.png",),
     "plot_modes": ("choice.png", "bump_modes.png"),
-    "plot_sensitivity": ("first.png", "all.png"),
+    "plot_sensitivity": ("first.png", "all.png"), "fatigue": ("fatigue.png",),
     "study": ("quarter_car_study/table.csv", "quarter_car_study/table.h5", "quarter_car_study/study.html"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")

@@ -37,7 +37,11 @@ def write_loads(path, from_loads=None):
         for ending, factor in (("", 1.0), *([("_from_loads", from_loads)] if from_loads else [])):
             write_series(file, f"recovery/body/axial{ending}", np.full(moment.shape, AXIAL), "N")
             write_series(file, f"recovery/body/moment{ending}", factor * moment, "N m")
-        for name, values, unit in (("station", STATIONS, "m"), ("area", AREA, "m^2"), ("section_modulus", MODULUS, "m^3")):
+        for name, values, unit in (
+            ("station", STATIONS, "m"),
+            ("area", AREA, "m^2"),
+            ("section_modulus", MODULUS, "m^3"),
+        ):
             write_series(file, f"recovery/body/{name}", values, unit)
         file.require_group("summary").attrs["energy_closure"] = 1e-9
         file.attrs["version"] = 2
@@ -93,7 +97,9 @@ class Fatigue(ToolTestCase):
         knee = 71.0 * 0.4 ** (1.0 / 3.0)
         expected = 4.0 * np.array([0.0, (40.0 / knee) ** 5 / 5e6, (100.0 / 71.0) ** 3 / 2e6, (200.0 / 71.0) ** 3 / 2e6])
         np.testing.assert_allclose(fatigue.damage, np.stack([expected, expected], axis=1), rtol=1e-12)
-        np.testing.assert_allclose(fatigue.greatest_range * 1e-6, [[0.0] * 2, [40.0] * 2, [100.0] * 2, [200.0] * 2], atol=1e-9)
+        np.testing.assert_allclose(
+            fatigue.greatest_range * 1e-6, [[0.0] * 2, [40.0] * 2, [100.0] * 2, [200.0] * 2], atol=1e-9
+        )
         self.assertEqual(fatigue.worst[0], 3)
         np.testing.assert_allclose(doubled.damage[2:], 8.0 * fatigue.damage[2:], rtol=1e-12)
 
@@ -101,7 +107,9 @@ class Fatigue(ToolTestCase):
         with open_results(write_loads(self.folder / "a.h5")) as results:
             plain = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
             corrected = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE._replace(strength=100e6))
-            with self.assertRaisesRegex(InputError, "at -2 m of 'body', the mean stress|at 0 m of 'body', the mean stress"):
+            with self.assertRaisesRegex(
+                InputError, "at -2 m of 'body', the mean stress|at 0 m of 'body', the mean stress"
+            ):
                 calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE._replace(strength=10e6))
         # A mean of 20 MPa with R_m = 100 MPa raises ranges of the first slope by 1/0.8
         np.testing.assert_allclose(corrected.damage[2:], plain.damage[2:] / 0.8**3, rtol=1e-12)
@@ -137,14 +145,16 @@ class FatigueCommand(ToolTestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         packed = json.loads(done.stdout)
         self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 1))
-        self.assertEqual(packed["strength_line"], {"category": 71e6, "slopes": [3.0, 5.0], "knee": 5e6, "endurance": 1e8,
-                                                   "strength": 500e6})  # fmt: skip
+        line = {"category": 71e6, "slopes": [3.0, 5.0], "knee": 5e6, "endurance": 1e8, "strength": 500e6}
+        self.assertEqual(packed["strength_line"], line)
         (run,) = packed["runs"]
         self.assertEqual(run["measures"]["fatigue/body/from_modes/station"], {"value": 2.0, "unit": "m"})
         self.assertAlmostEqual(run["measures"]["fatigue/body/from_modes/highest"]["value"] * 1e-6, 120.0, places=9)
         (along,) = run["along"]
         self.assertEqual(along["station"], [-2.0, 0.0, 0.0, 2.0])
-        self.assertEqual(max(max(pair) for pair in along["damage"]), run["measures"]["fatigue/body/from_modes/damage"]["value"])
+        self.assertEqual(
+            max(max(pair) for pair in along["damage"]), run["measures"]["fatigue/body/from_modes/damage"]["value"]
+        )
 
     def test_what_cannot_be_is_refused(self):
         write_loads(self.folder / "a.h5")
@@ -152,7 +162,10 @@ class FatigueCommand(ToolTestCase):
         for arguments, message in (
             (("a.h5", "--category", "0"), "--category: error: is 0, expected a finite value > 0"),
             (("a.h5", "--category", "71", "--slopes", "3", "-1"), "--slopes: error: is -1"),
-            (("a.h5", "--category", "71", "--at", "arm:0"), "--at: error: no stresses of a body 'arm'; there are those of body"),
+            (
+                ("a.h5", "--category", "71", "--at", "arm:0"),
+                "--at: error: no stresses of a body 'arm'; there are those of body",
+            ),
             (("a.h5", "--category", "71", "--at", "body"), "--at: error: 'body' is not BODY:METRES"),
             (("a.h5", "--category", "71", "--bodies", "arm"), "no loads of the sections of 'arm'"),
             (("bare.h5", "--category", "71"), "no flexible body with loads of its sections"),
@@ -209,8 +222,10 @@ class Programs(ToolTestCase):
     def test_a_cantilever_at_rest_has_the_stress_of_its_weight_at_its_root(self):
         for name, text in (("beam.toml", DESIGN), ("vehicle.toml", VEHICLE), ("run.toml", RUN)):
             (self.folder / name).write_text(text, encoding="utf-8")
-        for program, *arguments in (("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", "."),
-                                    ("SPRUNG_DYNAMICS", "run", "run.toml", "--superelements", ".", "-o", "run.h5")):  # fmt: skip
+        for program, *arguments in (
+            ("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", "."),
+            ("SPRUNG_DYNAMICS", "run", "run.toml", "--superelements", ".", "-o", "run.h5"),
+        ):
             done = run_program([os.environ[program], *arguments], cwd=self.folder)
             self.assertEqual(done.returncode, 0, done.stderr)
         with open_results(self.folder / "run.h5") as results:

@@ -17,7 +17,7 @@ MPA = 1e6
 # its table of ranges; all other ranges from 1 to 10 have none.
 EXAMPLE = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]
 COUNTED = {3.0: 0.5, 4.0: 1.5, 6.0: 0.5, 8.0: 1.0, 9.0: 0.5}
-# Its cycles as (range, mean, count) in the order in which they close: A-B, B-C, E-F, then what is left, C-D, D-G, G-H, H-I.
+# Its cycles as (range, mean, count) in the order in which they close: A-B, B-C, E-F, then C-D, D-G, G-H, H-I.
 CYCLES = [(3.0, -0.5, 0.5), (4.0, -1.0, 0.5), (4.0, 1.0, 1.0), (8.0, 1.0, 0.5), (9.0, 0.5, 0.5), (8.0, 0.0, 0.5),
           (6.0, 1.0, 0.5)]  # fmt: skip
 
@@ -26,6 +26,21 @@ def make_sine(amplitude, mean, number, samples=400):
     """A history [Pa] that begins at its lowest value and has `number` whole cycles, whose peaks are samples."""
     phase = np.linspace(0.0, 2.0 * np.pi * number, samples * number + 1)
     return mean - amplitude * np.cos(phase)
+
+
+def count_by_four_points(history):
+    """Rainflow cycles by the other rule: of four turning points the middle two make a cycle if they lie within the outer
+    two; what is left counts as half cycles."""
+    found, waiting = [], []
+    for value in find_turning_points(history).tolist():
+        waiting.append(value)
+        while len(waiting) >= 4:
+            first, second, third, fourth = waiting[-4:]
+            if min(second, third) < min(first, fourth) or max(second, third) > max(first, fourth):
+                break
+            found.append((abs(second - third), 0.5 * (second + third), 1.0))
+            del waiting[-3:-1]
+    return found + [(abs(one - other), 0.5 * (one + other), 0.5) for one, other in zip(waiting, waiting[1:])]
 
 
 class RainflowCounting(ToolTestCase):
@@ -44,7 +59,9 @@ class RainflowCounting(ToolTestCase):
     def test_a_small_cycle_within_a_large_one_leaves_the_large_one_whole(self):
         # 0 → 10 with 4 → 3 on the way, and back to 0: one cycle of range 1, two halves of range 10
         cycles = count_cycles(np.array([0.0, 4.0, 3.0, 10.0, 0.0]))
-        self.assertEqual(list(zip(*(part.tolist() for part in cycles))), [(1.0, 3.5, 1.0), (10.0, 5.0, 0.5), (10.0, 5.0, 0.5)])
+        self.assertEqual(
+            list(zip(*(part.tolist() for part in cycles))), [(1.0, 3.5, 1.0), (10.0, 5.0, 0.5), (10.0, 5.0, 0.5)]
+        )
 
     def test_a_constant_history_has_no_cycles(self):
         self.assertEqual(count_cycles(np.full(5, 3.0)).ranges.size, 0)
@@ -55,6 +72,12 @@ class RainflowCounting(ToolTestCase):
         cycles = count_cycles(history)
         self.assertEqual(2.0 * float(np.sum(cycles.counts)), find_turning_points(history).size - 1)
         self.assertEqual(float(np.max(cycles.ranges)), float(np.ptp(history)))
+
+    def test_the_rule_of_four_points_finds_the_same_cycles(self):
+        for seed in range(5):
+            history = np.random.default_rng(seed).normal(size=3000).cumsum() % 7.0
+            cycles = count_cycles(history)
+            self.assertEqual(sorted(zip(*(part.tolist() for part in cycles))), sorted(count_by_four_points(history)))
 
 
 class Damage(ToolTestCase):
@@ -93,7 +116,9 @@ class Damage(ToolTestCase):
     def test_goodmans_line_corrects_for_a_tensile_mean_only(self):
         # Range 80 MPa about a mean of 100 MPa, R_m = 400 MPa: as a range of 80 / (1 − 1/4) = 106.67 MPa about 0.
         line = self.line._replace(strength=400.0 * MPA)
-        damage = {mean: calc_damage(line, count_cycles(make_sine(40.0 * MPA, mean * MPA, 4))) for mean in (100.0, 0.0, -100.0)}
+        damage = {
+            mean: calc_damage(line, count_cycles(make_sine(40.0 * MPA, mean * MPA, 4))) for mean in (100.0, 0.0, -100.0)
+        }
         self.assertAlmostEqual(damage[100.0] * 2e6 / 4.0, (80.0 / 0.75 / 71.0) ** 3, places=12)
         self.assertAlmostEqual(damage[0.0] * 2e6 / 4.0, (80.0 / 71.0) ** 3, places=12)
         self.assertAlmostEqual(damage[-100.0] / damage[0.0], 1.0, places=12)
@@ -101,7 +126,9 @@ class Damage(ToolTestCase):
 
     def test_a_mean_at_the_ultimate_strength_is_refused(self):
         line = self.line._replace(strength=90.0 * MPA)
-        with self.assertRaisesRegex(ValueError, "the mean stress of a cycle is 95 MPa, not below the ultimate strength 90 MPa"):
+        with self.assertRaisesRegex(
+            ValueError, "the mean stress of a cycle is 95 MPa, not below the ultimate strength 90 MPa"
+        ):
             calc_damage(line, count_cycles(make_sine(5.0 * MPA, 95.0 * MPA, 1)))
 
 

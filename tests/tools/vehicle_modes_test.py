@@ -126,8 +126,9 @@ class FrameLoads(ToolTestCase):
         write_results(self.folder / "a.h5")
         with h5py.File(self.folder / "a.h5", "a") as file:
             wave = np.sin(2.0 * np.pi * file["time"][()])
-            for name, values in (("axial", [2e5, 2e5]), ("shear", [0.0, 0.0]), ("moment", [1e5, 3e5])):
-                write_series(file, f"recovery/chassis/{name}", np.outer(wave, values), "N m" if name == "moment" else "N")
+            loads = {"axial": ([2e5, 2e5], "N"), "shear": ([0.0, 0.0], "N"), "moment": ([1e5, 3e5], "N m")}
+            for name, (values, unit) in loads.items():
+                write_series(file, f"recovery/chassis/{name}", np.outer(wave, values), unit)
             write_series(file, "recovery/chassis/station", np.array([(2.0, 0.0), (0.0, 0.0)]), "m")
             write_series(file, "recovery/chassis/area", np.array([0.01, 0.01]), "m^2")
             write_series(file, "recovery/chassis/section_modulus", np.array([2e-3, 2e-3]), "m^3")

@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output, write_whole
-from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.plots.fatigue_picture import DrawnFatigue, Place, make_fatigue_figure
+from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.runs.fatigue import Fatigue, calc_fatigue, calc_life, find_stations
 from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
 from sprung_tools.runs.measures import JSON_FORMAT, JSON_VERSION, describe_run
@@ -33,8 +33,8 @@ from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 MPA, HOUR = 1e6, 3600.0
-HEADINGS = ("body", "run", "from", "at m", "element", "side", "highest MPa", "lowest MPa", "largest range MPa", "damage",
-            "life h")  # fmt: skip
+HEADINGS = ("body", "run", "from", "at m", "element", "side", "highest MPa", "lowest MPa", "largest range MPa",
+            "damage", "life h")  # fmt: skip
 UNITS = {"damage": "1", "station": "m", "element": "1", "highest": "Pa", "lowest": "Pa", "largest_range": "Pa",
          "life": "s"}  # fmt: skip
 
@@ -99,15 +99,18 @@ def list_places(found: Found, asked: Sequence[tuple[str, float]]) -> list[Place]
     if not asked:
         return [Place(*found.fatigue.worst)]
     at_body = [place for body, place in asked if body == found.body]
-    return [Place(station, side) for place in at_body for station in find_stations(found.fatigue, place) for side in (0, 1)]
+    return [
+        Place(station, side) for place in at_body for station in find_stations(found.fatigue, place) for side in (0, 1)
+    ]
 
 
 def describe_place(found: Found, place: Place) -> dict[str, float | None]:
     """What the fatigue of a body is at a place, in SI units, in the order of UNITS."""
-    section, stress = found.fatigue.section, found.fatigue.section.stress[:, *place]
+    section, stress = found.fatigue.section, found.fatigue.section.stress[:, place.station, place.side]
     damage = float(found.fatigue.damage[place])
     return {
-        "damage": damage, "station": float(section.along[place.station]), "element": int(section.elements[place.station]),
+        "damage": damage, "station": float(section.along[place.station]),
+        "element": int(section.elements[place.station]),
         "highest": float(stress.max()), "lowest": float(stress.min()),
         "largest_range": float(found.fatigue.greatest_range[place]), "life": calc_life(damage, found.window),
     }  # fmt: skip
@@ -165,7 +168,7 @@ def write_histories(path: str, all_found: Sequence[Found], asked: Sequence[tuple
         for place in list_places(found, asked):
             where = f"{found.body} at {section.along[place.station]:.4g} m, element {section.elements[place.station]}"
             headings.append(f"{where}, {section.sides[place.station][place.side]}, from {found.source} [Pa]")
-            columns.append(section.stress[:, *place])
+            columns.append(section.stress[:, place.station, place.side])
     table = io.StringIO()
     writer = csv.writer(table, lineterminator="\n")
     writer.writerow(headings)
@@ -191,7 +194,7 @@ def parse_arguments() -> argparse.Namespace:
                         help="slopes of the line above and below the knee (default: 3 5)")  # fmt: skip
     parser.add_argument("--knee", type=float, default=5e6, metavar="N", help="cycles at the knee (default: 5e6)")
     parser.add_argument("--endurance", type=float, metavar="N",
-                        help="cycles at which the line ends: smaller ranges do no damage (default: no end)")  # fmt: skip
+                        help="cycles at which the line ends: smaller ranges do no damage (default: none)")  # fmt: skip
     parser.add_argument("--strength", type=float, metavar="MPA",
                         help="ultimate strength, MPa: corrects for the mean stress by Goodman's line")  # fmt: skip
     parser.add_argument("--factor", type=float, default=1.0, metavar="F", help="multiplies all stresses (default: 1)")
@@ -209,7 +212,8 @@ def parse_arguments() -> argparse.Namespace:
 def read_line(arguments: argparse.Namespace) -> StrengthLine:
     """The strength line of the command line. InputError for a value that no line has."""
     values = {"--category": arguments.category, "--slopes": min(arguments.slopes), "--knee": arguments.knee,
-              "--endurance": arguments.endurance, "--strength": arguments.strength, "--factor": arguments.factor}  # fmt: skip
+              "--endurance": arguments.endurance, "--strength": arguments.strength,
+              "--factor": arguments.factor}  # fmt: skip
     for name, value in values.items():
         if value is not None and not 0.0 < value < float("inf"):
             raise InputError(f"{name}: error: is {value:g}, expected a finite value > 0")
@@ -223,8 +227,9 @@ def main() -> int:
     line = read_line(arguments)
     if arguments.histories and len(arguments.runs) > 1:
         raise InputError("--histories: error: takes one run, because runs have times of their own")
-    for output in filter(None, (arguments.output, arguments.histories)):
-        check_output(output, [split_label(one)[1] for one in arguments.runs])
+    for output in (arguments.output, arguments.histories):
+        if output:
+            check_output(output, [split_label(one)[1] for one in arguments.runs])
     runs = open_runs(arguments.runs)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
     bodies, gaps = choose_bodies(runs, arguments.bodies)

@@ -1,4 +1,4 @@
-"""A picture of the fatigue of a body: damage and stresses along it, stress over time and cycles at one of its places."""
+"""A picture of the fatigue of a body: damage and stresses along it; stress over time and cycles at a place."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -45,7 +45,9 @@ def draw_damage(axes: Axes, curves: Sequence[DrawnFatigue]) -> None:
     for one in curves:
         damage = np.max(one.fatigue.damage, axis=1)
         values = np.where(damage > FLOOR * greatest, damage, np.nan)
-        axes.plot(one.fatigue.section.along, values, label=f"{one.label}, from {one.source}", **choose_style(curves, one))
+        axes.plot(
+            one.fatigue.section.along, values, label=f"{one.label}, from {one.source}", **choose_style(curves, one)
+        )
     if greatest > 0.0:
         axes.set_yscale("log")
     axes.set_ylabel("damage of the run")
@@ -85,7 +87,9 @@ def draw_spectrum(axes: Axes, curves: Sequence[DrawnFatigue], place: Place, line
     for one in curves:
         cycles = count_at(one.fatigue, *place)
         if cycles.ranges.size:
-            axes.step(*calc_scaled(*calc_spectrum(cycles.ranges, cycles.counts)), where="pre", **choose_style(curves, one))
+            axes.step(
+                *calc_scaled(*calc_spectrum(cycles.ranges, cycles.counts)), where="pre", **choose_style(curves, one)
+            )
     last = line.endurance or 50.0 * line.knee
     numbers = np.geomspace(1e4, last, 200)
     ranges = MPA * np.array([calc_range(line, number) for number in numbers])
@@ -104,7 +108,9 @@ def calc_scaled(numbers: Floats, ranges: Floats) -> tuple[Floats, Floats]:
     return numbers, MPA * ranges
 
 
-def make_fatigue_figure(body: str, curves: Sequence[DrawnFatigue], place: Place, line: StrengthLine, title: str) -> Figure:
+def make_fatigue_figure(
+    body: str, curves: Sequence[DrawnFatigue], place: Place, line: StrengthLine, title: str
+) -> Figure:
     """Draws damage and stresses along a body, and stress and cycles at one of its places."""
     section = curves[0].fatigue.section
     side = section.sides[place.station][place.side]

@@ -1,6 +1,6 @@
 """Bending moment, shear and stresses along each flexible body, from the loads on it where the file has them, else from
-its modes: at each time of the animation, their envelope over the run, where and when the extremes are, and where the two
-ways differ most."""
+its modes: at each time of the animation, their envelope over the run, where and when the extremes are, and where the
+two ways differ most."""
 
 from collections.abc import Sequence
 

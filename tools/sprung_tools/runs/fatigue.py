@@ -44,7 +44,7 @@ def calc_fatigue(
     shape = section.stress.shape[1:]
     damage, greatest = np.zeros(shape), np.zeros(shape)
     for place in np.ndindex(shape):
-        cycles = count_cycles(section.stress[:, *place])
+        cycles = count_cycles(section.stress[:, place[0], place[1]])
         greatest[place] = np.max(cycles.ranges, initial=0.0)
         try:
             damage[place] = calc_damage(line, cycles)

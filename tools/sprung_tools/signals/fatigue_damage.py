@@ -52,7 +52,9 @@ def correct_ranges(line: StrengthLine, cycles: Cycles) -> Floats:
     left = 1.0 - np.maximum(cycles.means, 0.0) / line.strength
     if np.any(left <= 0.0):
         mean, strength = 1e-6 * float(np.max(cycles.means)), 1e-6 * line.strength
-        raise ValueError(f"the mean stress of a cycle is {mean:.4g} MPa, not below the ultimate strength {strength:g} MPa")
+        raise ValueError(
+            f"the mean stress of a cycle is {mean:.4g} MPa, not below the ultimate strength {strength:g} MPa"
+        )
     return cycles.ranges / left
 
 
