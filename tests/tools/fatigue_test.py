@@ -203,9 +203,10 @@ name = "cantilever"
 [bodies.beam]
 superelement = "beam"
 position = [0.0, 0.0]
-[joints.wall]
-kind = "fixed"
-a = "ground"
+[[joints]]
+name = "wall"
+type = "fixed"
+a = "ground.origin"
 b = "beam.foot"
 """
 RUN = """

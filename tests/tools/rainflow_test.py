@@ -29,8 +29,8 @@ def make_sine(amplitude, mean, number, samples=400):
 
 
 def count_by_four_points(history):
-    """Rainflow cycles by the other rule: of four turning points the middle two make a cycle if they lie within the outer
-    two; what is left counts as half cycles."""
+    """Rainflow cycles by the other rule: of four turning points the middle two make a cycle if they lie within the
+    outer two; what is left counts as half cycles."""
     found, waiting = [], []
     for value in find_turning_points(history).tolist():
         waiting.append(value)

@@ -5,15 +5,15 @@ At each of --speeds it finds the r.m.s. roughness of random terrain at which the
 for a limit about 4 over terrain, and 5 to 15 over an obstacle. A run that fails, or whose energy balance does not
 close, is never used: the limit that would need it is told as unknown.
 
-Terrain is made as tools/make_road makes it, always with the same phases, so that only its height changes. The lowest
-wavenumber of 0.0547 1/m is that of 60 ft, beyond which NRMM takes off the trend of a profile. A wheel whose contact is a
-point meets the way that the centre of a rigid wheel would take over the obstacle. RUN.toml gives the vehicle, its modes
-and the step of the outputs; each --variant is a vehicle of its own."""
+Terrain is made as tools/make_road.py makes it, always with the same phases, so that only its height changes. Its
+lowest wavenumber of 0.0547 1/m is that of 60 ft, beyond which NRMM takes off the trend of a profile. A wheel whose
+contact is a point meets the way that the centre of a rigid wheel would take over the obstacle. RUN.toml gives the
+vehicle, its modes and the step of the outputs; each --variant is a vehicle of its own."""
 
 import argparse
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -34,6 +34,7 @@ from sprung_tools.terminal.text_table import format_table
 
 JSON_FORMAT, JSON_VERSION = "sprung-ride-limits", 1  # tools/README.md, "Ride limits"
 BAND = (0.0547, 3.3)  # 1/m
+Task = tuple[Callable[..., Root], Vehicle, Terrain | Obstacles, float]
 KMH = 3.6
 
 
@@ -56,13 +57,13 @@ class Search(NamedTuple):
 
 def find_limits(vehicles: Sequence[Vehicle], search: Search, jobs: int) -> tuple[list[Found], list[Found]]:
     """All limits of all vehicles, over terrain and over obstacles."""
-    tasks = [
+    tasks: list[Task] = [
         *((find_roughness, one, search.terrain, speed) for one in vehicles for speed in search.speeds),
         *((find_speed, one, search.obstacles, height) for one in vehicles for height in search.heights),
     ]
     with ThreadPoolExecutor(jobs) as pool, Progress("limits", len(tasks)) as progress:
 
-        def find(task: Any) -> Found:
+        def find(task: Task) -> Found:
             function, vehicle, road, given = task
             found = Found(vehicle, given, function(vehicle, road, given))
             progress.step()
@@ -167,7 +168,8 @@ def parse_arguments() -> argparse.Namespace:
     parser = make_parser(
         __doc__,
         "tools/ride_limits dynamics/models/truck/terrain.toml --superelements build/truck --point chassis.seat \\\n"
-        "    --variant rigid modes.chassis=0 --variant '2 modes' modes.chassis=2 -o limits.png",
+        "    --variant rigid modes.chassis=0 --variant '2 modes' modes.chassis=2 --speeds 6 9 --heights 0.2 \\\n"
+        "    -o limits.png",
     )
     parser.add_argument("run", type=Path, metavar="RUN.toml", help="run file of the vehicle")
     parser.add_argument("--superelements", type=Path, metavar="FOLDER", help="folder of the superelement files")
@@ -219,7 +221,8 @@ def read_search(arguments: argparse.Namespace) -> Search:
             raise InputError(f"--{name.replace('_', '-')}: error: got {low:g} {high:g}, expected two ascending values")
     if not arguments.speeds and not arguments.heights:
         raise InputError("--speeds: error: there are neither speeds nor --heights")
-    recipe = Recipe(arguments.length, arguments.spacing, (arguments.band[0], arguments.band[1]), arguments.exponent, ease=arguments.ease,
+    low, high = arguments.band
+    recipe = Recipe(arguments.length, arguments.spacing, (low, high), arguments.exponent, ease=arguments.ease,
                     seed=arguments.seed)  # fmt: skip
     roughness, speeds = arguments.roughness, arguments.speed_range
     terrain = Terrain(recipe, (roughness[0], roughness[1]), arguments.power)

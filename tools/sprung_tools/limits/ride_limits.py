@@ -55,8 +55,8 @@ def calc_power(vehicle: Vehicle, terrain: Terrain, speed: float, roughness: floa
 
 
 def find_roughness(vehicle: Vehicle, terrain: Terrain, speed: float) -> Root:
-    """The r.m.s. roughness [m] at which the driver absorbs the limit at a speed. The power of a linear vehicle goes with
-    its square, which the search takes as its first guess."""
+    """The r.m.s. roughness [m] at which the driver absorbs the limit at a speed. Steps are those of a linear vehicle,
+    whose power goes with the square of the roughness."""
 
     def excess(logarithm: float) -> float:
         power = calc_power(vehicle, terrain, speed, math.exp(logarithm))
@@ -89,7 +89,7 @@ def smooth(felt: Felt, low_pass: float | None) -> Floats:
 
 
 def find_speed(vehicle: Vehicle, obstacles: Obstacles, height: float) -> Root:
-    """The lowest speed [m/s] at which an obstacle gives the driver the limit, searched upwards in steps of a quarter."""
+    """The lowest speed [m/s] at which an obstacle gives the driver the limit, searched upwards in steps of 25 %."""
 
     def excess(logarithm: float) -> float:
         peak = calc_peak(vehicle, obstacles, height, math.exp(logarithm))
