@@ -12,6 +12,9 @@ struct BeamProperties {
   double shear_rigidity = std::numeric_limits<double>::infinity();
   double mass_per_length = 0.0;  ///< ρA ≥ 0 [kg/m]
   double rotary_inertia = 0.0;   ///< ρI ≥ 0 of the section's rotation, per length [kg·m]; 0: neglected
+  // Only stresses need these.
+  double area = 0.0;             ///< A ≥ 0 [m²]; 0: not known
+  double section_modulus = 0.0;  ///< W ≥ 0 of the extreme fibre [m³]; 0: not known
 };
 
 /// @throws std::invalid_argument if a value is outside its range stated above (names function, member, value)

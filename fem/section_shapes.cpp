@@ -43,9 +43,11 @@ SectionGeometry calc_section_geometry(const Rectangle& rectangle, double poisson
   require_positive("width", width);
   require_positive("height", height);
   require_poissons_ratio(nu);
+  const double second_moment = width * height * height * height / 12.0;
   return {.area = width * height,
-          .second_moment = width * height * height * height / 12.0,
-          .shear_coefficient = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)};
+          .second_moment = second_moment,
+          .shear_coefficient = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu),
+          .section_modulus = second_moment / (0.5 * height)};
 }
 
 SectionGeometry calc_section_geometry(const Box& box, double poissons_ratio) {
@@ -62,9 +64,11 @@ SectionGeometry calc_section_geometry(const Box& box, double poissons_ratio) {
   const double inner_height = height - 2.0 * wall;
   const double n = (width - wall) / (height - wall);  // = m, the wall being uniform
   const double flange = 10.0 * n * n * n * (3.0 + nu + 3.0 * n);
+  const double second_moment = (width * std::pow(height, 3) - inner_width * std::pow(inner_height, 3)) / 12.0;
   return {.area = 2.0 * wall * (width + height - 2.0 * wall),
-          .second_moment = (width * std::pow(height, 3) - inner_width * std::pow(inner_height, 3)) / 12.0,
-          .shear_coefficient = calc_thin_walled_coefficient(n, nu, flange)};
+          .second_moment = second_moment,
+          .shear_coefficient = calc_thin_walled_coefficient(n, nu, flange),
+          .section_modulus = second_moment / (0.5 * height)};
 }
 
 SectionGeometry calc_section_geometry(const Tube& tube, double poissons_ratio) {
@@ -78,10 +82,12 @@ SectionGeometry calc_section_geometry(const Tube& tube, double poissons_ratio) {
   const double inner = diameter - 2.0 * wall;
   const double m_squared = (inner / diameter) * (inner / diameter);
   const double sum_squared = (1.0 + m_squared) * (1.0 + m_squared);
+  const double second_moment = std::numbers::pi / 64.0 * (std::pow(diameter, 4) - std::pow(inner, 4));
   return {.area = std::numbers::pi * wall * (diameter - wall),
-          .second_moment = std::numbers::pi / 64.0 * (std::pow(diameter, 4) - std::pow(inner, 4)),
+          .second_moment = second_moment,
           .shear_coefficient = 6.0 * (1.0 + nu) * sum_squared /
-                               ((7.0 + 6.0 * nu) * sum_squared + (20.0 + 12.0 * nu) * m_squared)};
+                               ((7.0 + 6.0 * nu) * sum_squared + (20.0 + 12.0 * nu) * m_squared),
+          .section_modulus = second_moment / (0.5 * diameter)};
 }
 
 SectionGeometry calc_section_geometry(const ISection& section, double poissons_ratio) {
@@ -100,11 +106,12 @@ SectionGeometry calc_section_geometry(const ISection& section, double poissons_r
   const double m = 2.0 * flange_width * flange_thickness / (h * web_thickness);
   const double n = flange_width / h;
   const double flange = 30.0 * n * n * m * (1.0 + m) + 5.0 * nu * n * n * m * (8.0 + 9.0 * m);
+  const double second_moment =
+      (flange_width * std::pow(height, 3) - (flange_width - web_thickness) * std::pow(web_height, 3)) / 12.0;
   return {.area = 2.0 * flange_width * flange_thickness + web_height * web_thickness,
-          .second_moment = (flange_width * std::pow(height, 3) -
-                            (flange_width - web_thickness) * std::pow(web_height, 3)) /
-                           12.0,
-          .shear_coefficient = calc_thin_walled_coefficient(m, nu, flange)};
+          .second_moment = second_moment,
+          .shear_coefficient = calc_thin_walled_coefficient(m, nu, flange),
+          .section_modulus = second_moment / (0.5 * height)};
 }
 
 }  // namespace sprung::fem

@@ -7,6 +7,7 @@ struct SectionGeometry {
   double area = 0.0;               ///< A [m²]
   double second_moment = 0.0;      ///< I about the centroid's axis perpendicular to the height [m⁴]
   double shear_coefficient = 0.0;  ///< κ in the shear rigidity κGA [-]
+  double section_modulus = 0.0;    ///< W = I / e, e from the centroid to the extreme fibre [m³]
 };
 
 /// Solid rectangle.
@@ -36,9 +37,9 @@ struct ISection {
   double web_thickness = 0.0;     ///< > 0 [m]
 };
 
-/// Area, second moment of area and shear coefficient of a section.
+/// Area, second moment of area, shear coefficient and section modulus of a section.
 ///
-/// Area and second moment are exact for the dimensions given. The shear coefficient is Cowper's
+/// All but the shear coefficient are exact for the dimensions given. The shear coefficient is Cowper's
 /// (fem, eqs. 1–4): for the box and the I section the one of thin walls, taken with the dimensions
 /// between the walls' middles; it is an approximation where the walls are thick.
 ///

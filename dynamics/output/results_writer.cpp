@@ -49,8 +49,13 @@ void ResultsWriter::write_descriptions(const ResultsHeader& header) {
   };
   for (const auto& joint : header.model.joints) write_kind("/joints/" + joint->name, joint->kind());
   for (const auto& force : header.model.forces) write_kind("/forces/" + force->name, force->kind());
-  for (const BodySections& body : header.sections.bodies())
-    file_.write("/recovery/" + body.name() + "/station", body.positions(), "m");
+  for (const BodySections& body : header.sections.bodies()) {
+    const std::string group = "/recovery/" + body.name();
+    file_.write(group + "/station", body.positions(), "m");
+    if (!body.sizes()) continue;
+    file_.write(group + "/area", body.sizes()->area, "m^2");
+    file_.write(group + "/section_modulus", body.sizes()->modulus, "m^3");
+  }
 }
 
 // Makes the datasets of the histories that are stored.

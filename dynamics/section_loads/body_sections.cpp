@@ -23,6 +23,12 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
     const int node = superelement.elements(station % 2, station / 2);
     positions_.row(station) = superelement.node_positions.col(node).transpose();
   }
+  if (const std::optional<reduce::SectionSizes>& of_elements = superelement.section_sizes) {
+    const auto at_ends = [](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+      return values.transpose().replicate(2, 1).reshaped();
+    };
+    sizes_ = {.area = at_ends(of_elements->area), .modulus = at_ends(of_elements->modulus)};
+  }
   std::vector<int> columns;
   for (const int number : moving.mode_numbers) columns.push_back(number - 1);
   by_mode_ = superelement.resultants(Eigen::all, columns);

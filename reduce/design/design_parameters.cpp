@@ -37,11 +37,12 @@ std::string find_unit(const std::string& name) {
   return "m";
 }
 
-// Numbers of the tables in [materials] or [sections]; `count` is a whole number, and no parameter.
+// Numbers of the tables in [materials] or [sections]. `count` is a whole number, and no parameter; on the
+// section modulus no frequency depends.
 void list_numbers(const TomlTable& root, const char* name, std::vector<Number>& numbers) {
   for (const auto& [item, table] : root.at(name).table().entries()) {
     for (const auto& [key, value] : table.table().entries()) {
-      if (!value.is_number() || key == "count") continue;
+      if (!value.is_number() || key == "count" || key == "section_modulus") continue;
       numbers.push_back({value.key(), find_unit(key), value.number(support::any(""))});
     }
   }

@@ -70,7 +70,8 @@ fem::SectionGeometry calc_shape(const std::string& shape, const TomlTable& table
                                     poissons_ratio);
 }
 
-// Area, second moment and shear coefficient (NaN where the section leaves it open).
+// Area, second moment, section modulus (0 where the section leaves it open) and shear coefficient (NaN
+// there).
 fem::SectionGeometry read_geometry(const TomlTable& table, const fem::Material& material) {
   fem::SectionGeometry geometry;
   if (const auto shape = table.find("shape")) {
@@ -91,6 +92,8 @@ fem::SectionGeometry read_geometry(const TomlTable& table, const fem::Material& 
     geometry = {.area = read_size(table, "area", "m²", kAreas),
                 .second_moment = read_size(table, "second_moment", "m⁴", kSecondMoments),
                 .shear_coefficient = std::numeric_limits<double>::quiet_NaN()};
+    if (table.has("section_modulus"))
+      geometry.section_modulus = read_size(table, "section_modulus", "m³", kSectionModuli);
   }
   if (table.has("shear_coefficient")) {
     geometry.shear_coefficient = read_size(table, "shear_coefficient", "", kShearCoefficients);
@@ -124,7 +127,7 @@ void expect_section_keys(const TomlTable& table) {
   }
   const auto value = table.find("shape");
   const std::string shape = value ? value->one_of(kShapes) : "";
-  if (shape.empty()) expect_keys(table, {"area", "second_moment"});
+  if (shape.empty()) expect_keys(table, {"area", "second_moment", "section_modulus"});
   if (shape == "rectangle") expect_keys(table, {"width", "height"});
   if (shape == "box") expect_keys(table, {"width", "height", "wall"});
   if (shape == "tube") expect_keys(table, {"outer_diameter", "wall"});
@@ -141,7 +144,9 @@ fem::BeamProperties read_section(const TomlTable& table, const Materials& materi
   const auto count = static_cast<double>(table.integer_or("count", 1, 1, 1000));
   fem::BeamProperties properties{.axial_rigidity = count * material.youngs_modulus * geometry.area,
                                  .bending_rigidity = count * material.youngs_modulus * geometry.second_moment,
-                                 .mass_per_length = count * mass_per_length};
+                                 .mass_per_length = count * mass_per_length,
+                                 .area = count * geometry.area,
+                                 .section_modulus = count * geometry.section_modulus};
   if (theory.shear_deformation)
     properties.shear_rigidity = count * calc_shear_rigidity(table, material, geometry);
   if (theory.rotary_inertia) {

@@ -14,6 +14,7 @@ struct SizeRange {
 inline constexpr SizeRange kLengths{1e-12, 1e12};          // m
 inline constexpr SizeRange kAreas{1e-24, 1e24};            // m²
 inline constexpr SizeRange kSecondMoments{1e-48, 1e48};    // m⁴
+inline constexpr SizeRange kSectionModuli{1e-36, 1e36};    // m³
 inline constexpr SizeRange kModuli{1e-6, 1e18};            // Pa
 inline constexpr SizeRange kDensities{1e-6, 1e12};         // kg/m³
 inline constexpr SizeRange kMassesPerLength{1e-24, 1e24};  // kg/m

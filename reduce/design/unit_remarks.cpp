@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 #include "tools/support/toml/toml.h"
@@ -34,6 +35,17 @@ void remark_on_material(const support::TomlTable& material, std::vector<std::str
   }
 }
 
+// The mean square of the distances from the centroid is I/A, so that the largest, I/W, is at least √(I/A).
+void remark_on_section(const std::string& name, const fem::BeamProperties& section,
+                       std::vector<std::string>& remarks) {
+  const double largest = section.area * std::sqrt(section.bending_rigidity / section.axial_rigidity);
+  if (section.section_modulus <= largest) return;
+  remarks.push_back(
+      fmt::format("'sections.{}.section_modulus' is {:.4g} m³ (parallel members together); a section of this "
+                  "area and second moment has at most {:.4g} m³",
+                  name, section.section_modulus, largest));
+}
+
 }  // namespace
 
 std::vector<std::string> list_unit_remarks(const Design& design) {
@@ -43,6 +55,8 @@ std::vector<std::string> list_unit_remarks(const Design& design) {
   if (const std::optional<support::TomlTable> materials = document.root().find_table("materials")) {
     for (const auto& [name, material] : materials->entries()) remark_on_material(material.table(), remarks);
   }
+  for (std::size_t i = 0; i < design.model.sections.size(); ++i)
+    remark_on_section(design.model.mesh.section_names[i], design.model.sections[i], remarks);
   const Eigen::Matrix2Xd& places = design.model.mesh.node_positions;
   const double longest = (places.rowwise().maxCoeff() - places.rowwise().minCoeff()).norm();
   if (longest > kLongest) {

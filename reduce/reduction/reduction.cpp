@@ -71,6 +71,18 @@ void copy_mesh(const fem::Mesh& mesh, const Eigen::Matrix2Xd& node_positions, Su
   }
 }
 
+SectionSizes get_section_sizes(const fem::BeamModel& model) {
+  const Eigen::Index num_elements = model.mesh.num_elements();
+  SectionSizes sizes{.area = Eigen::VectorXd(num_elements), .modulus = Eigen::VectorXd(num_elements)};
+  for (Eigen::Index e = 0; e < num_elements; ++e) {
+    const int section = model.mesh.elements[static_cast<std::size_t>(e)].section;
+    const fem::BeamProperties& properties = model.sections[static_cast<std::size_t>(section)];
+    sizes.area[e] = properties.area;
+    sizes.modulus[e] = properties.section_modulus;
+  }
+  return sizes;
+}
+
 void require_checks(const std::vector<CheckResult>& checks) {
   for (const CheckResult& check : checks) {
     if (check.passed()) continue;
@@ -126,6 +138,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
     flexibility = (0.5 * (flexibility + flexibility.transpose())).eval();
     s.section_loads = std::move(response->resultants);
     s.point_deflections = std::move(response->deflections);
+    s.section_sizes = get_section_sizes(model);
   }
   s.provenance = design.provenance;
 

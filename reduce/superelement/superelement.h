@@ -53,6 +53,12 @@ struct NamedPoint {
   int node = 0;  ///< 0-based
 };
 
+/// Dimensions of the elements' sections that stresses need, parallel members included. 0: not known
+struct SectionSizes {
+  Eigen::VectorXd area;     ///< A, E [m²]
+  Eigen::VectorXd modulus;  ///< W of the extreme fibre, E [m³]
+};
+
 /// A check made when the file was written.
 struct CheckResult {
   std::string name;
@@ -101,6 +107,7 @@ struct Superelement {
   /// Resultants (6E rows) and deflections of the points (3p rows) under unit loads. None in files before
   /// version 4, and of large frames
   std::optional<UnitLoads> section_loads, point_deflections;
+  std::optional<SectionSizes> section_sizes;  ///< none in files before version 5, and of large frames
 
   std::vector<CheckResult> checks;
   Provenance provenance;
@@ -122,11 +129,12 @@ inline constexpr std::int64_t kStiffeningVersion = 2;   ///< brought the geometr
 inline constexpr std::int64_t kCertificateVersion = 3;  ///< brought kinds of vectors and the certificate
 inline constexpr std::int64_t kSectionLoadVersion =
     4;  ///< brought section loads and deflections under unit loads
-inline constexpr std::int64_t kSuperelementVersion = kSectionLoadVersion;  ///< the newest
+inline constexpr std::int64_t kSectionSizeVersion = 5;                     ///< brought the sizes of sections
+inline constexpr std::int64_t kSuperelementVersion = kSectionSizeVersion;  ///< the newest
 
-/// Writes the file whole or not at all. Equal superelements give equal bytes. Without section
-/// loads it is a file of version 3, without a certificate of version 2, without geometric stiffness of
-/// version 1.
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without sizes of
+/// sections it is a file of version 4, without section loads of version 3, without a certificate of version
+/// 2, without geometric stiffness of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

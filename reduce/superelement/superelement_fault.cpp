@@ -111,6 +111,9 @@ Fault check_counts(const Superelement& s) {
     return s.section_loads ? make_fault("/section_loads", "stands without the deflections")
                            : make_fault("/deflections", "stands without the section loads");
   }
+  if (s.section_sizes && !s.section_loads) {
+    return make_fault("/sections", "stands without the section loads of version 4");
+  }
   if (!s.geometric_stiffness) return {};
   const int m = s.geometric_stiffness->num_modes();
   if (m < 1 || m > s.num_modes()) {

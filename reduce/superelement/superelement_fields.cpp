@@ -13,6 +13,7 @@ using G = GeometricStiffness;
 using C = Certificate;
 using E = InterfaceError;
 using L = UnitLoads;
+using A = SectionSizes;
 using S = Superelement;
 
 // Each type of member as a value of the file, and back.
@@ -160,6 +161,8 @@ constexpr FieldMember section_loads = member_of_optional<&S::section_loads, Memb
 template <auto Member>
 constexpr FieldMember deflections = member_of_optional<&S::point_deflections, Member>;
 template <auto Member>
+constexpr FieldMember section_sizes = member_of_optional<&S::section_sizes, Member>;
+template <auto Member>
 constexpr FieldMember interface = column_of_optional<&S::certificate, &C::interface, Member>;
 
 constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a row of the file
@@ -239,6 +242,8 @@ constexpr SuperelementField kFields[] = {
     {"/deflections/acceleration", kReals, "3p×4", kAccelerationDeflectionUnit, deflections<&L::acceleration>, kAny, kWhole, kSectionLoadVersion},
     {"/deflections/modal_acceleration", kReals, "3p×n", kModalDeflectionUnit, deflections<&L::modal_acceleration>, kAny, kWhole, kSectionLoadVersion},
     {"/deflections/turned_acceleration", kReals, "3p×n", kModalDeflectionUnit, deflections<&L::turned_acceleration>, kAny, kWhole, kSectionLoadVersion},
+    {"/sections/area", kReals, "E", "m^2", section_sizes<&A::area>, kNotNegative, kWhole, kSectionSizeVersion},
+    {"/sections/modulus", kReals, "E", "m^3", section_sizes<&A::modulus>, kNotNegative, kWhole, kSectionSizeVersion},
     {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
     {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
     {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
@@ -277,7 +282,7 @@ std::vector<SuperelementField> superelement_fields(std::int64_t version) {
 
 std::int64_t find_version(const Superelement& superelement) {
   if (superelement.section_loads && superelement.certificate && superelement.geometric_stiffness)
-    return kSectionLoadVersion;
+    return superelement.section_sizes ? kSectionSizeVersion : kSectionLoadVersion;
   if (superelement.certificate && superelement.geometric_stiffness) return kCertificateVersion;
   return superelement.geometric_stiffness ? kStiffeningVersion : kFirstVersion;
 }

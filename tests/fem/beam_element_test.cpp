@@ -276,6 +276,8 @@ TEST_CASE("Arguments out of range are refused with name and value") {
                        "shear_rigidity is -1, expected a value > 0 N or infinity");
   test::check_contains(message(&BeamProperties::mass_per_length, -2.0), "mass_per_length is -2");
   test::check_contains(message(&BeamProperties::rotary_inertia, std::nan("")), "rotary_inertia is nan");
+  test::check_contains(message(&BeamProperties::area, -1.0), "area is -1, expected a finite value ≥ 0 m²");
+  test::check_contains(message(&BeamProperties::section_modulus, infinity), "section_modulus is inf");
   test::check_contains(test::message_of<std::invalid_argument>([&] { calc_local_mass(0.0, good); }),
                        "length is 0 m");
   test::check_contains(test::message_of<std::invalid_argument>([&] { calc_shape_functions(1.0, good, 1.1); }),

@@ -39,6 +39,7 @@ TEST_CASE("A rectangle has the area, second moment and coefficient calculated by
   const SectionGeometry section = calc_section_geometry(Rectangle{.width = 0.03, .height = 0.2}, 0.3);
   CHECK(section.area == Approx(0.006).epsilon(kRounding));
   CHECK(section.second_moment == Approx(2e-5).epsilon(kRounding));             // 0.03 · 0.008 / 12
+  CHECK(section.section_modulus == Approx(2e-4).epsilon(kRounding));           // 0.03 · 0.04 / 6
   CHECK(section.shear_coefficient == Approx(13.0 / 15.3).epsilon(kRounding));  // 10 · 1.3 / (12 + 3.3)
 }
 
@@ -51,6 +52,7 @@ TEST_CASE("A box is the outer rectangle without the inner one") {
   const SectionGeometry section = calc_section_geometry(Box{.width = 0.1, .height = 0.2, .wall = 0.01}, 0.3);
   CHECK(section.area == Approx(0.02 - 0.08 * 0.18).epsilon(kRounding));
   CHECK(section.second_moment == Approx((0.1 * 8e-3 - 0.08 * 5.832e-3) / 12.0).epsilon(kRounding));
+  CHECK(section.section_modulus == Approx((0.1 * 8e-3 - 0.08 * 5.832e-3) / 1.2).epsilon(kRounding));
 }
 
 TEST_CASE("A square box has Cowper's coefficient of the thin-walled square tube") {
@@ -70,6 +72,8 @@ TEST_CASE("A tube is the outer circle without the inner one") {
   const SectionGeometry section = calc_section_geometry(Tube{.outer_diameter = 0.1, .wall = 0.01}, 0.3);
   CHECK(section.area == Approx(2.827433388230814e-3).epsilon(kRounding));            // π (0.05² − 0.04²)
   CHECK(section.second_moment == Approx(2.8981192229365856e-6).epsilon(kRounding));  // π/4 (0.05⁴ − 0.04⁴)
+  // π/32 (0.1⁴ − 0.08⁴) / 0.1
+  CHECK(section.section_modulus == Approx(5.796238445873171e-5).epsilon(kRounding));
   // m = 0.8: 7.8 · 1.64² / (8.8 · 1.64² + 23.6 · 0.64)
   CHECK(section.shear_coefficient == Approx(20.97888 / 38.77248).epsilon(kRounding));
 }
@@ -87,6 +91,7 @@ TEST_CASE("An I section adds flanges and web") {
   // web 0.007 · 0.28³/12, flanges 2 (0.15 · 0.01³/12 + 0.0015 · 0.145²)
   const double second_moment = 0.007 * 0.021952 / 12.0 + 2.0 * (0.15e-6 / 12.0 + 0.0015 * 0.021025);
   CHECK(section.second_moment == Approx(second_moment).epsilon(kRounding));
+  CHECK(section.section_modulus == Approx(second_moment / 0.15).epsilon(kRounding));
 }
 
 TEST_CASE("An I section has the coefficient calculated by hand") {

@@ -24,7 +24,8 @@ WRITTEN = {
     "export_csv": ("bump.csv",), "report": ("report.html",), "export_paraview": ("modes.pvd", "bump.pvd"),
     "plot_response": ("response.png",),
     "plot_modes": ("choice.png", "bump_modes.png"),
-    "plot_sensitivity": ("first.png", "all.png"),
+    "plot_sensitivity": ("first.png", "all.png"), "fatigue": ("fatigue.png",),
+    "ride_limits": ("limits.png",),
     "study": ("quarter_car_study/table.csv", "quarter_car_study/table.h5", "quarter_car_study/study.html"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
@@ -63,7 +64,8 @@ class PythonTools(Examples):
         (cls.made / "chassis.json").write_text(run_program(command, check=True).stdout, encoding="utf-8")
         shutil.copy(superelements / "chassis.h5", cls.made)
         shutil.copy(ROOT / "meshes/truck/chassis.inp", cls.made)
-        shutil.copytree(ROOT / "dynamics/models/examples", cls.made / "dynamics/models/examples")
+        for models in ("examples", "truck"):
+            shutil.copytree(ROOT / "dynamics/models" / models, cls.made / "dynamics/models" / models)
         shutil.copy(ROOT / "tests/tools/data/portal.bdf", cls.made / "frame.bdf")
 
     @classmethod

@@ -36,7 +36,7 @@ class Controls(PageTestCase):
         for chart in (*(f"history-{k}" for k in (1, 2, 3, 4)), "bands-diagram", "loads-diagram", "spectrum",
                       "mode-amplitudes"):  # fmt: skip
             cases |= {f"{chart}-csv": self.save_csv(chart), f"{chart}-png": self.save_png(f"{chart}-png")}
-        cases |= {f"load-show-{number}": self.show_extreme(number) for number in range(1, 7)}
+        cases |= {f"load-show-{number}": self.show_extreme(number) for number in range(1, 11)}
         cases |= {f"checks-of-{name}": self.unfold_checks(name) for name in ("chassis", "long_arm")}
         return cases | {
             "labels": self.use_labels,
@@ -241,7 +241,8 @@ class Controls(PageTestCase):
         def use(page):
             self.set_time(page, 0.0)
             page.click(f"#load-show-{number}")
-            quantity, extreme = divmod(number - 1, 3)
+            # Moment and shear have three buttons each, the stresses of the two sides two.
+            quantity, extreme = divmod(number - 1, 3) if number <= 6 else (2 + (number - 7) // 2, (number - 7) % 2)
             found = f"loads.shown.quantities[{quantity}]"
             if extreme == 2:
                 self.assertEqual(page.evaluate("clock.time"), page.evaluate(f"{found}.difference.time"))

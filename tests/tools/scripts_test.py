@@ -11,7 +11,7 @@ BASH = ("setup", "build", "test", "run-truck", "fuzz")
 PYTHON = (
     "plot_results", "plot_response", "plot_modes", "plot_sensitivity", "report_peaks", "compare_frequencies",
     "make_road.py", "ride", "paper_figures", "convert_mesh", "export_csv", "export_paraview", "report", "benchmark",
-    "study",
+    "study", "fatigue", "ride_limits",
 )  # fmt: skip
 
 

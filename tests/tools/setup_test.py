@@ -92,7 +92,7 @@ class Setup(ToolTestCase):
         self.assertTrue(self.calls()[-1].endswith(" libgmsh-dev"), self.calls())
 
     def test_the_programs_that_check_the_sources_are_for_the_tests(self):
-        checkers = ("flake8", "mypy", "shellcheck", "clang-format")
+        checkers = ("flake8", "mypy", "shellcheck", "clang-format", "snakemake")
         self.make_debian(missing=checkers)
         self.assertIn("all packages are installed", self.setup_tool().stdout)
         self.assertEqual(self.setup_tool("--for-tests").returncode, 0)

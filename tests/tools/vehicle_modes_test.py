@@ -11,8 +11,9 @@ from tool_test_case import ToolTestCase
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.model.vehicle_shape import read_bodies
-from sprung_tools.report.frame_loads import pack_frame_loads, place_stations
+from sprung_tools.report.frame_loads import pack_frame_loads
 from sprung_tools.report.vehicle_modes import pack_vehicle_modes
+from sprung_tools.runs.stations import place_stations
 from sprung_tools.runs.vehicle_modes import read_vehicle_modes
 
 
@@ -120,6 +121,26 @@ class FrameLoads(ToolTestCase):
                 quantity["difference"],
                 {"what": "largest difference from that of the modes", "value": -6.0, "place": 2.0, "time": time},
             )
+
+    def test_stresses_are_shown_for_both_sides_of_a_body_with_sizes_of_sections(self):
+        write_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            wave = np.sin(2.0 * np.pi * file["time"][()])
+            loads = {"axial": ([2e5, 2e5], "N"), "shear": ([0.0, 0.0], "N"), "moment": ([1e5, 3e5], "N m")}
+            for name, (values, unit) in loads.items():
+                write_series(file, f"recovery/chassis/{name}", np.outer(wave, values), unit)
+            write_series(file, "recovery/chassis/station", np.array([(2.0, 0.0), (0.0, 0.0)]), "m")
+            write_series(file, "recovery/chassis/area", np.array([0.01, 0.01]), "m^2")
+            write_series(file, "recovery/chassis/section_modulus", np.array([2e-3, 2e-3]), "m^3")
+        with open_results(self.folder / "a.h5") as results:
+            (packed,) = pack_frame_loads(results, read_bodies(results), 7)
+        *_, above, below = packed["quantities"]
+        self.assertEqual([one["name"] for one in (below, above)], ["stress, -y side", "stress, +y side"])
+        # N/A ± M/W: the element runs towards -x, so that its left, the side of the lower sign, is below.
+        np.testing.assert_allclose(decode(below["s"]), [0.0, 2.0])
+        np.testing.assert_allclose(decode(below["high"]) * 1e-6, [130.0, 30.0], rtol=1e-6)
+        np.testing.assert_allclose(decode(above["high"]) * 1e-6, [170.0, 70.0], rtol=1e-6)
+        self.assertEqual((above["extremes"][0]["place"], above["extremes"][0]["time"]), (0.0, 0.25))
 
     def test_a_frame_that_is_not_slender_is_drawn_along_its_elements(self):
         stations = np.array([(0.0, 0.0), (0.0, 3.0), (0.0, 3.0), (4.0, 3.0)])

@@ -3,8 +3,8 @@ include(CMakePackageConfigHelpers)
 
 # Tools, models and designs lie in share/sprung as they do in the sources.
 set(share "${CMAKE_INSTALL_DATADIR}/sprung")
-foreach(tool compare_frequencies convert_mesh export_csv export_paraview make_road.py plot_modes plot_response
-    plot_results plot_sensitivity report report_peaks ride study)
+foreach(tool compare_frequencies convert_mesh export_csv export_paraview fatigue make_road.py plot_modes
+    plot_response plot_results plot_sensitivity report report_peaks ride ride_limits study)
   install(PROGRAMS "tools/${tool}" DESTINATION "${share}/tools")
 endforeach()
 install(DIRECTORY tools/sprung tools/sprung_tools DESTINATION "${share}/tools" PATTERN __pycache__ EXCLUDE)

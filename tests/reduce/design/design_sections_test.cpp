@@ -64,7 +64,21 @@ TEST_CASE("parallel members count in stiffness, mass and rotary inertia") {
   CHECK(two.shear_rigidity == 2.0 * one.shear_rigidity);
   CHECK(two.mass_per_length == 2.0 * one.mass_per_length);
   CHECK(two.rotary_inertia == 2.0 * one.rotary_inertia);
+  CHECK(two.area == 2.0 * one.area);
+  CHECK(two.section_modulus == 2.0 * one.section_modulus);
+  CHECK(one.area == Approx(5.6e-3));
+  CHECK(one.section_modulus == Approx(27786666.6666666667e-12 / 0.1));  // half the height
   CHECK(one.rotary_inertia == Approx(8000.0 * 27786666.6666666667e-12));
+}
+
+TEST_CASE("a section without a shape has the section modulus given, or none") {
+  const std::string general = "area = 2.0e-3\nsecond_moment = 1.0e-6\n";
+  CHECK(read(general).at("s").section_modulus == 0.0);
+  CHECK(read(general + "section_modulus = 3.0e-5\ncount = 2").at("s").section_modulus == 6.0e-5);
+  CHECK_THAT(fault(general + "section_modulus = 0.0"),
+             Contains("'sections.s.section_modulus' must be > 0 m³, got 0"));
+  CHECK_THAT(fault("shape = \"rectangle\"\nwidth = 0.1\nheight = 0.2\nsection_modulus = 1e-4"),
+             Contains("unknown key 'section_modulus'"));
 }
 
 TEST_CASE("mass per length replaces that of the density, and the shear coefficient that of the shape") {

@@ -7,11 +7,13 @@ using namespace sprung;
 
 namespace {
 
-std::vector<std::string> remarks_on(const std::string& modulus, const std::string& density, double length) {
+std::vector<std::string> remarks_on(const std::string& modulus, const std::string& density, double length,
+                                    const std::string& more = "") {
   const TemporaryFolder folder;
   write_bytes(folder / "beam.toml",
               "[materials.steel]\nyoungs_modulus = " + modulus + "\ndensity = " + density +
-                  "\n[sections.bar]\nmaterial = \"steel\"\narea = 0.01\nsecond_moment = 1e-5\n[points]\na = "
+                  "\n[sections.bar]\nmaterial = \"steel\"\narea = 0.01\nsecond_moment = 1e-5\n" + more +
+                  "[points]\na = "
                   "[0, 0]\nb = [" +
                   std::to_string(length) +
                   ", 0]\n[[lines]]\nthrough = [\"a\", \"b\"]\nsection = \"bar\"\nelements = "
@@ -36,4 +38,13 @@ TEST_CASE("Moduli, densities and lengths in other units are remarked on") {
             "g/cm³ or 7.85e-9 t/mm³"});
   CHECK(remarks_on("2.1e11", "7850", 6000.0) ==
         std::vector<std::string>{"the frame is 6000 m long; lengths are in m, not in mm"});
+}
+
+TEST_CASE("A section modulus beyond what area and second moment allow is remarked on") {
+  // At most √(I A) = √(1e-5 · 0.01) = 3.1623e-4 m³, of two thin flanges without a web.
+  CHECK(remarks_on("2.1e11", "7850", 6.0, "section_modulus = 3.16e-4\n").empty());
+  CHECK(remarks_on("2.1e11", "7850", 6.0, "section_modulus = 200.0\n") ==
+        std::vector<std::string>{
+            "'sections.bar.section_modulus' is 200 m³ (parallel members together); a section of this "
+            "area and second moment has at most 0.0003162 m³"});
 }

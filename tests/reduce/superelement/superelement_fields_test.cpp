@@ -81,7 +81,10 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(superelement_fields(2).size() == 40);
   CHECK(superelement_fields(3).size() == 54);
   CHECK(superelement_fields(4).size() == 62);
+  CHECK(superelement_fields(5).size() == 64);
   Superelement body = testing::make_two_armed_body();
+  CHECK(find_version(body) == 5);
+  body.section_sizes.reset();
   CHECK(find_version(body) == 4);
   body.section_loads.reset();
   body.point_deflections.reset();
@@ -195,6 +198,10 @@ TEST_CASE("what contradicts the certificate is a fault") {
           s.kind.clear();
           s.certificate.reset();
         }) == "/section_loads stands without the certificate of version 3");
+  CHECK(fault_of([](Superelement& s) {
+          s.section_loads.reset();
+          s.point_deflections.reset();
+        }) == "/sections stands without the section loads of version 4");
   CHECK(fault_of([](Superelement& s) { s.section_loads.reset(); }) ==
         "/deflections stands without the section loads");
   CHECK(fault_of([](Superelement& s) { s.point_deflections.reset(); }) ==

@@ -69,6 +69,7 @@ TEST_CASE("a superelement is read as it was written") {
 TEST_CASE("a design text beyond 64 KiB and a body without points or mesh files are written too") {
   Superelement a = make_two_armed_body();
   a.points.clear();
+  a.section_sizes.reset();
   a.section_loads.reset();
   a.point_deflections.reset();
   a.certificate->interface.clear();
@@ -97,6 +98,7 @@ TEST_CASE("a file of any version is read, and written again as it was") {
     CHECK(old.geometric_stiffness.has_value() == (version >= 2));
     CHECK(old.certificate.has_value() == (version >= 3));
     CHECK(old.section_loads.has_value() == (version >= 4));
+    CHECK(old.section_sizes.has_value() == (version >= 5));
     CHECK(old.num_modes() == 3);
     CHECK(old.provenance.algorithm_revision == version);
     CHECK(find_point(old, "tip") == 2);
@@ -124,6 +126,7 @@ TEST_CASE("every part of a superelement enters its hash") {
        [](Superelement& s) {
          s.geometric_stiffness.reset();
          s.certificate.reset();
+         s.section_sizes.reset();
          s.section_loads.reset();
          s.point_deflections.reset();
          s.kind.clear();

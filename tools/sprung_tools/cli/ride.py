@@ -22,6 +22,8 @@ from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
 from sprung_tools.runs.labelled_responses import Response, open_responses
 from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
 from sprung_tools.runs.measures import (
+    JSON_FORMAT,
+    JSON_VERSION,
     calc_measures,
     describe_response,
     describe_run,
@@ -44,13 +46,11 @@ from sprung_tools.runs.ride_measures import (
     read_window,
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
-from sprung_tools.runs.run_warnings import list_warnings
-from sprung_tools.runs.stored_histories import list_gaps
+from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
-JSON_FORMAT, JSON_VERSION = "sprung-measures", 1  # tools/README.md, "Measures"
 COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
            "total", "absorbed W")  # fmt: skip
 LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch", "total", "absorbed W")
@@ -148,16 +148,6 @@ def make_json(
                        "measures": pack_measures(calc_measures(list_linear_objects(response, points)))})  # fmt: skip
     return json.dumps({"format": JSON_FORMAT, "version": JSON_VERSION, "runs": packed}, indent=1, ensure_ascii=False,
                       allow_nan=False)  # fmt: skip
-
-
-def list_doubts(runs: Sequence[Run]) -> list[str]:
-    """What the runs warned of, and what their files do not hold, each in a line."""
-    doubts = []
-    for run in runs:
-        warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
-        doubts += [f"warning: {run.label}: {text}" for text in warnings]
-        doubts += [f"note: {run.label}: {text}" for text in list_gaps(run.results)]
-    return doubts
 
 
 def parse_arguments() -> argparse.Namespace:

@@ -4,7 +4,9 @@ STUDY.toml says which keys change, how their values are chosen (a grid, lists, L
 which measures are taken; tools/README.md lists its keys. The folder gets the table (table.csv, table.h5) and a page
 (study.html) that opens in a browser without a network. The outcome of each run is kept as soon as the run ends: an
 interrupted study goes on where it was when the same command is given again, and a study with more values makes only the
-runs that are missing. A run that fails is a row with its error."""
+runs that are missing. A run that fails is a row with its error.
+
+With --workflow it makes no runs, but writes a Snakefile with parts of the study as jobs, for many machines."""
 
 import argparse
 import sys
@@ -17,9 +19,10 @@ from sprung_tools.programs.finding import find_programs
 from sprung_tools.study.effects import Effect, calc_effects
 from sprung_tools.study.execution import Finished, Options, count_processors, run_study
 from sprung_tools.study.page import make_study_page
-from sprung_tools.study.sampling import is_balanced
-from sprung_tools.study.study_file import read_study
+from sprung_tools.study.sampling import is_balanced, make_points
+from sprung_tools.study.study_file import Study, read_study
 from sprung_tools.study.table import find_missing, format_csv, make_hdf5, make_measure_columns
+from sprung_tools.study.workflow import SNAKEFILE, format_snakefile, parse_part
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
@@ -42,7 +45,15 @@ def parse_arguments() -> argparse.Namespace:
         "--programs", metavar="FOLDER",
         help="build folder or installation with the programs (default: that of the installation, build/release, PATH)",
     )  # fmt: skip
+    parts = parser.add_mutually_exclusive_group()
+    parts.add_argument("--workflow", type=int, metavar="N", help="write FOLDER/Snakefile with N parts; make no runs")
+    parts.add_argument("--part", metavar="K/N", help="make part K of N only, in FOLDER/parts/K, without table and page")
+    parts.add_argument("--collect", action="store_true", help="take over the rows of FOLDER/parts")
     arguments = parser.parse_args()
+    if arguments.keep_results and (arguments.workflow or arguments.part or arguments.collect):
+        parser.error("--keep-results: a study in parts keeps no results files")
+    if arguments.workflow is not None and arguments.workflow < 1:
+        parser.error(f"--workflow must be at least 1, got {arguments.workflow}")
     if arguments.jobs < 1:
         parser.error(f"--jobs must be at least 1, got {arguments.jobs}")
     return arguments
@@ -70,11 +81,35 @@ def format_errors(finished: Finished) -> list[str]:
     return lines[:MOST_SHOWN] + [f"… and {len(lines) - MOST_SHOWN} other errors"] * (len(lines) > MOST_SHOWN)
 
 
+def write_workflow(study: Study, folder: Path, programs: str | None, parts: int) -> None:
+    """Writes the Snakefile of a study."""
+    number = min(parts, len(make_points(study)))
+    find_programs(programs)  # which the jobs need
+    folder.mkdir(parents=True, exist_ok=True)
+    command = Path(sys.argv[0]).resolve()
+    write_whole(folder / SNAKEFILE, format_snakefile(command, Path(study.file.path).resolve(), programs, number))
+    print(f"{folder / SNAKEFILE}: {len(make_points(study))} runs in {number} parts")
+    print(f"snakemake --directory {folder} --snakefile {folder / SNAKEFILE} --cores all --rerun-incomplete")
+
+
+def summarise(finished: Finished) -> str:
+    """How many runs there are, and how they ended."""
+    failed = sum(row.has_failed for row in finished.rows)
+    doubtful = sum(row.exit_code == CHECK_FAILED for row in finished.rows)
+    more = f", {doubtful} with a failed check" if doubtful else ""
+    return f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed{more}"
+
+
 def main() -> int:
     arguments = parse_arguments()
     study = read_study(arguments.study)
+    if arguments.workflow is not None:
+        write_workflow(study, arguments.output, arguments.programs, arguments.workflow)
+        return 0
+    part = parse_part(arguments.part) if arguments.part else None
     programs = find_programs(arguments.programs)
-    options = Options(arguments.output, arguments.jobs, arguments.retry_failed, arguments.keep_results)
+    folder = part.folder(arguments.output) if part else arguments.output
+    options = Options(folder, arguments.jobs, arguments.retry_failed, arguments.keep_results, part, arguments.collect)
     if not is_balanced(study.sampling):
         number = study.sampling.number
         print(f"note: Sobol points are balanced where they are 1, 2, 4, 8, …; here {number}", file=sys.stderr)
@@ -83,15 +118,15 @@ def main() -> int:
     except KeyboardInterrupt:
         print(f"{options.folder}: the runs that have ended are kept; the same command goes on", file=sys.stderr)
         raise
+    if part:
+        print(summarise(finished))
+        return 0
     columns = make_measure_columns(finished)
     effects = calc_effects(finished, columns)
     write_whole(options.folder / "table.csv", format_csv(finished, columns))
     write_whole(options.folder / "table.h5", make_hdf5(finished, columns))
     write_whole(options.folder / "study.html", make_study_page(finished, columns, effects))
-    failed = sum(row.has_failed for row in finished.rows)
-    doubtful = sum(row.exit_code == CHECK_FAILED for row in finished.rows)
-    more = f", {doubtful} with a failed check" if doubtful else ""
-    print(f"{len(finished.rows)} runs: {finished.made} made, {finished.kept} kept from before, {failed} failed{more}")
+    print(summarise(finished))
     for line in format_errors(finished):
         print(line, file=sys.stderr)
     for name in find_missing(finished, columns):
@@ -100,6 +135,6 @@ def main() -> int:
         print(f"\n{format_effects(effects)}\n")
     print(f"{options.folder / 'table.csv'}, table.h5")
     print(f"Open it in a browser: {(options.folder / 'study.html').resolve().as_uri()}")
-    if failed == len(finished.rows):
+    if all(row.has_failed for row in finished.rows):
         raise InputError(f"{study.file.path}: error: all runs failed")
     return 0

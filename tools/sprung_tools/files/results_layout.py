@@ -24,6 +24,8 @@ DATASETS: dict[str, Rule] = {
     "forces/*/on_*": Numbers(("time", 3)),
     "forces/*/*": Numbers(("time",)),
     "recovery/*/station": Numbers((None, 2)),
+    "recovery/*/area": Numbers(("recovery/*/station",)),
+    "recovery/*/section_modulus": Numbers(("recovery/*/station",)),
     "recovery/*/*": Numbers(("time", "recovery/*/station")),
     "energy/*": Numbers(("time",)),
     "events/time": Numbers((None,)),

@@ -25,14 +25,17 @@ DOTS_PER_INCH = 200
 SETTINGS = {"font.size": 11, "axes.titlesize": 12, "axes.spines.top": False, "axes.spines.right": False}
 
 
-def make_figure(heights: Sequence[float], title: str, caption: str) -> tuple[Figure, Panels]:
-    """Makes a figure of panels one above the other over one axis. Returns (figure, panels).
+def make_figure(
+    heights: Sequence[float], title: str, caption: str, one_axis: bool = True
+) -> tuple[Figure, Panels]:  # fmt: skip
+    """Makes a figure of panels one above the other. Returns (figure, panels).
 
-    heights: of the panels [inches]; caption: the small print under them.
+    heights: of the panels [inches]; caption: the small print under them; one_axis: whether they share what is drawn
+    over.
     """
     matplotlib.rcParams.update(SETTINGS)
     figure = Figure(figsize=(WIDTH, MARGIN_HEIGHT + sum(heights)), layout="constrained")
-    panels = figure.subplots(len(heights), sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    panels = figure.subplots(len(heights), sharex=one_axis, squeeze=False, height_ratios=heights)[:, 0]
     figure.suptitle(title)
     figure.supxlabel(caption, fontsize=8.5, color="0.25")
     return figure, panels

@@ -1,6 +1,6 @@
-"""Bending moment and shear along each flexible body, from the loads on it where the file has them, else from its modes:
-at each time of the animation, their envelope over the run, where and when the extremes are, and where the two ways
-differ most."""
+"""Bending moment, shear and stresses along each flexible body, from the loads on it where the file has them, else from
+its modes: at each time of the animation, their envelope over the run, where and when the extremes are, and where the
+two ways differ most."""
 
 from collections.abc import Sequence
 
@@ -11,11 +11,12 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode
+from sprung_tools.runs.section_stress import SIDES, calc_section_stress, find_gap, list_sources
+from sprung_tools.runs.stations import place_stations
 
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
 FROM_LOADS = "_from_loads"  # ending of the datasets
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
-SLENDER = 0.1  # height over length up to which the loads of a body are drawn over its x
 
 
 def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> list[Packed]:
@@ -32,10 +33,15 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
         from_modes = [values for values, _ in read]
         if has_loads := results.has(f"{where}/{QUANTITIES[0][0]}{FROM_LOADS}"):
             read = [read_numbers(results.file, f"{where}/{dataset}{FROM_LOADS}") for dataset, _ in QUANTITIES]
-        samples = np.unique(np.concatenate([even, *(find_extremes(values)[:, 0] for values, _ in read)]))
+        stresses = list_stresses(results, body.name)
+        shown = [*(values for values, _ in read), *(values for _, values, _ in stresses)]
+        samples = np.unique(np.concatenate([even, *(find_extremes(values)[:, 0] for values in shown)]))
         quantities = [
             pack_quantity(values[:, order], along, results.time, samples, label, unit)
             for (values, unit), (_, label) in zip(read, QUANTITIES)
+        ]
+        quantities += [
+            pack_quantity(values, places, results.time, samples, label, "Pa") for label, values, places in stresses
         ]
         if has_loads:
             for quantity, (values, _), modal in zip(quantities, read, from_modes):
@@ -44,23 +50,6 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
             "body": body.name, "axis": name, "t": encode(results.time[samples]), "quantities": quantities,
         })  # fmt: skip
     return packed
-
-
-def place_stations(stations: Floats) -> tuple[Integers, Floats, str]:
-    """Where the loads are drawn: the order of the stations, their places [m] and what these are. A slender body along
-    x has the x of its frame; another one the length along its elements, one after the other."""
-    ends = stations.reshape(-1, 2, 2)
-    height, length = np.ptp(stations[:, 1]), np.ptp(stations[:, 0])
-    if length > 0.0 and height <= SLENDER * length:
-        flipped = ends[:, 0, 0] > ends[:, 1, 0]
-        pairs = np.arange(len(stations)).reshape(-1, 2)
-        pairs[flipped] = pairs[flipped][:, ::-1]
-        order = pairs[np.argsort(np.mean(ends[:, :, 0], axis=1), kind="stable")].ravel()
-        return order, stations[order, 0], "x in the body frame, m"
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    begins = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
-    along = np.stack([begins, begins + lengths], axis=1).ravel()
-    return np.arange(len(stations)), along, "length along the elements in their order, m"
 
 
 def pack_quantity(values: Floats, along: Floats, time: Floats, samples: Integers, label: str, unit: str) -> Packed:
@@ -76,6 +65,24 @@ def pack_quantity(values: Floats, along: Floats, time: Floats, samples: Integers
         "low": encode(np.min(values, axis=0)[kept]), "high": encode(np.max(values, axis=0)[kept]),
         "extremes": extremes,
     }  # fmt: skip
+
+
+def list_stresses(results: ResultsFile, body: str) -> list[tuple[str, Floats, Floats]]:
+    """The stresses of the extreme fibres along a body, one side after the other: label, values [n×stations] Pa, places
+    [m]; none where the file lacks the sizes of its sections."""
+    if find_gap(results, body):
+        return []
+    section = calc_section_stress(results, body, list_sources(results, body)[0])
+    every = np.arange(len(section.sides))
+    names = sorted({side for pair in section.sides for side in pair})
+    if len(names) == 2:  # all elements have the same two sides
+        columns = [np.array([pair.index(name) for pair in section.sides]) for name in names]
+    else:
+        names, columns = list(SIDES), [np.full(every.size, column) for column in (0, 1)]
+    return [
+        (f"stress, {name} side", section.stress[:, every, column], section.along)
+        for name, column in zip(names, columns)
+    ]
 
 
 def pack_difference(from_loads: Floats, from_modes: Floats, along: Floats, time: Floats) -> Packed:

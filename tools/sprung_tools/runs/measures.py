@@ -40,6 +40,7 @@ from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
+JSON_FORMAT, JSON_VERSION = "sprung-measures", 1  # tools/README.md, "Measures"
 CENTRE = "center_of_mass"
 HISTORIES = "histories/"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.

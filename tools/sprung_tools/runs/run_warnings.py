@@ -1,6 +1,7 @@
 """Warnings about the numbers of a run, from its results file: those that sprung-dynamics gave, and where the linear
 modes of the vehicle are not valid. Files of programs that did not store their warnings have them computed anew."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,9 @@ from sprung_tools.files.hdf5_file import read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, find_force_channel
 from sprung_tools.model.resolved_model import read_elements, read_settings
+from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.mode_history import read_neglected
+from sprung_tools.runs.stored_histories import list_gaps
 
 # The limits at which sprung-dynamics itself warns (dynamics/output/run_warnings.cpp).
 TOO_MUCH_LEFT_OUT = 0.05  # share of the largest deflection or acceleration
@@ -114,3 +117,13 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
         f"{', '.join(airborne)} left the ground"
     )
     return [RunWarning(EQUILIBRIUM, tuple(airborne), text)]
+
+
+def list_doubts(runs: Sequence[Run]) -> list[str]:
+    """What the runs warned of, and what their files do not hold, each in a line."""
+    doubts = []
+    for run in runs:
+        warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
+        doubts += [f"warning: {run.label}: {text}" for text in warnings]
+        doubts += [f"note: {run.label}: {text}" for text in list_gaps(run.results)]
+    return doubts

@@ -20,6 +20,7 @@ from sprung_tools.study.one_run import Setting, Task, make_and_keep
 from sprung_tools.study.plan import Planner, reduce_variants
 from sprung_tools.study.sampling import Point, make_points
 from sprung_tools.study.study_file import Study
+from sprung_tools.study.workflow import Part, collect_rows
 from sprung_tools.terminal.progress_bar import Progress
 
 QUEUED = 4  # tasks that wait for each process
@@ -39,18 +40,23 @@ class Finished(NamedTuple):
 
 
 class Options(NamedTuple):
-    """How a study is made. retry: whether rows of failed runs are made again."""
+    """How a study is made. folder: of the study, or of its part; retry: whether rows of failed runs are made again;
+    part: of the study that is made, None: all of it; collect: whether the rows of its parts are taken over."""
 
     folder: Path
     jobs: int
     retry: bool = False
     keep_results: bool = False
+    part: Part | None = None
+    collect: bool = False
 
 
 def run_study(study: Study, programs: Programs, options: Options) -> Finished:
     """Makes the runs of a study whose rows are not in its folder. InputError for a fault of the study itself; a run
     that fails is a row."""
     points = make_points(study)
+    if options.part is not None:
+        points = options.part.choose(points)
     with KeptRows(options.folder) as kept, open_pool(options) as pool:
         tasks = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
@@ -58,6 +64,8 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
                           options.folder / SCRATCH, results)  # fmt: skip
         if setting.results is not None:
             setting.results.mkdir(exist_ok=True)
+        if options.collect:
+            collect_rows(kept, options.folder)
         there = {task.hash: kept.rows[task.hash] for task in tasks if task.hash in kept.rows}
         again = {one for one, row in there.items() if options.retry and row.has_failed}
         missing = {

@@ -23,6 +23,7 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 function readable(unit, peak) {
   if (unit === "m" && peak < 1) return {unit: "mm", factor: 1e3};
   if (["N", "N m", "J"].includes(unit) && peak >= 1e3) return {unit: `k${unit}`, factor: 1e-3};
+  if (unit === "Pa") return {unit: "MPa", factor: 1e-6};
   if (unit === "rad") return {unit: "°", factor: 180 / Math.PI};
   return {unit: unit.replace("^1.75", "¹·⁷⁵").replace("^2", "²").replace("^3", "³"), factor: 1};
 }

@@ -1,8 +1,8 @@
 "use strict";
-// Bending moment and shear along a flexible body at the animation's time, within their envelope over the run.
+// Bending moment, shear and stresses along a flexible body at the animation's time, within their envelope over the run.
 
 const LOADS_HEIGHT = 200, LOADS_LEFT = 62, LOADS_RIGHT = 14, LOADS_TOP = 26, LOADS_BOTTOM = 34;  // px
-const loads = {all: [], shown: null};
+const loads = {all: [], shown: null, canvases: []};
 
 function prepareLoads() {
   data.runs.forEach((run, index) => run.loads.forEach((found) => {
@@ -99,7 +99,19 @@ function drawLoad(canvas, found, quantity) {
 }
 
 function drawLoads() {
-  if (loads.shown) loads.shown.quantities.forEach((quantity, k) => drawLoad(byId(`load-${k + 1}`), loads.shown, quantity));
+  loads.canvases.forEach((canvas, k) => {
+    const quantity = loads.shown && loads.shown.quantities[k];
+    canvas.hidden = !quantity;
+    if (quantity) drawLoad(canvas, loads.shown, quantity);
+  });
+}
+
+/** A canvas for each quantity of the body that has most. */
+function makeLoadCanvases() {
+  const number = Math.max(...loads.all.map((one) => one.quantities.length));
+  loads.canvases = Array.from({length: number}, (_, k) => element("canvas", {id: `load-${k + 1}`, role: "img"}));
+  loads.canvases.forEach((canvas, k) => canvas.addEventListener("mousemove", (event) => tellLoad(event, loads.shown.quantities[k])));
+  byId("load-diagrams").replaceChildren(...loads.canvases);
 }
 
 /** What stands under the mouse: place, value at the time, and the envelope there. */
@@ -154,8 +166,8 @@ function makeLoads() {
   };
   select.value = String(loads.all.findIndex((one) => one.index === player.main) < 0 ? 0 : loads.all.findIndex((one) => one.index === player.main));
   select.addEventListener("change", show);
-  [1, 2].forEach((number) => byId(`load-${number}`).addEventListener("mousemove", (event) => tellLoad(event, loads.shown.quantities[number - 1])));
-  byId("load-head").append(makeSaveButtons("loads-diagram", writeLoadsCsv, () => joinCanvases([byId("load-1"), byId("load-2")])));
+  makeLoadCanvases();
+  byId("load-head").append(makeSaveButtons("loads-diagram", writeLoadsCsv, () => joinCanvases(loads.canvases.filter((one) => !one.hidden))));
   clock.listeners.push(drawLoads);
   redraws.push(drawLoads);
   show();

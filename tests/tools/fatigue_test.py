@@ -1,0 +1,242 @@
+"""runs/section_stress.py, runs/fatigue.py and tools/fatigue: stresses by hand, damage of sine waves in closed form, a
+cantilever as the programs run it."""
+
+import csv
+import json
+import os
+import unittest
+
+import h5py
+import numpy as np
+from ride_results import DURATION, STEP, write_ride_results
+from synthetic_results import write_series
+from tool_test_case import ToolTestCase, run_program
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.fatigue import calc_fatigue
+from sprung_tools.runs.section_stress import calc_section_stress, list_stressed_bodies
+from sprung_tools.signals.fatigue_damage import StrengthLine
+
+STATIONS = np.array([(2.0, 0.0), (0.0, 0.0), (-2.0, 0.0), (0.0, 0.0)])  # the first element runs towards -x
+AREA, MODULUS = np.array([0.01, 0.01, 0.02, 0.02]), np.array([1e-3, 1e-3, 4e-3, 4e-3])  # m², m³
+AXIAL = 2e5  # N
+MOMENT = 1e5  # N m, amplitude at the first station; the others have these shares
+SHARES = np.array([1.0, 0.5, 0.0, -0.8])
+FREQUENCY = 2.0  # Hz; the window of 1 to 3 s has four periods
+LINE = StrengthLine(71e6)
+
+
+def write_loads(path, from_loads=None):
+    """A run whose body 'body' has a constant axial force and a moment that oscillates, which is lowest where the window
+    begins. from_loads: factor of the same from loads. Returns the path."""
+    write_ride_results(path, with_moments=False)
+    with h5py.File(path, "a") as file:
+        time = STEP * np.arange(round(DURATION / STEP) + 1)
+        moment = -MOMENT * np.outer(np.cos(2.0 * np.pi * FREQUENCY * (time - 1.0)), SHARES)
+        for ending, factor in (("", 1.0), *([("_from_loads", from_loads)] if from_loads else [])):
+            write_series(file, f"recovery/body/axial{ending}", np.full(moment.shape, AXIAL), "N")
+            write_series(file, f"recovery/body/moment{ending}", factor * moment, "N m")
+        for name, values, unit in (
+            ("station", STATIONS, "m"),
+            ("area", AREA, "m^2"),
+            ("section_modulus", MODULUS, "m^3"),
+        ):
+            write_series(file, f"recovery/body/{name}", values, unit)
+        file.require_group("summary").attrs["energy_closure"] = 1e-9
+        file.attrs["version"] = 2
+    return str(path)
+
+
+class SectionStress(ToolTestCase):
+    def test_stresses_are_those_calculated_by_hand(self):
+        with open_results(write_loads(self.folder / "a.h5")) as results:
+            section = calc_section_stress(results, "body", "modes")
+        np.testing.assert_array_equal(section.along, [-2.0, 0.0, 0.0, 2.0])
+        np.testing.assert_array_equal(section.elements, [2, 2, 1, 1])
+        # On the left of an element N/A − M/W. At 1 s, M is −MOMENT · share, and the first element has its left below.
+        self.assertEqual(section.sides, [("+y", "-y")] * 2 + [("-y", "+y")] * 2)
+        at_start = section.stress[round(1.0 / STEP)]
+        np.testing.assert_allclose(
+            at_start * 1e-6,
+            [(10.0, 10.0), (10.0 - 20.0, 10.0 + 20.0), (20.0 + 50.0, 20.0 - 50.0), (20.0 + 100.0, 20.0 - 100.0)],
+            atol=1e-9,
+        )
+
+    def test_a_body_without_sizes_of_sections_has_no_stresses(self):
+        for change, gap in ((lambda file: file.pop("recovery/body/area"), "no areas of the sections of 'body'"),
+                            (lambda file: file["recovery/body/section_modulus"].__setitem__(1, 0.0),
+                             "not all section moduli of the sections of 'body': its design needs 'section_modulus'"),
+                            (lambda file: file.pop("recovery/body/moment"), "no loads of the sections")):  # fmt: skip
+            path = write_loads(self.folder / "a.h5")
+            with h5py.File(path, "a") as file:
+                change(file)
+            with open_results(path) as results:
+                self.assertEqual(list_stressed_bodies(results), [])
+                with self.assertRaisesRegex(InputError, gap):
+                    calc_section_stress(results, "body", "modes")
+
+    def test_loads_stored_at_some_outputs_only_are_refused(self):
+        path = write_loads(self.folder / "a.h5")
+        with h5py.File(path, "a") as file:
+            for name in ("axial", "moment"):
+                values = file[f"recovery/body/{name}"][::2]
+                del file[f"recovery/body/{name}"]
+                write_series(file, f"recovery/body/{name}", values, "N")
+                file[f"recovery/body/{name}"].attrs["every"] = 2
+        with open_results(path) as results, self.assertRaisesRegex(InputError, "is stored every 2 ms only"):
+            calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
+
+
+class Fatigue(ToolTestCase):
+    def test_a_sine_does_the_damage_of_its_cycles(self):
+        with open_results(write_loads(self.folder / "a.h5")) as results:
+            fatigue = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
+            doubled = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE, factor=2.0)
+        # Ranges 2 M/W: 40 MPa (below the knee of 52.3 MPa), 100 and 200 MPa; four cycles each
+        knee = 71.0 * 0.4 ** (1.0 / 3.0)
+        expected = 4.0 * np.array([0.0, (40.0 / knee) ** 5 / 5e6, (100.0 / 71.0) ** 3 / 2e6, (200.0 / 71.0) ** 3 / 2e6])
+        np.testing.assert_allclose(fatigue.damage, np.stack([expected, expected], axis=1), rtol=1e-12)
+        np.testing.assert_allclose(
+            fatigue.greatest_range * 1e-6, [[0.0] * 2, [40.0] * 2, [100.0] * 2, [200.0] * 2], atol=1e-9
+        )
+        self.assertEqual(fatigue.worst[0], 3)
+        np.testing.assert_allclose(doubled.damage[2:], 8.0 * fatigue.damage[2:], rtol=1e-12)
+
+    def test_the_mean_stress_of_the_axial_force_counts_by_goodmans_line(self):
+        with open_results(write_loads(self.folder / "a.h5")) as results:
+            plain = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE)
+            corrected = calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE._replace(strength=100e6))
+            with self.assertRaisesRegex(
+                InputError, "at -2 m of 'body', the mean stress|at 0 m of 'body', the mean stress"
+            ):
+                calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE._replace(strength=10e6))
+        # A mean of 20 MPa with R_m = 100 MPa raises ranges of the first slope by 1/0.8
+        np.testing.assert_allclose(corrected.damage[2:], plain.damage[2:] / 0.8**3, rtol=1e-12)
+
+
+class FatigueCommand(ToolTestCase):
+    def test_the_table_has_the_worst_place_from_loads_and_from_modes(self):
+        write_loads(self.folder / "a.h5", from_loads=1.1)
+        done = self.run_tool("fatigue", "wave=a.h5", "--category", "71", "-o", "a.png", "--histories", "a.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        from_loads, from_modes = done.stdout.splitlines()[-2:]
+        damage = 4.0 * (200.0 / 71.0) ** 3 / 2e6
+        self.assertIn(f"{damage:.3e}", from_modes)
+        self.assertIn(f"{2.0 / damage / 3600.0:.4g}", from_modes)
+        self.assertIn(f"{1.1**3 * damage:.3e}", from_loads)
+        self.assertRegex(from_loads, r"body +wave +loads +2\.000 +1 +[+-]y +130\.0 +-90\.0 +220\.0 ")
+        self.assertGreater((self.folder / "a.png").stat().st_size, 10000)
+        with open(self.folder / "a.csv", encoding="utf-8") as table:
+            rows = list(csv.reader(table))
+        self.assertEqual(len(rows), 1 + 2001)
+        self.assertRegex(rows[0][1], r"body at 2 m, element 1, [+-]y, from loads \[Pa\]")
+        self.assertAlmostEqual(max(float(row[1]) for row in rows[1:]) * 1e-6, 130.0, places=9)
+
+    def test_places_asked_for_are_shown_with_both_fibres_of_each_element_there(self):
+        write_loads(self.folder / "a.h5")
+        done = self.run_tool("fatigue", "a.h5", "--category", "71", "--at", "body:0.1")
+        rows = [line.split() for line in done.stdout.splitlines()[-4:]]
+        self.assertEqual([row[-7:-5] for row in rows], [["2", "+y"], ["2", "-y"], ["1", "-y"], ["1", "+y"]])
+
+    def test_json_has_the_measures_and_the_profile_along_the_body(self):
+        write_loads(self.folder / "a.h5")
+        done = self.run_tool("fatigue", "a.h5", "--category", "71", "--strength", "500", "--endurance", "1e8", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        packed = json.loads(done.stdout)
+        self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 1))
+        line = {"category": 71e6, "slopes": [3.0, 5.0], "knee": 5e6, "endurance": 1e8, "strength": 500e6}
+        self.assertEqual(packed["strength_line"], line)
+        (run,) = packed["runs"]
+        self.assertEqual(run["measures"]["fatigue/body/from_modes/station"], {"value": 2.0, "unit": "m"})
+        self.assertAlmostEqual(run["measures"]["fatigue/body/from_modes/highest"]["value"] * 1e-6, 120.0, places=9)
+        (along,) = run["along"]
+        self.assertEqual(along["station"], [-2.0, 0.0, 0.0, 2.0])
+        self.assertEqual(
+            max(max(pair) for pair in along["damage"]), run["measures"]["fatigue/body/from_modes/damage"]["value"]
+        )
+
+    def test_what_cannot_be_is_refused(self):
+        write_loads(self.folder / "a.h5")
+        write_ride_results(self.folder / "bare.h5", with_moments=False)
+        for arguments, message in (
+            (("a.h5", "--category", "0"), "--category: error: is 0, expected a finite value > 0"),
+            (("a.h5", "--category", "71", "--slopes", "3", "-1"), "--slopes: error: is -1"),
+            (
+                ("a.h5", "--category", "71", "--at", "arm:0"),
+                "--at: error: no stresses of a body 'arm'; there are those of body",
+            ),
+            (("a.h5", "--category", "71", "--at", "body"), "--at: error: 'body' is not BODY:METRES"),
+            (("a.h5", "--category", "71", "--bodies", "arm"), "no loads of the sections of 'arm'"),
+            (("bare.h5", "--category", "71"), "no flexible body with loads of its sections"),
+            (("a.h5", "bare.h5", "--category", "71", "--histories", "b.csv"), "--histories: error: takes one run"),
+            (("a.h5", "--category", "71", "-o", "a.h5"), "is one of the input files"),
+        ):
+            self.assert_refuses(self.run_tool("fatigue", *arguments), message)
+
+
+DESIGN = """
+[materials.steel]
+youngs_modulus = 2.1e11
+density = 7850.0
+[sections.bar]
+material = "steel"
+shape = "rectangle"
+width = 0.05
+height = 0.12
+count = 2
+[points]
+foot = [0.0, 0.0]
+tip = [2.0, 0.0]
+[[lines]]
+through = ["foot", "tip"]
+section = "bar"
+elements = 4
+[reference]
+point = "foot"
+[modes]
+all = true
+damping_ratio = 0.02
+"""
+VEHICLE = """
+name = "cantilever"
+[bodies.beam]
+superelement = "beam"
+position = [0.0, 0.0]
+[[joints]]
+name = "wall"
+type = "fixed"
+a = "ground.origin"
+b = "beam.foot"
+"""
+RUN = """
+vehicle = "vehicle.toml"
+speed = 0.0
+duration = 0.1
+output_step = 0.01
+[road]
+shape = "flat"
+"""
+
+
+class Programs(ToolTestCase):
+    def test_a_cantilever_at_rest_has_the_stress_of_its_weight_at_its_root(self):
+        for name, text in (("beam.toml", DESIGN), ("vehicle.toml", VEHICLE), ("run.toml", RUN)):
+            (self.folder / name).write_text(text, encoding="utf-8")
+        for program, *arguments in (
+            ("SPRUNG_REDUCE", "build", "beam.toml", "--output-dir", "."),
+            ("SPRUNG_DYNAMICS", "run", "run.toml", "--superelements", ".", "-o", "run.h5"),
+        ):
+            done = run_program([os.environ[program], *arguments], cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with open_results(self.folder / "run.h5") as results:
+            section = calc_section_stress(results, "beam", "loads")
+        # M = −ρ A g L²/2 of the root, W = b h²/6: σ = 3 ρ g L²/h, tension above; the number of members does not count.
+        expected = 3.0 * 7850.0 * 9.80665 * 2.0**2 / 0.12
+        self.assertEqual(section.sides[0], ("+y", "-y"))
+        np.testing.assert_allclose(section.stress[:, 0, 0], expected, rtol=1e-6)
+        np.testing.assert_allclose(section.stress[:, 0, 1], -expected, rtol=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()

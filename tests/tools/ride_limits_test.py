@@ -1,0 +1,191 @@
+"""limits/ and tools/ride_limits: root finding on functions with known roots, obstacles by hand, and a linear quarter
+car whose absorbed power goes with the square of the roughness."""
+
+import json
+import math
+import os
+import unittest
+from pathlib import Path
+
+import numpy as np
+from tool_test_case import ROOT, ToolTestCase
+
+from sprung_tools.files.errors import InputError
+from sprung_tools.limits.ride_limits import Obstacles, Terrain, calc_peak, calc_power, find_roughness, find_speed
+from sprung_tools.limits.roads import calc_obstacle
+from sprung_tools.limits.root_finding import CallFailed, find_root
+from sprung_tools.limits.trials import Variant, Vehicle
+from sprung_tools.signals.road_profile import Recipe
+
+BOUNDS = (0.0, 10.0)
+RECIPE = Recipe(length=60.0, spacing=0.05, band=(0.0547, 3.3), exponent=2.0, ease=5.0, seed=3)
+# The quarter car of the examples, which rolls on by itself: nothing acts along the road.
+QUARTER_CAR = (ROOT / "dynamics/models/examples/quarter_car.toml").read_text(encoding="utf-8")
+RUN = 'vehicle = "car.toml"\nspeed = 5.0\nduration = 1.0\noutput_step = 2e-3\n[road]\nshape = "flat"\n'
+
+
+def step_by_one(_x, _value):
+    return 1.0
+
+
+class RootFinding(unittest.TestCase):
+    def test_a_root_is_found_from_below_and_from_above(self):
+        for start in (1.0, 9.0):
+            root = find_root(lambda x: x**3 - 50.0, start, BOUNDS, step_by_one, 1e-9)
+            self.assertAlmostEqual(root.value, 50.0 ** (1.0 / 3.0), delta=2e-9)
+            self.assertEqual((root.side, root.problem), ("", ""))
+
+    def test_the_first_of_several_roots_is_found(self):
+        root = find_root(lambda x: math.sin(x - 1.0), 0.0, BOUNDS, step_by_one, 1e-9)
+        self.assertAlmostEqual(root.value, 1.0, delta=2e-9)
+
+    def test_a_jump_is_found_at_its_place(self):
+        root = find_root(lambda x: -1.0 if x < 4.56 else 1.0, 0.5, BOUNDS, step_by_one, 1e-6)
+        self.assertAlmostEqual(root.value, 4.56, delta=2e-6)
+
+    def test_a_root_beyond_the_bounds_is_told(self):
+        self.assertEqual(find_root(lambda x: x - 11.0, 3.0, BOUNDS, step_by_one, 1e-9)[:3], (None, "above", ""))
+        self.assertEqual(find_root(lambda x: x + 1.0, 3.0, BOUNDS, step_by_one, 1e-9)[:3], (None, "below", ""))
+
+    def test_no_argument_is_asked_for_twice(self):
+        asked = []
+
+        def function(x):
+            asked.append(x)
+            return x - 5.4
+
+        root = find_root(function, 3.0, BOUNDS, step_by_one, 1e-9)
+        self.assertEqual(len(set(asked)), len(asked))
+        self.assertEqual(root.calls, len(asked))
+
+    def test_a_failed_call_leaves_the_root_unknown(self):
+        def function(x):
+            if x > 4.0:
+                raise CallFailed("the run failed")
+            return x - 7.0
+
+        self.assertEqual(find_root(function, 3.0, BOUNDS, step_by_one, 1e-9), (None, "", "the run failed", 3))
+
+
+class ObstacleOutline(unittest.TestCase):
+    def test_a_half_round_obstacle_is_a_half_circle(self):
+        places, heights = calc_obstacle(0.25, None)
+        self.assertEqual((places[0], heights[0], heights[-1]), (0.0, 0.0, 0.0))
+        self.assertAlmostEqual(places[-1], 0.5)
+        np.testing.assert_allclose(np.hypot(places - 0.25, heights), 0.25, rtol=1e-12)
+
+    def test_the_outline_for_a_wheel_is_the_way_of_its_centre(self):
+        # The centre of a wheel of 0.5 m on a half circle of 0.2 m is 0.7 m from the circle's centre, and on level
+        # ground 0.5 m high: √(0.7² − 0.5²) = 0.4899 m before the middle.
+        places, heights = calc_obstacle(0.2, 0.5)
+        self.assertAlmostEqual(places[-1], 2.0 * math.sqrt(0.24))
+        self.assertAlmostEqual(np.max(heights), 0.2)
+        np.testing.assert_allclose(np.hypot(places - math.sqrt(0.24), heights + 0.5), 0.7, rtol=1e-12)
+
+
+class QuarterCarCase(ToolTestCase):
+    def setUp(self):
+        super().setUp()
+        begin, end = QUARTER_CAR.index("[[motions]]"), QUARTER_CAR.index("[[forces]]")
+        (self.folder / "car.toml").write_text(QUARTER_CAR[:begin] + QUARTER_CAR[end:], encoding="utf-8")
+        (self.folder / "run.toml").write_text(RUN, encoding="utf-8")
+
+    def vehicle(self, point="sprung.origin", *overrides):
+        program = Path(os.environ["SPRUNG_DYNAMICS"])
+        return Vehicle(program, self.folder / "run.toml", None, point, Variant("car", overrides))
+
+
+class QuarterCar(QuarterCarCase):
+    def test_the_roughness_follows_from_the_power_at_any_other(self):
+        terrain = Terrain(RECIPE, (0.001, 0.2), 6.0)
+        vehicle = self.vehicle()
+        known = 0.01
+        expected = known * math.sqrt(6.0 / calc_power(vehicle, terrain, 7.0, known))
+        root = find_roughness(vehicle, terrain, 7.0)
+        self.assertAlmostEqual(root.value / expected, 1.0, delta=0.01)  # half a per cent is the tolerance
+        self.assertLessEqual(root.calls, 5)
+
+    def test_the_limits_of_roughness_bound_the_search(self):
+        for roughness, side in (((0.0001, 0.0002), "above"), ((0.5, 0.6), "below")):
+            root = find_roughness(self.vehicle(), Terrain(RECIPE, roughness, 6.0), 7.0)
+            self.assertEqual((root.value, root.side), (None, side))
+
+    def test_the_speed_over_an_obstacle_is_the_lowest_that_reaches_the_limit(self):
+        vehicle = self.vehicle()
+        obstacles = Obstacles((0.5, 25.0), 15.0, None)
+        root = find_speed(vehicle, obstacles, 0.1)
+        at, below = (calc_peak(vehicle, obstacles, 0.1, factor * root.value) for factor in (1.0, 0.95))
+        self.assertAlmostEqual(at / 15.0, 1.0, delta=0.02)
+        self.assertLess(below, 15.0)
+        # The car is linear: a limit of half the size is reached by the suspension's peak at a lower speed.
+        half = find_speed(vehicle, obstacles._replace(acceleration=7.5), 0.1)
+        self.assertLess(half.value, root.value)
+
+    def test_a_low_pass_filter_takes_off_what_is_fast(self):
+        obstacles = Obstacles((0.5, 25.0), 15.0, None)
+        plain, smoothed = (
+            calc_peak(self.vehicle("unsprung.origin"), obstacles._replace(low_pass=one), 0.1, 6.0)
+            for one in (None, 2.0)
+        )
+        self.assertLess(smoothed, 0.3 * plain)
+
+    def test_wheels_are_read_from_the_vehicle(self):
+        self.assertEqual(self.vehicle().wheels, (0.0, 0.316677))
+        self.assertEqual(self.vehicle().title, "quarter car")
+
+    def test_a_point_that_is_not_there_is_an_error(self):
+        with self.assertRaisesRegex(InputError, "no quantity 'points/sprung.seat/acceleration.y'"):
+            self.vehicle("sprung.seat")
+
+    def test_a_run_that_fails_is_told_and_not_used(self):
+        # A program that makes the short run which tells what the vehicle is, and then fails in each of two ways.
+        for code, complaint in ((3, "the step size fell below its limit"), (1, "the energy balance does not close")):
+            program = self.folder / f"program_{code}"
+            program.write_text(
+                f"#!/bin/sh\ncase \"$*\" in\n*duration=0.01*) exec {os.environ['SPRUNG_DYNAMICS']} \"$@\" ;;\nesac\n"
+                f"echo '{complaint}' >&2\nexit {code}\n",
+                encoding="utf-8",
+            )
+            program.chmod(0o755)
+            vehicle = Vehicle(program, self.folder / "run.toml", None, "sprung.origin", Variant("car", ()))
+            root = find_roughness(vehicle, Terrain(RECIPE, (0.001, 0.2), 6.0), 7.0)
+            self.assertEqual(root, (None, "", f"at 7 m/s the run failed: {complaint}", 1))
+
+
+class Command(QuarterCarCase):
+    def test_tables_json_and_picture(self):
+        words = ("ride_limits", "run.toml", "--point", "sprung.origin", "--variant", "as it is", "--variant", "soft",
+                 "vehicle.forces.suspension.damper.coefficient=700.0", "--speeds", "5", "--heights", "0.1", "--peak",
+                 "1", "--length", "60", "--ease", "5")  # fmt: skip
+        done = self.run_tool(*words, "-o", "limits.png")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"as it is +5 +18\.0 +\d+\.\d +\d+\n")
+        self.assertRegex(done.stdout, r"soft +100 +\d+\.\d\d +\d+\.\d +\d+\n?")
+        self.assertGreater((self.folder / "limits.png").stat().st_size, 10000)
+        done = self.run_tool(*words, "--json")
+        packed = json.loads(done.stdout)
+        self.assertEqual((packed["format"], packed["version"], packed["power"]), ("sprung-ride-limits", 1, 6.0))
+        first, second = packed["vehicles"]
+        self.assertEqual((first["label"], first["set"]), ("as it is", []))
+        self.assertEqual(second["set"], ["vehicle.forces.suspension.damper.coefficient=700.0"])
+        self.assertEqual(first["terrain"][0]["speed"], 5.0)
+        # A softer damper passes on less of what is fast.
+        self.assertLess(first["terrain"][0]["roughness"], second["terrain"][0]["roughness"])
+        self.assertEqual(first["obstacles"][0]["height"], 0.1)
+
+    def test_what_cannot_be_is_refused(self):
+        for arguments, message in (
+            (("--speeds", "-3"), "--speeds: error: is -3, expected a finite value > 0"),
+            (("--roughness", "0.2", "0.1"), "--roughness: error: got 0.2 0.1, expected two ascending values"),
+            (("--variant", "soft", "road"), "--variant: error: 'road' of 'soft' is not KEY=VALUE"),
+            (("--variant", "a", "--variant", "a"), "--variant: error: the label 'a' stands twice"),
+            (("--speeds", "--heights"), "there are neither speeds nor --heights"),
+            (("--set", "sped=3"), "unknown key 'sped'"),
+            (("--spacing", "0.07"), "--spacing 0.07 m must divide"),
+        ):
+            process = self.run_tool("ride_limits", "run.toml", "--point", "sprung.origin", *arguments)
+            self.assert_refuses(process, message)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,127 @@
+"""A study in parts by Snakemake (tools/setup --for-tests installs it): on two cores, killed half-way, and handed to the
+command of a cluster."""
+
+import os
+import re
+import select
+import signal
+import subprocess
+import unittest
+
+from study_case import DYNAMICS, HEIGHT, StudyCase
+from tool_test_case import TOOLS, run_program
+
+SNAKEMAKE = ("/usr/bin/snakemake", "--directory", "out", "--snakefile", "out/Snakefile")
+README = (TOOLS / "README.md").read_text(encoding="utf-8")
+
+
+class Workflow(StudyCase):
+    """With a stand-in that runs the program, writes down each call, and at the third and fourth height of the bump
+    stays for ever while a file called hold is there."""
+
+    def setUp(self):
+        super().setUp()
+        settings = 'measures = ["program/steps"]\nset.duration = 0.5\n'
+        self.write_study(f"{settings}{HEIGHT}values = [0.01, 0.02, 0.03, 0.04]")
+        os.mkfifo(self.folder / "arrived")
+        stand_in = self.folder / "stand_in"
+        stand_in.write_text(
+            '#!/bin/bash\n[[ "$*" == *--dry-run* ]] && exit 0\n'
+            f'echo "$*" >>"{self.folder}/calls"\n'
+            f'if [[ "$*" == *height=0.0[34]* && -e "{self.folder}/hold" ]]; then\n'
+            f'  echo $$ >"{self.folder}/arrived"\n  exec sleep infinity\nfi\nexec "{DYNAMICS}" "$@"\n',
+            encoding="utf-8",
+        )
+        stand_in.chmod(0o755)
+        self.environment = {"SPRUNG_DYNAMICS": str(stand_in), "XDG_CACHE_HOME": str(self.folder / "cache")}
+        self.assert_succeeds(self.study("--workflow", "2", **self.environment))
+
+    def snakemake(self, *arguments, **environment):
+        """Runs Snakemake, which writes its progress on stderr, to a good end."""
+        environment = {**os.environ, **self.environment, **environment}
+        process = run_program([*SNAKEMAKE, *arguments], cwd=self.folder, env=environment)
+        self.assertEqual(process.returncode, 0, process.stderr)
+
+    def count_calls(self):
+        calls = (self.folder / "calls").read_text(encoding="utf-8").splitlines()
+        return sorted(line.split("road.height=")[1] for line in calls)
+
+    def check_table(self):
+        """The table is that of a study in one part."""
+        self.assert_succeeds(self.run_tool("study", "study.toml", "-o", "whole", **self.environment))
+        for name in ("table.csv", "table.h5"):
+            self.assertEqual((self.folder / "out" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+
+    def test_two_parts_on_two_cores_make_the_table_of_the_study(self):
+        self.snakemake("--cores", "2")
+        self.assertEqual(self.count_calls(), ["0.01", "0.02", "0.03", "0.04"])
+        for part in ("1", "2"):
+            rows = (self.folder / "out/parts" / part / "rows.jsonl").read_text(encoding="utf-8").splitlines()
+            self.assertEqual(len(rows), 2)
+        self.check_table()
+
+    def test_a_workflow_that_is_killed_goes_on_where_it_was(self):
+        (self.folder / "hold").touch()
+        process = subprocess.Popen(
+            [*SNAKEMAKE, "--cores", "2"], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL, env={**os.environ, **self.environment}, start_new_session=True,
+        )  # fmt: skip
+        held = []
+        while len(held) < 2:  # both parts have made their first run, and are in their second
+            held += map(int, (self.folder / "arrived").read_text(encoding="utf-8").split())
+        ends = [os.pidfd_open(one) for one in held]
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        for end in ends:
+            select.select([end], [], [])  # of a process that has ended
+            os.close(end)
+        (self.folder / "hold").unlink()
+        self.snakemake("--unlock")
+        self.snakemake("--cores", "2", "--rerun-incomplete")
+        self.assertEqual(self.count_calls(), ["0.01", "0.02", "0.03", "0.03", "0.04", "0.04"])
+        self.check_table()
+
+    def test_the_profile_of_the_readme_hands_the_parts_to_a_cluster(self):
+        """With a stand-in for sbatch: it writes down its arguments, runs the job, and prints its number."""
+        (profile,) = re.findall(r"```yaml\n(# slurm/config.yaml\n.*?)```", README, re.DOTALL)
+        (self.folder / "slurm").mkdir()
+        (self.folder / "slurm/config.yaml").write_text(profile, encoding="utf-8")
+        sbatch = self.folder / "bin/sbatch"
+        sbatch.parent.mkdir()
+        sbatch.write_text(
+            f'#!/bin/bash\necho "$*" >>"{self.folder}/submitted"\nbash "${{@: -1}}" >/dev/null 2>&1\necho 17\n',
+            encoding="utf-8",
+        )
+        sbatch.chmod(0o755)
+        path = f"{sbatch.parent}:{os.environ['PATH']}"
+        self.snakemake("--profile", self.folder / "slurm", PATH=path)
+        submitted = (self.folder / "submitted").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(submitted), 3)  # two parts and the table
+        self.assertTrue(all("--cpus-per-task=1" in line for line in submitted), submitted)
+        self.check_table()
+
+
+class Parts(StudyCase):
+    def test_parts_share_the_runs_and_another_number_of_parts_needs_no_run_twice(self):
+        self.write_study(f'measures = ["program/steps"]\nset.duration = 0.2\n{HEIGHT}values = [0.01, 0.02, 0.03]')
+        self.assertIn("2 runs: 2 made", self.study("--part", "1/2").stdout)
+        self.assertIn("1 runs: 1 made", self.study("--part", "2/2").stdout)
+        self.assertFalse((self.folder / "out/table.csv").exists())
+        self.assertIn("3 runs: 0 made, 3 kept from before", self.study("--collect").stdout)
+
+    def test_a_study_has_no_more_parts_than_runs(self):
+        self.write_study(f'measures = ["program/steps"]\n{HEIGHT}values = [0.01, 0.02]')
+        process = self.study("--workflow", "9")
+        self.assertIn("2 runs in 2 parts", process.stdout)
+        self.assertIn("PARTS = 2\n", (self.folder / "out/Snakefile").read_text(encoding="utf-8"))
+
+    def test_what_is_no_part_is_refused(self):
+        self.write_study(f'measures = ["program/steps"]\n{HEIGHT}values = [0.01, 0.02]')
+        for part in ("0/2", "3/2", "1", "one/2"):
+            self.assert_refuses(self.study("--part", part), f"--part: error: got '{part}', expected K/N")
+        self.assertEqual(self.study("--workflow", "0").returncode, 2)
+        self.assertIn("keeps no results files", self.study("--part", "1/2", "--keep-results").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,38 @@
+"""The roads of ride limits, as the text of road tables.
+
+Half-round obstacle of height h, which is its radius too:   z(s) = √(h² − s²),   |s| ≤ h                          (1)
+Its outline for a wheel of radius R in contact at a point:  z(s) = √((R + h)² − s²) − R,   |s| ≤ √(h² + 2 R h)    (2)
+
+(2) is the way of the centre of a rigid wheel that rolls over (1), lowered by R: without it a point would fall down
+the obstacle's upright sides.
+"""
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.signals.road_profile import Recipe, format_profile, make_profile
+
+SAMPLES = 200  # of an obstacle
+RUN_OUT = 1.0  # m of level road in the table behind it
+
+
+def make_terrain(recipe: Recipe) -> str:
+    """The road of a recipe. InputError for a recipe that makes none."""
+    return format_profile(recipe, make_profile(recipe), "tools/ride_limits")
+
+
+def calc_obstacle(height: float, wheel_radius: float | None) -> tuple[Floats, Floats]:
+    """Places from the obstacle's beginning, and heights [n] m, of (1) without a radius, else of (2)."""
+    half = height if wheel_radius is None else np.sqrt(height**2 + 2.0 * wheel_radius * height)
+    s = -half * np.cos(np.linspace(0.0, np.pi, SAMPLES + 1))
+    radius = height + (wheel_radius or 0.0)
+    heights = np.sqrt(np.maximum(radius**2 - s**2, 0.0)) - (wheel_radius or 0.0)
+    heights[[0, -1]] = 0.0
+    return s + half, heights
+
+
+def make_obstacle(height: float, wheel_radius: float | None) -> str:
+    """The road over an obstacle."""
+    places, heights = calc_obstacle(height, wheel_radius)
+    rows = [*zip(places, heights), (places[-1] + RUN_OUT, 0.0)]
+    return "# half-round obstacle\n" + "".join(f"{s:.9f} {max(h, 0.0):.9f}\n" for s, h in rows)

@@ -1,0 +1,89 @@
+"""Stresses at the extreme fibres of a body's sections.
+
+    σ = N/A − M/W on the left of an element's direction, N/A + M/W on its right                               (1)
+
+N and M are axial force and bending moment of a section (dynamics/output/results.md), A and W its area and section
+modulus, W = I/e with the distance e of the extreme fibre from the centroid. They are nominal stresses of the beam:
+without those of shear, and without what welds, holes and corners add.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats, Integers
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.runs.stations import place_stations
+
+FROM_LOADS, FROM_MODES = "loads", "modes"
+ENDINGS = {FROM_LOADS: "_from_loads", FROM_MODES: ""}  # of the datasets
+SIDES = ("left", "right")
+
+
+class SectionStress(NamedTuple):
+    """The stresses of a body over time.
+
+    along: place of each station [stations] m, and axis says what it is; elements: the element of each station, from 1;
+    sides: which way each of its two fibres lies from the centroid, such as "+y" [stations × 2]; stress: of these fibres
+    [n × stations × 2] Pa.
+    """
+
+    along: Floats
+    axis: str
+    elements: Integers
+    sides: list[tuple[str, str]]
+    stress: Floats
+
+
+def list_sources(results: ResultsFile, body: str) -> list[str]:
+    """Of what the file has the loads of a body's sections: from its loads, from its modes."""
+    return [source for source, ending in ENDINGS.items() if results.has(f"recovery/{body}/moment{ending}")]
+
+
+def list_stressed_bodies(results: ResultsFile) -> list[str]:
+    """The bodies whose stresses the file tells."""
+    return [body for body in results.names("recovery") if not find_gap(results, body)]
+
+
+def find_gap(results: ResultsFile, body: str) -> str:
+    """What the file lacks for a body's stresses; empty if it has all."""
+    if not list_sources(results, body):
+        return f"no loads of the sections of '{body}'"
+    for name, what in (("area", "areas"), ("section_modulus", "section moduli")):
+        dataset = f"recovery/{body}/{name}"
+        if not results.file.has_dataset(dataset):
+            return f"no {what} of the sections of '{body}': sprung-reduce build makes its superelement with them"
+        if np.any(read_numbers(results.file, dataset)[0] <= 0.0):
+            return f"not all {what} of the sections of '{body}': its design needs 'section_modulus' or a 'shape'"
+    return ""
+
+
+def name_datasets(body: str, source: str) -> list[str]:
+    """The datasets of axial force and bending moment of a body."""
+    return [f"recovery/{body}/{name}{ENDINGS[source]}" for name in ("axial", "moment")]
+
+
+def calc_section_stress(results: ResultsFile, body: str, source: str) -> SectionStress:
+    """The stresses of a body, from its loads or from its modes. The stations are in the order of `along`. InputError if
+    the file lacks something."""
+    gap = find_gap(results, body)
+    if gap:
+        raise InputError(f"{results.path}: error: {gap}")
+    others = [f"recovery/{body}/{name}" for name in ("station", "area", "section_modulus")]
+    axial, moment, stations, area, modulus = (
+        read_numbers(results.file, name)[0] for name in (*name_datasets(body, source), *others)
+    )
+    order, along, axis = place_stations(stations)
+    mean, bending = (axial / area)[:, order], (moment / modulus)[:, order]
+    sides = [name_sides(*stations[[2 * element, 2 * element + 1]]) for element in order // 2]
+    return SectionStress(along, axis, order // 2 + 1, sides, np.stack([mean - bending, mean + bending], axis=-1))
+
+
+def name_sides(first: Floats, second: Floats) -> tuple[str, str]:
+    """Which way the left and the right of an element lie, by the axis of the body frame closest to it."""
+    x, y = second - first
+    if abs(x) >= abs(y):
+        return ("+y", "-y") if x > 0.0 else ("-y", "+y")
+    return ("-x", "+x") if y > 0.0 else ("+x", "-x")
