@@ -29,7 +29,7 @@ struct Instant {
 };
 
 /// A quantity of a force element that changes at a rate of its own, ż = g: a history of its motion (system,
-/// eq. 13). It is zero at rest and scaled so that ½z² is an energy.
+/// eq. 14). It is zero at rest and scaled so that ½z² is an energy.
 struct InternalState {
   std::string name;   ///< "relaxation_x"
   double size = 1.0;  ///< its natural size [J^0.5], or [J^0.5/m] of the model's length scale

@@ -38,7 +38,7 @@ struct Model {
   std::vector<int> joint_rows;      ///< first constraint of each joint
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
-  std::vector<InternalState> states;  ///< of all force elements: the last coordinates (system, eq. 13)
+  std::vector<InternalState> states;  ///< of all force elements: the last coordinates (system, eq. 14)
   std::vector<int> force_states;      ///< first of `states` of each force element, and their number
   std::vector<int> acting_markers;    ///< those of joints and forces, ascending; the others are for results
   double length_scale = 1.0;          ///< largest distance of a marker from its body's frame [m]

@@ -43,7 +43,7 @@ void SystemForces::update(const SystemMotion& motion, std::span<const int> branc
   if (!fading_.empty()) add_fading_forces(motion);
 }
 
-// The generalized forces of internal states (system, eq. 13).
+// The generalized forces of internal states (system, eq. 14).
 void SystemForces::set_state_rates(const SystemMotion& motion, std::span<const int> branches) {
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const std::span<double> rates = model_->states_of(f, Q_.data());

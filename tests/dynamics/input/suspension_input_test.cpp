@@ -80,21 +80,16 @@ TEST_CASE("A bushing has laws in at least one direction") {
   CHECK(channels[2] == -0.5);
   CHECK(channels[8] == Approx(2.0 * 3.0 * 2.0).epsilon(1e-13));
   CHECK(error_of(bushing("angle = 0.1")) ==
-<<<<<<< HEAD
         "f.toml:1:1: error: 'forces.b' must have laws for at least one of 'x', 'y' and 'rotation'");
-  CHECK(error_of(bushing("y = {}")) == "f.toml:6:5: error: 'forces.b.y' must have a 'spring' or a 'damper'");
-=======
-        "f.toml:1:1: error: 'forces.0' must have laws for at least one of 'x', 'y' and 'rotation'");
   CHECK(error_of(bushing("y = {}")) ==
-        "f.toml:6:5: error: 'forces.0.y' must have a 'spring', a 'damper' or a 'relaxation'");
->>>>>>> ad207a25 (Add internal states of force elements, relaxing bushings and leaf springs)
+        "f.toml:6:5: error: 'forces.b.y' must have a 'spring', a 'damper' or a 'relaxation'");
   CHECK(error_of(bushing("y = { spring = { polynomial = [0.0, -5.0] } }")) ==
         "f.toml:6:31: error: 'forces.b.y.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 1 is -5, must be ≥ 0");
   CHECK(error_of(bushing("y = { relaxation = { stiffness = 5.0 } }")) ==
-        "f.toml:6:20: error: missing key 'time' in 'forces.0.y.relaxation'");
+        "f.toml:6:20: error: missing key 'time' in 'forces.b.y.relaxation'");
   CHECK(error_of(bushing("rotation = { relaxation = { stiffness = 5.0, time = 0.0 } }")) ==
-        "f.toml:6:53: error: 'forces.0.rotation.relaxation.time' must be > 0 s, got 0");
+        "f.toml:6:53: error: 'forces.b.rotation.relaxation.time' must be > 0 s, got 0");
   CHECK(error_of(bushing("x = { damper = { coefficient = 1.0 } }\nmultiplicity = 0")) ==
         "f.toml:7:16: error: 'forces.b.multiplicity' must be > 0, got 0");
 }
@@ -114,13 +109,12 @@ TEST_CASE(
   std::array<double, 5> channels{};
   force->calc_channels({.markers = markers, .states = states}, {}, channels);
   CHECK(channels[3] == Approx(50.0 * 0.05 + 5.0).epsilon(1e-13));
-  CHECK(error_of(head) == "f.toml:1:1: error: missing key 'friction' in 'forces.0'");
+  CHECK(error_of(head) == "f.toml:1:1: error: missing key 'friction' in 'forces.l'");
   CHECK(error_of(head + "friction = { coefficient = 0.0 }") ==
-        "f.toml:9:28: error: 'forces.0.friction.coefficient' must be > 0 N, got 0");
+        "f.toml:9:28: error: 'forces.l.friction.coefficient' must be > 0 N, got 0");
   CHECK(error_of(head + "friction = { table = [[0.0, 4.0], [0.1, -6.0]] }") ==
-        "f.toml:9:41: error: 'forces.0.friction.table.1.1' must be > 0 N, got -6");
+        "f.toml:9:41: error: 'forces.l.friction.table.1.1' must be > 0 N, got -6");
   CHECK(error_of(head + "friction = { table = [[0.0, 1.0], [0.01, 4.0]] }") ==
-        "f.toml:9:35: error: 'forces.0.friction.table.1' changes by 300 N/m from the point before; friction "
-        "that "
-        "builds up over 0.01 m can change by at most 200 N/m there, or it would put energy in");
+        "f.toml:9:35: error: 'forces.l.friction.table.1' changes by 300 N/m from the point before; friction "
+        "that builds up over 0.01 m can change by at most 200 N/m there, or it would put energy in");
 }
