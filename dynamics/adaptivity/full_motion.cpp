@@ -75,7 +75,7 @@ double FullMotion::stop(const std::vector<int>& coordinates, const HeldModes& he
                         std::span<const int> branches) {
   update_terms(time);
   const double energy = calc_energy(terms_, branches).total();
-  Eigen::VectorXd momentum(full_->num_coordinates);
+  Eigen::VectorXd momentum = v_;  // of internal states
   for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
     const Body& body = full_->bodies[b];
     momentum.segment(body.first_coordinate, body.num_coordinates()) =

@@ -1,5 +1,6 @@
 #include "dynamics/forces/bushing.h"
 
+#include <cmath>
 #include <string>
 
 namespace sprung::dynamics {
@@ -22,8 +23,36 @@ struct Bushing::Relative {
 
 Bushing::Bushing(std::string element_name, Parameters parameters)
     : ForceElement(std::move(element_name)), parameters_(std::move(parameters)) {
-  for (const Direction& direction : parameters_.directions)
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Direction& direction = parameters_.directions[k];
     num_switches_ += direction.spring.num_switches() + direction.damper.num_switches();
+    if (direction.relaxing_stiffness > 0.0) relaxing_.push_back(k);
+  }
+}
+
+// √(N k_r): the state is this times the deflection of the spring.
+double Bushing::calc_state_factor(std::size_t k) const {
+  return std::sqrt(parameters_.multiplicity * parameters_.directions[k].relaxing_stiffness);
+}
+
+std::vector<InternalState> Bushing::internal_states() const {
+  std::vector<InternalState> states;
+  for (const std::size_t k : relaxing_) {
+    states.push_back({.name = std::string("relaxation_") + kDirectionNames[k],
+                      .size = calc_state_factor(k),
+                      .is_per_length = k < 2});
+  }
+  return states;
+}
+
+void Bushing::calc_state_rates(const Instant& instant, std::span<const int> /*branches*/,
+                               std::span<double> rates) const {
+  const Relative relative = calc_relative(instant);
+  for (std::size_t i = 0; i < relaxing_.size(); ++i) {
+    const std::size_t k = relaxing_[i];
+    rates[i] = calc_state_factor(k) * relative.rate[static_cast<Eigen::Index>(k)] -
+               instant.states[i] / parameters_.directions[k].relaxation_time;
+  }
 }
 
 Bushing::Relative Bushing::calc_relative(const Instant& instant) const {
@@ -58,6 +87,11 @@ Power Bushing::add_wrenches(const Instant& instant, std::span<const int> branche
     on_b[i] = -(spring + damper);
     power.dissipated += damper * relative.rate[i];
   }
+  for (std::size_t i = 0; i < relaxing_.size(); ++i) {
+    const std::size_t k = relaxing_[i];
+    on_b[static_cast<Eigen::Index>(k)] -= calc_state_factor(k) * instant.states[i];
+    power.dissipated += instant.states[i] * instant.states[i] / parameters_.directions[k].relaxation_time;
+  }
   const double cosine = relative.axes.cosine, sine = relative.axes.sine;
   const Eigen::Vector2d force(cosine * on_b[0] - sine * on_b[1], sine * on_b[0] + cosine * on_b[1]);
   Wrench& wrench_a = wrenches[static_cast<std::size_t>(parameters_.marker_a)];
@@ -74,7 +108,9 @@ double Bushing::calc_stored_energy(const Instant& instant, std::span<const int> 
   double sum = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
     sum += parameters_.directions[k].spring.integral(relative.u[static_cast<Eigen::Index>(k)]);
-  return parameters_.multiplicity * sum;
+  sum *= parameters_.multiplicity;
+  for (const double state : instant.states) sum += 0.5 * state * state;
+  return sum;
 }
 
 void Bushing::choose_branches(const Instant& instant, std::span<int> branches) const {
@@ -116,6 +152,10 @@ ElementDescription Bushing::describe() const {
         {"spring" + suffix, direction.spring, turns ? "N m" : "N", turns ? "rad" : "m"});
     description.parameters.push_back(
         {"damper" + suffix, direction.damper, turns ? "N m" : "N", turns ? "rad/s" : "m/s"});
+    if (direction.relaxing_stiffness == 0.0) continue;
+    description.parameters.push_back(
+        {"relaxing_stiffness" + suffix, direction.relaxing_stiffness, turns ? "N m/rad" : "N/m"});
+    description.parameters.push_back({"relaxation_time" + suffix, direction.relaxation_time, "s"});
   }
   return description;
 }
@@ -144,6 +184,8 @@ void Bushing::calc_channels(const Instant& instant, std::span<const int> /*branc
     values[3 + k] = rate;
     values[6 + k] = -parameters_.multiplicity * (direction.spring.value(u) + direction.damper.value(rate));
   }
+  for (std::size_t i = 0; i < relaxing_.size(); ++i)
+    values[6 + relaxing_[i]] -= calc_state_factor(relaxing_[i]) * instant.states[i];
 }
 
 }  // namespace sprung::dynamics

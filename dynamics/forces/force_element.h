@@ -21,10 +21,26 @@ struct Wrench {
   double torque = 0.0;                              ///< [N·m]
 };
 
-/// Time and the motion of the vehicle's markers: all that a force depends on.
+/// Time, the motion of the vehicle's markers and the element's own states: all that a force depends on.
 struct Instant {
   double time = 0.0;                     ///< [s]
   std::span<const MarkerState> markers;  ///< all markers of the model
+  std::span<const double> states = {};   ///< internal states of the element that is asked [J^0.5]
+};
+
+/// A quantity of a force element that changes at a rate of its own, ż = g: a history of its motion (system,
+/// eq. 14). It is zero at rest and scaled so that ½z² is an energy.
+struct InternalState {
+  std::string name;   ///< "relaxation_x"
+  double size = 1.0;  ///< its natural size [J^0.5], or [J^0.5/m] of the model's length scale
+  bool is_per_length = false;
+};
+
+/// A linear law in the place of a state's own: its rate is `gain` times that which motion from rest gives it,
+/// less `decay` times the state.
+struct StateLinearisation {
+  double gain = 1.0;
+  double decay = 0.0;  ///< [1/s]
 };
 
 /// Power by which a force element reduces (dissipated) or increases (input) the mechanical energy [W].
@@ -84,6 +100,19 @@ class ForceElement {
   /// power put in (see add_wrenches).
   virtual double calc_stored_energy(const Instant& /*instant*/, std::span<const int> /*branches*/) const {
     return 0.0;
+  }
+
+  /// The states whose rates `calc_state_rates` gives.
+  virtual std::vector<InternalState> internal_states() const { return {}; }
+  /// @param[out] rates  ż, one for each internal state; zero where markers and states are at rest
+  virtual void calc_state_rates(const Instant& /*instant*/, std::span<const int> /*branches*/,
+                                std::span<double> /*rates*/) const {}
+
+  /// The law of its only state for random motion, where the law has no derivative at rest, as of friction.
+  /// @param rms_deflection, rms_rate  root mean squares of its channels of these roles, > 0
+  virtual std::optional<StateLinearisation> linearise_state(double /*rms_deflection*/,
+                                                            double /*rms_rate*/) const {
+    return std::nullopt;
   }
 
   virtual int num_branches() const { return 0; }

@@ -163,6 +163,7 @@ const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
       {"tyre", read_tyre},
       {"hydraulic-stop", read_hydraulic_stop},
       {"bushing", read_bushing},
+      {"leaf-spring", read_leaf_spring},
   };
   return readers;
 }
@@ -207,6 +208,13 @@ std::unique_ptr<ForceElement> place(const std::string& name, Bushing::Parameters
   parameters.marker_a = markers[0];
   parameters.marker_b = markers[1];
   return std::make_unique<Bushing>(name, std::move(parameters));
+}
+
+std::unique_ptr<ForceElement> place(const std::string& name, LeafSpring::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  parameters.marker_a = markers[0];
+  parameters.marker_b = markers[1];
+  return std::make_unique<LeafSpring>(name, std::move(parameters));
 }
 
 }  // namespace

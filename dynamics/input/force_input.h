@@ -10,6 +10,7 @@
 #include "dynamics/forces/applied_force.h"
 #include "dynamics/forces/bushing.h"
 #include "dynamics/forces/hydraulic_stop.h"
+#include "dynamics/forces/leaf_spring.h"
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
 #include "dynamics/forces/tyre.h"
@@ -28,7 +29,7 @@ struct TyreDescription {
 /// Parameters of a force element of any kind.
 using ForceParameters =
     std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters, AppliedForce::Parameters,
-                 TyreDescription, HydraulicStop::Parameters, Bushing::Parameters>;
+                 TyreDescription, HydraulicStop::Parameters, Bushing::Parameters, LeafSpring::Parameters>;
 
 /// A length in static equilibrium, from which the free length follows (dynamics/program/static_lengths.h).
 struct StaticLength {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "dynamics/input/characteristic_input.h"
@@ -43,9 +45,45 @@ std::optional<Bushing::Direction> read_direction_laws(const support::TomlTable& 
   const std::optional<support::TomlTable> damper = table->find_table("damper");
   if (spring) direction.spring = read_spring(*spring, units);
   if (damper) direction.damper = read_damper(*damper, units);
+  const std::optional<support::TomlTable> relaxation = table->find_table("relaxation");
+  if (relaxation) {
+    direction.relaxing_stiffness = relaxation->number("stiffness", support::positive(units.stiffness));
+    direction.relaxation_time = relaxation->number("time", support::positive("s"));
+    relaxation->reject_unknown_keys();
+  }
   table->reject_unknown_keys();
-  if (!spring && !damper) throw table->error("must have a 'spring' or a 'damper'");
+  if (!spring && !damper && !relaxation)
+    throw table->error("must have a 'spring', a 'damper' or a 'relaxation'");
   return direction;
+}
+
+// Full friction over the deflection: { coefficient = F } or { table = [[d, F], …] }, which ends level.
+PiecewisePolynomial read_friction(const support::TomlTable& table, double presliding_deflection) {
+  constexpr std::array<std::string_view, 2> kWays{"coefficient", "table"};
+  const std::string_view way = find_only_key(table, kWays, "either 'coefficient' or 'table'");
+  const support::Quantity unit = support::positive("N");
+  if (way == "coefficient") {
+    const double force = table.number(way, unit);
+    table.reject_unknown_keys();
+    return PiecewisePolynomial({force});
+  }
+  const support::TomlValue rows = table.at(way);
+  table.reject_unknown_keys();
+  const PointList points = read_point_list(rows, support::any("m"), unit);
+  for (std::size_t i = 1; i < points.x.size(); ++i) {
+    const double change = std::abs(points.y[i] - points.y[i - 1]) / (points.x[i] - points.x[i - 1]);
+    const double most = 2.0 * std::min(points.y[i], points.y[i - 1]) / presliding_deflection;
+    if (change <= most) continue;
+    throw rows.items()[i].error(
+        fmt::format("changes by {:.4g} N/m from the point before; friction that builds up over {} m can "
+                    "change by at most "
+                    "{:.4g} N/m there, or it would put energy in",
+                    change, presliding_deflection, most));
+  }
+  PiecewisePolynomial law = PiecewisePolynomial::through_points(points.x, points.y);
+  law.continue_straight(points.x.back(), 0.0, false);
+  law.continue_straight(points.x.front(), 0.0, true);
+  return law;
 }
 
 }  // namespace
@@ -86,6 +124,18 @@ void read_bushing(const support::TomlTable& table, ForceDescription& force) {
     table.reject_unknown_keys();
     throw table.error("must have laws for at least one of 'x', 'y' and 'rotation'");
   }
+  force.parameters = std::move(parameters);
+}
+
+void read_leaf_spring(const support::TomlTable& table, ForceDescription& force) {
+  force.points = {read_point(table.at("a")), read_point(table.at("b"))};
+  force.along_line = true;
+  LeafSpring::Parameters parameters;
+  parameters.free_length = table.number("free_length", support::positive("m"));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.spring = read_spring(table.at("spring").table());
+  parameters.presliding_deflection = table.number("presliding_deflection", support::positive("m"));
+  parameters.friction = read_friction(table.at("friction").table(), parameters.presliding_deflection);
   force.parameters = std::move(parameters);
 }
 

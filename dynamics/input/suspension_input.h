@@ -9,5 +9,6 @@ namespace sprung::dynamics {
 /// Checked by tests/dynamics/input/suspension_input_test.cpp
 void read_hydraulic_stop(const support::TomlTable& table, ForceDescription& force);
 void read_bushing(const support::TomlTable& table, ForceDescription& force);
+void read_leaf_spring(const support::TomlTable& table, ForceDescription& force);
 
 }  // namespace sprung::dynamics

@@ -30,7 +30,7 @@ void SmoothPiece::calc_switches(const SystemTerms& terms, std::span<double> valu
   for (std::size_t i = 0; i < model_->forces.size(); ++i) {
     const ForceElement& force = *model_->forces[i];
     const auto count = static_cast<std::size_t>(force.num_switches());
-    force.calc_switches(terms.instant(), model_->branches_of(i, branches_), values.subspan(next, count));
+    force.calc_switches(terms.instant_of(i), model_->branches_of(i, branches_), values.subspan(next, count));
     next += count;
   }
 }

@@ -84,6 +84,11 @@ bool is_stable(const LinearisedSystem& system) {
   return !has_growth(solver.eigenvalues());
 }
 
+// Whether it is more than a change of internal states.
+bool moves_bodies(const Model& model, const Eigen::VectorXd& direction) {
+  return !direction.head(model.first_state()).isZero(0.0);
+}
+
 NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   NeutralDirection neutral;
   std::vector<std::string> moving;
@@ -232,7 +237,8 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       equilibrium.rounding_step = modal.rounding_step;
       for (Eigen::Index k = 0; k < modal.force.size(); ++k) {
         if (modal.is_neutral[static_cast<std::size_t>(k)]) {
-          equilibrium.neutral.push_back(describe(model, system.directions * modal.modes.vectors.col(k)));
+          const Eigen::VectorXd direction = system.directions * modal.modes.vectors.col(k);
+          if (moves_bodies(model, direction)) equilibrium.neutral.push_back(describe(model, direction));
         } else if (modal.modes.omega_squared[k] < 0.0) {
           equilibrium.stable = false;
         }

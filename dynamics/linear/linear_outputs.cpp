@@ -52,7 +52,7 @@ Eigen::VectorXd calc_channels(const PartitionedEquations& equations, std::span<c
     const ForceElement& force = *model.forces[f];
     const std::size_t first = values.size();
     values.resize(first + force.channels().size());
-    force.calc_channels(equations.terms().instant(), model.branches_of(f, branches),
+    force.calc_channels(equations.terms().instant_of(f), model.branches_of(f, branches),
                         std::span(values).subspan(first));
   }
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));

@@ -11,6 +11,7 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     : q_(q),
       equations_(model),
       system_(linearise(equations_, 0.0, q)),
+      damping_at_rest_(system_.damping),
       solver_(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding),
       branches_(static_cast<std::size_t>(model.num_branches)) {
   const Eigen::VectorXd q_i = independent_positions();
@@ -24,13 +25,22 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
     const ForceElement& force = *model.forces[f];
     channel_rows_.push_back(channel_rows_.back() + static_cast<int>(force.channels().size()));
     const std::optional<RoadPlace> place =
-        force.find_road_place(equations_.terms().instant(), model.branches_of(f, branches_));
+        force.find_road_place(equations_.terms().instant_of(f), model.branches_of(f, branches_));
     if (!place) continue;
     inputs_.push_back({.name = force.name,
                        .force = static_cast<int>(f),
                        .distance = place->distance,
                        .is_pressed = place->is_pressed});
   }
+}
+
+// States are the last independent coordinates.
+void LinearVehicle::set_state_law(int force, const StateLinearisation& law) {
+  const int coordinate = model().first_state() + model().force_states[static_cast<std::size_t>(force)];
+  const Eigen::Index k = system_.mass.rows() - (model().num_coordinates - coordinate);
+  system_.damping.row(k) = law.gain * damping_at_rest_.row(k);
+  system_.damping(k, k) = law.decay;
+  solver_ = FrequencySolver(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding);
 }
 
 Eigen::VectorXd LinearVehicle::independent_positions() const {
@@ -65,7 +75,7 @@ Eigen::VectorXd LinearVehicle::calc_channels() const {
   Eigen::VectorXd values(channel_rows_.back());
   for (std::size_t f = 0; f < model().forces.size(); ++f) {
     const ForceElement& force = *model().forces[f];
-    force.calc_channels(equations_.terms().instant(), model().branches_of(f, branches_),
+    force.calc_channels(equations_.terms().instant_of(f), model().branches_of(f, branches_),
                         std::span(values.data() + channel_rows_[f], force.channels().size()));
   }
   return values;

@@ -39,6 +39,9 @@ class LinearVehicle {
   /// @throws support::NumericalError if it cannot be linearised there
   LinearVehicle(const Model& model, const Eigen::VectorXd& q);
 
+  /// Gives the state of force element f, its only one, another linear law.
+  void set_state_law(int force, const StateLinearisation& law);
+
   const Model& model() const { return equations_.terms().model(); }
   const LinearisedSystem& system() const { return system_; }
   const FrequencySolver& solver() const { return solver_; }
@@ -74,6 +77,7 @@ class LinearVehicle {
   Eigen::VectorXd q_;
   PartitionedEquations equations_;
   LinearisedSystem system_;
+  Eigen::MatrixXd damping_at_rest_;  // f×f, before states were given other laws
   FrequencySolver solver_;
   std::vector<RoadInput> inputs_;
   std::vector<Kink> kinks_;

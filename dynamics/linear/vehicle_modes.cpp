@@ -158,6 +158,8 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   for (const UndampedMode& one : undamped) {
     VehicleMode mode;
     mode.shape = system.directions * (form.V * one.shape.real().normalized());
+    // An internal state of a force element is no mode, but it damps and stiffens the others.
+    if (mode.shape.head(model.first_state()).isZero(0.0)) continue;
     mode.participants = describe_participants(model, terms, mode.shape);
     mode.is_rigid_body = one.omega == 0.0;
     if (!mode.is_rigid_body) {

@@ -122,7 +122,7 @@ class TimedForces {
     const Model& model = vehicle_.model();
     const ForceElement& force = *model.forces[timed.force];
     for (const int marker : force.markers()) wrenches_[static_cast<std::size_t>(marker)] = {};
-    Instant instant = vehicle_.equations().terms().instant();
+    Instant instant = vehicle_.equations().terms().instant_of(static_cast<std::size_t>(timed.force));
     instant.time = time;
     force.add_wrenches(instant, model.branches_of(timed.force, vehicle_.branches()), wrenches_);
     const Wrench& wrench = wrenches_[static_cast<std::size_t>(timed.marker)];

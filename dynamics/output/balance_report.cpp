@@ -29,7 +29,7 @@ struct RestingForces {
     const Model& model = terms.model();
     const ForceElement& force = *model.forces[force_index];
     std::vector<double> values(force.channels().size());
-    force.calc_channels(terms.instant(), model.branches_of(force_index, branches), values);
+    force.calc_channels(terms.instant_of(force_index), model.branches_of(force_index, branches), values);
     return values;
   }
 };
@@ -125,7 +125,8 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
       "{}: modes about {}, {} freedoms\n"
       "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
       "counts with their mean.\n\n",
-      vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_freedoms());
+      vehicle.name, is_steady ? "steady motion" : "static equilibrium",
+      model.num_freedoms() - model.num_states());
   support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
   int number = 0;
   for (const VehicleMode& mode : modes) {

@@ -181,15 +181,26 @@ void RunHistories::add_forces() {
       const Channel& channel = force.channels()[c];
       const std::string dataset = fmt::format("/forces/{}/{}", force.name, channel.name);
       add(dataset, 0, std::string(channel.unit),
-          [&force, first, count, c, values](const Snapshot& now, std::span<double> row) {
+          [&force, f, first, count, c, values](const Snapshot& now, std::span<double> row) {
             if (c == 0)
-              force.calc_channels(now.terms().instant(), now.branches.subspan(first, count), values);
+              force.calc_channels(now.terms().instant_of(f), now.branches.subspan(first, count), values);
             row[0] = values[c];
           })
           .role = role_name(channel.role);
     }
     add_wrenches(f);
+    add_states(f);
   }
+}
+
+void RunHistories::add_states(std::size_t f) {
+  const int count = model_->force_states[f + 1] - model_->force_states[f];
+  if (count == 0) return;
+  const int first = model_->force_states[f] - model_->num_states();  // from the end of the velocities
+  add(fmt::format("/forces/{}/state", model_->forces[f]->name), static_cast<std::size_t>(count), "J^0.5",
+      [first, count](const Snapshot& now, std::span<double> row) {
+        put(row, now.v.segment(now.v.size() + first, count));
+      });
 }
 
 void RunHistories::add_wrenches(std::size_t f) {
@@ -204,7 +215,7 @@ void RunHistories::add_wrenches(std::size_t f) {
         [this, &force, f, markers, marker, p](const Snapshot& now, std::span<double> row) {
           if (p == 0) {
             for (const int one : markers) wrenches_[static_cast<std::size_t>(one)] = {};
-            force.add_wrenches(now.terms().instant(), model_->branches_of(f, now.branches), wrenches_);
+            force.add_wrenches(now.terms().instant_of(f), model_->branches_of(f, now.branches), wrenches_);
           }
           const Wrench& wrench = wrenches_[marker];
           put(row, Eigen::Vector3d(wrench.force.x(), wrench.force.y(), wrench.torque));

@@ -46,6 +46,7 @@ class RunHistories {
   void add_joint_coordinate(const Joint& joint, int row_of_joint);
   void add_forces();
   void add_wrenches(std::size_t force_index);
+  void add_states(std::size_t force_index);
   void add_neglected(const Model& full);
   void add_sections(const VehicleSections& sections);
 

@@ -89,9 +89,9 @@ std::string format_model_json(const PreparedRun& prepared) {
   Json report{{"bodies", bodies},
               {"joints", joints},
               {"forces", forces},
-              {"coordinates", model.num_coordinates},
+              {"coordinates", model.first_state()},
               {"constraints", model.num_constraints},
-              {"freedoms", model.num_freedoms()}};
+              {"freedoms", model.num_freedoms() - model.num_states()}};
   if (prepared.choice) report["mode_choice"] = make_choice_json(*prepared.choice);
   if (prepared.equilibrium) {
     Json places = Json::object();

@@ -39,7 +39,10 @@ bool only_modes_are_free(const Model& model, const Eigen::VectorXd& q) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   const std::vector<int>& free = equations.partition().independent;
-  return std::all_of(free.begin(), free.end(), [&](int i) { return model.body_coordinate(i).is_modal(); });
+  return std::all_of(free.begin(), free.end(), [&](int i) {
+    const BodyCoordinate coordinate = model.body_coordinate(i);
+    return coordinate.is_modal() || coordinate.is_state();
+  });
 }
 
 // The steady motion relative to which a run starts in equilibrium.

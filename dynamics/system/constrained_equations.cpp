@@ -60,6 +60,7 @@ double ConstrainedEquations::calc_metric_size(const Eigen::VectorXd& x) {
            body.stand_in_mass * x.segment<2>(first).squaredNorm() +
            body.stand_in_inertia * x[first + 2] * x[first + 2];
   }
+  sum += x.tail(model_->num_states()).squaredNorm();
   return std::sqrt(sum);
 }
 
@@ -73,6 +74,7 @@ void ConstrainedEquations::improve_accelerations() {
     const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
     change_.segment(first, size).noalias() -= terms_.mass(b) * v_dot_.segment(first, size);
   }
+  change_.tail(model_->num_states()) -= v_dot_.tail(model_->num_states());
   apply_inverse_mass(change_);
   v_dot_ += change_;
   if (model_->num_constraints == 0) return;

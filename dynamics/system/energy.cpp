@@ -17,7 +17,7 @@ Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
   }
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
     const ForceElement& force = *model.forces[f];
-    energy.spring += force.calc_stored_energy(terms.instant(), model.branches_of(f, branches));
+    energy.spring += force.calc_stored_energy(terms.instant_of(f), model.branches_of(f, branches));
   }
   return energy;
 }

@@ -70,6 +70,11 @@ Body hold(const Body& full, const Split& split) {
   return body;
 }
 
+// Internal states of force elements are always there.
+void append_states(const Model& full, std::vector<int>& coordinates) {
+  for (int i = full.first_state(); i < full.num_coordinates; ++i) coordinates.push_back(i);
+}
+
 }  // namespace
 
 HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, const Eigen::VectorXd& q) {
@@ -83,6 +88,7 @@ HeldModes hold_modes(const Model& full, const std::vector<bool>& is_active, cons
     for (int k = 0; k < 3; ++k) result.coordinates.push_back(body.first_coordinate + k);
     for (const int k : splits.back().active) result.coordinates.push_back(body.first_coordinate + 3 + k);
   }
+  append_states(full, result.coordinates);
   for (const Marker& marker : full.markers) {
     model.markers.push_back(marker);
     if (marker.body == kGround) continue;
@@ -115,6 +121,7 @@ HeldModes match_modes(const Model& model, const Model& full) {
                                    static_cast<int>(found - body.mode_numbers.begin()));
     }
   }
+  append_states(full, result.coordinates);
   return result;
 }
 

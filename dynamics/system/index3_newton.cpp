@@ -28,45 +28,55 @@ Index3Newton::Index3Newton(const Model& model)
     dense_factor_.compute(dense_);
   }
   find_couplings();
-  colour_bodies();
+  colour_groups();
 }
 
 void Index3Newton::find_couplings() {
-  const std::size_t num_bodies = model_->bodies.size();
-  std::vector<std::vector<bool>> feels(num_bodies, std::vector<bool>(num_bodies, false));
-  for (std::size_t b = 0; b < num_bodies; ++b) feels[b][b] = true;
-  const auto couple = [&](const std::vector<int>& markers) {
-    for (const int i : markers) {
-      for (const int j : markers) {
-        const int a = model_->markers[static_cast<std::size_t>(i)].body;
-        const int b = model_->markers[static_cast<std::size_t>(j)].body;
-        if (a != kGround && b != kGround)
-          feels[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
+  for (const Body& body : model_->bodies) groups_.push_back({body.first_coordinate, body.num_coordinates()});
+  const auto& first_states = model_->force_states;
+  std::vector<int> state_groups(model_->forces.size(), -1);
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const int count = first_states[f + 1] - first_states[f];
+    if (count == 0) continue;
+    state_groups[f] = static_cast<int>(groups_.size());
+    groups_.push_back({model_->first_state() + first_states[f], count});
+  }
+  const std::size_t num_groups = groups_.size();
+  std::vector<std::vector<bool>> feels(num_groups, std::vector<bool>(num_groups, false));
+  for (std::size_t g = 0; g < num_groups; ++g) feels[g][g] = true;
+  const auto couple = [&](const std::vector<int>& markers, int state_group) {
+    std::vector<int> together;
+    for (const int i : markers) together.push_back(model_->markers[static_cast<std::size_t>(i)].body);
+    together.push_back(state_group);
+    for (const int a : together) {
+      for (const int b : together) {
+        if (a >= 0 && b >= 0) feels[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] = true;
       }
     }
   };
-  for (const auto& joint : model_->joints) couple({joint->marker_a, joint->marker_b});
-  for (const auto& force : model_->forces) couple(force->markers());
-  for (std::size_t a = 0; a < num_bodies; ++a) {
-    for (std::size_t b = 0; b < num_bodies; ++b) {
+  static_assert(kGround < 0);
+  for (const auto& joint : model_->joints) couple({joint->marker_a, joint->marker_b}, -1);
+  for (std::size_t f = 0; f < model_->forces.size(); ++f)
+    couple(model_->forces[f]->markers(), state_groups[f]);
+  for (std::size_t a = 0; a < num_groups; ++a) {
+    for (std::size_t b = 0; b < num_groups; ++b) {
       if (!feels[a][b]) continue;
-      const Eigen::MatrixXd zero =
-          Eigen::MatrixXd::Zero(model_->bodies[a].num_coordinates(), model_->bodies[b].num_coordinates());
+      const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(groups_[a].size, groups_[b].size);
       couplings_.push_back({static_cast<int>(a), static_cast<int>(b), zero, zero});
     }
   }
 }
 
-// Greedy: a body takes the first colour that contains no body on which the same forces depend.
+// Greedy: a group takes the first colour that contains no group on which the same forces depend.
 // Source: [Curtis, Powell & Reid 1974]
-void Index3Newton::colour_bodies() {
-  const std::size_t num_bodies = model_->bodies.size();
-  std::vector<std::vector<int>> felt_by(num_bodies);
+void Index3Newton::colour_groups() {
+  const std::size_t num_groups = groups_.size();
+  std::vector<std::vector<int>> felt_by(num_groups);
   for (const Coupling& coupling : couplings_) {
-    felt_by[static_cast<std::size_t>(coupling.column_body)].push_back(coupling.row_body);
+    felt_by[static_cast<std::size_t>(coupling.column_group)].push_back(coupling.row_group);
   }
   std::vector<std::vector<bool>> taken;  // rows of each colour
-  for (std::size_t b = 0; b < num_bodies; ++b) {
+  for (std::size_t b = 0; b < num_groups; ++b) {
     const auto fits = [&](const std::vector<bool>& rows) {
       return std::none_of(felt_by[b].begin(), felt_by[b].end(),
                           [&](int row) { return rows[static_cast<std::size_t>(row)]; });
@@ -74,7 +84,7 @@ void Index3Newton::colour_bodies() {
     const auto colour =
         static_cast<std::size_t>(std::find_if(taken.begin(), taken.end(), fits) - taken.begin());
     if (colour == taken.size()) {
-      taken.emplace_back(num_bodies, false);
+      taken.emplace_back(num_groups, false);
       colours_.emplace_back();
     }
     for (const int row : felt_by[b]) taken[colour][static_cast<std::size_t>(row)] = true;
@@ -85,17 +95,15 @@ void Index3Newton::colour_bodies() {
 void Index3Newton::difference(Index3Residual& residual, ConstrainedMotion& moved,
                               std::span<const int> branches, bool of_velocity) {
   Eigen::VectorXd& x = of_velocity ? moved.v : moved.q;
-  for (const std::vector<int>& bodies : colours_) {
+  for (const std::vector<int>& colour : colours_) {
     int num_columns = 0;
-    for (const int b : bodies) {
-      num_columns = std::max(num_columns, model_->bodies[static_cast<std::size_t>(b)].num_coordinates());
-    }
+    for (const int g : colour) num_columns = std::max(num_columns, groups_[static_cast<std::size_t>(g)].size);
     for (int k = 0; k < num_columns; ++k) {
       const auto shift_all = [&](double sign) {
-        for (const int b : bodies) {
-          const Body& body = model_->bodies[static_cast<std::size_t>(b)];
-          if (k >= body.num_coordinates()) continue;
-          const int i = body.first_coordinate + k;
+        for (const int g : colour) {
+          const Group& group = groups_[static_cast<std::size_t>(g)];
+          if (k >= group.size) continue;
+          const int i = group.first + k;
           x[i] += sign * kShift * model_->coordinate_scale(i);
         }
       };
@@ -103,13 +111,13 @@ void Index3Newton::difference(Index3Residual& residual, ConstrainedMotion& moved
       residual.update(moved, branches);
       shift_all(-1.0);
       for (Coupling& coupling : couplings_) {
-        if (std::find(bodies.begin(), bodies.end(), coupling.column_body) == bodies.end()) continue;
-        const Body& column = model_->bodies[static_cast<std::size_t>(coupling.column_body)];
-        const Body& row = model_->bodies[static_cast<std::size_t>(coupling.row_body)];
-        if (k >= column.num_coordinates()) continue;
-        const double shift = kShift * model_->coordinate_scale(column.first_coordinate + k);
+        if (std::find(colour.begin(), colour.end(), coupling.column_group) == colour.end()) continue;
+        const Group& column = groups_[static_cast<std::size_t>(coupling.column_group)];
+        const Group& row = groups_[static_cast<std::size_t>(coupling.row_group)];
+        if (k >= column.size) continue;
+        const double shift = kShift * model_->coordinate_scale(column.first + k);
         (of_velocity ? coupling.C : coupling.K).col(k) =
-            (residual.force() - base_force_).segment(row.first_coordinate, row.num_coordinates()) / shift;
+            (residual.force() - base_force_).segment(row.first, row.size) / shift;
       }
     }
   }
@@ -129,6 +137,7 @@ void Index3Newton::linearise(Index3Residual& residual, const ConstrainedMotion& 
 void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weights) {
   entries_.clear();
   constraint_scale_.setZero();
+  coordinate_scale_.setOnes();
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const Body& body = model_->bodies[b];
     for (int k = 0; k < body.num_coordinates(); ++k) {
@@ -136,14 +145,17 @@ void Index3Newton::collect_entries(const SystemTerms& terms, const Weights& weig
     }
   }
   for (const Coupling& coupling : couplings_) {
-    const auto row_body = static_cast<std::size_t>(coupling.row_body);
-    const int row = model_->bodies[row_body].first_coordinate;
-    const int column = model_->bodies[static_cast<std::size_t>(coupling.column_body)].first_coordinate;
+    const auto row_group = static_cast<std::size_t>(coupling.row_group);
+    const int row = groups_[row_group].first;
+    const int column = groups_[static_cast<std::size_t>(coupling.column_group)].first;
+    const bool is_own = coupling.row_group == coupling.column_group;
     for (int j = 0; j < coupling.K.cols(); ++j) {
       for (int i = 0; i < coupling.K.rows(); ++i) {
         double value = weights.velocity * coupling.C(i, j) + weights.position * coupling.K(i, j);
-        if (coupling.row_body == coupling.column_body)
-          value += weights.acceleration * terms.mass(row_body)(i, j);
+        if (is_own && row_group < model_->bodies.size())
+          value += weights.acceleration * terms.mass(row_group)(i, j);
+        else if (is_own && i == j)
+          value += weights.acceleration;  // the unit mass of a state
         entries_.push_back(
             {row + i, column + j, value * coordinate_scale_[row + i] * coordinate_scale_[column + j]});
       }

@@ -45,9 +45,14 @@ class Index3Newton {
   Eigen::MatrixXd dense() const;
 
  private:
-  // Derivatives of the forces on one body by the coordinates of another on which they depend, or by its own.
+  // Coordinates that are moved together: those of a body, followed by the groups of the states of a force
+  // element.
+  struct Group {
+    int first, size;
+  };
+  // Derivatives of the forces on one group by the coordinates of another on which they depend, or by its own.
   struct Coupling {
-    int row_body, column_body;
+    int row_group, column_group;
     Eigen::MatrixXd K, C;
   };
   struct Entry {
@@ -56,15 +61,16 @@ class Index3Newton {
   };
 
   void find_couplings();
-  void colour_bodies();
+  void colour_groups();
   void difference(Index3Residual& residual, ConstrainedMotion& moved, std::span<const int> branches,
                   bool of_velocity);
   void collect_entries(const SystemTerms& terms, const Weights& weights);
 
   const Model* model_;
   int num_coordinates_, num_constraints_;
+  std::vector<Group> groups_;
   std::vector<Coupling> couplings_;
-  std::vector<std::vector<int>> colours_;  // bodies that are moved at once
+  std::vector<std::vector<int>> colours_;  // groups that are moved at once
   Eigen::VectorXd base_force_;
   ConstrainedMotion moved_;
 

@@ -22,6 +22,7 @@ void Index3Residual::update(const ConstrainedMotion& motion, std::span<const int
     const int first = model.bodies[b].first_coordinate, size = model.bodies[b].num_coordinates();
     force_.segment(first, size).noalias() += terms_.mass(b) * motion.v_dot.segment(first, size);
   }
+  force_.tail(model.num_states()) += motion.v_dot.tail(model.num_states());
 }
 
 }  // namespace sprung::dynamics

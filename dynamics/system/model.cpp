@@ -58,6 +58,7 @@ BodyCoordinate Model::body_coordinate(int coordinate) const {
   if (coordinate < 0 || coordinate >= num_coordinates) {
     throw std::invalid_argument(fmt::format("Model: coordinate {} of {}", coordinate, num_coordinates));
   }
+  if (coordinate >= first_state()) return {.body = -1, .local = -1};
   const auto behind = std::upper_bound(bodies.begin(), bodies.end(), coordinate,
                                        [](int i, const Body& body) { return i < body.first_coordinate; });
   const auto body = std::prev(behind);
@@ -66,6 +67,12 @@ BodyCoordinate Model::body_coordinate(int coordinate) const {
 
 std::string Model::coordinate_name(int coordinate) const {
   const auto [index, local] = body_coordinate(coordinate);
+  if (index < 0) {
+    const int state = coordinate - first_state();
+    const auto behind = std::upper_bound(force_states.begin(), force_states.end(), state);
+    const auto f = static_cast<std::size_t>(behind - force_states.begin() - 1);
+    return fmt::format("{}.{}", forces[f]->name, states[static_cast<std::size_t>(state)].name);
+  }
   const Body& body = bodies[static_cast<std::size_t>(index)];
   if (local < 3) return fmt::format("{}.{}", body.name, local == 0 ? "x" : local == 1 ? "y" : "angle");
   return fmt::format("{}.mode {}", body.name, body.mode_numbers[static_cast<std::size_t>(local - 3)]);
@@ -73,6 +80,10 @@ std::string Model::coordinate_name(int coordinate) const {
 
 double Model::coordinate_scale(int coordinate) const {
   const auto [body, local] = body_coordinate(coordinate);
+  if (body < 0) {
+    const InternalState& state = states[static_cast<std::size_t>(coordinate - first_state())];
+    return state.is_per_length ? state.size * length_scale : state.size;
+  }
   if (local < 2) return length_scale;
   return local == 2 ? 1.0 : length_scale / bodies[static_cast<std::size_t>(body)].mode_scale[local - 3];
 }
@@ -118,6 +129,13 @@ void number_model(Model& model) {
     model.force_branches.push_back(model.num_branches);
     model.num_branches += force->num_branches();
   }
+  model.states.clear();
+  model.force_states.assign(1, 0);
+  for (const auto& force : model.forces) {
+    for (InternalState& state : force->internal_states()) model.states.push_back(std::move(state));
+    model.force_states.push_back(model.num_states());
+  }
+  model.num_coordinates += model.num_states();
   std::set<int> acting;
   for (const auto& joint : model.joints) acting.insert({joint->marker_a, joint->marker_b});
   for (const auto& force : model.forces) {

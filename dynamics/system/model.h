@@ -16,10 +16,11 @@ namespace sprung::dynamics {
 
 /// A coordinate of the system as one of a body.
 struct BodyCoordinate {
-  int body = 0;   ///< position in Model::bodies
-  int local = 0;  ///< 0: x, 1: y, 2: angle, 3 + k: the body's k-th active mode
+  int body = 0;   ///< position in Model::bodies; -1 for an internal state of a force element
+  int local = 0;  ///< 0: x, 1: y, 2: angle, 3 + k: the body's k-th active mode; -1 for a state
 
   bool is_modal() const { return local >= 3; }
+  bool is_state() const { return body < 0; }
 };
 
 /// A multibody system as the solver sees it: immutable once made. Changing the active modes of a body makes
@@ -37,14 +38,26 @@ struct Model {
   std::vector<int> joint_rows;      ///< first constraint of each joint
   std::vector<int> force_branches;  ///< first branch of each force element
   int num_branches = 0;
-  std::vector<int> acting_markers;   ///< those of joints and forces, ascending; the others are for results
-  double length_scale = 1.0;         ///< largest distance of a marker from its body's frame [m]
-  bool has_motions = false;          ///< some joint prescribes a motion
-  bool has_massless_bodies = false;  ///< some body has no mass or no inertia
-  std::vector<double> time_breaks;   ///< where functions of time have a kink or jump, ascending [s]
-  double time_resolution = 0.0;      ///< longest step that passes over no detail of a function of time [s]
+  std::vector<InternalState> states;  ///< of all force elements: the last coordinates (system, eq. 14)
+  std::vector<int> force_states;      ///< first of `states` of each force element, and their number
+  std::vector<int> acting_markers;    ///< those of joints and forces, ascending; the others are for results
+  double length_scale = 1.0;          ///< largest distance of a marker from its body's frame [m]
+  bool has_motions = false;           ///< some joint prescribes a motion
+  bool has_massless_bodies = false;   ///< some body has no mass or no inertia
+  std::vector<double> time_breaks;    ///< where functions of time have a kink or jump, ascending [s]
+  double time_resolution = 0.0;       ///< longest step that passes over no detail of a function of time [s]
 
+  int num_states() const { return static_cast<int>(states.size()); }
+  int first_state() const { return num_coordinates - num_states(); }  ///< coordinate of the first state
+  /// Independent coordinates, those of internal states included.
   int num_freedoms() const { return num_coordinates - num_constraints; }
+  /// The part of all velocities, or forces, that belongs to the states of force element f.
+  template <class Value>
+  std::span<Value> states_of(std::size_t f, Value* v) const {
+    if (states.empty()) return {};
+    return {v + first_state() + force_states[f],
+            static_cast<std::size_t>(force_states[f + 1] - force_states[f])};
+  }
   /// The part of all branches that belongs to force element f.
   template <class Branches>
   auto branches_of(std::size_t f, Branches& branches) const {
@@ -52,7 +65,7 @@ struct Model {
                                        static_cast<std::size_t>(forces[f]->num_branches()));
   }
   BodyCoordinate body_coordinate(int coordinate) const;
-  /// "chassis.x", "chassis.angle", "chassis.mode 3"
+  /// "chassis.x", "chassis.angle", "chassis.mode 3"; of an internal state "mount.relaxation_x"
   std::string coordinate_name(int coordinate) const;
   /// Natural size of a coordinate: length_scale for positions, 1 for angles, for a modal coordinate the value
   /// that moves some node by length_scale.
@@ -65,8 +78,8 @@ struct Model {
   int find_marker(const std::string& name) const;  ///< -1 if there is none
 };
 
-/// Numbers coordinates, constraints and branches, and measures the model. Call once bodies, markers, joints
-/// and forces are complete.
+/// Numbers coordinates, constraints, branches and internal states, and measures the model. Call once bodies,
+/// markers, joints and forces are complete.
 void number_model(Model& model);
 
 /// Positions and velocities of the whole system, with the branches of its force elements and the forces that

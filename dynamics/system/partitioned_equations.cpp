@@ -198,6 +198,8 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
     const Eigen::MatrixXd rows = directions.middleRows(body.first_coordinate, body.num_coordinates());
     reduced += rows.transpose() * terms().mass(b) * rows;
   }
+  const auto states = directions.bottomRows(model_->num_states());
+  if (states.rows() > 0) reduced += states.transpose() * states;
   return reduced;
 }
 

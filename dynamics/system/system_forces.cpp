@@ -21,9 +21,10 @@ SystemForces::SystemForces(const Model& model, const std::vector<BodyMass>& mass
 void SystemForces::update(const SystemMotion& motion, std::span<const int> branches) {
   for (const int i : model_->acting_markers) wrenches_[static_cast<std::size_t>(i)] = Wrench{};
   power_ = {};
-  const Instant now{motion.time, motion.markers};
+  Instant now{motion.time, motion.markers};
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
+    now.states = model_->states_of(f, motion.v.data());
     const Power power = force.add_wrenches(now, model_->branches_of(f, branches), wrenches_);
     power_.dissipated += power.dissipated;
     power_.input += power.input;
@@ -38,7 +39,18 @@ void SystemForces::update(const SystemMotion& motion, std::span<const int> branc
     Q_[body.first_coordinate + 1] += body.mass * model_->gravity.y();
   }
   for (const std::size_t b : varying_bodies_) add_body_forces(b, motion);
+  if (!model_->states.empty()) set_state_rates(motion, branches);
   if (!fading_.empty()) add_fading_forces(motion);
+}
+
+// The generalized forces of internal states (system, eq. 14).
+void SystemForces::set_state_rates(const SystemMotion& motion, std::span<const int> branches) {
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const std::span<double> rates = model_->states_of(f, Q_.data());
+    if (rates.empty()) continue;
+    const Instant now{motion.time, motion.markers, model_->states_of(f, motion.v.data())};
+    model_->forces[f]->calc_state_rates(now, model_->branches_of(f, branches), rates);
+  }
 }
 
 void SystemForces::add_wrench(const ActingMarker& acting, const MarkerState& state) {

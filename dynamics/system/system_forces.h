@@ -49,6 +49,7 @@ class SystemForces {
   };
   void add_wrench(const ActingMarker& acting, const MarkerState& state);
   void add_body_forces(std::size_t body, const SystemMotion& motion);
+  void set_state_rates(const SystemMotion& motion, std::span<const int> branches);
   void add_fading_forces(const SystemMotion& motion);
 
   const Model* model_;

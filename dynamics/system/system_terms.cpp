@@ -111,7 +111,7 @@ void SystemTerms::update_all_markers() {
 
 Eigen::VectorXd SystemTerms::calc_metric() const {
   assert(has(Term::kMass));
-  Eigen::VectorXd metric(model_->num_coordinates);
+  Eigen::VectorXd metric = Eigen::VectorXd::Ones(model_->num_coordinates);
   for (std::size_t b = 0; b < masses_.size(); ++b) {
     const Body& body = model_->bodies[b];
     for (int k = 0; k < body.num_coordinates(); ++k) metric[body.first_coordinate + k] = masses_[b].metric(k);
@@ -153,9 +153,8 @@ void SystemTerms::calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> lo
 }
 
 void SystemTerms::choose_branches(std::span<int> branches) const {
-  const Instant now = instant();
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
-    model_->forces[f]->choose_branches(now, model_->branches_of(f, branches));
+    model_->forces[f]->choose_branches(instant_of(f), model_->branches_of(f, branches));
   }
 }
 

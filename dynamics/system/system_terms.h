@@ -112,6 +112,8 @@ class SystemTerms {
     return markers_;
   }
   Instant instant() const { return {time_, markers()}; }
+  /// With the states of force element f; after update_velocities.
+  Instant instant_of(std::size_t f) const { return {time_, markers(), model_->states_of(f, v_.data())}; }
 
  private:
   // A marker that moves, and where its body's coordinates are; on a rigid body p_BP and alpha_BP are all that

@@ -132,11 +132,14 @@ damping = {stiffness * random.uniform(0.0, 2.0):.6g}
         def make(random):
             text, mass = self.head(random, 0.02)
 
-            def direction(stiffness, reach):
+            def direction(stiffness, reach, relaxes):
                 force = stiffness * reach
                 law = f"spring = {{ table = [[{-reach:.6g}, {-2.0 * force:.6g}], [0.0, 0.0], "
                 law += f"[{reach:.6g}, {force:.6g}], [{2.0 * reach:.6g}, {6.0 * force:.6g}]] }}, "
                 law += f"damper = {{ coefficient = {random.uniform(0.005, 0.03) * stiffness:.6g} }}"
+                if relaxes:
+                    share, time = random.uniform(0.3, 5.0), 10.0 ** random.uniform(-4.0, 0.0)
+                    law += f", relaxation = {{ stiffness = {share * stiffness:.6g}, time = {time:.6g} }}"
                 return "{ " + law + " }"
 
             stiffness = mass * (2.0 * np.pi * random.uniform(2.0, 6.0)) ** 2
@@ -149,12 +152,42 @@ b = "load.origin"
 angle = {random.uniform(-0.5, 0.5):.6g}
 free_position = [{random.uniform(-0.02, 0.02):.6g}, {random.uniform(0.48, 0.52):.6g}]
 free_angle = {random.uniform(-0.1, 0.1):.6g}
-x = {direction(stiffness, 0.02)}
-y = {direction(stiffness, 0.01)}
-rotation = {direction(stiffness * 0.3, 0.1)}
+x = {direction(stiffness, 0.02, random.random() < 0.5)}
+y = {direction(stiffness, 0.01, random.random() < 0.8)}
+rotation = {direction(stiffness * 0.3, 0.1, random.random() < 0.5)}
 """
 
         self.assertGreater(self.compare(make, 2), 5 * COUNT)
+
+    def test_leaf_springs_with_stops(self):
+        # Friction and impacts together.
+        def make(random):
+            text, mass = self.head(random, 0.03)
+            spring, stiffness = self.spring(random, mass)
+            full = random.uniform(0.02, 0.4) * mass * 9.81
+            beta = 10.0 ** random.uniform(-3.3, -2.0)
+            slope = random.uniform(-1.0, 1.0) * full / 0.1
+            return text + GUIDE + spring + f"""
+[[forces]]
+name = "leaf"
+type = "leaf-spring"
+a = "base.origin"
+b = "load.origin"
+free_length = 0.5
+spring = {{ polynomial = [0.0, {0.3 * stiffness:.6g}] }}
+friction = {{ table = [[-0.05, {full - 0.05 * slope:.6g}], [0.05, {full + 0.05 * slope:.6g}]] }}
+presliding_deflection = {beta:.6g}
+[[forces]]
+name = "bump"
+type = "hydraulic-stop"
+a = "base.origin"
+b = "load.origin"
+contact_length = {random.uniform(0.44, 0.49):.6g}
+spring = {{ polynomial = [0.0, {stiffness * random.uniform(1.0, 20.0):.6g}] }}
+metering = {{ coefficient = {mass * random.uniform(0.0, 5.0):.6g} }}
+"""
+
+        self.assertGreater(self.compare(make, 3), 10 * COUNT)
 
 
 if __name__ == "__main__":

@@ -180,6 +180,7 @@ void GeneralizedAlphaStep::filter_error(const Vector& error, Vector& filtered) {
     const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
     error_force_.segment(first, size).noalias() = residual_.terms().mass(b) * error.segment(first, size);
   }
+  error_force_.tail(model_->num_states()) = error.tail(model_->num_states());
   error_force_ *= -(1.0 - method_.alpha_m) / (1.0 - method_.alpha_f);
   newton_.solve(error_force_, no_violation_, filtered, error_lambda_);
 }

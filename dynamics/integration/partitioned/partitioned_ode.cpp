@@ -103,6 +103,7 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
   if (known_ && known_->independent == equations_.partition().independent) {
     motion = std::move(known_->motion);
     known_.reset();
+    hold_states(motion);
     return true;
   }
   constexpr double kShift = 1e-6;  // of the natural size
@@ -130,7 +131,19 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
   motion.stiffness = directions.transpose() * apply_modal_stiffness(*model_, directions) -
                      motion.mass * gradient.leftCols(f);
   motion.damping = -motion.mass * gradient.rightCols(f);
+  hold_states(motion);
   return true;
+}
+
+// Gives the coordinates of internal states a little stiffness, so that they count as vibration and not as
+// free motion: the pairs then know their coupling by damping. Nothing depends on these coordinates.
+void PartitionedOde::hold_states(SmallMotion& motion) const {
+  constexpr double kStiffness = 1.0;  // 1/s²
+  for (Eigen::Index k = num_freedoms() - model_->num_states(); k < num_freedoms(); ++k) {
+    motion.stiffness.row(k).setZero();
+    motion.stiffness.col(k).setZero();
+    motion.stiffness(k, k) = kStiffness;
+  }
 }
 
 bool PartitionedOde::calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) {

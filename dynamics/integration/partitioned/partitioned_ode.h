@@ -64,6 +64,7 @@ class PartitionedOde final : public OdeSystem {
 
  private:
   bool evaluate_motion(double time, std::span<const double> y);
+  void hold_states(SmallMotion& motion) const;
   [[noreturn]] static void throw_not_closed(double time);
 
   const Model* model_;

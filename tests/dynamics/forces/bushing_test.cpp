@@ -112,3 +112,30 @@ TEST_CASE("A bushing's switches are the ends of its laws' pieces", "[forces]") {
   CHECK(switches(-0.01, 0.5, branches)[0] == Approx(-0.01).epsilon(1e-6));
   CHECK(switches(0.05, -0.2, branches)[2] == Approx(-0.2).epsilon(1e-4));
 }
+
+TEST_CASE("A part of a bushing that relaxes stores and dissipates what its points give", "[forces]") {
+  test::RandomNumbers random(36);
+  Bushing::Parameters parameters{.marker_a = 0, .marker_b = 1, .multiplicity = 2.0};
+  parameters.directions[0] = {.relaxing_stiffness = 800.0, .relaxation_time = 0.02};
+  parameters.directions[2] = {.relaxing_stiffness = 30.0, .relaxation_time = 0.5};
+  const Bushing relaxing("mount", parameters);
+  REQUIRE(relaxing.internal_states().size() == 2);
+  CHECK(relaxing.internal_states()[0].name == "relaxation_x");
+  CHECK(relaxing.internal_states()[1].name == "relaxation_rotation");
+  for (int i = 0; i < 100; ++i) {
+    test::MarkerPair pair = random_pair(random);
+    pair.states = {random.between(-5.0, 5.0), random.between(-5.0, 5.0)};
+    CHECK(std::abs(test::calc_energy_leak(relaxing, pair, std::vector<int>(6, 0))) < kDifferences);
+  }
+  // Held at a deflection, the force falls to 1/e after the relaxation time: ż = −z/τ.
+  test::MarkerPair still;
+  still.states = {3.0, -2.0};
+  std::array<double, 2> rates{};
+  relaxing.calc_state_rates(still.instant(), {}, rates);
+  CHECK(rates[0] == Approx(-3.0 / 0.02).epsilon(1e-14));
+  CHECK(rates[1] == Approx(2.0 / 0.5).epsilon(1e-14));
+  // The force of a spring of 2·800 N/m that is deflected by e, where z = √1600 e.
+  std::array<double, 9> channels{};
+  relaxing.calc_channels(still.instant(), std::vector<int>(6, 0), channels);
+  CHECK(channels[6] == Approx(-1600.0 * 3.0 / 40.0).epsilon(1e-14));
+}

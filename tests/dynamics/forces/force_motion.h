@@ -9,11 +9,12 @@
 
 namespace sprung::test {
 
-/// Two markers in uniform motion, for force elements alone.
+/// Two markers in uniform motion, for force elements alone, with the states of one at constant rates.
 struct MarkerPair {
   std::vector<dynamics::MarkerState> markers = std::vector<dynamics::MarkerState>(2);
+  std::vector<double> states = {}, state_rates = {};
 
-  dynamics::Instant instant() const { return {0.0, markers}; }
+  dynamics::Instant instant() const { return {0.0, markers, states}; }
   /// After a time, the velocities kept.
   MarkerPair after(double time) const {
     MarkerPair moved = *this;
@@ -21,6 +22,7 @@ struct MarkerPair {
       marker.r += time * marker.v;
       marker.angle += time * marker.omega;
     }
+    for (std::size_t i = 0; i < state_rates.size(); ++i) moved.states[i] += time * state_rates[i];
     return moved;
   }
 };
@@ -39,11 +41,14 @@ inline double calc_power(const MarkerPair& pair, const std::vector<dynamics::Wre
 inline double calc_energy_leak(const dynamics::ForceElement& element, const MarkerPair& pair,
                                const std::vector<int>& branches) {
   std::vector<dynamics::Wrench> wrenches(2);
+  MarkerPair moving = pair;
+  moving.state_rates.resize(pair.states.size());
+  element.calc_state_rates(pair.instant(), branches, moving.state_rates);
   const dynamics::Power power = element.add_wrenches(pair.instant(), branches, wrenches);
   const double given = calc_power(pair, wrenches);
   constexpr double kStep = 2e-5;  // s
   const auto stored = [&](double steps) {
-    return element.calc_stored_energy(pair.after(steps * kStep).instant(), branches);
+    return element.calc_stored_energy(moving.after(steps * kStep).instant(), branches);
   };
   const double stored_rate =
       (8.0 * (stored(1.0) - stored(-1.0)) - (stored(2.0) - stored(-2.0))) / (12.0 * kStep);

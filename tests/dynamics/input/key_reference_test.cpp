@@ -107,6 +107,7 @@ std::string section_of(const std::string& path, const std::string& type) {
       {"forces.*.rebound_stop", "Laws: stops"},
       {"forces.*.damper", "Laws: damper"},
       {"forces.*.metering", "Laws: metering"},
+      {"forces.*.friction", "Laws: friction"},
       {"forces.*.x", "Laws: direction of a bushing"},
       {"forces.*.y", "Laws: direction of a bushing"},
       {"forces.*.rotation", "Laws: direction of a bushing"},
@@ -132,6 +133,7 @@ std::string section_of(const std::string& path, const std::string& type) {
   for (const char* direction : {".x", ".y", ".rotation"}) {
     if (path.ends_with(std::string(direction) + ".spring")) return "Laws: spring";
     if (path.ends_with(std::string(direction) + ".damper")) return "Laws: damper";
+    if (path.ends_with(std::string(direction) + ".relaxation")) return "Laws: relaxation";
   }
   const auto found = kSections.find(path);
   return found == kSections.end() ? "" : found->second;

@@ -2,6 +2,7 @@
 #include "dynamics/input/suspension_input.h"
 
 #include <array>
+#include <cmath>
 
 #include "tests/catch.h"
 #include "tests/dynamics/input/input_cases.h"
@@ -80,10 +81,40 @@ TEST_CASE("A bushing has laws in at least one direction") {
   CHECK(channels[8] == Approx(2.0 * 3.0 * 2.0).epsilon(1e-13));
   CHECK(error_of(bushing("angle = 0.1")) ==
         "f.toml:1:1: error: 'forces.b' must have laws for at least one of 'x', 'y' and 'rotation'");
-  CHECK(error_of(bushing("y = {}")) == "f.toml:6:5: error: 'forces.b.y' must have a 'spring' or a 'damper'");
+  CHECK(error_of(bushing("y = {}")) ==
+        "f.toml:6:5: error: 'forces.b.y' must have a 'spring', a 'damper' or a 'relaxation'");
   CHECK(error_of(bushing("y = { spring = { polynomial = [0.0, -5.0] } }")) ==
         "f.toml:6:31: error: 'forces.b.y.spring.polynomial' has a negative stiffness at deflection 0: "
         "coefficient 1 is -5, must be ≥ 0");
+  CHECK(error_of(bushing("y = { relaxation = { stiffness = 5.0 } }")) ==
+        "f.toml:6:20: error: missing key 'time' in 'forces.b.y.relaxation'");
+  CHECK(error_of(bushing("rotation = { relaxation = { stiffness = 5.0, time = 0.0 } }")) ==
+        "f.toml:6:53: error: 'forces.b.rotation.relaxation.time' must be > 0 s, got 0");
   CHECK(error_of(bushing("x = { damper = { coefficient = 1.0 } }\nmultiplicity = 0")) ==
         "f.toml:7:16: error: 'forces.b.multiplicity' must be > 0, got 0");
+}
+
+TEST_CASE(
+    "A leaf spring has a spring, and friction that is positive and does not change faster than it builds "
+    "up") {
+  const std::string head =
+      "name = \"l\"\ntype = \"leaf-spring\"\na = \"p.origin\"\nb = \"q.origin\"\nfree_length = 1.0\n"
+      "spring = { polynomial = [0.0, 50.0] }\npresliding_deflection = 0.01\n";
+  const std::unique_ptr<dynamics::ForceElement> force = dynamics::make_force(
+      read(head + "friction = { table = [[0.0, 4.0], [0.1, 6.0]] }"), std::array{0, 1}, {});
+  std::array<dynamics::MarkerState, 2> markers;
+  markers[1].r = {0.0, 0.95};
+  // Full friction where ½z² is ½ β F, F being the largest.
+  const std::array<double, 1> states{std::sqrt(6.0 * 0.01)};
+  std::array<double, 5> channels{};
+  force->calc_channels({.markers = markers, .states = states}, {}, channels);
+  CHECK(channels[3] == Approx(50.0 * 0.05 + 5.0).epsilon(1e-13));
+  CHECK(error_of(head) == "f.toml:1:1: error: missing key 'friction' in 'forces.l'");
+  CHECK(error_of(head + "friction = { coefficient = 0.0 }") ==
+        "f.toml:9:28: error: 'forces.l.friction.coefficient' must be > 0 N, got 0");
+  CHECK(error_of(head + "friction = { table = [[0.0, 4.0], [0.1, -6.0]] }") ==
+        "f.toml:9:41: error: 'forces.l.friction.table.1.1' must be > 0 N, got -6");
+  CHECK(error_of(head + "friction = { table = [[0.0, 1.0], [0.01, 4.0]] }") ==
+        "f.toml:9:35: error: 'forces.l.friction.table.1' changes by 300 N/m from the point before; friction "
+        "that builds up over 0.01 m can change by at most 200 N/m there, or it would put energy in");
 }

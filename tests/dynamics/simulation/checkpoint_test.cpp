@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/forces/bushing.h"
+#include "dynamics/forces/leaf_spring.h"
 #include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/road/bump_road.h"
 #include "dynamics/simulation/transient.h"
@@ -100,8 +102,29 @@ std::size_t check_resumption(const Model& model, const State& start, const Trans
   return whole.checkpoints.size();
 }
 
+// A mass on a bushing that relaxes in two directions, and on a leaf spring: three internal states.
+void add_rider(Model& model, int wheel) {
+  const int rider = test::add_body(model, dynamics::make_rigid_body("rider", 80.0, 4.0));
+  dynamics::Bushing::Parameters mount{.marker_a = test::add_marker(model, wheel, {0.0, 0.3}),
+                                      .marker_b = test::add_marker(model, rider, {0.0, -0.1})};
+  mount.directions[0] = {.spring = dynamics::PiecewisePolynomial({0.0, 4e4}),
+                         .relaxing_stiffness = 2e4,
+                         .relaxation_time = 0.02};
+  mount.directions[1] = {
+      .spring = dynamics::PiecewisePolynomial({0.0, 2e4}), .relaxing_stiffness = 3e4, .relaxation_time = 0.1};
+  mount.directions[2] = {.spring = dynamics::PiecewisePolynomial({0.0, 9e3}),
+                         .damper = dynamics::PiecewisePolynomial({0.0, 30.0})};
+  model.forces.push_back(std::make_unique<dynamics::Bushing>("mount", mount));
+  model.forces.push_back(std::make_unique<dynamics::LeafSpring>(
+      "leaf", dynamics::LeafSpring::Parameters{.marker_a = test::add_marker(model, wheel, {0.1, 0.0}),
+                                               .marker_b = test::add_marker(model, rider, {0.1, 0.0}),
+                                               .free_length = 0.4,
+                                               .friction = dynamics::PiecewisePolynomial({60.0}),
+                                               .presliding_deflection = 0.003}));
+}
+
 // A mass on a tyre that falls, bounces and rolls over a bump: switches, and breaks of the road.
-Model make_wheel(const dynamics::Road& road) {
+Model make_wheel(const dynamics::Road& road, bool has_rider = false) {
   Model model;
   model.gravity = {0.0, -9.81};
   const int wheel = test::add_body(model, dynamics::make_rigid_body("wheel", 40.0, 1.0));
@@ -113,6 +136,7 @@ Model make_wheel(const dynamics::Road& road) {
           .spring = dynamics::PiecewisePolynomial(std::vector<double>{0.0, 9e4}),
           .damping = 300.0},
       dynamics::PlacedRoad{&road, 1.0, 0.0}));
+  if (has_rider) add_rider(model, wheel);
   dynamics::number_model(model);
   return model;
 }
@@ -138,12 +162,41 @@ TEST_CASE("A run is resumed from any checkpoint bit by bit, by every method") {
   CHECK(check_resumption(model, start, options) >= 10);
 }
 
+TEST_CASE("A run with internal states of force elements is resumed from any checkpoint bit by bit") {
+  const dynamics::BumpRoad road(
+      {.shape = dynamics::BumpShape::kHalfSine, .start = 0.7, .length = 0.4, .height = 0.05});
+  const Model model = make_wheel(road, true);
+  REQUIRE(model.num_states() == 3);
+  CHECK(model.coordinate_name(model.num_coordinates - 1) == "leaf.friction");
+  CHECK(model.coordinate_name(model.num_coordinates - 3) == "mount.relaxation_x");
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(model.num_coordinates), v = q;
+  q.head<6>() << 0.0, 0.35, 0.0, 0.0, 0.75, 0.0;
+  v[0] = v[3] = 2.0;
+  TransientOptions options;
+  options.end_time = 0.6;
+  options.output_step = 0.01;
+  options.checkpoint_interval = 25;
+  for (const SteppingMethod method : {SteppingMethod::kExponential, SteppingMethod::kAdams,
+                                      SteppingMethod::kBdf, SteppingMethod::kGeneralizedAlpha}) {
+    options.integrator.method = method;
+    INFO(method_name(method));
+    CHECK(check_resumption(model, test::make_state(model, q, v), options) >= 2);
+  }
+}
+
 TEST_CASE("A run whose modes join and leave is resumed from any checkpoint bit by bit") {
+  const bool has_mount = GENERATE(false, true);
   Model model;
   const std::vector<int> nodes = test::cantilevers::add_cantilever(model, "beam", {0.3, -0.2});
   using test::cantilevers::burst, test::cantilevers::frequency;
   test::cantilevers::push(model, nodes[5], burst(frequency(1), 1.0, 0.01, 1.0));
   test::cantilevers::push(model, nodes[2], burst(frequency(2), 6.0, 1.2, 1.8));
+  if (has_mount) {  // with an internal state
+    const int peg = test::add_marker(model, dynamics::kGround, {0.3, -0.2});
+    dynamics::Bushing::Parameters mount{.marker_a = peg, .marker_b = nodes[5]};
+    mount.directions[1] = {.relaxing_stiffness = 10.0, .relaxation_time = 0.1};
+    model.forces.push_back(std::make_unique<dynamics::Bushing>("mount", mount));
+  }
   dynamics::number_model(model);
   dynamics::AdaptivityOptions adaptivity;
   adaptivity.full = &model;

@@ -22,6 +22,7 @@ DATASETS: dict[str, Rule] = {
     "joints/*/reaction_b": Numbers(("time", 3)),
     "joints/*/*": Numbers(("time",)),
     "forces/*/on_*": Numbers(("time", 3)),
+    "forces/*/state": Numbers(("time", None)),
     "forces/*/*": Numbers(("time",)),
     "recovery/*/station": Numbers((None, 2)),
     "recovery/*/area": Numbers(("recovery/*/station",)),
