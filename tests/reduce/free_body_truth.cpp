@@ -1,5 +1,7 @@
 #include "tests/reduce/free_body_truth.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
@@ -81,7 +83,7 @@ std::vector<InterfaceFreedom> make_interface(fem::BeamModel& model, const std::v
   std::vector<InterfaceFreedom> interface;
   for (const int node : nodes) {
     const auto point = static_cast<int>(model.mesh.named_nodes.size());
-    model.mesh.named_nodes.push_back({.name = "p" + std::to_string(point), .node = node});
+    model.mesh.named_nodes.push_back({.name = fmt::format("p{}", point), .node = node});
     for (const int freedom : freedoms) interface.push_back({point, node, freedom});
   }
   return interface;

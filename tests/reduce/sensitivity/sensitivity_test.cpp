@@ -7,6 +7,7 @@
 
 #include "reduce/sensitivity/sensitivity_tables.h"
 #include "tests/catch.h"
+#include "tests/reduce/sensitivity/two_cantilevers.h"
 #include "tests/reduce/test_bodies.h"
 #include "tools/support/errors/input_error.h"
 
@@ -128,44 +129,12 @@ TEST_CASE("derivatives by every number of a design are the differences of bodies
   }
 }
 
-std::string make_cantilevers(double height) {
-  std::string text = R"(
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-[points]
-middle = [0.0, 0.0]
-left = [-2.0, 0.0]
-right = [2.0, 0.0]
-[[lines]]
-from = "left"
-to = "middle"
-section = "first"
-elements = 12
-[[lines]]
-from = "middle"
-to = "right"
-section = "second"
-elements = 12
-[reference]
-point = "middle"
-[modes]
-count = 4
-damping_ratio = 0.01
-)";
-  for (const char* name : {"first", "second"}) {
-    text +=
-        fmt::format("[sections.{}]\nmaterial = \"steel\"\nshape = \"rectangle\"\nwidth = 0.05\nheight = {}\n",
-                    name, height);
-  }
-  return text;
-}
-
 // Two equal cantilevers make pairs. Of a pair, the height of the first beam moves one frequency, in
 // proportion, and leaves the other alone.
 TEST_CASE("the members of an equal pair part as the closed form says") {
   const double height = 0.04;
-  const DesignSensitivity sensitivity = calc_all(write_design("pair.toml", make_cantilevers(height)), 4);
+  const DesignSensitivity sensitivity =
+      calc_all(write_design("pair.toml", make_cantilevers(height, height)), 4);
   const Eigen::VectorXd hz = sensitivity.value.clamped_hz;
   REQUIRE(std::abs(hz(1) / hz(0) - 1.0) < 1e-9);
   for (const char* name : {"first", "second"}) {
@@ -179,7 +148,7 @@ TEST_CASE("the members of an equal pair part as the closed form says") {
 
 // f ∝ √(E/ρ) h/L² of a slender beam; its mass is ρ b h L.
 TEST_CASE("a cantilever's frequencies follow modulus, density, width and length in closed form") {
-  const DesignSensitivity sensitivity = calc_all(write_design("pair.toml", make_cantilevers(0.04)), 4);
+  const DesignSensitivity sensitivity = calc_all(write_design("pair.toml", make_cantilevers(0.04, 0.04)), 4);
   const Eigen::VectorXd hz = sensitivity.value.clamped_hz;
   const auto rate = [&](const std::string& key) -> const BodyQuantities& {
     return find(sensitivity, key).derivative;
@@ -198,13 +167,13 @@ TEST_CASE("a cantilever's frequencies follow modulus, density, width and length 
 
 // A mode's energies: strain over ω² and kinetic are 1 for the whole body, the point mass with the latter.
 TEST_CASE("the shares of the elements add up to the mode's energy") {
-  const DesignSensitivity sensitivity = calc_all(write_design("pair.toml", make_cantilevers(0.04)), 4);
+  const DesignSensitivity sensitivity = calc_all(write_design("pair.toml", make_cantilevers(0.04, 0.04)), 4);
   CHECK((sensitivity.shares.strain.colwise().sum().array() - 1.0).abs().maxCoeff() < 1e-8);
   CHECK((sensitivity.shares.kinetic.colwise().sum().array() - 1.0).abs().maxCoeff() < 1e-8);
 }
 
 TEST_CASE("tables speak of steps of 1 %, of 1 cm of a coordinate and of 1 of a zero") {
-  const DesignSource source = write_design("pair.toml", make_cantilevers(0.04));
+  const DesignSource source = write_design("pair.toml", make_cantilevers(0.04, 0.04));
   const Design design = read_design(source);
   const DesignSensitivity sensitivity = calc_sensitivity(design, list_parameters(source, design), 2);
   const std::string text = format_sensitivity(design, sensitivity);
@@ -233,7 +202,7 @@ TEST_CASE("numbers at the end of their range, points on lines and fixed values a
 }
 
 TEST_CASE("an override of a design is read in its place, and its faults are located") {
-  DesignSource source = write_design("pair.toml", make_cantilevers(0.04));
+  DesignSource source = write_design("pair.toml", make_cantilevers(0.04, 0.04));
   source.overrides = {"sections.first.height=0.08", "sections.first.width=-1"};
   const std::string message = testing::message_of<support::InputError>([&] { read_design(source); });
   CHECK_THAT(message, Contains("--set 2") && Contains("sections.first.width"));
@@ -246,8 +215,8 @@ TEST_CASE("an override of a design is read in its place, and its faults are loca
 
 // Both heights and the right end are the parameter's: its derivative is the sum of theirs.
 TEST_CASE("a parameter of a design stands for all numbers that name it") {
-  const DesignSensitivity apart = calc_all(write_design("apart.toml", make_cantilevers(0.04)), 5);
-  std::string text = make_cantilevers(0.04);
+  const DesignSensitivity apart = calc_all(write_design("apart.toml", make_cantilevers(0.04, 0.04)), 5);
+  std::string text = make_cantilevers(0.04, 0.04);
   for (std::size_t at = text.find("height = 0.04"); at != std::string::npos; at = text.find("height = 0.04"))
     text.replace(at, 13, "height = \"=high\"");
   text.replace(text.find("[2.0, 0.0]"), 10, "[\"=long\", 0.0]");
@@ -269,7 +238,7 @@ TEST_CASE("a parameter of a design stands for all numbers that name it") {
 }
 
 TEST_CASE("a parameter that is not there is an error where it is named, and so is a wrong value of one") {
-  std::string text = make_cantilevers(0.04);
+  std::string text = make_cantilevers(0.04, 0.04);
   text.replace(text.find("[2.0, 0.0]"), 10, "[\"=lang\", 0.0]");
   const auto message = [&](const std::string& parameters) {
     const DesignSource source = write_design("wrong.toml", text + parameters);

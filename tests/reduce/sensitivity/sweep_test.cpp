@@ -4,48 +4,16 @@
 
 #include "reduce/sensitivity/sweep_tables.h"
 #include "tests/catch.h"
+#include "tests/reduce/sensitivity/two_cantilevers.h"
 #include "tests/reduce/test_bodies.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
 namespace {
 
-// Two cantilevers of 2 m on one clamped node, the second 40 mm high.
+// The height of the second beam stays.
 SweepOptions make_sweep(const std::string& key, std::vector<double> values) {
-  testing::write_text("sweep.toml", R"(
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-[sections.first]
-material = "steel"
-shape = "rectangle"
-width = 0.05
-height = 0.03
-[sections.second]
-material = "steel"
-shape = "rectangle"
-width = 0.05
-height = 0.04
-[points]
-middle = [0.0, 0.0]
-left = [-2.0, 0.0]
-right = [2.0, 0.0]
-[[lines]]
-from = "left"
-to = "middle"
-section = "first"
-elements = 12
-[[lines]]
-from = "middle"
-to = "right"
-section = "second"
-elements = 12
-[reference]
-point = "middle"
-[modes]
-count = 4
-damping_ratio = 0.01
-)");
+  testing::write_text("sweep.toml", make_cantilevers(0.03, 0.04));
   return {.design = {.path = "sweep.toml"}, .key = key, .values = std::move(values), .num_modes = 4};
 }
 
