@@ -45,6 +45,12 @@ class Program(ReduceTestCase):
         info = self.run_program("info", self.folder / "out/chassis.h5").stdout
         self.assertIn("What the damping of the clamped modes is on the free body", info)
 
+    def test_the_name_of_a_file_is_no_folder_for_superelements(self):
+        result = self.run_program("build", self.folder / "chassis.toml", "-o", self.folder / "frame.h5")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("frame.h5: error: --output-dir got the name of a file, expected a folder", result.stderr)
+        self.assertFalse((self.folder / "frame.h5").exists())
+
     def test_same_input_gives_same_bytes_whatever_the_folder(self):
         self.build("chassis.toml", "ladder_frame.toml")
         other = self.folder / "elsewhere" / "deeper"
