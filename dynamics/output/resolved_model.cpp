@@ -135,6 +135,25 @@ void write_road(support::Hdf5Writer& file, const PlacedRoad& road, const RoadDes
   write_description(file, group, road.road->describe());
 }
 
+void write_histories(support::Hdf5Writer& file, const std::vector<HistoryUse>& histories) {
+  file.make_group(kRoot + "/histories");
+  for (const HistoryUse& history : histories) {
+    const std::string group = kRoot + "/histories/" + history.key;
+    file.make_group(group);
+    file.attribute(group, "file", std::filesystem::path(history.file).filename().string());
+    file.attribute(group, "channel", history.channel);
+    file.attribute(group, "unit", history.unit);
+    file.attribute(group, "sha256", history.hash);
+    file.attribute(group, "interpolation", history.interpolation);
+    file.attribute(group, "scale", history.scale);
+    file.attribute(group, "offset", history.offset);
+    write_number(file, group, "from", history.from, "s");
+    write_number(file, group, "to", history.to, "s");
+    file.attribute(group, "before", history.before);
+    file.attribute(group, "after", history.after);
+  }
+}
+
 }  // namespace
 
 void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header) {
@@ -155,6 +174,7 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
     write_element(file, kRoot + "/forces/" + force->name, *force, force->markers(), model);
   }
   write_road(file, header.road, header.run.road);
+  write_histories(file, header.vehicle.histories);
 }
 
 }  // namespace sprung::dynamics

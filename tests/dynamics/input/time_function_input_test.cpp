@@ -16,7 +16,8 @@ using std::numbers::pi;
 
 TimeFunction read(const std::string& text, TimeFunctionUse use = TimeFunctionUse::kForce) {
   const support::TomlDocument document = support::TomlDocument::parse("f = " + text + "\n", "v.toml");
-  return dynamics::read_time_function(document.root().at("f"), "N", use);
+  dynamics::HistoryFiles histories("");
+  return dynamics::read_time_function(document.root().at("f"), "N", use, histories);
 }
 
 std::string error_of(const std::string& text, TimeFunctionUse use = TimeFunctionUse::kForce) {
