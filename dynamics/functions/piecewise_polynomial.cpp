@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dynamics/functions/clamped_slopes.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -94,19 +96,7 @@ PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> 
                                                         std::span<const double> y) {
   check_points("PiecewisePolynomial::clamped_spline", x, y);
   const std::size_t n = x.size();
-  // Slopes m at the points from continuity of the second derivative, m₀ = m_{n−1} = 0: tridiagonal, by
-  // elimination.
-  std::vector<double> m(n, 0.0), diagonal(n, 1.0), upper(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double left = 1.0 / (x[i] - x[i - 1]);
-    const double right = 1.0 / (x[i + 1] - x[i]);
-    const double factor = left / diagonal[i - 1];
-    diagonal[i] = 2.0 * (left + right) - factor * upper[i - 1];
-    upper[i] = right;
-    m[i] = 3.0 * ((y[i] - y[i - 1]) * left * left + (y[i + 1] - y[i]) * right * right) - factor * m[i - 1];
-  }
-  for (std::size_t i = n - 1; i-- > 1;) m[i] = (m[i] - upper[i] * m[i + 1]) / diagonal[i];
-
+  const std::vector<double> m = calc_clamped_slopes(x, y);
   PiecewisePolynomial f;
   f.clear();
   f.breaks_.assign(x.begin() + 1, x.end() - 1);
