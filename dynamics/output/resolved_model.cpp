@@ -1,5 +1,8 @@
 #include "dynamics/output/resolved_model.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <cmath>
 #include <span>
@@ -125,11 +128,20 @@ void write_element(support::Hdf5Writer& file, const std::string& group, const El
   write_description(file, group, description);
 }
 
+// The columns or the lines of its file that a road is the mean of.
+std::vector<std::string> list_profiles(const RoadDescription& road) {
+  std::vector<std::string> profiles;
+  for (const RoadColumn& column : road.heights) profiles.push_back(column.name);
+  for (const double lateral : road.lateral) profiles.push_back(fmt::format("{} m", lateral));
+  return profiles;
+}
+
 void write_road(support::Hdf5Writer& file, const PlacedRoad& road, const RoadDescription& description) {
   const std::string group = kRoot + "/road";
   file.make_group(group);
   file.attribute(group, "shape", road.road->shape());
   file.attribute(group, "file", description.file.filename().string());
+  file.attribute(group, "profiles", fmt::format("{}", fmt::join(list_profiles(description), ", ")));
   file.attribute(group, "direction", road.direction);
   write_number(file, group, "origin", road.origin, "m");
   write_description(file, group, road.road->describe());

@@ -108,11 +108,11 @@ TEST_CASE("A history in RPC III has equal time steps from 0 on, its channels by 
   CHECK(Reading(bytes, "channel = \"post 1\"").function.value(0.875) == Approx(3.5 * 0.5e-3).epsilon(1e-14));
   CHECK(Reading(bytes, "channel = \"CHAN_2\"").function.value(0.875) == Approx(-3.5 * 2e-3).epsilon(1e-14));
   CHECK(error_of(bytes, "channel = \"post 3\"") ==
-        "v.toml:1:49: error: 'f.history.channel' is in no column or channel of the file, 'post 3' (did you "
+        "v.toml:1:47: error: 'f.history.channel' is in no column or channel of the file, 'post 3' (did you "
         "mean 'post "
         "1'?); it has 'post 1', 'post 2'");
   CHECK(error_of(bytes, "channel = \"post 1\", time = \"t\"") ==
-        "v.toml:1:66: error: 'f.history.time' must be left out: an RPC III file has equal time steps");
+        "v.toml:1:64: error: 'f.history.time' must be left out: an RPC III file has equal time steps");
   history.changes = {{"DESC.CHAN_2", "post 1"}};
   CHECK_THAT(error_of(test::format_rpc3(history), "channel = \"post 1\""),
              Contains("is the name of the channels 1 and 2 of the file; write CHAN_1 or CHAN_2"));
@@ -175,12 +175,12 @@ TEST_CASE("What has been read is known by file, channel and content") {
 TEST_CASE("Histories that cannot be used are refused where they are named") {
   CHECK(
       error_of(kFile, "channel = \"frnt\"") ==
-      "v.toml:1:48: error: 'f.history.channel' is in no column or channel of the file, 'frnt' (did you mean "
+      "v.toml:1:47: error: 'f.history.channel' is in no column or channel of the file, 'frnt' (did you mean "
       "'front'?); it has 'time', 'front', 'rear'");
   CHECK(error_of(kFile, "channel = \"time\"") ==
-        "v.toml:1:48: error: 'f.history.channel' must not be the column of the times");
+        "v.toml:1:47: error: 'f.history.channel' must not be the column of the times");
   CHECK(error_of(kFile, "channel = \"front\", unit = \"kN\"") ==
-        "v.toml:1:64: error: 'f.history.unit' is in 'kN', expected one of m, mm, cm, um, µm, km, in, ft; "
+        "v.toml:1:63: error: 'f.history.unit' is in 'kN', expected one of m, mm, cm, um, µm, km, in, ft; "
         "'unit' says "
         "in which unit to take it");
   CHECK_THAT(error_of("t,z [bar]\n0,1\n1,2\n", "channel = \"z\""),

@@ -123,7 +123,10 @@ std::string section_of(const std::string& path, const std::string& type) {
   if (path == "joints.*") return "Joints: " + type;
   if (path == "forces.*") return "Forces: " + type;
   if (path == "output.store" || path == "output.step") return "Output: histories";
-  if (path == "road") return type == "flat" || type == "table" ? "Road: " + type : "Road: a bump";
+  if (path == "road")
+    return type == "flat" || type == "table" || type == "opencrg"
+               ? "Road: " + (type == "opencrg" ? "OpenCRG" : type)
+               : "Road: a bump";
   if (path.ends_with(".history")) return "Functions of time: history";
   if (path.ends_with(".harmonic")) return "Functions of time: harmonic";
   if (path.ends_with(".step")) return "Functions of time: step";
