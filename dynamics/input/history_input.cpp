@@ -14,6 +14,7 @@ namespace {
 constexpr double kShortestSpacing = 1e-9;  // s
 constexpr double kLargestValue = 1e15;     // in SI units, so that slopes and curvatures are finite
 constexpr double kRoundedTime = 1e-9;      // s
+constexpr double kCloseSamples = 0.1;      // of the mean distance
 
 struct Samples {
   std::vector<double> time, value;  // [s], in the channel's unit
@@ -158,6 +159,11 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   }
   history.from = samples.time.front();
   history.to = samples.time.back();
+  history.mean_spacing = (history.to - history.from) / static_cast<double>(samples.time.size() - 1);
+  history.shortest_spacing = history.mean_spacing;
+  for (std::size_t i = 1; i < samples.time.size(); ++i) {
+    history.shortest_spacing = std::min(history.shortest_spacing, samples.time[i] - samples.time[i - 1]);
+  }
   const bool is_smooth = history.interpolation == kInterpolations[1];
   const TimeFunction f = is_smooth ? TimeFunction::spline(samples.time, samples.value)
                                    : TimeFunction::lines(samples.time, samples.value);
@@ -195,6 +201,13 @@ std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histor
       remarks.push_back(fmt::format("{}'{}' ends at {:.9g} s, the run at {:.9g} s; from then on {}",
                                     locate(history), history.key, history.to, to,
                                     describe(history.after, "last")));
+    }
+    if (history.interpolation == "smooth" &&
+        history.shortest_spacing < kCloseSamples * history.mean_spacing) {
+      remarks.push_back(
+          fmt::format("{}'{}' has samples {:.3g} s apart, where the mean is {:.3g} s: no step of the run "
+                      "is longer than that",
+                      locate(history), history.key, history.shortest_spacing, history.mean_spacing));
     }
   }
   return remarks;

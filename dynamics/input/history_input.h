@@ -32,8 +32,9 @@ struct HistoryUse {
   std::string hash;     ///< SHA-256 of the file
   std::string interpolation;
   double scale = 1.0, offset = 0.0;
-  double from = 0.0, to = 0.0;  ///< of the run, at the first and the last sample [s]
-  std::string before, after;    ///< what holds outside: "hold" or a number; "" if nothing does
+  double from = 0.0, to = 0.0;                        ///< of the run, at the first and the last sample [s]
+  double shortest_spacing = 0.0, mean_spacing = 0.0;  ///< of the samples [s]
+  std::string before, after;  ///< what holds outside: "hold" or a number; "" if nothing does
 };
 
 /// Reads measured histories, each file once.
@@ -66,7 +67,8 @@ class HistoryFiles {
 /// @throws support::InputError at the first one that does not
 void check_histories(std::span<const HistoryUse> histories, double to);
 
-/// A text for each history that a run exceeds.
+/// A text for each history that a run exceeds, and for each smooth one with samples much closer than the
+/// others, which shorten all steps.
 std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histories, double to);
 
 }  // namespace sprung::dynamics

@@ -82,6 +82,9 @@ void read_line(std::string_view line, support::SourceLocation location, RoadPoin
 RoadPoints read_plain_table(const std::filesystem::path& path) {
   const std::string text = support::read_text_file(path);
   RoadPoints points;
+  const auto num_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  points.distance.reserve(num_lines);
+  points.height.reserve(num_lines);
   support::SourceLocation location{.path = path.string()};
   const bool has_mark = text.starts_with("\xEF\xBB\xBF");  // byte order mark, as spreadsheets write it
   for (std::size_t begin = has_mark ? 3 : 0; begin < text.size();) {

@@ -157,6 +157,20 @@ TEST_CASE("A run that exceeds a history is told what holds instead") {
   CHECK(dynamics::list_history_remarks(reading.files.used(), 2.5).size() == 1);
 }
 
+TEST_CASE("Samples of a smooth history that are much closer than the others are told") {
+  const std::string content = "t,z\n0,0\n1,1\n2,0\n2.01,0\n3,1\n4,0\n";  // on average 0.8 s
+  const auto remarks_on = [&](const std::string& keys) {
+    return dynamics::list_history_remarks(Reading(content, keys).files.used(), 4.0);
+  };
+  CHECK(remarks_on("channel = \"z\"").empty());
+  const std::vector<std::string> remarks = remarks_on("channel = \"z\", interpolation = \"smooth\"");
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0] ==
+        "v.toml:1:17: 'f.history' has samples 0.01 s apart, where the mean is 0.8 s: no step of the run is "
+        "longer "
+        "than that");
+}
+
 TEST_CASE("What has been read is known by file, channel and content") {
   const Reading reading(kFile, "channel = \"rear\", scale = 3.0");
   REQUIRE(reading.files.used().size() == 1);
