@@ -175,6 +175,16 @@ class Histories(VerificationCase):
         self.assertIn("remark: vehicle.toml:18:22: 'forces.push.force.0.history' ends at 1 s, the run at 1.5 s; from "
                       "then on its last value holds", process.stderr)  # fmt: skip
 
+    def test_a_run_is_not_resumed_with_another_history(self):
+        self.write_samples()
+        self.run_sled('{ history = { file = "push.csv", channel = "push" } }')
+        (self.folder / "results.h5").rename(self.folder / "results.partial.h5")
+        self.write_samples((*SAMPLES[:-1], (1.0, 0.5)))
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", "run.toml", "--quiet", "-o", "results.h5", "--resume"]
+        process = run_program(command, cwd=self.folder)
+        self.assertEqual(process.returncode, 2, process.stdout)
+        self.assertIn("is of another run: the file 'push.csv' has changed since", process.stderr)
+
     def test_a_bad_file_is_located(self):
         self.write_samples(((0.0, 0.0), (0.1, "nan"), (0.2, 1.0)))
         history = '{ history = { file = "push.csv", channel = "push" } }'
