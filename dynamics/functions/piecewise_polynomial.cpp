@@ -4,27 +4,41 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+
+#include "dynamics/functions/clamped_slopes.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
-double evaluate(const std::vector<double>& a, double s) {
+// With more pieces than this, the search begins at the piece found last.
+constexpr std::size_t kMany = 16;
+
+double evaluate(std::span<const double> a, double s) {
   double sum = 0.0;
   for (std::size_t k = a.size(); k-- > 0;) sum = sum * s + a[k];
   return sum;
 }
 
-double evaluate_slope(const std::vector<double>& a, double s) {
+double evaluate_slope(std::span<const double> a, double s) {
   double sum = 0.0;
   for (std::size_t k = a.size(); k-- > 1;) sum = sum * s + static_cast<double>(k) * a[k];
   return sum;
 }
 
+double evaluate_curvature(std::span<const double> a, double s) {
+  double sum = 0.0;
+  for (std::size_t k = a.size(); k-- > 2;) {
+    sum = sum * s + static_cast<double>(k - 1) * (static_cast<double>(k) * a[k]);
+  }
+  return sum;
+}
+
 // ∫₀ˢ of the piece in its own variable.
-double evaluate_integral(const std::vector<double>& a, double s) {
+double evaluate_integral(std::span<const double> a, double s) {
   double sum = 0.0;
   for (std::size_t k = a.size(); k-- > 0;) sum = sum * s + a[k] / static_cast<double>(k + 1);
   return sum * s;
@@ -47,20 +61,32 @@ void check_points(const char* function, std::span<const double> x, std::span<con
 
 PiecewisePolynomial::PiecewisePolynomial(std::vector<double> coefficients) {
   if (coefficients.empty()) coefficients.push_back(0.0);
-  origins_ = {0.0};
-  pieces_ = {std::move(coefficients)};
+  starts_ = {0};
+  add_piece(0.0, coefficients);
   rebuild_integrals();
+}
+
+void PiecewisePolynomial::add_piece(double origin, std::span<const double> coefficients) {
+  origins_.push_back(origin);
+  coefficients_.insert(coefficients_.end(), coefficients.begin(), coefficients.end());
+  starts_.push_back(coefficients_.size());
+}
+
+void PiecewisePolynomial::clear() {
+  breaks_.clear();
+  origins_.clear();
+  coefficients_.clear();
+  starts_ = {0};
 }
 
 PiecewisePolynomial PiecewisePolynomial::through_points(std::span<const double> x,
                                                         std::span<const double> y) {
   check_points("PiecewisePolynomial::through_points", x, y);
   PiecewisePolynomial f;
+  f.clear();
   f.breaks_.assign(x.begin() + 1, x.end() - 1);
-  f.origins_.assign(x.begin(), x.end() - 1);
-  f.pieces_.clear();
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    f.pieces_.push_back({y[i], (y[i + 1] - y[i]) / (x[i + 1] - x[i])});
+    f.add_piece(x[i], std::array{y[i], (y[i + 1] - y[i]) / (x[i + 1] - x[i])});
   }
   f.rebuild_integrals();
   return f;
@@ -70,28 +96,15 @@ PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> 
                                                         std::span<const double> y) {
   check_points("PiecewisePolynomial::clamped_spline", x, y);
   const std::size_t n = x.size();
-  // Slopes m at the points from continuity of the second derivative, m₀ = m_{n−1} = 0: tridiagonal, by
-  // elimination.
-  std::vector<double> m(n, 0.0), diagonal(n, 1.0), upper(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double left = 1.0 / (x[i] - x[i - 1]);
-    const double right = 1.0 / (x[i + 1] - x[i]);
-    const double factor = left / diagonal[i - 1];
-    diagonal[i] = 2.0 * (left + right) - factor * upper[i - 1];
-    upper[i] = right;
-    m[i] = 3.0 * ((y[i] - y[i - 1]) * left * left + (y[i + 1] - y[i]) * right * right) - factor * m[i - 1];
-  }
-  for (std::size_t i = n - 1; i-- > 1;) m[i] = (m[i] - upper[i] * m[i + 1]) / diagonal[i];
-
+  const std::vector<double> m = calc_clamped_slopes(x, y);
   PiecewisePolynomial f;
+  f.clear();
   f.breaks_.assign(x.begin() + 1, x.end() - 1);
-  f.origins_.assign(x.begin(), x.end() - 1);
-  f.pieces_.clear();
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double h = x[i + 1] - x[i];
     const double secant = (y[i + 1] - y[i]) / h;
-    f.pieces_.push_back(
-        {y[i], m[i], (3.0 * secant - 2.0 * m[i] - m[i + 1]) / h, (m[i] + m[i + 1] - 2.0 * secant) / (h * h)});
+    f.add_piece(x[i], std::array{y[i], m[i], (3.0 * secant - 2.0 * m[i] - m[i + 1]) / h,
+                                 (m[i] + m[i + 1] - 2.0 * secant) / (h * h)});
   }
   f.rebuild_integrals();
   return f;
@@ -113,32 +126,29 @@ PiecewisePolynomial PiecewisePolynomial::from_pieces(std::vector<double> breaks,
     }
   }
   PiecewisePolynomial f;
-  f.origins_ = breaks;
-  f.origins_.insert(f.origins_.begin(), breaks.front());
+  f.clear();
   f.breaks_ = std::move(breaks);
-  f.pieces_ = std::move(pieces);
+  for (std::size_t k = 0; k < pieces.size(); ++k) f.add_piece(f.breaks_[k > 0 ? k - 1 : 0], pieces[k]);
   f.rebuild_integrals();
   return f;
 }
 
 void PiecewisePolynomial::continue_straight(double at, double rate, bool below) {
-  const double value_at = value(at);
+  const PiecewisePolynomial old = *this;
   const std::size_t piece = find_piece(at);
-  const std::vector<double> line{value_at, rate};
+  const std::array line{old.value(at), rate};
+  clear();
   if (below) {
-    breaks_.erase(breaks_.begin(), breaks_.begin() + static_cast<std::ptrdiff_t>(piece));
-    origins_.erase(origins_.begin(), origins_.begin() + static_cast<std::ptrdiff_t>(piece));
-    pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(piece));
-    breaks_.insert(breaks_.begin(), at);
-    origins_.insert(origins_.begin(), at);
-    pieces_.insert(pieces_.begin(), line);
+    breaks_ = {at};
+    breaks_.insert(breaks_.end(), old.breaks_.begin() + static_cast<std::ptrdiff_t>(piece),
+                   old.breaks_.end());
+    add_piece(at, line);
+    for (std::size_t k = piece; k < old.num_pieces(); ++k) add_piece(old.origin(k), old.coefficients(k));
   } else {
-    breaks_.resize(piece);
-    origins_.resize(piece + 1);
-    pieces_.resize(piece + 1);
+    for (std::size_t k = 0; k <= piece; ++k) add_piece(old.origin(k), old.coefficients(k));
+    add_piece(at, line);
+    breaks_.assign(old.breaks_.begin(), old.breaks_.begin() + static_cast<std::ptrdiff_t>(piece));
     breaks_.push_back(at);
-    origins_.push_back(at);
-    pieces_.push_back(line);
   }
   rebuild_integrals();
 }
@@ -154,12 +164,12 @@ void PiecewisePolynomial::cut_off_below(double at) {
 
 double PiecewisePolynomial::value(double x) const {
   const std::size_t i = find_piece(x);
-  return evaluate(pieces_[i], x - origins_[i]);
+  return evaluate(coefficients(i), x - origins_[i]);
 }
 
 double PiecewisePolynomial::value_in_piece(int piece, double x) const {
   const auto i = static_cast<std::size_t>(piece);
-  return evaluate(pieces_[i], x - origins_[i]);
+  return evaluate(coefficients(i), x - origins_[i]);
 }
 
 int PiecewisePolynomial::choose_piece(int piece, double x, double dead_band) const {
@@ -179,52 +189,56 @@ void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_b
 
 double PiecewisePolynomial::slope(double x) const {
   const std::size_t i = find_piece(x);
-  return evaluate_slope(pieces_[i], x - origins_[i]);
+  return evaluate_slope(coefficients(i), x - origins_[i]);
+}
+
+double PiecewisePolynomial::curvature(double x) const {
+  const std::size_t i = find_piece(x);
+  return evaluate_curvature(coefficients(i), x - origins_[i]);
 }
 
 double PiecewisePolynomial::integral(double x) const {
   const std::size_t i = find_piece(x);
-  return integrals_[i] + evaluate_integral(pieces_[i], x - origins_[i]);
-}
-
-PiecewisePolynomial PiecewisePolynomial::derivative() const {
-  PiecewisePolynomial f = *this;
-  for (std::vector<double>& a : f.pieces_) {
-    for (std::size_t k = 1; k < a.size(); ++k) a[k - 1] = static_cast<double>(k) * a[k];
-    if (a.size() > 1)
-      a.pop_back();
-    else
-      a[0] = 0.0;
-  }
-  f.rebuild_integrals();
-  return f;
+  return integrals_[i] + evaluate_integral(coefficients(i), x - origins_[i]);
 }
 
 bool PiecewisePolynomial::is_zero() const {
-  const auto vanishes = [](const std::vector<double>& a) {
-    return std::all_of(a.begin(), a.end(), [](double coefficient) { return coefficient == 0.0; });
-  };
-  return std::all_of(pieces_.begin(), pieces_.end(), vanishes);
+  return std::all_of(coefficients_.begin(), coefficients_.end(),
+                     [](double coefficient) { return coefficient == 0.0; });
 }
 
 bool PiecewisePolynomial::is_constant() const {
-  return std::all_of(pieces_.begin(), pieces_.end(), [&](const std::vector<double>& a) {
-    return a.front() == pieces_.front().front() &&
-           std::all_of(a.begin() + 1, a.end(), [](double coefficient) { return coefficient == 0.0; });
-  });
+  for (std::size_t k = 0; k < num_pieces(); ++k) {
+    const std::span<const double> a = coefficients(k);
+    if (a.front() != coefficients_.front()) return false;
+    if (std::any_of(a.begin() + 1, a.end(), [](double coefficient) { return coefficient != 0.0; }))
+      return false;
+  }
+  return true;
 }
 
 std::size_t PiecewisePolynomial::find_piece(double x) const {
-  return static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin());
+  const std::size_t last = last_piece_.get();
+  if (breaks_.size() > kMany && last < breaks_.size() && x >= (last > 0 ? breaks_[last - 1] : x)) {
+    if (x < breaks_[last]) return last;
+    if (last + 1 < breaks_.size() && x < breaks_[last + 1]) {
+      last_piece_.set(last + 1);
+      return last + 1;
+    }
+  }
+  const auto i =
+      static_cast<std::size_t>(std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin());
+  if (breaks_.size() > kMany) last_piece_.set(i);
+  return i;
 }
 
 void PiecewisePolynomial::rebuild_integrals() {
   // At first from the origin of piece 0, then shifted so that they begin at 0.
-  integrals_.assign(pieces_.size(), 0.0);
-  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+  integrals_.assign(num_pieces(), 0.0);
+  for (std::size_t i = 1; i < num_pieces(); ++i) {
     const double at_break =
-        integrals_[i - 1] + evaluate_integral(pieces_[i - 1], breaks_[i - 1] - origins_[i - 1]);
-    integrals_[i] = at_break - evaluate_integral(pieces_[i], breaks_[i - 1] - origins_[i]);
+        integrals_[i - 1] + evaluate_integral(coefficients(i - 1), breaks_[i - 1] - origins_[i - 1]);
+    integrals_[i] = at_break - evaluate_integral(coefficients(i), breaks_[i - 1] - origins_[i]);
   }
   const double at_zero = integral(0.0);
   for (double& value : integrals_) value -= at_zero;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -38,19 +39,21 @@ class PiecewisePolynomial {
   void cut_off_below(double at);
 
   double value(double x) const;
-  double slope(double x) const;            ///< from the right at a break
-  double integral(double x) const;         ///< ∫₀ˣ
-  PiecewisePolynomial derivative() const;  ///< may jump at the breaks
+  double slope(double x) const;      ///< from the right at a break
+  double curvature(double x) const;  ///< second derivative, from the right at a break
+  double integral(double x) const;   ///< ∫₀ˣ
 
   bool is_zero() const;      ///< it is zero everywhere
   bool is_constant() const;  ///< it has one value everywhere
 
   std::span<const double> breaks() const { return breaks_; }  ///< between pieces, ascending
 
-  std::size_t num_pieces() const { return pieces_.size(); }
+  std::size_t num_pieces() const { return origins_.size(); }
   /// Piece k is Σ coefficients(k)[j] (x − origin(k))^j.
   double origin(std::size_t k) const { return origins_[k]; }
-  std::span<const double> coefficients(std::size_t k) const { return pieces_[k]; }
+  std::span<const double> coefficients(std::size_t k) const {
+    return {coefficients_.data() + starts_[k], starts_[k + 1] - starts_[k]};
+  }
 
   /// The polynomial of one piece; x may lie beyond its ends.
   double value_in_piece(int piece, double x) const;
@@ -64,13 +67,34 @@ class PiecewisePolynomial {
   void calc_piece_switches(int piece, double x, double dead_band, std::span<double> values) const;
 
  private:
+  // The piece found last, where the next search begins. Results do not depend on it, so threads may share a
+  // function.
+  class LastPiece {
+   public:
+    LastPiece() = default;
+    LastPiece(const LastPiece& other) : piece_(other.get()) {}
+    LastPiece& operator=(const LastPiece& other) {
+      set(other.get());
+      return *this;
+    }
+    std::size_t get() const { return piece_.load(std::memory_order_relaxed); }
+    void set(std::size_t piece) { piece_.store(piece, std::memory_order_relaxed); }
+
+   private:
+    std::atomic<std::size_t> piece_{0};
+  };
+
   std::size_t find_piece(double x) const;
+  void add_piece(double origin, std::span<const double> coefficients);
+  void clear();  // leaves no piece
   void rebuild_integrals();
 
-  std::vector<double> breaks_;               // P − 1 of them
-  std::vector<double> origins_;              // P: each piece is a polynomial in (x − origin)
-  std::vector<std::vector<double>> pieces_;  // P coefficient lists
-  std::vector<double> integrals_;            // P: ∫ from 0 to the origin of the piece
+  std::vector<double> breaks_;        // P − 1 of them
+  std::vector<double> origins_;       // P: each piece is a polynomial in (x − origin)
+  std::vector<double> coefficients_;  // of all pieces, one after the other
+  std::vector<std::size_t> starts_;   // P + 1: where those of each piece start, and where the last ones end
+  std::vector<double> integrals_;     // P: ∫ from 0 to the origin of the piece
+  mutable LastPiece last_piece_;
 };
 
 }  // namespace sprung::dynamics

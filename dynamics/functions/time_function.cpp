@@ -48,8 +48,7 @@ void check_times(std::span<const double> t, std::span<const double> x) {
 
 }  // namespace
 
-TimeFunction::TimeFunction(PiecewisePolynomial value)
-    : value_(std::move(value)), rate_(value_.derivative()), acceleration_(rate_.derivative()) {}
+TimeFunction::TimeFunction(PiecewisePolynomial value) : value_(std::move(value)) {}
 
 TimeFunction TimeFunction::polynomial(std::vector<double> coefficients) {
   return TimeFunction(PiecewisePolynomial(std::move(coefficients)));
@@ -165,25 +164,17 @@ TimeFunction TimeFunction::pieces(std::span<const double> ends, std::span<const 
   return f;
 }
 
-void TimeFunction::add_polynomials(const PiecewisePolynomial& more) {
-  value_ = calc_sum(value_, more);
-  rate_ = value_.derivative();
-  acceleration_ = rate_.derivative();
-}
-
 void TimeFunction::add_oscillation(const Oscillation& oscillation) {
   if (oscillation.amplitude.is_zero()) return;
   resolution_ = std::min(resolution_, 0.125 / oscillation.frequency_hz);
-  const PiecewisePolynomial first = oscillation.amplitude.derivative();
   oscillations_.push_back(oscillation);
-  amplitude_derivatives_.push_back({first, first.derivative()});
 }
 
 void TimeFunction::add_cosine(const PiecewisePolynomial& a, const PiecewisePolynomial& b, double frequency_hz,
                               double phase) {
   const PiecewisePolynomial amplitude = calc_product(calc_product(a, b), PiecewisePolynomial({0.5}));
   if (frequency_hz == 0.0) {
-    add_polynomials(calc_product(amplitude, PiecewisePolynomial({std::cos(phase)})));
+    value_ = calc_sum(value_, calc_product(amplitude, PiecewisePolynomial({std::cos(phase)})));
     return;
   }
   const double direction = frequency_hz > 0.0 ? 1.0 : -1.0;  // cos(−x) = cos x
@@ -201,25 +192,25 @@ double TimeFunction::value(double time) const {
 }
 
 double TimeFunction::rate(double time) const {
-  double x = rate_.value(time);
-  for (std::size_t i = 0; i < oscillations_.size(); ++i) {
-    const double omega = angular_frequency(oscillations_[i].frequency_hz);
-    const double angle = omega * time + oscillations_[i].phase;
-    const double growth = amplitude_derivatives_[i].first.value(time);
-    x += oscillations_[i].amplitude.value(time) * omega * std::cos(angle);
+  double x = value_.slope(time);
+  for (const Oscillation& one : oscillations_) {
+    const double omega = angular_frequency(one.frequency_hz);
+    const double angle = omega * time + one.phase;
+    const double growth = one.amplitude.slope(time);
+    x += one.amplitude.value(time) * omega * std::cos(angle);
     if (growth != 0.0) x += growth * std::sin(angle);
   }
   return x;
 }
 
 double TimeFunction::acceleration(double time) const {
-  double x = acceleration_.value(time);
-  for (std::size_t i = 0; i < oscillations_.size(); ++i) {
-    const double omega = angular_frequency(oscillations_[i].frequency_hz);
-    const double angle = omega * time + oscillations_[i].phase;
-    const double growth = amplitude_derivatives_[i].first.value(time);
-    const double change = amplitude_derivatives_[i].second.value(time);
-    x -= oscillations_[i].amplitude.value(time) * omega * omega * std::sin(angle);
+  double x = value_.curvature(time);
+  for (const Oscillation& one : oscillations_) {
+    const double omega = angular_frequency(one.frequency_hz);
+    const double angle = omega * time + one.phase;
+    const double growth = one.amplitude.slope(time);
+    const double change = one.amplitude.curvature(time);
+    x -= one.amplitude.value(time) * omega * omega * std::sin(angle);
     if (growth != 0.0) x += 2.0 * growth * omega * std::cos(angle);
     if (change != 0.0) x += change * std::sin(angle);
   }

@@ -94,14 +94,9 @@ class TimeFunction {
   // Adds ½ a b cos(2π frequency t + phase); the frequency may be negative or 0.
   void add_cosine(const PiecewisePolynomial& a, const PiecewisePolynomial& b, double frequency_hz,
                   double phase);
-  void add_polynomials(const PiecewisePolynomial& more);
 
-  struct Derivatives {
-    PiecewisePolynomial first, second;
-  };
-  PiecewisePolynomial value_, rate_, acceleration_;
+  PiecewisePolynomial value_;
   std::vector<Oscillation> oscillations_;
-  std::vector<Derivatives> amplitude_derivatives_;  // one for each oscillation
   std::vector<double> breaks_;
   double resolution_ = std::numeric_limits<double>::infinity();
 };

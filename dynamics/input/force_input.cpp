@@ -18,7 +18,11 @@ namespace sprung::dynamics {
 namespace {
 
 // Reads the keys of one type of force into a description that has its name and location already.
-using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force);
+using PlainReader = void (*)(const support::TomlTable& table, ForceDescription& force);
+// The same for a type with functions of time.
+using TimedReader = void (*)(const support::TomlTable& table, ForceDescription& force,
+                             HistoryFiles& histories);
+using ForceReader = std::variant<PlainReader, TimedReader>;
 
 // Reads the spring with its stops, and the deflections where these begin.
 template <typename Parameters>
@@ -92,7 +96,7 @@ void read_rotational_spring_damper(const support::TomlTable& table, ForceDescrip
   force.parameters = std::move(parameters);
 }
 
-void read_applied(const support::TomlTable& table, ForceDescription& force) {
+void read_applied(const support::TomlTable& table, ForceDescription& force, HistoryFiles& histories) {
   static const std::array<std::string, 2> kAxes{"world", "following"};
   force.points = {read_point(table.at("point"))};
   AppliedForce::Parameters parameters;
@@ -105,11 +109,11 @@ void read_applied(const support::TomlTable& table, ForceDescription& force) {
     if (!components->is_array() || components->items().size() != 2) {
       throw components->error("must be [x, y], each a number [N] or a function of time");
     }
-    parameters.force_x = read_time_function(components->items()[0], "N", TimeFunctionUse::kForce);
-    parameters.force_y = read_time_function(components->items()[1], "N", TimeFunctionUse::kForce);
+    parameters.force_x = read_time_function(components->items()[0], "N", TimeFunctionUse::kForce, histories);
+    parameters.force_y = read_time_function(components->items()[1], "N", TimeFunctionUse::kForce, histories);
   }
   const std::optional<support::TomlValue> torque = table.find("torque");
-  if (torque) parameters.torque = read_time_function(*torque, "N·m", TimeFunctionUse::kForce);
+  if (torque) parameters.torque = read_time_function(*torque, "N·m", TimeFunctionUse::kForce, histories);
   if (!components && !torque) {
     table.reject_unknown_keys();
     throw table.error("must have a 'force' or a 'torque'");
@@ -219,7 +223,7 @@ std::unique_ptr<ForceElement> place(const std::string& name, LeafSpring::Paramet
 
 }  // namespace
 
-ForceDescription read_force(const support::TomlTable& table) {
+ForceDescription read_force(const support::TomlTable& table, HistoryFiles& histories) {
   ForceDescription force;
   force.name = table.string("name");
   force.location = table.at("name").location();
@@ -229,7 +233,11 @@ ForceDescription read_force(const support::TomlTable& table) {
   for (const auto& [kind, reader] : force_readers()) kinds.push_back(kind);
   force.kind = table.at("type").one_of(kinds);
   const auto found = std::find(kinds.begin(), kinds.end(), force.kind);
-  force_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, force);
+  const ForceReader& reader = force_readers()[static_cast<std::size_t>(found - kinds.begin())].second;
+  if (const auto* timed = std::get_if<TimedReader>(&reader))
+    (*timed)(table, force, histories);
+  else
+    std::get<PlainReader>(reader)(table, force);
   table.reject_unknown_keys();
   return force;
 }

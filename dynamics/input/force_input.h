@@ -14,6 +14,7 @@
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
 #include "dynamics/forces/tyre.h"
+#include "dynamics/input/history_input.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/road/road.h"
 #include "tools/support/toml/toml.h"
@@ -53,7 +54,7 @@ struct ForceDescription {
 /// does not check that the points exist; `read_vehicle` does.
 /// @throws support::InputError for a key that is missing, unknown or has a bad value
 /// Checked by tests/dynamics/input/force_input_test.cpp
-ForceDescription read_force(const support::TomlTable& table);
+ForceDescription read_force(const support::TomlTable& table, HistoryFiles& histories);
 
 /// Makes the element of a description.
 /// @param markers  of its points, in the order of force.points

@@ -19,37 +19,40 @@ namespace {
 using Kind = RelativeCoordinate::Kind;
 
 // Reads the keys of one type of joint into a description that has its name, points and location already.
-using JointReader = void (*)(const support::TomlTable& table, JointDescription& joint);
+using JointReader = void (*)(const support::TomlTable& table, JointDescription& joint,
+                             HistoryFiles& histories);
 
 std::optional<double> read_angle(const support::TomlTable& table) {
   const std::optional<support::TomlValue> angle = table.find("angle");
   return angle ? std::optional(angle->number(support::any("rad"))) : std::nullopt;
 }
 
-void read_revolute(const support::TomlTable& /*table*/, JointDescription& joint) {
+void read_revolute(const support::TomlTable& /*table*/, JointDescription& joint,
+                   HistoryFiles& /*histories*/) {
   joint.coordinate = RelativeCoordinate(Kind::kAngle);
   joint.parameters = RevoluteParameters{};
 }
 
-void read_translational(const support::TomlTable& table, JointDescription& joint) {
+void read_translational(const support::TomlTable& table, JointDescription& joint,
+                        HistoryFiles& /*histories*/) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
   joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
   joint.parameters = TranslationalParameters{.axis = axis, .angle = read_angle(table)};
 }
 
-void read_fixed(const support::TomlTable& table, JointDescription& joint) {
+void read_fixed(const support::TomlTable& table, JointDescription& joint, HistoryFiles& /*histories*/) {
   joint.parameters = FixedParameters{.angle = read_angle(table)};
 }
 
-void read_distance(const support::TomlTable& table, JointDescription& joint) {
+void read_distance(const support::TomlTable& table, JointDescription& joint, HistoryFiles& histories) {
   const support::TomlValue value = table.at("length");
-  const TimeFunction length = read_time_function(value, "m", TimeFunctionUse::kMotion);
+  const TimeFunction length = read_time_function(value, "m", TimeFunctionUse::kMotion, histories);
   if (!(length.value(0.0) > 0.0)) throw value.error(fmt::format("must be > 0 m, got {}", length.value(0.0)));
   joint.needs_distance = true;
   joint.parameters = DistanceParameters{.length = length};
 }
 
-void read_pin_in_slot(const support::TomlTable& table, JointDescription& joint) {
+void read_pin_in_slot(const support::TomlTable& table, JointDescription& joint, HistoryFiles& /*histories*/) {
   const Eigen::Vector2d axis = read_direction(table.at("axis"));
   joint.coordinate = RelativeCoordinate(Kind::kAlong, axis);
   joint.parameters = PinInSlotParameters{.axis = axis};
@@ -93,7 +96,7 @@ std::unique_ptr<Joint> place_joint(const JointDescription& joint, const Paramete
 
 }  // namespace
 
-JointDescription read_joint(const support::TomlTable& table) {
+JointDescription read_joint(const support::TomlTable& table, HistoryFiles& histories) {
   JointDescription joint;
   joint.name = table.string("name");
   joint.location = table.at("name").location();
@@ -106,7 +109,7 @@ JointDescription read_joint(const support::TomlTable& table) {
   joint.b = read_point(table.at("b"));
 
   const auto found = std::find(kinds.begin(), kinds.end(), joint.kind);
-  joint_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, joint);
+  joint_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, joint, histories);
   table.reject_unknown_keys();
   return joint;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "dynamics/input/history_input.h"
 #include "dynamics/input/point_reference.h"
 #include "dynamics/joints/joint.h"
 #include "tools/support/toml/toml.h"
@@ -57,7 +58,7 @@ struct JointDescription {
 /// It does not check that the points exist; `read_vehicle` does.
 /// @throws support::InputError for a key that is missing, unknown or has a bad value
 /// Checked by tests/dynamics/input/joint_input_test.cpp
-JointDescription read_joint(const support::TomlTable& table);
+JointDescription read_joint(const support::TomlTable& table, HistoryFiles& histories);
 
 /// Makes the joint of a description.
 std::unique_ptr<Joint> make_joint(const JointDescription& joint, const JointPlace& place);

@@ -50,7 +50,8 @@ void read_driven_point(const support::TomlTable& table, MotionDescription& motio
 
 }  // namespace
 
-MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints) {
+MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints,
+                              HistoryFiles& histories) {
   MotionDescription motion;
   motion.name = table.string("name");
   motion.location = table.at("name").location();
@@ -66,7 +67,7 @@ MotionDescription read_motion(const support::TomlTable& table, std::span<const J
     read_driven_point(table, motion);
   }
   motion.value = read_time_function(table.at("function"), motion.coordinate.is_angle() ? "rad" : "m",
-                                    TimeFunctionUse::kMotion);
+                                    TimeFunctionUse::kMotion, histories);
   table.reject_unknown_keys();
   return motion;
 }

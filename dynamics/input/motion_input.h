@@ -26,7 +26,8 @@ struct MotionDescription {
 /// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a joint without
 ///         a free coordinate
 /// Checked by tests/dynamics/input/motion_input_test.cpp
-MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints);
+MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints,
+                              HistoryFiles& histories);
 
 /// Makes the joint that prescribes a motion.
 std::unique_ptr<Joint> make_joint(const MotionDescription& motion, const JointPlace& place);

@@ -3,20 +3,31 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "dynamics/road/road.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 
+/// A column of a file that a run file names.
+struct RoadColumn {
+  std::string name;
+  support::SourceLocation location;
+};
+
 /// The road of a run file, `[road]`.
 struct RoadDescription {
-  std::string shape = "flat";  ///< "flat", one of bump_shape_names(), or "table"
+  std::string shape = "flat";  ///< "flat", one of bump_shape_names(), "table" or "opencrg"
   double start = 0.0;          ///< where it begins [m]
   double length = 0.0;         ///< of a bump, > 0 [m]
   double height = 0.0;         ///< of a bump [m]
-  std::filesystem::path file;  ///< of a table
+  std::filesystem::path file;  ///< of a table or of OpenCRG
   support::SourceLocation file_location;
+  RoadColumn distance;              ///< of a table with named columns; without a name, the first
+  std::vector<RoadColumn> heights;  ///< the road is their mean; none for a table of two plain columns
+  std::vector<double> lateral;  ///< positions across the road in OpenCRG, left is positive; their mean [m]
+  support::SourceLocation lateral_location;
   support::SourceLocation location;
 };
 
@@ -26,9 +37,8 @@ struct RoadDescription {
 /// Checked by tests/dynamics/input/road_input_test.cpp
 RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder);
 
-/// Makes the road of a description. For a table it reads the file: two columns, distance [m] and height [m],
-/// separated by blanks or a comma, distances ascending, first height 0; `#` begins a comment.
-/// @throws support::InputError at the line and column of the fault in the table's file
+/// Makes the road of a description; for a table or OpenCRG it reads the file.
+/// @throws support::InputError at the line and column of the fault in the file
 /// Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 

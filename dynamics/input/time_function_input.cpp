@@ -17,7 +17,14 @@ namespace {
 constexpr std::size_t kMostOscillations = 1000;
 constexpr std::size_t kHighestDegree = 100;
 
-TimeFunction read_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use);
+// What is the same for all parts of a function of time.
+struct FunctionContext {
+  TimeFunctionUse use;
+  HistoryFiles& histories;
+};
+
+TimeFunction read_function(const support::TomlValue& value, std::string_view unit,
+                           const FunctionContext& context);
 
 TimeFunction read_harmonic(const support::TomlTable& table, std::string_view unit) {
   const TimeFunction f =
@@ -91,20 +98,21 @@ std::size_t find_degree(const TimeFunction& f) {
   return highest;
 }
 
-TimeFunction read_sum(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+TimeFunction read_sum(const support::TomlValue& value, std::string_view unit,
+                      const FunctionContext& context) {
   TimeFunction sum;
   for (const support::TomlValue& part : list_parts(value)) {
-    sum = TimeFunction::sum(sum, read_function(part, unit, use));
+    sum = TimeFunction::sum(sum, read_function(part, unit, context));
     check_size(value, sum.oscillations().size());
   }
   return sum;
 }
 
 // One factor may have the unit; the others are pure numbers.
-TimeFunction read_product(const support::TomlValue& value, TimeFunctionUse use) {
+TimeFunction read_product(const support::TomlValue& value, const FunctionContext& context) {
   TimeFunction product(1.0);
   for (const support::TomlValue& part : list_parts(value)) {
-    const TimeFunction factor = read_function(part, "", use);
+    const TimeFunction factor = read_function(part, "", context);
     check_size(value, count_oscillations(product, factor));
     const std::size_t degree = find_degree(product) + find_degree(factor);
     if (degree > kHighestDegree) {
@@ -117,7 +125,8 @@ TimeFunction read_product(const support::TomlValue& value, TimeFunctionUse use) 
   return product;
 }
 
-TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit,
+                         const FunctionContext& context) {
   std::vector<double> ends;
   std::vector<TimeFunction> parts;
   std::size_t oscillations = 0;
@@ -133,7 +142,7 @@ TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit,
     } else if (const std::optional<support::TomlValue> until = row.find("until")) {
       throw until->error("must be left out of the last piece, which goes on for ever");
     }
-    parts.push_back(read_function(row.at("function"), unit, use));
+    parts.push_back(read_function(row.at("function"), unit, context));
     row.reject_unknown_keys();
     oscillations += parts.back().oscillations().size();
     check_size(value, oscillations);
@@ -141,32 +150,36 @@ TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit,
   return ends.empty() ? parts.front() : TimeFunction::pieces(ends, parts);
 }
 
-TimeFunction read_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
+TimeFunction read_function(const support::TomlValue& value, std::string_view unit,
+                           const FunctionContext& context) {
   if (value.is_number()) return TimeFunction(value.number(support::any(unit)));
   if (!value.is_table()) {
     throw value.error(unit.empty() ? std::string("must be a number or a function of time")
                                    : fmt::format("must be a number [{}] or a function of time", unit));
   }
   const support::TomlTable table = value.table();
-  constexpr std::array<std::string_view, 7> kWays{"polynomial", "harmonic", "table", "step",
-                                                  "sum",        "product",  "pieces"};
+  constexpr std::array<std::string_view, 8> kWays{"polynomial", "harmonic", "table",   "history",
+                                                  "step",       "sum",      "product", "pieces"};
   const std::string_view way = find_only_key(
-      table, kWays, "one of 'polynomial', 'harmonic', 'table', 'step', 'sum', 'product' and 'pieces'");
+      table, kWays,
+      "one of 'polynomial', 'harmonic', 'table', 'history', 'step', 'sum', 'product' and 'pieces'");
   table.reject_unknown_keys();
   const support::TomlValue content = table.at(way);
   if (way == "harmonic") return read_harmonic(content.table(), unit);
+  if (way == "history") return context.histories.read(content.table(), unit, context.use);
   if (way == "step") return read_step(content.table(), unit);
-  if (way == "table") return read_table(content, unit, use);
-  if (way == "sum") return read_sum(content, unit, use);
-  if (way == "product") return read_product(content, use);
-  if (way == "pieces") return read_pieces(content, unit, use);
+  if (way == "table") return read_table(content, unit, context.use);
+  if (way == "sum") return read_sum(content, unit, context);
+  if (way == "product") return read_product(content, context);
+  if (way == "pieces") return read_pieces(content, unit, context);
   return read_polynomial(content, unit);
 }
 
 }  // namespace
 
-TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use) {
-  TimeFunction f = read_function(value, unit, use);
+TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
+                                HistoryFiles& histories) {
+  TimeFunction f = read_function(value, unit, {use, histories});
   if (use == TimeFunctionUse::kForce) return f;
   const std::optional<TimeFunction::Jump> jump = f.find_jump();
   if (!jump) return f;

@@ -3,29 +3,27 @@
 #include <string_view>
 
 #include "dynamics/functions/time_function.h"
+#include "dynamics/input/history_input.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
-
-/// The use of a function of time, which determines how a table of points is interpolated.
-enum class TimeFunctionUse {
-  kForce,   ///< straight lines between the points of a table
-  kMotion,  ///< a curve through them that has a velocity and an acceleration
-};
 
 /// Reads a function of time t [s]: a number, which is constant, or one of
 ///
 ///     { polynomial = [a_0, a_1, …] }                          Σ a_k t^k
 ///     { harmonic = { mean, amplitude, frequency, phase } }    mean + amplitude sin(2π frequency t + phase)
 ///     { table = [[t, x], …] }                                 constant outside of the points
+///     { history = { file, channel, … } }                      measured
 ///     { step = { before, after, start, end } }                smooth between start and end
 ///     { sum = [f, …] }, { product = [f, …] }                  of such functions
 ///     { pieces = [{ until, function }, …, { function }] }     one after the other
 ///
-/// @param unit  of the function's value, for messages
+/// @param unit       of the function's value, for messages
+/// @param histories  reads the measured ones
 /// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a motion whose
 ///         value or rate jumps
 /// Checked by tests/dynamics/input/time_function_input_test.cpp
-TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use);
+TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
+                                HistoryFiles& histories);
 
 }  // namespace sprung::dynamics

@@ -23,13 +23,13 @@ void check_new_name(const std::vector<Description>& others, const Description& a
                                                         added.name, found->location.line));
 }
 
-std::vector<JointDescription> read_joints(const support::TomlTable& root,
-                                          std::span<const std::string> points) {
+std::vector<JointDescription> read_joints(const support::TomlTable& root, std::span<const std::string> points,
+                                          HistoryFiles& histories) {
   std::vector<JointDescription> joints;
   const std::optional<support::TomlValue> list = root.find("joints");
   if (!list) return joints;
   for (const support::TomlValue& item : list->items()) {
-    JointDescription joint = read_joint(item.table());
+    JointDescription joint = read_joint(item.table(), histories);
     check_new_name(joints, joint, "joint");
     check_point(joint.a, points);
     check_point(joint.b, points);
@@ -47,12 +47,12 @@ std::vector<JointDescription> read_joints(const support::TomlTable& root,
 
 std::vector<MotionDescription> read_motions(const support::TomlTable& root,
                                             const std::vector<JointDescription>& joints,
-                                            std::span<const std::string> points) {
+                                            std::span<const std::string> points, HistoryFiles& histories) {
   std::vector<MotionDescription> motions;
   const std::optional<support::TomlValue> list = root.find("motions");
   if (!list) return motions;
   for (const support::TomlValue& item : list->items()) {
-    MotionDescription motion = read_motion(item.table(), joints);
+    MotionDescription motion = read_motion(item.table(), joints, histories);
     check_new_name(motions, motion, "motion");
     const auto same = [&](const JointDescription& joint) { return joint.name == motion.name; };
     if (std::any_of(joints.begin(), joints.end(), same)) {
@@ -68,13 +68,13 @@ std::vector<MotionDescription> read_motions(const support::TomlTable& root,
   return motions;
 }
 
-std::vector<ForceDescription> read_forces(const support::TomlTable& root,
-                                          std::span<const std::string> points) {
+std::vector<ForceDescription> read_forces(const support::TomlTable& root, std::span<const std::string> points,
+                                          HistoryFiles& histories) {
   std::vector<ForceDescription> forces;
   const std::optional<support::TomlValue> list = root.find("forces");
   if (!list) return forces;
   for (const support::TomlValue& item : list->items()) {
-    ForceDescription force = read_force(item.table());
+    ForceDescription force = read_force(item.table(), histories);
     check_new_name(forces, force, "force");
     for (const PointReference& point : force.points) check_point(point, points);
     forces.push_back(std::move(force));
@@ -214,9 +214,11 @@ Vehicle read_vehicle(const support::TomlDocument& document,
   vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);
   check_masses(vehicle);
   const std::vector<std::string> points = point_names(vehicle);
-  vehicle.joints = read_joints(root, points);
-  vehicle.motions = read_motions(root, vehicle.joints, points);
-  vehicle.forces = read_forces(root, points);
+  HistoryFiles histories(std::filesystem::path(document.name()).parent_path());
+  vehicle.joints = read_joints(root, points, histories);
+  vehicle.motions = read_motions(root, vehicle.joints, points, histories);
+  vehicle.forces = read_forces(root, points, histories);
+  vehicle.histories = histories.used();
   vehicle.monitor = read_monitor(root, vehicle, points);
   check_lines(vehicle);
   return vehicle;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/input/force_input.h"
+#include "dynamics/input/history_input.h"
 #include "dynamics/input/joint_input.h"
 #include "dynamics/input/motion_input.h"
 #include "dynamics/input/point_reference.h"
@@ -51,6 +52,7 @@ struct Vehicle {
   /// Points whose motion is reported; every body's origin if the file has none.
   std::vector<PointReference> monitor;
   std::map<std::string, reduce::Superelement> superelements;
+  std::vector<HistoryUse> histories;  ///< measured, that joints, motions and forces follow
 
   const BodyDescription* find_body(const std::string& body_name) const;  ///< nullptr if there is none
   /// @return nullptr for a body without superelement
@@ -58,8 +60,8 @@ struct Vehicle {
   std::vector<std::string> body_names() const;
 };
 
-/// Reads a vehicle file (dynamics/models/README.md lists the keys), and FOLDER/NAME.h5 of every superelement
-/// that a body names.
+/// Reads a vehicle file (dynamics/models/README.md lists the keys), FOLDER/NAME.h5 of every superelement that
+/// a body names, and the files of measured histories.
 /// @throws support::InputError at the first key or value that is wrong
 /// Checked by tests/dynamics/input/vehicle_test.cpp
 Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder);

@@ -66,6 +66,10 @@ void PartialResults::check_same_run(const ResultsHeader& header) const {
         file_.string_attribute("/model/superelements/" + name, "content_hash") == superelement.content_hash,
         fmt::format("superelement '{}' has", name));
   }
+  for (const HistoryUse& history : header.vehicle.histories) {
+    expect_same(file_.string_attribute("/model/resolved/histories/" + history.key, "sha256") == history.hash,
+                fmt::format("the file '{}' has", history.file));
+  }
   const RoadSamples road = sample_road(header);
   expect_same(file_.reals("/model/road/distance", {-1}) == road.distance &&
                   file_.reals("/model/road/height", {-1}) == road.height,

@@ -1,5 +1,8 @@
 #include "dynamics/output/resolved_model.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <cmath>
 #include <span>
@@ -125,14 +128,42 @@ void write_element(support::Hdf5Writer& file, const std::string& group, const El
   write_description(file, group, description);
 }
 
+// The columns or the lines of its file that a road is the mean of.
+std::vector<std::string> list_profiles(const RoadDescription& road) {
+  std::vector<std::string> profiles;
+  for (const RoadColumn& column : road.heights) profiles.push_back(column.name);
+  for (const double lateral : road.lateral) profiles.push_back(fmt::format("{} m", lateral));
+  return profiles;
+}
+
 void write_road(support::Hdf5Writer& file, const PlacedRoad& road, const RoadDescription& description) {
   const std::string group = kRoot + "/road";
   file.make_group(group);
   file.attribute(group, "shape", road.road->shape());
   file.attribute(group, "file", description.file.filename().string());
+  file.attribute(group, "profiles", fmt::format("{}", fmt::join(list_profiles(description), ", ")));
   file.attribute(group, "direction", road.direction);
   write_number(file, group, "origin", road.origin, "m");
   write_description(file, group, road.road->describe());
+}
+
+void write_histories(support::Hdf5Writer& file, const std::vector<HistoryUse>& histories) {
+  file.make_group(kRoot + "/histories");
+  for (const HistoryUse& history : histories) {
+    const std::string group = kRoot + "/histories/" + history.key;
+    file.make_group(group);
+    file.attribute(group, "file", std::filesystem::path(history.file).filename().string());
+    file.attribute(group, "channel", history.channel);
+    file.attribute(group, "unit", history.unit);
+    file.attribute(group, "sha256", history.hash);
+    file.attribute(group, "interpolation", history.interpolation);
+    file.attribute(group, "scale", history.scale);
+    file.attribute(group, "offset", history.offset);
+    write_number(file, group, "from", history.from, "s");
+    write_number(file, group, "to", history.to, "s");
+    file.attribute(group, "before", history.before);
+    file.attribute(group, "after", history.after);
+  }
 }
 
 }  // namespace
@@ -155,6 +186,7 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
     write_element(file, kRoot + "/forces/" + force->name, *force, force->markers(), model);
   }
   write_road(file, header.road, header.run.road);
+  write_histories(file, header.vehicle.histories);
 }
 
 }  // namespace sprung::dynamics

@@ -82,7 +82,7 @@ void activate_moving_modes(const Model& model, const State& start, std::vector<b
   }
 }
 
-void read_files(const RunRequest& request, PreparedRun& prepared) {
+void read_files(const RunRequest& request, Preparation preparation, PreparedRun& prepared) {
   support::TomlDocument run_document = support::TomlDocument::read(request.run_file);
   apply_overrides(run_document, request.overrides, false);
   prepared.run = read_run(run_document);
@@ -93,9 +93,14 @@ void read_files(const RunRequest& request, PreparedRun& prepared) {
   support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
   apply_overrides(vehicle_document, request.overrides, true);
   prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
+  // Equilibrium and linearisation need functions of time at t = 0 alone.
+  const double end = preparation == Preparation::kBalance ? 0.0 : prepared.run.duration;
+  check_histories(prepared.vehicle.histories, end);
   if (request.quiet) return;
-  for (const std::string& remark : list_unit_remarks(prepared.vehicle))
-    fmt::print(stderr, "remark: {}\n", remark);
+  std::vector<std::string> remarks = list_unit_remarks(prepared.vehicle);
+  for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
+    remarks.push_back(std::move(remark));
+  for (const std::string& remark : remarks) fmt::print(stderr, "remark: {}\n", remark);
 }
 
 // Damping and stiffening of the flexible bodies of the models.
@@ -178,7 +183,7 @@ std::string describe_static_lengths(const PreparedRun& prepared) {
 
 PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   PreparedRun prepared;
-  read_files(request, prepared);
+  read_files(request, preparation, prepared);
   const Vehicle& vehicle = prepared.vehicle;
   prepared.output_points = resolve_output_points(prepared.run, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();

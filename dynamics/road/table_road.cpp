@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dynamics/functions/piecewise_polynomial.h"
+#include "dynamics/functions/clamped_slopes.h"
 
 namespace sprung::dynamics {
 
@@ -69,9 +69,7 @@ TableRoad::TableRoad(double start, std::span<const double> s, std::span<const do
   for (double& value : s_) value += start - s.front();
   spacing_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < s_.size(); ++i) spacing_ = std::min(spacing_, s_[i] - s_[i - 1]);
-  const PiecewisePolynomial spline = PiecewisePolynomial::clamped_spline(s_, height_);
-  slope_.assign(s_.size(), 0.0);
-  for (std::size_t i = 1; i + 1 < s_.size(); ++i) slope_[i] = spline.slope(s_[i]);
+  slope_ = calc_clamped_slopes(s_, height_);
   limit_slopes();
   integral_.assign(s_.size(), 0.0);
   for (std::size_t i = 0; i + 1 < s_.size(); ++i) {

@@ -68,7 +68,6 @@ TEST_CASE("The truck's spring with its bump stop", "[forces]") {
 TEST_CASE("Value, slope and integral of many pieces fit together", "[forces]") {
   const PiecewisePolynomial law = many_pieces();
   REQUIRE(law.breaks().size() == 4);
-  const PiecewisePolynomial slope = law.derivative();
   test::RandomNumbers random(3);
   for (int i = 0; i < 200; ++i) {
     const double x = random.between(-2.0, 2.0);
@@ -78,7 +77,8 @@ TEST_CASE("Value, slope and integral of many pieces fit together", "[forces]") {
     CHECK(central_difference([&](double s) { return law.integral(s); }, x) ==
           Approx(law.value(x)).margin(1e-9));
     CHECK(central_difference([&](double s) { return law.value(s); }, x) == Approx(law.slope(x)).margin(1e-8));
-    CHECK(slope.value(x) == Approx(law.slope(x)).margin(1e-14));
+    CHECK(central_difference([&](double s) { return law.slope(s); }, x) ==
+          Approx(law.curvature(x)).margin(1e-7));
   }
   for (const double at : law.breaks()) {
     CHECK(law.value(std::nextafter(at, -2.0)) == Approx(law.value(at)).margin(1e-14));
@@ -142,13 +142,11 @@ TEST_CASE("The clamped spline passes through its points with two continuous deri
           "[forces]") {
   const std::vector<double> x{-1.0, -0.6, 0.1, 0.3, 1.2, 1.5}, y{0.0, 1.0, -2.0, 0.5, 0.7, -1.0};
   const PiecewisePolynomial spline = PiecewisePolynomial::clamped_spline(x, y);
-  const PiecewisePolynomial slope = spline.derivative();
-  const PiecewisePolynomial curvature = slope.derivative();
   for (std::size_t i = 0; i < x.size(); ++i) CHECK(spline.value(x[i]) == Approx(y[i]).margin(1e-14));
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const double left = std::nextafter(x[i], -10.0);
-    CHECK(slope.value(left) == Approx(slope.value(x[i])).margin(1e-12));
-    CHECK(curvature.value(left) == Approx(curvature.value(x[i])).margin(1e-11));
+    CHECK(spline.slope(left) == Approx(spline.slope(x[i])).margin(1e-12));
+    CHECK(spline.curvature(left) == Approx(spline.curvature(x[i])).margin(1e-11));
   }
   CHECK(spline.slope(-1.0) == Approx(0.0).margin(1e-14));
   CHECK(spline.slope(1.5) == Approx(0.0).margin(1e-13));
@@ -186,6 +184,35 @@ TEST_CASE("Points must be at least two and ascend", "[forces]") {
     CHECK_THROWS_WITH(make(std::array{0.0, 0.0}, std::array{0.0, 1.0}),
                       Contains("x must ascend, got 0 after 0"));
     CHECK_THROWS_WITH(make(std::array{0.0, nan}, std::array{0.0, 1.0}), Contains("x must ascend"));
+  }
+}
+
+TEST_CASE("A function of many pieces has the same value whatever was asked before", "[forces]") {
+  // Straight lines through (k², k): the value at x is k + (x − k²)/(2k + 1), k the whole part of √x.
+  constexpr int kPoints = 2000;
+  std::vector<double> x, y;
+  for (int k = 0; k < kPoints; ++k) {
+    x.push_back(static_cast<double>(k) * k);
+    y.push_back(k);
+  }
+  const PiecewisePolynomial f = PiecewisePolynomial::through_points(x, y);
+  const auto expected = [](double at) {
+    const double k = std::min(std::floor(std::sqrt(at)), kPoints - 2.0);
+    return k + (at - k * k) / (2.0 * k + 1.0);
+  };
+  for (double at = 0.0; at < 5000.0; at += 0.7) CHECK(f.value(at) == Approx(expected(at)).epsilon(1e-14));
+  for (double at = 5000.0; at > 0.0; at -= 0.7) CHECK(f.value(at) == Approx(expected(at)).epsilon(1e-14));
+  test::RandomNumbers random(11);
+  for (int i = 0; i < 2000; ++i) {
+    const double at = random.between(0.0, 4.2e6);
+    CHECK(f.value(at) == Approx(expected(at)).epsilon(1e-13));
+  }
+  // At a break the piece that begins is used, from both sides.
+  for (const double from : {0.0, 5000.0}) {
+    f.value(from);
+    CHECK(f.slope(100.0) == Approx(1.0 / 21.0).epsilon(1e-14));
+    f.value(from);
+    CHECK(f.slope(std::nextafter(100.0, 0.0)) == Approx(1.0 / 19.0).epsilon(1e-14));
   }
 }
 

@@ -16,7 +16,8 @@ constexpr double kFreeLength = 2.0;
 
 dynamics::ForceDescription read(const std::string& text) {
   const support::TomlDocument document = support::TomlDocument::parse("[[forces]]\n" + text, "f.toml");
-  return dynamics::read_force(document.root().at("forces").items().front().table());
+  dynamics::HistoryFiles histories("");
+  return dynamics::read_force(document.root().at("forces").items().front().table(), histories);
 }
 
 std::string spring_damper(const std::string& laws) {

@@ -13,7 +13,8 @@ namespace {
 dynamics::JointDescription read(const std::string& rest) {
   const std::string text = "[[joints]]\nname = \"j\"\na = \"p.origin\"\nb = \"q.origin\"\n" + rest;
   const support::TomlDocument document = support::TomlDocument::parse(text, "j.toml");
-  return dynamics::read_joint(document.root().at("joints").items().front().table());
+  dynamics::HistoryFiles histories("");
+  return dynamics::read_joint(document.root().at("joints").items().front().table(), histories);
 }
 
 std::string error_of(const std::string& rest) {

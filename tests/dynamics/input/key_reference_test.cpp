@@ -1,5 +1,6 @@
 // dynamics/models/README.md, the reference of all input keys, against the keys that the readers ask for, and
 // its examples against the readers.
+#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -123,7 +124,11 @@ std::string section_of(const std::string& path, const std::string& type) {
   if (path == "joints.*") return "Joints: " + type;
   if (path == "forces.*") return "Forces: " + type;
   if (path == "output.store" || path == "output.step") return "Output: histories";
-  if (path == "road") return type == "flat" || type == "table" ? "Road: " + type : "Road: a bump";
+  if (path == "road")
+    return type == "flat" || type == "table" || type == "opencrg"
+               ? "Road: " + (type == "opencrg" ? "OpenCRG" : type)
+               : "Road: a bump";
+  if (path.ends_with(".history")) return "Functions of time: history";
   if (path.ends_with(".harmonic")) return "Functions of time: harmonic";
   if (path.ends_with(".step")) return "Functions of time: step";
   if (path.ends_with(".pieces.*")) return "Functions of time: pieces";
@@ -168,6 +173,7 @@ void collect(const support::TomlValue& value, Found& found, const std::string& r
 
 Found read_examples(const Reference& reference) {
   Found found;
+  std::ofstream("drive.csv") << "time [s],x [mm],push [kN]\n0,0,0\n1,5,2\n2,0,0\n";
   const auto vehicle = support::TomlDocument::parse(reference.vehicle, "vehicle example");
   dynamics::read_vehicle(vehicle, test::superelement_folder());
   collect(vehicle.root(), found, "Vehicle");

@@ -80,6 +80,7 @@ TEST_CASE("Impossible functions of time are refused") {
   CHECK(error("{ table = [[0.0, 1.0], [0.0, 2.0]] }") ==
         "error: 'motions.m.function.table.1' must ascend: 0 s comes after 0 s");
   CHECK(error("{}") ==
-        "error: 'motions.m.function' must have one of 'polynomial', 'harmonic', 'table', 'step', 'sum', "
+        "error: 'motions.m.function' must have one of 'polynomial', 'harmonic', 'table', 'history', 'step', "
+        "'sum', "
         "'product' and 'pieces'");
 }

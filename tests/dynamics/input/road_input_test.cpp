@@ -67,7 +67,8 @@ TEST_CASE("Keys of a road that are missing, unknown or have a bad value are refu
   CHECK(error_of("start = 1.0") == "run.toml:1:1: error: missing key 'shape' in 'road'");
   CHECK(error_of("shape = \"half-sin\"") ==
         "run.toml:2:9: error: 'road.shape' must be one of \"flat\", \"half-sine\", \"haversine\", "
-        "\"triangle\", \"ramp\", \"table\"; got a string \"half-sin\" (did you mean 'half-sine'?)");
+        "\"triangle\", \"ramp\", \"table\", \"opencrg\"; got a string \"half-sin\" (did you mean "
+        "'half-sine'?)");
   CHECK(error_of("shape = \"flat\"\nstart = 1.0") ==
         "run.toml:3:1: error: unknown key 'start' in 'road' (known keys: shape)");
   CHECK(error_of("shape = \"ramp\"\nstart = -1.0\nlength = 0.4\nheight = 0.2") ==
@@ -111,4 +112,71 @@ TEST_CASE("A missing road table is named") {
   const dynamics::RoadDescription road = read("shape = \"table\"\nstart = 2.0\nfile = \"nowhere.txt\"");
   CHECK(input_error_of([&] { dynamics::make_road(road); }) ==
         "run.toml:4:8: error: there is no road file roads/nowhere.txt");
+}
+
+namespace {
+
+std::unique_ptr<dynamics::Road> make_measured(const std::string& content, const std::string& keys,
+                                              const std::string& shape = "table") {
+  std::filesystem::create_directories("roads");
+  std::ofstream("roads/measured.csv") << content;
+  return dynamics::make_road(
+      read("shape = \"" + shape + "\"\nstart = 2.0\nfile = \"measured.csv\"\n" + keys));
+}
+
+std::string error_of_measured(const std::string& content, const std::string& keys,
+                              const std::string& shape = "table") {
+  return input_error_of([&] { make_measured(content, keys, shape); });
+}
+
+const std::string kProfile =
+    "chainage [km],left [mm],right [mm]\n0.010,5,-3\n0.0105,15,-3\n0.0125,25,7\n0.013,25,7\n";
+
+const std::string kSurface =
+    "$CT\n$\n$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 0.5\nLONG_SECTION_V_INCREMENT = "
+    "1.0\n$\n$KD_Definition\n#:LRFI\n"
+    "D:long section 1,m\nD:long section 2,m\nD:long section 3,m\n$\n$$$$\n"
+    " 0.0100000 0.0200000 0.0300000\n 0.0200000 0.0200000 0.0500000\n 0.0400000 0.0000000 0.0500000\n";
+
+}  // namespace
+
+TEST_CASE("A measured profile is a column of a file, or the mean of several, from its first height on") {
+  const auto left = make_measured(kProfile, "height = \"left\"");
+  CHECK(left->height(1.9) == 0.0);
+  CHECK(left->height(2.0) == Approx(0.0).margin(1e-15));
+  CHECK(left->height(2.5) == Approx(0.010).epsilon(1e-12));  // unequal distances: 0.5 m, 2 m, 0.5 m
+  CHECK(left->height(4.5) == Approx(0.020).epsilon(1e-12));
+  CHECK(left->height(9.0) == Approx(0.020).epsilon(1e-12));
+  const auto mean = make_measured(kProfile, "height = [\"left\", \"right\"]\ndistance = \"chainage\"");
+  CHECK(mean->height(2.5) == Approx(0.005).epsilon(1e-12));
+  CHECK(mean->height(4.5) == Approx(0.015).epsilon(1e-12));
+}
+
+TEST_CASE("Measured profiles that cannot be used are refused at their place") {
+  CHECK(error_of_measured(kProfile, "height = \"middle\"") ==
+        "run.toml:5:10: error: the file has no column 'middle'; it has 'chainage', 'left', 'right'");
+  CHECK(error_of_measured(kProfile, "distance = \"chainage\"") ==
+        "run.toml:5:12: error: 'road.distance' needs a 'height', the column of the heights");
+  CHECK(error_of_measured("s,h [kN]\n0,0\n1,1\n", "height = \"h\"") ==
+        "run.toml:5:10: error: the column 'h' is in 'kN', expected one of m, mm, cm, um, µm, km, in, ft");
+  CHECK_THAT(error_of_measured("s,h\n0,0\n1,1\n1,2\n", "height = \"h\""),
+             Contains("roads/measured.csv:4:1: error: 's' must ascend by at least 1e-09 m"));
+  CHECK_THAT(error_of_measured("s,h\n0,0\n1,nan\n", "height = \"h\""),
+             Contains("roads/measured.csv:3:3: error:"));
+  CHECK_THAT(error_of_measured(kProfile, "height = []"), Contains("must name at least one column"));
+  CHECK_THAT(error_of_measured(kProfile, "lateral = 0.0"), Contains("lateral"));
+}
+
+TEST_CASE("A road in OpenCRG is a line along it, or the mean of several") {
+  const auto road = make_measured(kSurface, "lateral = 0.5", "opencrg");
+  CHECK(road->height(2.0) == Approx(0.0).margin(1e-15));
+  CHECK(road->height(2.5) == Approx(0.010).epsilon(1e-12));
+  CHECK(road->height(3.0) == Approx(0.0).margin(1e-15));
+  const auto mean = make_measured(kSurface, "lateral = [-1.0, 1.0]", "opencrg");
+  CHECK(mean->height(2.5) == Approx(0.015).epsilon(1e-12));
+  CHECK(mean->height(9.0) == Approx(0.025).epsilon(1e-12));
+  CHECK(error_of_measured(kSurface, "lateral = [0.0, 1.5]", "opencrg") ==
+        "run.toml:5:11: error: 'lateral' must lie on the road, from -1 m (right) to 1 m (left), got 1.5 m");
+  CHECK_THAT(error_of_measured(kProfile, "lateral = 0.0", "opencrg"),
+             Contains("roads/measured.csv: error: has no line '$$$$'"));
 }

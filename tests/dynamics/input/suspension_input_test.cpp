@@ -14,7 +14,8 @@ namespace {
 
 dynamics::ForceDescription read(const std::string& text) {
   const support::TomlDocument document = support::TomlDocument::parse("[[forces]]\n" + text, "f.toml");
-  return dynamics::read_force(document.root().at("forces").items().front().table());
+  dynamics::HistoryFiles histories("");
+  return dynamics::read_force(document.root().at("forces").items().front().table(), histories);
 }
 
 std::string error_of(const std::string& text) {

@@ -16,7 +16,8 @@ using std::numbers::pi;
 
 TimeFunction read(const std::string& text, TimeFunctionUse use = TimeFunctionUse::kForce) {
   const support::TomlDocument document = support::TomlDocument::parse("f = " + text + "\n", "v.toml");
-  return dynamics::read_time_function(document.root().at("f"), "N", use);
+  dynamics::HistoryFiles histories("");
+  return dynamics::read_time_function(document.root().at("f"), "N", use, histories);
 }
 
 std::string error_of(const std::string& text, TimeFunctionUse use = TimeFunctionUse::kForce) {
@@ -89,7 +90,8 @@ TEST_CASE("Impossible sums, products and pieces are refused") {
   CHECK(error_of("{ pieces = [{ until = 1.0, function = 0.0 }, { until = 2.0, function = 1.0 }] }") ==
         "v.toml:1:60: error: 'f.pieces.1.until' must be left out of the last piece, which goes on for ever");
   CHECK(error_of("{}") ==
-        "v.toml:1:5: error: 'f' must have one of 'polynomial', 'harmonic', 'table', 'step', 'sum', 'product' "
+        "v.toml:1:5: error: 'f' must have one of 'polynomial', 'harmonic', 'table', 'history', 'step', "
+        "'sum', 'product' "
         "and 'pieces'");
 }
 

@@ -1,6 +1,7 @@
 #include "tools/support/files/read_text_file.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -23,6 +24,9 @@ std::string read_text_file(const std::filesystem::path& path) {
   if (!stream) throw fail(errno);
   std::string text;
   constexpr std::size_t kBlock = 65536;
+  // Room for all of it at once. Only regular files have a size, and it may change meanwhile.
+  const std::uintmax_t size_now = std::filesystem::file_size(path, ignored);
+  if (!ignored) text.reserve(static_cast<std::size_t>(size_now) + kBlock);
   while (stream) {
     const std::size_t size = text.size();
     text.resize(size + kBlock);
