@@ -34,7 +34,6 @@ struct LeafSpring::Line {
 LeafSpring::LeafSpring(std::string element_name, Parameters parameters)
     : ForceElement(std::move(element_name)),
       parameters_(std::move(parameters)),
-      friction_slope_(parameters_.friction.derivative()),
       full_state_(std::sqrt(parameters_.multiplicity * find_largest(parameters_.friction) *
                             parameters_.presliding_deflection)) {}
 
@@ -59,7 +58,7 @@ Power LeafSpring::add_wrenches(const Instant& instant, std::span<const int> bran
   const double full =
       parameters_.multiplicity * parameters_.friction.value_in_piece(branches[1], line.deflection);
   const double slope =
-      parameters_.multiplicity * friction_slope_.value_in_piece(branches[1], line.deflection);
+      parameters_.multiplicity * parameters_.friction.slope_in_piece(branches[1], line.deflection);
   const double elastic =
       parameters_.multiplicity * parameters_.spring.value_in_piece(branches[0], line.deflection);
   const Eigen::Vector2d on_b = (elastic + full * line.share) * line.direction;

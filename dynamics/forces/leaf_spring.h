@@ -55,8 +55,7 @@ class LeafSpring final : public ForceElement {
   struct Line;
   Line calc_line(const Instant& instant) const;
   Parameters parameters_;
-  PiecewisePolynomial friction_slope_;  // F_c′
-  double full_state_;                   // z where the friction is full [J^0.5]
+  double full_state_;  // z where the friction is full [J^0.5]
 };
 
 }  // namespace sprung::dynamics

@@ -187,6 +187,11 @@ void PiecewisePolynomial::calc_piece_switches(int piece, double x, double dead_b
   values[1] = i == breaks_.size() ? 1.0 : breaks_[i] - x + dead_band;
 }
 
+double PiecewisePolynomial::slope_in_piece(int piece, double x) const {
+  const auto i = static_cast<std::size_t>(piece);
+  return evaluate_slope(coefficients(i), x - origins_[i]);
+}
+
 double PiecewisePolynomial::slope(double x) const {
   const std::size_t i = find_piece(x);
   return evaluate_slope(coefficients(i), x - origins_[i]);

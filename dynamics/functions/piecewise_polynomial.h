@@ -55,8 +55,9 @@ class PiecewisePolynomial {
     return {coefficients_.data() + starts_[k], starts_[k + 1] - starts_[k]};
   }
 
-  /// The polynomial of one piece; x may lie beyond its ends.
+  /// The polynomial of one piece, and its slope; x may lie beyond its ends.
   double value_in_piece(int piece, double x) const;
+  double slope_in_piece(int piece, double x) const;
   /// The piece to use at x, from 0. It is the piece in use until x is half a dead band beyond its ends, so
   /// that small changes of x at a break do not change the piece each time. @param piece  in use
   int choose_piece(int piece, double x, double dead_band) const;
