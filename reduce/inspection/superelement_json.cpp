@@ -107,6 +107,7 @@ std::string format_superelement_json(const Superelement& s, std::span<const Chec
        {"num_elastic_dofs", s.num_elastic_dofs},
        {"num_stiffened_modes", s.geometric_stiffness ? s.geometric_stiffness->num_modes() : 0},
        {"has_section_loads", s.section_loads.has_value()},
+       {"num_elements_with_section_modulus", count_sized_elements(s)},
        {"mass_kg", s.inertia.mass},
        {"center_of_mass_m", {center.x(), center.y()}},
        {"inertia_center_of_mass_kg_m2", central},

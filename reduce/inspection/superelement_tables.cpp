@@ -76,6 +76,10 @@ ModeKinds calc_mode_kinds(const Superelement& s) {
   return kinds;
 }
 
+Eigen::Index count_sized_elements(const Superelement& s) {
+  return s.section_sizes ? (s.section_sizes->modulus.array() > 0.0).count() : 0;
+}
+
 std::string format_summary(const Superelement& s) {
   const InertiaInvariants& inertia = s.inertia;
   const Eigen::Vector2d center = calc_center(s);
@@ -93,6 +97,8 @@ std::string format_summary(const Superelement& s) {
   text +=
       fmt::format("sections    loads along the beams {}\n",
                   s.section_loads ? "from the loads on the body and from its modes" : "from its modes only");
+  text += fmt::format("            section modulus known of {} of {} elements\n", count_sized_elements(s),
+                      s.elements.cols());
   text += fmt::format("made by     sprung {}, algorithm revision {}\n", s.provenance.program_version,
                       s.provenance.algorithm_revision);
   text += fmt::format("design      sha256 {}\n", s.provenance.design_hash);

@@ -17,6 +17,9 @@ struct ModeKinds {
 };
 ModeKinds calc_mode_kinds(const Superelement& superelement);
 
+/// The elements whose section modulus the file has, so that their stresses are known.
+Eigen::Index count_sized_elements(const Superelement& superelement);
+
 // Tables for people; lines end in '\n'.
 std::string format_summary(const Superelement& superelement);  ///< mass, inertia, points, where it comes from
 std::string format_modes(const Superelement& superelement);

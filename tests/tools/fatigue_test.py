@@ -15,8 +15,10 @@ from tool_test_case import ToolTestCase, run_program
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.fatigue import calc_fatigue
+from sprung_tools.runs.measures import list_objects, measure_stresses
 from sprung_tools.runs.section_stress import calc_section_stress, list_stressed_bodies
 from sprung_tools.signals.fatigue_damage import StrengthLine
+from sprung_tools.study.storage import choose_storage
 
 STATIONS = np.array([(2.0, 0.0), (0.0, 0.0), (-2.0, 0.0), (0.0, 0.0)])  # the first element runs towards -x
 AREA, MODULUS = np.array([0.01, 0.01, 0.02, 0.02]), np.array([1e-3, 1e-3, 4e-3, 4e-3])  # m², m³
@@ -113,6 +115,21 @@ class Fatigue(ToolTestCase):
                 calc_fatigue(results, "body", "modes", (1.0, 3.0), LINE._replace(strength=10e6))
         # A mean of 20 MPa with R_m = 100 MPa raises ranges of the first slope by 1/0.8
         np.testing.assert_allclose(corrected.damage[2:], plain.damage[2:] / 0.8**3, rtol=1e-12)
+
+
+class Measures(ToolTestCase):
+    def test_stresses_are_measures_for_studies(self):
+        with open_results(write_loads(self.folder / "a.h5", from_loads=1.1)) as results:
+            measures = measure_stresses(results, "body", (1.0, 3.0))
+            self.assertIn("stresses/body", list_objects(results, (1.0, 3.0)))
+        # From loads at the first station: N/A ± 1.1 M/W
+        values = {
+            name.rpartition("/")[2]: one.value * (1e-6 if one.unit == "Pa" else 1.0) for name, one in measures.items()
+        }
+        expected = {"highest": 130.0, "lowest": -90.0, "largest_range": 220.0, "station": 2.0}
+        for name, value in expected.items():
+            self.assertAlmostEqual(values[name], value, places=9)
+        self.assertNotIn("output.store.recovery=none", choose_storage(["stresses/body/highest"], []))
 
 
 class FatigueCommand(ToolTestCase):

@@ -128,14 +128,30 @@ class QuarterCar(QuarterCarCase):
             for one in (None, 2.0)
         )
         self.assertLess(smoothed, 0.3 * plain)
+        with self.assertRaisesRegex(InputError, "--low-pass: error: is 300 Hz, expected less than 250 Hz"):
+            calc_peak(self.vehicle(), obstacles._replace(low_pass=300.0), 0.1, 6.0)
 
     def test_wheels_are_read_from_the_vehicle(self):
         self.assertEqual(self.vehicle().wheels, (0.0, 0.316677))
         self.assertEqual(self.vehicle().title, "quarter car")
 
     def test_a_point_that_is_not_there_is_an_error(self):
-        with self.assertRaisesRegex(InputError, "no quantity 'points/sprung.seat/acceleration.y'"):
+        with self.assertRaisesRegex(InputError, "run.toml: error: no quantity 'points/sprung.seat/acceleration.y'"):
             self.vehicle("sprung.seat")
+
+    def test_a_vehicle_without_wheels_is_an_error(self):
+        text = (self.folder / "car.toml").read_text(encoding="utf-8")
+        begin = text.index('name = "tyre"')
+        spring = 'type = "spring-damper"\na = "ground.origin"\nb = "unsprung.origin"\nfree_length = 0.3\n'
+        without = f'{text[:begin]}name = "tyre"\n{spring}spring = {{ polynomial = [0.0, 2.0e5] }}\n'
+        (self.folder / "car.toml").write_text(without, encoding="utf-8")
+        with self.assertRaisesRegex(InputError, "run.toml: error: the vehicle has no wheels on the road"):
+            self.vehicle()
+
+    def test_outputs_that_are_not_all_stored_are_an_error(self):
+        vehicle = self.vehicle("sprung.origin", "output.step.bodies=0.01", "output.step.points=0.01")
+        with self.assertRaisesRegex(InputError, "stored every 10 ms only"):
+            calc_power(vehicle, Terrain(RECIPE, (0.001, 0.2), 6.0), 7.0, 0.01)
 
     def test_a_run_that_fails_is_told_and_not_used(self):
         # A program that makes the short run which tells what the vehicle is, and then fails in each of two ways.

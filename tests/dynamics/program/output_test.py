@@ -36,6 +36,10 @@ class Results(DynamicsTestCase):
             self.assertEqual(file["recovery/chassis/moment"].shape, (n, 24))  # both ends of 12 elements
             moments = file["recovery/chassis/moment_from_loads"][:]
             self.assertEqual(moments.shape, (n, 24))
+            # The design's area and section modulus at every station.
+            self.assertEqual(set(file["recovery/chassis/area"]), {1.2004e-2})
+            self.assertEqual(list(file["recovery/chassis/section_modulus"]), [1.267e-3] * 24)
+            self.assertEqual(file["recovery/chassis/section_modulus"].attrs["unit"].decode(), "m^3")
             largest = summary["sections"]["chassis"]["moment"]["from_loads"]
             self.assertEqual(abs(largest["value"]), abs(moments).max())
             self.assertEqual(file["summary/sections/chassis"].attrs["moment_from_loads"], largest["value"])

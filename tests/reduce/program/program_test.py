@@ -139,7 +139,8 @@ class Program(ReduceTestCase):
         self.build("chassis.toml")
         text = self.run_program("info", "out/chassis.h5").stdout
         for part in ("mass                              11950 kg", "centre of mass                    (0, 0) m",
-                     "front_short_pivot", "38.3104", "axial", "algorithm revision", "passed"):
+                     "front_short_pivot", "38.3104", "axial", "algorithm revision", "passed",
+                     "section modulus known of 12 of 12 elements"):
             self.assertIn(part, text)
         self.assertNotIn("FAILED", text)
 
@@ -149,6 +150,9 @@ class Program(ReduceTestCase):
         with h5py.File(self.folder / "out/chassis.h5") as file:
             self.assertEqual([mode["frequency_hz"] for mode in data["modes"]], list(file["modes/frequency"]))
             self.assertEqual(data["mass_kg"], file["inertia/mass"][0])
+            self.assertEqual(data["num_elements_with_section_modulus"], 12)
+            self.assertEqual(set(file["sections/modulus"]), {1.267e-3})
+            self.assertEqual(set(file["sections/area"]), {1.2004e-2})
             self.assertEqual(data["content_sha256"], file.attrs["content_hash"].decode()
                              if isinstance(file.attrs["content_hash"], bytes) else file.attrs["content_hash"])
         self.assertEqual(len(data["points"]), 13)

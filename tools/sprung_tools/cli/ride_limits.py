@@ -69,7 +69,11 @@ def find_limits(vehicles: Sequence[Vehicle], search: Search, jobs: int) -> tuple
             progress.step()
             return found
 
-        all_found = list(pool.map(find, tasks))
+        try:
+            all_found = list(pool.map(find, tasks))
+        except BaseException:  # an error of the input, or an interruption: what has not begun is not made
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
     over_terrain = len(vehicles) * len(search.speeds)
     return all_found[:over_terrain], all_found[over_terrain:]
 

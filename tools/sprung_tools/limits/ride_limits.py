@@ -13,6 +13,7 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from sprung_tools.files.array_types import Floats
+from sprung_tools.files.errors import InputError
 from sprung_tools.limits.roads import make_obstacle, make_terrain
 from sprung_tools.limits.root_finding import Root, find_root
 from sprung_tools.limits.trials import AHEAD, Felt, Vehicle
@@ -80,9 +81,14 @@ def calc_peak(vehicle: Vehicle, obstacles: Obstacles, height: float, speed: floa
 
 
 def smooth(felt: Felt, low_pass: float | None) -> Floats:
-    """The acceleration through a Butterworth filter without delay."""
+    """The acceleration through a Butterworth filter without delay. InputError for a frequency that the outputs cannot
+    hold."""
     if low_pass is None:
         return felt.acceleration
+    highest = 0.5 / felt.step
+    if not low_pass < highest:
+        what = f"is {low_pass:g} Hz, expected less than {highest:g} Hz, half of the outputs' frequency"
+        raise InputError(f"--low-pass: error: {what}")
     sections = butter(FILTER_ORDER, low_pass, fs=1.0 / felt.step, output="sos")
     filtered: Floats = sosfiltfilt(sections, felt.acceleration)
     return filtered

@@ -51,13 +51,8 @@ class Vehicle:
     def __init__(
         self, program: Path, run: Path, superelements: Path | None, point: str, variant: Variant
     ) -> None:  # fmt: skip
-        self.program, self.run, self.superelements, self.point, self.variant = (
-            program,
-            run,
-            superelements,
-            point,
-            variant,
-        )
+        self.program, self.run, self.superelements, self.variant = program, run, superelements, variant
+        self.quantity = f"points/{point}/acceleration.y"
         self.title, self.wheels = self.probe()
 
     def probe(self) -> tuple[str, Wheels]:
@@ -68,9 +63,12 @@ class Vehicle:
                 self.start({"duration": PROBE, "road": {"shape": "flat"}}, Path(name) / "probe.h5")
             except CallFailed as failure:
                 raise InputError(str(failure)) from failure
-            with open_results(Path(name) / "probe.h5") as results:
-                results.series(f"points/{self.point}/acceleration.y")  # throws where there is no such point
-                return results.title, find_wheels(results)
+            try:
+                with open_results(Path(name) / "probe.h5") as results:
+                    results.series(self.quantity)  # throws where there is no such point
+                    return results.title, find_wheels(results)
+            except InputError as error:
+                raise InputError(str(error).replace(str(Path(name) / "probe.h5"), str(self.run))) from error
 
     def drive(self, speed: float, road: str, duration: float) -> Felt:
         """Drives over a road, the text of a road table. CallFailed for a run that fails, or whose energy balance does
@@ -82,7 +80,8 @@ class Vehicle:
             settings = {"speed": speed, "duration": duration, "road": table}
             self.start(settings, folder / "run.h5")
             with open_results(folder / "run.h5") as results:
-                acceleration, _ = results.series(f"points/{self.point}/acceleration.y")
+                results.check_every_output(self.quantity)
+                acceleration, _ = results.series(self.quantity)
                 return Felt(acceleration, sampling_step(results))
 
     def start(self, settings: Mapping[str, Any], output: Path) -> None:

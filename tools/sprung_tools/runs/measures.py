@@ -34,6 +34,7 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
+from sprung_tools.runs.section_stress import calc_section_stress, list_sources, list_stressed_bodies
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
 from sprung_tools.signals.spans import Span
@@ -54,10 +55,12 @@ TYRE_UNITS = {
 }  # fmt: skip
 LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N", "moment_from_loads": "N m",
               "moment_difference": "N m"}  # fmt: skip
+STRESS_UNITS = {"highest": "Pa", "lowest": "Pa", "largest_range": "Pa", "station": "m"}
 MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
 UNITS_OF = {
     "points": POINT_UNITS, "suspensions": SUSPENSION_UNITS, "tyres": TYRE_UNITS, "loads": LOAD_UNITS,
+    "stresses": STRESS_UNITS,
     "modes": MODE_UNITS,
 }  # fmt: skip
 
@@ -133,6 +136,8 @@ def list_objects(
         objects[f"tyres/{force}"] = partial(measure_tyre, results, force, window)
     for body in results.names("bodies"):
         objects[f"loads/{body}"] = partial(measure_loads, results, body, window, superelements)
+    for body in list_stressed_bodies(results):
+        objects[f"stresses/{body}"] = partial(measure_stresses, results, body, window)
     return objects | list_mode_objects(results)
 
 
@@ -186,6 +191,16 @@ def measure_loads(results: ResultsFile, body: str, window: Span, superelements: 
     from_loads = calc_loaded_bending(results, body, window)
     loaded = (from_loads and from_loads.moment, calc_moment_difference(results, body, window))
     return combine(f"loads/{body}", LOAD_UNITS, [*found, *forces, *loaded])
+
+
+def measure_stresses(results: ResultsFile, body: str, window: Span) -> Measures:
+    """The stresses of a body's extreme fibres, from its loads where the file has them, else from its modes; station: of
+    the stress of largest size."""
+    section = calc_section_stress(results, body, list_sources(results, body)[0])
+    stress = section.stress[samples_between(results, *window)]
+    largest = np.unravel_index(int(np.argmax(np.abs(stress))), stress.shape)
+    values = (stress.max(), stress.min(), np.ptp(stress, axis=0).max(), section.along[largest[1]])
+    return combine(f"stresses/{body}", STRESS_UNITS, map(float, values))
 
 
 def find_largest(results: ResultsFile, dataset: str, window: Span) -> float | None:

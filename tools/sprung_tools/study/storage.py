@@ -4,7 +4,10 @@ from collections.abc import Iterable, Sequence
 
 # The first part of a measure's name, or of a quantity after `histories/` → the groups of [output.store] that it needs
 # besides the motion of bodies, which that of all points follows from, and the channels of forces.
-NEEDED = {"loads": ("recovery",), "recovery": ("recovery",), "joints": ("joints",), "forces": ("wrenches",)}
+NEEDED = {
+    "loads": ("recovery",), "stresses": ("recovery",), "recovery": ("recovery",), "joints": ("joints",),
+    "forces": ("wrenches",),
+}  # fmt: skip
 SPARED = ("recovery", "joints", "wrenches")
 CHOICE = "output."  # what the keys of [output] begin with
 
