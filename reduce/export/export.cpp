@@ -5,6 +5,7 @@
 #include "reduce/export/csv_export.h"
 #include "reduce/export/matrix_market_export.h"
 #include "reduce/export/mbdyn_export.h"
+#include "reduce/export/sid_export.h"
 
 namespace sprung::reduce {
 
@@ -16,7 +17,13 @@ struct Target {
 };
 
 constexpr Target kTargets[] = {
-    {"matrix-market", export_matrix_market}, {"csv", export_csv}, {"mbdyn", export_mbdyn}};
+    {"matrix-market", export_matrix_market},
+    {"csv", export_csv},
+    {"mbdyn", export_mbdyn},
+    {"sid", [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, false); }},
+    {"sid-mode-last",
+     [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, true); }},
+};
 
 }  // namespace
 
