@@ -156,7 +156,7 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
                                   .highest_hz = request.highest_hz,
                                   .free_modes = modes.pairs,
                                   .next_omega_squared = modes.next_omega_squared,
-                                  .is_complete = basis.vectors.vectors.cols() == problem.num_modes(),
+                                  .is_complete = basis.vectors.vectors.cols() == problem.size(),
                                   .rounding = request.rounding});
   return basis;
 }

@@ -61,15 +61,14 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
                                        .free_modes = modes.pairs,
                                        .next_omega_squared = modes.next_omega_squared,
                                        .holds_free_modes = true,
-                                       .is_complete = modes.pairs.omega_squared.size() == problem.num_modes(),
+                                       .is_complete = modes.pairs.omega_squared.size() == problem.size(),
                                        .rounding = request.rounding};
   InterfaceResidual residual(problem, factor, modes.pairs, request.loads);
   const Eigen::Index k = modes.pairs.omega_squared.size();
   if (!std::isinf(modes.next_omega_squared)) {
     if (request.all_residual) add_all(residual);
     const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
-    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance,
-                        problem.num_modes() - k);
+    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k);
   }
   const EigenPairs ritz = residual.ritz();
   const Eigen::Index m = ritz.omega_squared.size();

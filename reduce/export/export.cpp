@@ -21,7 +21,7 @@ constexpr Target kTargets[] = {
     {"csv", export_csv},
     {"mbdyn", export_mbdyn},
     {"sid", [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, false); }},
-    {"sid-mode-last",
+    {"sid-by-mode",
      [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, true); }},
 };
 

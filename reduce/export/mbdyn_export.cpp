@@ -14,7 +14,7 @@ class RecordGroups {
   void begin(int number, const std::string& title) {
     text_ += fmt::format("**\n** RECORD GROUP {}, {}\n", number, title);
   }
-  void comment(const std::string& text) { text_ += "** " + text + "\n"; }
+  void comment(const std::string& text) { text_ += fmt::format("** {}\n", text); }
   void line(const std::string& text) { text_ += text + "\n"; }
   void rows(const Eigen::MatrixXd& matrix) {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {

@@ -8,6 +8,13 @@ namespace sprung::reduce {
 
 namespace {
 
+// A number with the exponent's letter of Fortran.
+std::string format_exponent(double number) {
+  std::string text = fmt::format("{:.16E}", number);
+  text[text.find('E')] = 'D';
+  return text;
+}
+
 // A matrix and its derivatives with the modal coordinates.
 struct Taylor {
   Eigen::MatrixXd zero;
@@ -16,7 +23,7 @@ struct Taylor {
 
 class SidFile {
  public:
-  SidFile(const Superelement& s, bool mode_last) : num_modes_(s.num_modes()), mode_last_(mode_last) {
+  explicit SidFile(const Superelement& s) : num_modes_(s.num_modes()) {
     line(fmt::format("{} {} : number of nodes, number of modes", s.num_nodes(), num_modes_));
   }
   void line(const std::string& text) { text_ += text + "\n"; }
@@ -25,15 +32,13 @@ class SidFile {
     line(fmt::format("order = {}", taylor.first.empty() ? 0 : 1));
     line(fmt::format("nrow = {}", taylor.zero.rows()));
     line(fmt::format("ncol = {}", taylor.zero.cols()));
-    line(fmt::format("nq = {}", taylor.first.size()));
+    line(fmt::format("nq = {}", num_modes_));
     line("nqn = 0");
     line(fmt::format("structure = {}", taylor.zero.isZero(0.0) && taylor.first.empty() ? kZero : kFull));
     entries(taylor.zero, [](Eigen::Index i, Eigen::Index j) { return fmt::format("m0({},{})", i, j); });
     for (std::size_t k = 0; k < taylor.first.size(); ++k) {
-      entries(taylor.first[k], [&](Eigen::Index i, Eigen::Index j) {
-        return mode_last_ ? fmt::format("m1({},{},{})", i, j, k + 1)
-                          : fmt::format("m1({},{},{})", i, k + 1, j);
-      });
+      entries(taylor.first[k],
+              [&](Eigen::Index i, Eigen::Index j) { return fmt::format("m1({},{},{})", i, k + 1, j); });
     }
     line("end " + name);
   }
@@ -46,13 +51,13 @@ class SidFile {
   void entries(const Eigen::MatrixXd& matrix, Name&& name) {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-        if (matrix(i, j) != 0.0) line(fmt::format("{} = {:.16E}", name(i + 1, j + 1), matrix(i, j)));
+        if (matrix(i, j) != 0.0)
+          line(fmt::format("{} = {}", name(i + 1, j + 1), format_exponent(matrix(i, j))));
       }
     }
   }
 
   int num_modes_;
-  bool mode_last_;
   std::string text_;
 };
 
@@ -80,7 +85,7 @@ class Stiffening {
 
 void write_reference(const Superelement& s, SidFile& file) {
   file.line("refmod");
-  file.line(fmt::format("mass = {:.16E}", s.inertia.mass));
+  file.line("mass = " + format_exponent(s.inertia.mass));
   file.line(fmt::format("nelastq = {}", s.num_modes()));
   for (int mode = 0; mode < s.num_modes(); ++mode) {
     file.line(fmt::format("ielastq ({}) = Eigen Mode {} : {} Hz", mode + 1, mode + 1,
@@ -141,18 +146,25 @@ Eigen::Matrix3d calc_products(const InertiaInvariants& inertia, Eigen::Index k) 
   return products;
 }
 
+// xx, yy, zz, xy, xz, yz.
+Eigen::MatrixXd pack_tensor(const Eigen::Matrix3d& tensor) {
+  Eigen::MatrixXd packed(6, 1);
+  packed << tensor.diagonal(), tensor(0, 1), tensor(0, 2), tensor(1, 2);
+  return packed;
+}
+
 void write_rigid(const InertiaInvariants& inertia, SidFile& file) {
   const Eigen::Index n = inertia.P.cols();
   Taylor moment{.zero = Eigen::Vector3d(inertia.first_moment.x(), inertia.first_moment.y(), 0.0)};
   const double J = inertia.second_moment;
-  Taylor inertia_tensor{.zero = Eigen::Vector3d(0.5 * J, 0.5 * J, J).asDiagonal().toDenseMatrix()};
+  Taylor tensor{.zero = pack_tensor(Eigen::Vector3d(0.5 * J, 0.5 * J, J).asDiagonal())};
   for (Eigen::Index k = 0; k < n; ++k) {
     moment.first.emplace_back(Eigen::Vector3d(inertia.P(0, k), inertia.P(1, k), 0.0));
     const Eigen::Matrix3d products = calc_products(inertia, k);
-    inertia_tensor.first.emplace_back(products + products.transpose());
+    tensor.first.push_back(pack_tensor(products + products.transpose()));
   }
   file.taylor("mdCM", moment);
-  file.taylor("J", inertia_tensor);
+  file.taylor("J", tensor);
 }
 
 void write_coupling(const Superelement& s, SidFile& file) {
@@ -176,7 +188,7 @@ void write_coupling(const Superelement& s, SidFile& file) {
   file.taylor("Me", {.zero = s.mass});
 }
 
-void write_velocity_terms(const Superelement& s, SidFile& file) {
+void write_velocity_terms(const Superelement& s, bool by_mode, SidFile& file) {
   const InertiaInvariants& inertia = s.inertia;
   const Eigen::Index n = s.num_modes();
   Taylor Gr{.zero = Eigen::MatrixXd::Zero(3, 3 * n)}, Ge{.zero = Eigen::MatrixXd::Zero(n, 3 * n)},
@@ -187,8 +199,10 @@ void write_velocity_terms(const Superelement& s, SidFile& file) {
   Oe.zero.leftCols(4) << -inertia.y_phi_y.transpose(), -inertia.x_phi_x.transpose(), -inertia.d.transpose(),
       (inertia.y_phi_x + inertia.x_phi_y).transpose();
   for (Eigen::Index k = 0; k < n; ++k) {
-    Gr.zero.middleCols<3>(3 * k) = 2.0 * calc_products(inertia, k);
-    Ge.zero.col(3 * k + 2) = -2.0 * inertia.B.col(k);
+    const Eigen::Matrix3d products = 2.0 * calc_products(inertia, k);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      Gr.zero.col(by_mode ? 3 * k + axis : axis * n + k) = products.col(axis);
+    Ge.zero.col(by_mode ? 3 * k + 2 : 2 * n + k) = -2.0 * inertia.B.col(k);
     // ∫(φ_kₓ φ_ky + φ_ky φ_kₓ): of rows j and the coordinate k.
     Oe.first.emplace_back(Eigen::MatrixXd::Zero(n, 6));
     Oe.first.back().leftCols(4) << -yy.col(k), -xx.col(k), K.col(k) - xx.col(k) - yy.col(k),
@@ -201,8 +215,8 @@ void write_velocity_terms(const Superelement& s, SidFile& file) {
 
 }  // namespace
 
-ExportReport export_sid(const Superelement& s, const std::string& prefix, bool mode_last) {
-  SidFile file(s, mode_last);
+ExportReport export_sid(const Superelement& s, const std::string& prefix, bool by_mode) {
+  SidFile file(s);
   file.line("part");
   file.line("new modal = " + s.name);
   write_reference(s, file);
@@ -211,7 +225,7 @@ ExportReport export_sid(const Superelement& s, const std::string& prefix, bool m
   file.line("end frame");
   write_rigid(s.inertia, file);
   write_coupling(s, file);
-  write_velocity_terms(s, file);
+  write_velocity_terms(s, by_mode, file);
   file.taylor("ksigma", {.zero = Eigen::VectorXd::Zero(s.num_modes())});
   file.taylor("Ke", {.zero = s.stiffness});
   file.taylor("De", {.zero = s.damping});

@@ -27,7 +27,7 @@ std::size_t read_heading(TextLines& lines, std::initializer_list<std::string_vie
   }
   std::string heading, expected;
   for (const TextField& cell : lines.cells())
-    heading += (heading.empty() ? "" : ",") + std::string(cell.text);
+    heading += fmt::format("{}{}", heading.empty() ? "" : ",", cell.text);
   for (const std::string_view one : known) {
     if (heading == one) return lines.cells().size();
     expected += fmt::format("{}'{}'", expected.empty() ? "" : " or ", one);

@@ -85,7 +85,7 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
   const BasisRequest request = make_request(design, matrices, choose_band(design, stored));
   const ModesBelow free = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
   InterfaceResidual residual(matrices.free, factor, {}, request.loads);
-  const bool is_complete = stored.vectors.cols() == matrices.held.num_modes();
+  const bool is_complete = stored.vectors.cols() == matrices.held.size();
   if (!is_complete) residual.add(stored.vectors);
   return calc_certificate(residual, {.interface = request.interface,
                                      .highest_hz = request.highest_hz,
