@@ -216,7 +216,8 @@ void check_coupling(const MatrixSystem& system, const Motions& motions,
   }
 }
 
-// Matrices in SI units: energies agree, displacements are multiplied by the unit of length (reduce/matrices, eq. 3).
+// Matrices in SI units: energies agree, displacements are multiplied by the unit of length (reduce/matrices,
+// eq. 3).
 Eigen::SparseMatrix<double> project(const Motions& motions, const Eigen::SparseMatrix<double>& matrix,
                                     const Eigen::VectorXd& scale, double energy) {
   const Eigen::SparseMatrix<double> T = motions.symmetric * scale.asDiagonal();
