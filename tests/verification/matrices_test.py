@@ -50,7 +50,9 @@ class Matrices(VerificationCase):
         self.build_from_matrices(ROOT / "meshes/truck/chassis.toml")
         process = run_program(
             [os.environ["SPRUNG_DYNAMICS"], "run", str(BUMP), "--superelements", str(self.folder / "bodies"), "-o",
-             str(self.folder / "results.h5"), "--set", "stiffening.chassis=true", "--quiet"], cwd=self.folder)  # fmt: skip
+             str(self.folder / "results.h5"), "--set", "stiffening.chassis=true", "--quiet"],
+            cwd=self.folder,
+        )  # fmt: skip
         self.assertEqual(process.returncode, 2)
         self.assertIn("superelement 'chassis' has geometric stiffness of its lowest 0 modes", process.stderr)
 
