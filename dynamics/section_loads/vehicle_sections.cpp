@@ -8,7 +8,8 @@ VehicleSections::VehicleSections(const Vehicle& vehicle, const Model& model) : l
   const std::vector<VehiclePoint> points = list_points(vehicle);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[b]);
-    if (superelement == nullptr) continue;
+    // A superelement made from matrices has no elements along which there were loads.
+    if (superelement == nullptr || superelement->elements.cols() == 0) continue;
     BodySections sections(model, static_cast<int>(b), *superelement, points);
     if (sections.has_modes() || sections.has_loads()) bodies_.push_back(std::move(sections));
   }

@@ -89,6 +89,7 @@ Components make_components(const Eigen::SparseMatrix<double>& stiffness,
                     .mass = take_inner_rows(mass, partition, false)};
   const StiffnessFactor factor(held.stiffness);
   held.factor = &factor;
+  held.num_massless = (held.mass.diagonal().array() == 0.0).count();
   const Eigen::MatrixXd loads = take_inner_rows(stiffness, partition, true) * deformations;
   if (b > 0) components.shapes(partition.inner, Eigen::all) = -factor.solve(loads);
   const ModesBelow modes = calc_modes_below(held, kBandMargin * highest_hz);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "reduce/design/design_frame.h"
+#include "reduce/design/design_matrices.h"
 #include "reduce/design/design_sections.h"
 #include "reduce/design/known_keys.h"
 #include "reduce/design/program_version.h"
@@ -33,6 +34,44 @@ void read_point_masses(const TomlTable& root, fem::BeamModel& model) {
          .inertia = table.number_or("inertia", 0.0,
                                     {.unit = "kg·m²", .at_least = 0.0, .at_most = kLargestInertia})});
   }
+}
+
+// Files that a design names, and their hashes.
+struct InputFiles {
+  std::vector<std::string> names, hashes;
+};
+
+InputFiles read_beams(const TomlTable& root, const std::filesystem::path& folder, Design& design) {
+  const BeamTheory theory = read_beam_theory(root);
+  const Sections sections = read_sections(root, read_materials(root), theory);
+  DesignFrame frame = read_design_frame(root, folder, sections);
+  design.model.mesh = std::move(frame.mesh);
+  for (const std::string& name : design.model.mesh.section_names)
+    design.model.sections.push_back(sections.at(name));
+  return {std::move(frame.input_names), std::move(frame.input_hashes)};
+}
+
+InputFiles read_matrices(const TomlTable& root, const std::filesystem::path& folder, Design& design) {
+  for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines"}) {
+    if (const auto found = root.find(key))
+      throw found->error("describes beams, and stands beside [matrices]; give either");
+  }
+  DesignMatrices read = read_design_matrices(root, folder);
+  design.model.mesh.node_ids = read.body.node_ids;
+  design.model.mesh.node_positions = read.body.node_positions;
+  name_nodes(root, design.model.mesh);
+  design.matrices = std::move(read.body);
+  return {std::move(read.input_names), std::move(read.input_hashes)};
+}
+
+void add_point_masses(const std::vector<fem::PointMass>& masses, MatrixBody& body) {
+  for (const fem::PointMass& one : masses) {
+    for (int freedom = 0; freedom < 3; ++freedom) {
+      const double value = freedom < 2 ? one.mass : one.inertia;
+      if (value > 0.0) body.mass.coeffRef(3 * one.node + freedom, 3 * one.node + freedom) += value;
+    }
+  }
+  body.mass.makeCompressed();
 }
 
 int read_reference(const TomlTable& root, const fem::Mesh& mesh) {
@@ -175,18 +214,16 @@ Design read_design(const DesignSource& source) {
   const std::filesystem::path& path = source.path;
   const support::TomlDocument document = read_document(source);
   const TomlTable root = document.root();
-  expect_keys(root, {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points",
-                     "lines", "mesh", "point_masses", "reference", "modes", "interface", "reduction"});
+  expect_keys(root,
+              {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points", "lines",
+               "mesh", "matrices", "point_masses", "reference", "modes", "interface", "reduction"});
   Design design;
   design.name = root.string_or("name", path.stem().string());
   if (design.name.empty()) throw root.at("name").error("is empty");
-  const BeamTheory theory = read_beam_theory(root);
-  const Sections sections = read_sections(root, read_materials(root), theory);
-  DesignFrame frame = read_design_frame(root, path.parent_path(), sections);
-  design.model.mesh = std::move(frame.mesh);
-  for (const std::string& name : design.model.mesh.section_names)
-    design.model.sections.push_back(sections.at(name));
+  const InputFiles files = root.has("matrices") ? read_matrices(root, path.parent_path(), design)
+                                                : read_beams(root, path.parent_path(), design);
   read_point_masses(root, design.model);
+  if (design.matrices) add_point_masses(design.model.point_masses, *design.matrices);
   design.reference_node = read_reference(root, design.model.mesh);
   const TomlTable modes = root.at("modes").table();
   expect_keys(modes,
@@ -197,8 +234,8 @@ Design read_design(const DesignSource& source) {
   const std::string text = read_source_text(source);
   design.provenance = {.design_text = text,
                        .design_hash = support::sha256(text),
-                       .input_names = std::move(frame.input_names),
-                       .input_hashes = std::move(frame.input_hashes),
+                       .input_names = files.names,
+                       .input_hashes = files.hashes,
                        .program_version = get_program_version(),
                        .algorithm_revision = kAlgorithmRevision};
   return design;

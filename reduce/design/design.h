@@ -7,6 +7,7 @@
 
 #include "fem/beam_model.h"
 #include "reduce/design/design_reduction.h"
+#include "reduce/matrices/matrix_body.h"
 #include "reduce/modes/wanted_modes.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/errors/input_error.h"
@@ -18,6 +19,9 @@ namespace sprung::reduce {
 struct Design {
   std::string name;
   fem::BeamModel model;
+  /// In place of beams: then the model has nodes, points and point masses, and no elements. The matrices
+  /// contain the point masses
+  std::optional<MatrixBody> matrices = {};
   int reference_node = 0;  ///< 0-based; the origin of the body frame, where clamped modes are held
   Reduction reduction = {};
   WantedModes modes = {};                             ///< of the basis kClamped

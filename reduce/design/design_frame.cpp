@@ -123,7 +123,8 @@ void name_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
   }
   const double off_frame = calc_distance_to_frame(mesh, point.position);
   const std::string fault =
-      off_frame <= tolerance
+      mesh.elements.empty() ? fmt::format("is {:.6g} m away from the nearest node", distance)
+      : off_frame <= tolerance
           ? fmt::format("lies on a line, but {:.6g} m from its nearest node; let the line pass 'through' it",
                         distance)
           : fmt::format("lies on no line: the nearest is {:.6g} m away", off_frame);
@@ -208,6 +209,10 @@ DesignFrame read_design_frame(const TomlTable& root, const std::filesystem::path
   if (!mesh) return read_lines(root, points, sections);
   if (const auto lines = root.find("lines")) throw lines->error("stands beside 'mesh'; give either");
   return read_mesh(*mesh, points, folder, sections);
+}
+
+void name_nodes(const TomlTable& root, fem::Mesh& mesh) {
+  for (const fem::FrameGeometry::Point& point : read_points(root)) name_node(mesh, point);
 }
 
 int find_named_node(const fem::Mesh& mesh, const TomlValue& name) {

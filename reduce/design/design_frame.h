@@ -26,6 +26,10 @@ struct DesignFrame {
 DesignFrame read_design_frame(const support::TomlTable& root, const std::filesystem::path& folder,
                               const Sections& sections);
 
+/// Gives the names of `[points]` to the nodes at their places.
+/// @throws support::InputError at a point where there is no node
+void name_nodes(const support::TomlTable& root, fem::Mesh& mesh);
+
 /// A node of the mesh by the name that a key gives.
 /// @throws support::InputError at the value if the mesh has no such name (nearest one named)
 int find_named_node(const fem::Mesh& mesh, const support::TomlValue& name);

@@ -54,8 +54,21 @@ Eigen::MatrixXd interpolate(const Superelement& s, const Place& place) {
   return tangent * u + normal * w;
 }
 
-// Half the length of the elements at each node.
+// The displacements of a body at a place: along its elements or, of a body without elements, at its nodes.
+std::optional<Eigen::MatrixXd> find_shapes(const Superelement& s, const Eigen::Vector2d& position) {
+  if (s.elements.cols() > 0) {
+    const std::optional<Place> place = find_place(s, position);
+    return place ? std::optional<Eigen::MatrixXd>(interpolate(s, *place)) : std::nullopt;
+  }
+  Eigen::Index node = 0;
+  const double distance = (s.node_positions.colwise() - position).colwise().norm().minCoeff(&node);
+  if (distance > kOnBody * calc_radius(s)) return {};
+  return Eigen::MatrixXd(s.shapes.middleRows(3 * node, 2));
+}
+
+// Half the length of the elements at each node; 1 of a body without elements.
 Eigen::VectorXd calc_weights(const Superelement& s) {
+  if (s.elements.cols() == 0) return Eigen::VectorXd::Ones(s.num_nodes());
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(s.num_nodes());
   for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
     const double length =
@@ -76,11 +89,11 @@ Rows sample_nodes(const Superelement& body, const Superelement& other) {
   Rows rows;
   const Eigen::VectorXd weights = calc_weights(body);
   for (Eigen::Index node = 0; node < body.num_nodes(); ++node) {
-    const std::optional<Place> place = find_place(other, body.node_positions.col(node));
-    if (!place) continue;
+    const std::optional<Eigen::MatrixXd> of_other = find_shapes(other, body.node_positions.col(node));
+    if (!of_other) continue;
     const double weight = std::sqrt(weights(node));
     rows.of_nodes.push_back(weight * body.shapes.middleRows(3 * node, 2));
-    rows.of_other.push_back(weight * interpolate(other, *place));
+    rows.of_other.push_back(weight * *of_other);
   }
   rows.share = static_cast<double>(rows.of_nodes.size()) / body.num_nodes();
   return rows;

@@ -15,7 +15,7 @@ namespace {
 using support::TextTable;
 
 std::string format_percent(double share) {
-  return fmt::format("{:.1f}", 100.0 * share);
+  return std::isnan(share) ? "–" : fmt::format("{:.1f}", 100.0 * share);
 }
 
 // Signed percent; what rounds to zero has no sign.
@@ -25,6 +25,7 @@ std::string format_change(double share) {
 }
 
 std::string format_kind(double axial_share) {
+  if (std::isnan(axial_share)) return "–";  // a body from matrices has no beams
   if (axial_share > 0.95) return "axial";
   if (axial_share < 0.05) return "bending";
   return "mixed";
@@ -57,6 +58,22 @@ std::string format_points(const Superelement& s) {
                    fmt::format("{:.4f}", position.x()), fmt::format("{:.4f}", position.y())});
   }
   return table.str();
+}
+
+std::string format_stiffening(const Superelement& s) {
+  if (!s.geometric_stiffness) return "stiffening  none: a file of version 1\n";
+  const int num_modes = s.geometric_stiffness->num_modes();
+  if (num_modes == 0) return "stiffening  none: made from matrices, which do not tell it\n";
+  return fmt::format("stiffening  of {} modes\n", num_modes);
+}
+
+std::string format_sections(const Superelement& s) {
+  if (s.elements.cols() == 0) return "sections    none: made from matrices\n";
+  return fmt::format(
+      "sections    loads along the beams {}\n"
+      "            section modulus known of {} of {} elements\n",
+      s.section_loads ? "from the loads on the body and from its modes" : "from its modes only",
+      count_sized_elements(s), s.elements.cols());
 }
 
 }  // namespace
@@ -92,13 +109,8 @@ std::string format_summary(const Superelement& s) {
   text += fmt::format("inertia about the centre of mass  {:.6g} kg·m²\n", central);
   text += fmt::format("inertia about the reference node  {:.6g} kg·m²\n\n", inertia.second_moment);
   text += format_points(s) + "\n";
-  text += s.geometric_stiffness ? fmt::format("stiffening  of {} modes\n", s.geometric_stiffness->num_modes())
-                                : "stiffening  none: a file of version 1\n";
-  text +=
-      fmt::format("sections    loads along the beams {}\n",
-                  s.section_loads ? "from the loads on the body and from its modes" : "from its modes only");
-  text += fmt::format("            section modulus known of {} of {} elements\n", count_sized_elements(s),
-                      s.elements.cols());
+  text += format_stiffening(s);
+  text += format_sections(s);
   text += fmt::format("made by     sprung {}, algorithm revision {}\n", s.provenance.program_version,
                       s.provenance.algorithm_revision);
   text += fmt::format("design      sha256 {}\n", s.provenance.design_hash);

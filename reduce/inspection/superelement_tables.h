@@ -10,7 +10,8 @@ namespace sprung::reduce {
 
 /// The kind of motion of each mode.
 struct ModeKinds {
-  Eigen::VectorXd axial_share;  ///< n, share of the strain energy; the rest is bending and shear [-]
+  Eigen::VectorXd
+      axial_share;  ///< n, share of the strain energy; the rest is bending and shear; NaN without beams [-]
   /// 3×n, shares of m in x, of m in y, of J₀ about the reference, which take part in a motion of the
   /// reference node: what each vector adds to those before it (reduce, eq. 27) [-]
   Eigen::MatrixXd effective_mass;

@@ -34,7 +34,8 @@ EigenPairs solve_all(const ModalProblem& problem) {
         kMaxDenseSize, problem.size()));
   }
   return solve_dense(problem.stiffness,
-                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())));
+                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())),
+                     problem.num_massless);
 }
 
 // A frequency squared between two modes: in the middle of the gap, but beyond everything that would belong to
@@ -59,7 +60,7 @@ ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, i
   const Eigen::Index found = pairs.omega_squared.size();
   const Eigen::VectorXi cluster = find_clusters(pairs.omega_squared);
   const Eigen::Index end = find_cluster_of(cluster, num_modes - 1).end;
-  if (end == problem.size()) return {.modes = take(pairs, cluster, end), .reason = {}};
+  if (end == problem.num_modes()) return {.modes = take(pairs, cluster, end), .reason = {}};
   if (end == found) {
     return {.modes = {},
             .reason = fmt::format("the cluster of mode {} at {:.6g} Hz goes on after mode {}", num_modes,
@@ -80,7 +81,7 @@ ModeProof prove_complete(const ModalProblem& problem, const EigenPairs& pairs, i
 
 ClampedModes calc_clamped_modes(const ModalProblem& problem, int num_modes,
                                 const ClampedModeOptions& options) {
-  const Eigen::Index n = problem.size();
+  const Eigen::Index n = problem.num_modes();
   if (!(num_modes >= 1 && num_modes <= n)) {
     throw std::invalid_argument(
         fmt::format("calc_clamped_modes: num_modes is {}, expected 1 … {}", num_modes, n));

@@ -12,8 +12,10 @@ namespace sprung::reduce {
 ///
 /// Costs about 20 n³ operations and 5 n² values.
 ///
-/// @throws support::NumericalError if K or M is not positive definite to rounding
+/// @param num_massless  freedoms without mass: M has this rank less, and there are fewer solutions by as many
+/// @throws support::NumericalError if K or M is not positive definite to rounding, or has another rank
 /// Source: [Golub & Van Loan 2013], §8.7.4 — checked by tests/reduce/modes/clamped_modes_test.cpp
-EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
+EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                       Eigen::Index num_massless = 0);
 
 }  // namespace sprung::reduce

@@ -11,14 +11,19 @@ class StiffnessFactor;
 
 /// Stiffness and mass of a held frame: its assembled matrices without the freedoms of the reference node, in
 /// mesh order. Both n×n, symmetric and positive definite. The elastic motion of a free frame has the same
-/// stiffness, and the mass M − Q Qᵀ (reduce/basis, eq. 2).
+/// stiffness, and the mass M − Q Qᵀ (reduce/basis, eq. 2). Where matrices of other programs give the body,
+/// some freedoms may have no mass; their rows of M are zero, and there are fewer modes by as many.
 struct ModalProblem {
   Eigen::SparseMatrix<double> stiffness;  ///< K [N/m, N, N·m]
   Eigen::SparseMatrix<double> mass;       ///< M [kg, kg·m, kg·m²]
   Eigen::MatrixXd rigid_share = {};       ///< Q, n×3 of a free frame, empty of a held one [√kg, √kg·m]
   const StiffnessFactor* factor = nullptr;  ///< of K, where it was made already
+  /// Zero rows of M; of a free frame those of the reference node too, which take as much from the rank of M −
+  /// Q Qᵀ
+  Eigen::Index num_massless = 0;
 
   Eigen::Index size() const { return stiffness.rows(); }
+  Eigen::Index num_modes() const { return size() - num_massless; }
   bool is_free() const { return rigid_share.size() > 0; }
 
   /// (M − Q Qᵀ) x.  @param x  n×k

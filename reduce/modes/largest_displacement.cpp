@@ -22,7 +22,7 @@ Eigen::Index find_largest_displacement(const Eigen::MatrixXd& shapes,
                                        const Eigen::Matrix2Xd& node_positions) {
   constexpr std::array<Eigen::Index, 3> kOrder{1, 0, 2};  // y, x, rotation
   const double radius = node_positions.colwise().norm().maxCoeff();
-  Eigen::VectorXd sizes = shapes.rowwise().norm();
+  Eigen::VectorXd sizes = shapes.topRows(3 * node_positions.cols()).rowwise().norm();
   for (Eigen::Index node = 0; node < node_positions.cols(); ++node) sizes(3 * node + 2) *= radius;
   const double smallest = (1.0 - kEqualDisplacement) * sizes.maxCoeff();
   Eigen::Index best = -1, best_node = -1;

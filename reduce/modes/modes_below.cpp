@@ -28,7 +28,7 @@ int count_below(const ModalProblem& problem, double omega_squared) {
 
 ModesBelow calc_modes_below(const ModalProblem& problem, double frequency_hz,
                             const ClampedModeOptions& options) {
-  const auto n = static_cast<int>(problem.size());
+  const auto n = static_cast<int>(problem.num_modes());
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
   int wanted = count_below(problem, omega * omega);
   while (true) {

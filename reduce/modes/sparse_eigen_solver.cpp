@@ -93,9 +93,9 @@ EigenPairs polish(const StiffnessFactor& factor, const ModalProblem& problem, co
 
 EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_t seed) {
   const Eigen::Index n = problem.size();
-  if (!(num_pairs >= 1 && num_pairs <= n - 1)) {
+  if (!(num_pairs >= 1 && num_pairs <= problem.num_modes() - 1)) {
     throw std::invalid_argument(
-        fmt::format("solve_sparse: num_pairs is {}, expected 1 … {}", num_pairs, n - 1));
+        fmt::format("solve_sparse: num_pairs is {}, expected 1 … {}", num_pairs, problem.num_modes() - 1));
   }
   std::optional<StiffnessFactor> own;
   if (problem.factor == nullptr) own.emplace(problem.stiffness);
@@ -104,7 +104,8 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
   const double scale = estimate_lowest(factor, problem, start);
   InverseStiffness inverse(factor, n, scale);
   MassProduct mass(problem);
-  const Eigen::Index basis_size = std::min<Eigen::Index>(n, std::max<Eigen::Index>(3 * num_pairs, 20));
+  const Eigen::Index basis_size =
+      std::min<Eigen::Index>(problem.num_modes(), std::max<Eigen::Index>(3 * num_pairs, 20));
   Spectra::SymGEigsShiftSolver<InverseStiffness, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
       inverse, mass, num_pairs, basis_size, 0.0);
   solver.init(start.data());

@@ -33,7 +33,7 @@ int count_modes_up_to(const ModesUpTo& wanted, const WantedModes& request, const
 
 int calc_num_modes_needed(const WantedModes& request, const ModalProblem& problem,
                           const ClampedModeOptions& options) {
-  const int n = static_cast<int>(problem.size());
+  const int n = static_cast<int>(problem.num_modes());
   if (const auto* up_to = std::get_if<ModesUpTo>(&request.wanted)) {
     return count_modes_up_to(*up_to, request, problem, options);
   }

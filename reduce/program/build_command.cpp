@@ -59,6 +59,12 @@ void make_folder(const fs::path& folder) {
 }
 
 std::string describe(const Superelement& s) {
+  if (s.elements.cols() == 0) {
+    return fmt::format(
+        "{} nodes, {} freedoms, {}; matrices do not tell section loads, axial shares and geometric "
+        "stiffness, so that the file has none",
+        s.num_nodes(), s.num_elastic_dofs, format_basis(s));
+  }
   return fmt::format("{} elements, {} freedoms, {}{}", s.elements.cols(), s.num_elastic_dofs, format_basis(s),
                      s.section_loads ? "" : ", too large for section loads from the loads");
 }
@@ -88,6 +94,8 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
   const Design read = read_design({design, options.overrides});
   for (const std::string& remark : list_unit_remarks(read))
+    report(options, fmt::format("{}: remark: {}", design.string(), remark));
+  for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   const Superelement made = make_superelement(read);
   write_superelement(made, output);

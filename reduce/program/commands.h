@@ -28,6 +28,17 @@ struct SweepCommand {
   bool json = false;
 };
 
+struct MatricesOptions {
+  DesignSource design;
+  std::string prefix;  ///< of the files' names
+};
+
+struct ExportOptions {
+  std::filesystem::path superelement;
+  std::string target;  ///< program or format
+  std::string prefix;  ///< of the files' names
+};
+
 // The subcommands of sprung-reduce. Each returns the program's exit code.
 
 /// Makes `OUTPUT_DIR/STEM.h5` of each design STEM.toml, unless a file is there that verifies and was made
@@ -50,6 +61,14 @@ int run_sensitivity(const SensitivityOptions& options);
 /// Prints frequencies, mass and inertia while a number of a design takes other values.
 /// @throws support::InputError, support::NumericalError
 int run_sweep(const SweepCommand& command);
+
+/// Writes K and M of a design's frame as Matrix Market files.
+/// @throws support::InputError
+int run_matrices(const MatricesOptions& options);
+
+/// Writes a superelement for another program, and prints what its format cannot hold.
+/// @throws support::InputError
+int run_export(const ExportOptions& options);
 
 /// Prints old and new frequencies and the MAC. @throws support::InputError
 int run_diff(const std::filesystem::path& old_path, const std::filesystem::path& new_path, bool json);

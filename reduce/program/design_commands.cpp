@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "reduce/export/frame_matrices.h"
 #include "reduce/program/commands.h"
 #include "reduce/sensitivity/sensitivity_tables.h"
 #include "reduce/sensitivity/sweep_tables.h"
@@ -49,6 +50,10 @@ SweepOptions read_sweep(const SweepCommand& command) {
 
 int run_sensitivity(const SensitivityOptions& options) {
   const Design design = read_design(options.design);
+  if (design.matrices) {
+    throw support::InputError({.path = options.design.path.string()},
+                              "gives the body by matrices; sensitivities are those of beams");
+  }
   const DesignSensitivity sensitivity =
       calc_sensitivity(design, list_parameters(options.design, design), options.num_modes);
   fmt::print("{}", options.json ? format_sensitivity_json(design, sensitivity)
@@ -60,6 +65,13 @@ int run_sweep(const SweepCommand& command) {
   const SweepOptions options = read_sweep(command);
   const std::vector<SweepPoint> points = calc_sweep(options);
   fmt::print("{}", command.json ? format_sweep_json(options, points) : format_sweep(options, points));
+  return support::kGood;
+}
+
+int run_matrices(const MatricesOptions& options) {
+  const Design design = read_design(options.design);
+  for (const std::filesystem::path& path : write_frame_matrices(design, options.prefix))
+    fmt::print("{}\n", path.string());
   return support::kGood;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reduce/export/export.h"
 #include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_json.h"
@@ -61,6 +62,14 @@ int run_check(const std::vector<std::filesystem::path>& paths, bool json) {
     }
   }
   return passed ? support::kGood : support::kCheckFailed;
+}
+
+int run_export(const ExportOptions& options) {
+  const ExportReport report =
+      export_superelement(read_superelement(options.superelement), options.target, options.prefix);
+  for (const std::filesystem::path& path : report.paths) fmt::print("{}\n", path.string());
+  for (const std::string& remark : report.left_out) fmt::print("left out: {}\n", remark);
+  return support::kGood;
 }
 
 int run_diff(const std::filesystem::path& old_path, const std::filesystem::path& new_path, bool json) {

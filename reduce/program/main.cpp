@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reduce/design/program_version.h"
+#include "reduce/export/export.h"
 #include "reduce/program/commands.h"
 #include "tools/support/terminal/program.h"
 
@@ -15,6 +16,8 @@ struct Arguments {
   reduce::BuildOptions build;
   reduce::SensitivityOptions sensitivity;
   reduce::SweepCommand sweep;
+  reduce::MatricesOptions matrices;
+  reduce::ExportOptions exported;
   std::vector<std::filesystem::path> files;
   std::filesystem::path old_file, new_file;
   bool json = false;
@@ -78,10 +81,28 @@ void add_sweep(CLI::App& app, reduce::SweepCommand& command) {
       "sections.frame.second_moment=1e-4:3e-4:10");
 }
 
+void add_exports(CLI::App& app, Arguments& arguments) {
+  CLI::App* matrices =
+      app.add_subcommand("matrices", "Write stiffness and mass of a design's frame, not reduced");
+  matrices->add_option("design", arguments.matrices.design.path, "Design file (TOML)")->required();
+  add_overrides(*matrices, arguments.matrices.design.overrides);
+  matrices->add_option("--prefix,-o", arguments.matrices.prefix, "Beginning of the files' names")->required();
+  matrices->footer("Example: sprung-reduce matrices meshes/truck/chassis.toml -o build/chassis");
+  CLI::App* exported = app.add_subcommand("export", "Write a superelement for another program");
+  exported->add_option("file", arguments.exported.superelement, "Superelement (HDF5)")->required();
+  exported->add_option("--to", arguments.exported.target, "Program or format")
+      ->required()
+      ->check(CLI::IsMember(reduce::list_export_targets()));
+  exported->add_option("--prefix,-o", arguments.exported.prefix, "Beginning of the files' names")->required();
+  exported->footer("Example: sprung-reduce export build/truck/chassis.h5 --to mbdyn -o build/chassis");
+}
+
 int run(const CLI::App& app, const Arguments& arguments) {
   if (app.got_subcommand("build")) return reduce::run_build(arguments.build);
   if (app.got_subcommand("sensitivity")) return reduce::run_sensitivity(arguments.sensitivity);
   if (app.got_subcommand("sweep")) return reduce::run_sweep(arguments.sweep);
+  if (app.got_subcommand("matrices")) return reduce::run_matrices(arguments.matrices);
+  if (app.got_subcommand("export")) return reduce::run_export(arguments.exported);
   if (app.got_subcommand("info")) return reduce::run_info(arguments.new_file, arguments.json);
   if (app.got_subcommand("check")) return reduce::run_check(arguments.files, arguments.json);
   return reduce::run_diff(arguments.old_file, arguments.new_file, arguments.json);
@@ -99,6 +120,7 @@ int main(int argc, char** argv) {
     add_sensitivity(app, arguments.sensitivity);
     add_sweep(app, arguments.sweep);
     add_inspections(app, arguments);
+    add_exports(app, arguments);
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -9,6 +9,7 @@
 #include "reduce/basis/fixed_interface_basis.h"
 #include "reduce/basis/free_basis.h"
 #include "reduce/certificate/certify.h"
+#include "reduce/matrices/matrix_moments.h"
 #include "reduce/modes/canonical_basis.h"
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/held_node.h"
@@ -74,7 +75,7 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
                        .highest_hz = highest_hz,
                        .tolerance = design.reduction.tolerance,
                        .all_residual = design.reduction.all_residual};
-  const auto num_nodes = static_cast<int>(matrices.node_positions.cols());
+  const auto num_nodes = static_cast<int>(matrices.full.stiffness.rows() / 3);
   request.loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, request.interface));
   return request;
 }
@@ -166,23 +167,36 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
 
 BodyMatrices make_body_matrices(const Design& design) {
   BodyMatrices matrices;
-  matrices.full = fem::assemble(design.model);
+  if (design.matrices) {
+    matrices.full = {.stiffness = design.matrices->stiffness, .mass = design.matrices->mass};
+  } else {
+    matrices.full = fem::assemble(design.model);
+  }
   matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
                    .mass = remove_node(matrices.full.mass, design.reference_node)};
   matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
   matrices.held.factor = matrices.factor.get();
+  matrices.held.num_massless = (matrices.held.mass.diagonal().array() == 0.0).count();
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   matrices.rigid = calc_rigid_motions(matrices.node_positions, matrices.full.mass, design.reference_node);
   matrices.free = make_free_problem(matrices.held, matrices.rigid);
+  matrices.free.num_massless = (matrices.full.mass.diagonal().array() == 0.0).count();
   return matrices;
+}
+
+fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& origin) {
+  return design.matrices ? calc_mass_moments(*design.matrices, origin)
+                         : fem::calc_mass_moments(design.model, origin);
 }
 
 BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, const fem::MassMoments& moments,
                           const ClampedModeOptions& options) {
   const Eigen::Vector2d origin = design.model.mesh.node_positions.col(design.reference_node);
-  const BasisFrame frame =
-      make_basis_frame(moments, matrices.node_positions, calc_distance_weighted_mass(design.model, origin));
+  const Eigen::SparseMatrix<double> weighted_mass =
+      design.matrices ? calc_distance_weighted_mass(*design.matrices, origin)
+                      : calc_distance_weighted_mass(design.model, origin);
+  const BasisFrame frame = make_basis_frame(moments, matrices.node_positions, weighted_mass);
   const StiffnessFactor& factor = *matrices.factor;
   return design.reduction.basis == BasisKind::kClamped
              ? make_clamped_basis(design, matrices, factor, frame, options)

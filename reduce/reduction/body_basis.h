@@ -15,7 +15,7 @@ namespace sprung::reduce {
 /// The matrices of a design's frame, held at the reference node and free. The stiffness is factored once for
 /// all that needs it.
 struct BodyMatrices {
-  fem::AssembledMatrices full;              ///< 3N×3N
+  fem::AssembledMatrices full;              ///< 3N×3N; of a body from matrices 3(N+A)×3(N+A) (MatrixBody)
   std::unique_ptr<StiffnessFactor> factor;  ///< of held.stiffness
   ModalProblem held;                        ///< without the reference node's freedoms
   ModalProblem free;                        ///< elastic motion of the free body (free_body.h)
@@ -25,9 +25,12 @@ struct BodyMatrices {
 /// @throws support::NumericalError if the stiffness is not positive definite to rounding
 BodyMatrices make_body_matrices(const Design& design);
 
+/// Integrals over the mass of a design's beams, or of the matrices in their place.
+fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& origin);
+
 /// The vectors that a body is reduced to, in the canonical basis, and what was proved of them.
 struct BodyBasis {
-  Eigen::MatrixXd shapes;     ///< 3N×n; the reference node does not move
+  Eigen::MatrixXd shapes;     ///< 3N×n, 3(N+A)×n; the reference node does not move
   Eigen::VectorXi cluster;    ///< n
   Eigen::MatrixXd stiffness;  ///< n×n, diagonal but for what a cluster's frequencies differ by
   std::vector<std::string> kind;

@@ -30,7 +30,7 @@ void check_rounding(const Design& design, const Eigen::MatrixXd& shape, double e
   if (error <= kMaxRoundingError) return;
   const Eigen::VectorXd energies = calc_energies(design.model, shape);
   Eigen::Index softest = 0;
-  const double largest = energies.maxCoeff(&softest);
+  const double largest = energies.size() > 0 ? energies.maxCoeff(&softest) : 0.0;
   if (design.model.mesh.num_elements() > 2 && largest > kMostOfTheEnergy * energies.sum()) {
     const fem::Mesh& mesh = design.model.mesh;
     const fem::Mesh::Element& element = mesh.elements[static_cast<std::size_t>(softest)];

@@ -83,6 +83,13 @@ SectionSizes get_section_sizes(const fem::BeamModel& model) {
   return sizes;
 }
 
+// Matrices do not tell which of their entries axial forces change: geometric stiffness of no mode.
+GeometricStiffness make_unknown_stiffness(std::size_t num_points) {
+  GeometricStiffness none;
+  none.point_loads.resize(num_points);
+  return none;
+}
+
 void require_checks(const std::vector<CheckResult>& checks) {
   for (const CheckResult& check : checks) {
     if (check.passed()) continue;
@@ -111,25 +118,26 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   const fem::BeamModel& model = design.model;
   const Eigen::Vector2d origin = model.mesh.node_positions.col(design.reference_node);
   const BodyMatrices matrices = make_body_matrices(design);
-  const fem::MassMoments moments = fem::calc_mass_moments(model, origin);
+  const fem::MassMoments moments = make_mass_moments(design, origin);
   const BodyBasis basis = make_body_basis(design, matrices, moments, options);
 
   Superelement s;
   s.name = design.name;
   copy_mesh(model.mesh, matrices.node_positions, s);
-  s.num_elastic_dofs = matrices.held.size();
+  s.num_elastic_dofs = matrices.held.num_modes();
   s.frequency_hz = calc_frequencies(basis);
   s.damping_ratio = expand_damping(design, basis.kind);
   s.cluster = basis.cluster;
   s.kind = basis.kind;
-  s.shapes = basis.shapes;
+  s.shapes = basis.shapes.topRows(3 * model.mesh.num_nodes());
   s.inertia = calc_inertia_invariants(moments, basis.shapes);
   s.stiffness = basis.stiffness;
   s.mass = s.inertia.M_ff;
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
   s.resultants = calc_mode_resultants(model, basis.shapes);
-  s.geometric_stiffness =
-      calc_reference_stiffness(model, design.reference_node, *matrices.factor, moments, basis.shapes);
+  s.geometric_stiffness = design.matrices ? make_unknown_stiffness(s.points.size())
+                                          : calc_reference_stiffness(model, design.reference_node,
+                                                                     *matrices.factor, moments, basis.shapes);
   s.certificate = basis.certificate;
   if (std::optional<StaticResponse> response = calc_static_response(
           model, design.reference_node, matrices.held.stiffness, matrices.full.mass, moments, basis.shapes)) {

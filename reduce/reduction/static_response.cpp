@@ -58,9 +58,10 @@ class HeldFrame {
 
 // Accelerations of the nodes at unit accelerations of the frame: along x, along y, angular, and that towards
 // the origin at ω = 1. The shape functions contain all of them.
-Eigen::MatrixXd make_frame_accelerations(const fem::BeamModel& model, int reference_node) {
+Eigen::MatrixXd make_frame_accelerations(const fem::BeamModel& model, int reference_node,
+                                         Eigen::Index num_rows) {
   const Eigen::Vector2d origin = model.mesh.node_positions.col(reference_node);
-  Eigen::MatrixXd accelerations = Eigen::MatrixXd::Zero(3 * model.mesh.num_nodes(), 4);
+  Eigen::MatrixXd accelerations = Eigen::MatrixXd::Zero(num_rows, 4);
   for (int node = 0; node < model.mesh.num_nodes(); ++node) {
     const Eigen::Vector2d r = model.mesh.node_positions.col(node) - origin;
     accelerations.middleRows(3 * node, 3) << 1.0, 0.0, -r.y(), -r.x(),  //
@@ -70,9 +71,9 @@ Eigen::MatrixXd make_frame_accelerations(const fem::BeamModel& model, int refere
   return accelerations;
 }
 
-Eigen::MatrixXd make_point_loads(const fem::Mesh& mesh) {
+Eigen::MatrixXd make_point_loads(const fem::Mesh& mesh, Eigen::Index num_rows) {
   const auto num_points = static_cast<Eigen::Index>(mesh.named_nodes.size());
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * mesh.num_nodes(), 3 * num_points);
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(num_rows, 3 * num_points);
   for (Eigen::Index p = 0; p < num_points; ++p) {
     const int node = mesh.named_nodes[static_cast<std::size_t>(p)].node;
     loads.block(3 * node, 3 * p, 3, 3).setIdentity();
@@ -89,16 +90,18 @@ std::optional<StaticResponse> calc_static_response(const fem::BeamModel& model, 
                                                    const Eigen::MatrixXd& shapes) {
   const Eigen::Index n = shapes.cols(), num_points = static_cast<Eigen::Index>(model.mesh.named_nodes.size());
   const Eigen::Index num_loads = 3 * num_points + 4 + 2 * n;
-  if ((6 * model.mesh.num_elements() + 3 * num_points) * num_loads > kMostResponseValues) return {};
+  const bool has_beams = model.mesh.num_elements() > 0;
+  if (has_beams && (6 * model.mesh.num_elements() + 3 * num_points) * num_loads > kMostResponseValues)
+    return {};
   const HeldFrame frame(model, reference_node, held_stiffness);
-  const Eigen::MatrixXd of_frame = make_frame_accelerations(model, reference_node);
+  const Eigen::MatrixXd of_frame = make_frame_accelerations(model, reference_node, mass.rows());
   const Eigen::SparseMatrix<double> NxNy_transposed = moments.NxNy.transpose();
   StaticResponse response;
   const auto take = [&](HeldFrame::Response&& one, Eigen::MatrixXd UnitLoads::*loads) {
     response.resultants.*loads = std::move(one.resultants);
     response.deflections.*loads = std::move(one.deflections);
   };
-  take(frame.calc_response(make_point_loads(model.mesh), {}, nullptr), &UnitLoads::point_load);
+  take(frame.calc_response(make_point_loads(model.mesh, mass.rows()), {}, nullptr), &UnitLoads::point_load);
   take(frame.calc_response(-(mass * of_frame), of_frame, fem::calc_mass), &UnitLoads::acceleration);
   take(frame.calc_response(-(mass * shapes), shapes, fem::calc_mass), &UnitLoads::modal_acceleration);
   take(frame.calc_response((moments.NxNy - NxNy_transposed) * shapes, shapes, fem::calc_turned_mass),

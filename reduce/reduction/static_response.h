@@ -20,6 +20,8 @@ struct StaticResponse {
 };
 
 /// @param reference_node  0-based; the body frame's origin
+/// A body from matrices has no elements, hence no resultants, and its deflections in any number.
+///
 /// @param held_stiffness  K without the reference node's freedoms
 /// @param mass            M of all freedoms, 3N×3N
 /// @param moments         about the reference node

@@ -212,10 +212,12 @@ std::vector<CheckResult> check_superelement(const Superelement& superelement) {
   std::vector<CheckResult> checks{check_orthogonality(superelement),      check_stiffness(superelement, true),
                                   check_stiffness(superelement, false),   check_damping(superelement),
                                   check_components(superelement.inertia), check_mass_matrix(superelement),
-                                  check_held_node(superelement),          check_work(superelement),
-                                  check_equilibrium(superelement)};
+                                  check_held_node(superelement)};
+  const bool has_beams = superelement.elements.cols() > 0;
+  if (has_beams) checks.push_back(check_work(superelement));
+  if (has_beams) checks.push_back(check_equilibrium(superelement));
   if (superelement.certificate) checks.push_back(check_flexibility(superelement));
-  if (superelement.section_loads) checks.push_back(check_point_loads(superelement));
+  if (has_beams && superelement.section_loads) checks.push_back(check_point_loads(superelement));
   return checks;
 }
 

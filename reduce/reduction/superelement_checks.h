@@ -16,7 +16,8 @@ inline constexpr const char* kMassConditionCheck = "condition of the mass matrix
 /// the modes, stiffness and damping against the frequencies, the inertia integrals against their components,
 /// definiteness of the mass matrix of frame and modes together, the held node, the resultants against the
 /// stiffness and in equilibrium, the static flexibility of the interface against the certificate, and the
-/// section loads of the points against the modes.
+/// section loads of the points against the modes. A body from matrices has no beams, and no checks of their
+/// resultants.
 ///
 /// @param superelement  without a fault (superelement_fault.h)
 /// Checked by tests/reduce/reduction/superelement_checks_test.cpp

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sprung::reduce {
+
+/// A row of a matrix: a direction of a node. 1, 2, 3 are the displacements along x, y, z, and 4, 5, 6 the
+/// rotations about them.
+struct Freedom {
+  std::int64_t node = 0;
+  int direction = 1;
+  auto operator<=>(const Freedom&) const = default;
+};
+
+/// "x of node 12", "rotation about z of node 12".
+std::string describe(const Freedom& freedom);
+
+/// The rows of a matrix, in their order.
+class FreedomList {
+ public:
+  int size() const { return static_cast<int>(items_.size()); }
+  const Freedom& operator[](int row) const { return items_[static_cast<std::size_t>(row)]; }
+  /// @return its row, or −1
+  int find(const Freedom& freedom) const;
+  /// The row of a freedom, which becomes the last one if it was not there.
+  int get(const Freedom& freedom);
+
+ private:
+  std::vector<Freedom> items_;
+  std::map<Freedom, int> rows_;
+};
+
+}  // namespace sprung::reduce

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reduce/matrices/matrix_system.h"
+
+namespace sprung::reduce {
+
+/// A body in the plane, given by matrices in place of beams. Freedoms 3n, 3n+1, 3n+2 are node n's x and y
+/// displacement and rotation, as those of fem::assemble. After those of the N nodes stand those of A mirrored
+/// pairs: the motion of one node of a pair across the plane, and its rotations about x and about y.
+struct MatrixBody {
+  std::vector<std::int64_t> node_ids;           ///< N, ascending
+  Eigen::Matrix2Xd node_positions;              ///< 2×N [m]
+  Eigen::SparseMatrix<double> stiffness, mass;  ///< 3(N+A)×3(N+A) [N/m, N, N·m; kg, kg·m, kg·m²]
+  /// Whether the files have a freedom. A rotation that they do not have follows the nodes around it; a
+  /// freedom across the plane that they do not have is held by a spring that nothing else touches. Neither
+  /// has mass.
+  std::vector<bool> is_given;
+  std::string stiffness_path, mass_path;  ///< for messages
+  std::vector<std::string> remarks;       ///< on what the user should know
+
+  int num_nodes() const { return static_cast<int>(node_ids.size()); }
+};
+
+/// The motion of a structure in its plane of symmetry (reduce/matrices, eqs. 1–3): nodes on the plane move in
+/// it, the two nodes of a mirrored pair move alike.
+///
+/// @throws support::InputError if a freedom's node is not in the table; a node off the plane has no mirrored
+/// one, or
+///         one with other freedoms; the matrices couple symmetric with antisymmetric motion; a node lacks a
+///         displacement in the plane
+/// Checked by tests/reduce/matrices/matrices_test.py
+MatrixBody make_matrix_body(const MatrixSystem& system, const PlanarAxes& axes, const MatrixUnits& units);
+
+/// "x of node 12", also of the freedoms of pairs.
+std::string describe_freedom(const MatrixBody& body, Eigen::Index freedom);
+
+}  // namespace sprung::reduce

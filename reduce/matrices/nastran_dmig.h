@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "reduce/matrices/matrix_entries.h"
+
+namespace sprung::reduce {
+
+/// Reads a matrix from DMIG entries of a Nastran punch file: fields of 8 or 16 columns or between commas,
+/// real, square or symmetric. Matrices of other names are left out.
+///
+/// @param name      of the matrix; "" for the only one of the file
+/// @param freedoms  gets the freedoms that the file names
+/// @throws support::InputError at the place of the fault: no matrix of that name, several without a name, a
+///         complex or rectangular matrix, entries before its header, scalar points (direction 0), other
+///         entries than DMIG
+/// Source: [NX Nastran 2014], "DMIG" — checked by tests/reduce/matrices/matrices_test.py
+MatrixEntries read_nastran_dmig(const std::filesystem::path& path, const std::string& name,
+                                FreedomList& freedoms);
+
+}  // namespace sprung::reduce

@@ -1,0 +1,350 @@
+"""Superelements written for other programs, read back by an independent reader that knows the formats alone.
+
+A straight beam whose matrices the test makes itself gives the expected frequencies, masses and integrals.
+
+Usage: export_test.py PROGRAM SOURCE_DIR [unittest arguments]
+"""
+
+import csv
+import re
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+for folder in ("program", "matrices"):
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / folder))
+
+import matrix_files as files  # noqa: E402  after the path
+from reduce_case import ReduceTestCase, run_tests  # noqa: E402
+
+NUM_ELEMENTS = 3
+MASS_PER_LENGTH = 420.0
+# The beam lies beside the reference node's axes, so that no integral vanishes by chance.
+DESIGN = f"""[materials.stuff]
+youngs_modulus = 1e6
+density = 4200.0
+[sections.bar]
+material = "stuff"
+area = 0.1
+second_moment = 1e-3
+[points]
+a = [0.0, 0.0]
+b = [1.0, 0.0]
+c = [3.0, 0.0]
+[[lines]]
+through = ["a", "b", "c"]
+section = "bar"
+elements = [1, {NUM_ELEMENTS - 1}]
+[reference]
+point = "b"
+"""
+CLAMPED = "[modes]\nall = true\ndamping_ratio = 0.02\n"
+FREE = "[reduction]\nhighest_frequency = 2.0\n[modes]\ndamping_ratio = 0.02\n"
+PLACES = np.arange(NUM_ELEMENTS + 1.0) - 1.0  # of the nodes, from the reference node
+
+
+def integrate(function):
+    """∫ function(element, ξ) ρA dx by Gauss quadrature, exact for products of two cubics."""
+    points, weights = np.polynomial.legendre.leggauss(4)
+    return sum(0.5 * weight * MASS_PER_LENGTH * function(element, 0.5 * (point + 1.0))
+               for element in range(NUM_ELEMENTS) for point, weight in zip(points, weights))
+
+
+def interpolate(shapes, element, xi):
+    """(x, φ_x, φ_y) in an element of 1 m from shapes 3N×n in the order of PLACES."""
+    a, b = shapes[3 * element : 3 * element + 3], shapes[3 * element + 3 : 3 * element + 6]
+    across = ((1 - 3 * xi**2 + 2 * xi**3) * a[1] + (xi - 2 * xi**2 + xi**3) * a[2]
+              + (3 * xi**2 - 2 * xi**3) * b[1] + (xi**3 - xi**2) * b[2])
+    return PLACES[element] + xi, (1 - xi) * a[0] + xi * b[0], across
+
+
+class Expected:
+    """Integrals of shapes 3N×n in the order of PLACES."""
+
+    def __init__(self, shapes):
+        self.K, self.M = files.make_beam(NUM_ELEMENTS)
+        n = len(PLACES)
+        along_x, along_y, rotation = np.zeros((3, 3 * n))
+        along_x[0::3] = along_y[1::3] = rotation[2::3] = 1.0
+        rotation[1::3] = PLACES
+        self.mass = along_x @ self.M @ along_x
+        self.centre = along_y @ self.M @ rotation / self.mass
+        self.second_moment = rotation @ self.M @ rotation
+        self.P = np.array([along_x, along_y]) @ self.M @ shapes
+        self.c = rotation @ self.M @ shapes
+        self.x_phi_x, self.x_phi_y = (
+            integrate(lambda e, xi, d=d: np.multiply(*self.pick(shapes, e, xi, 0, d))) for d in (1, 2))
+        self.xx, self.xy, self.yy = (
+            integrate(lambda e, xi, i=i, j=j: np.outer(*self.pick(shapes, e, xi, i, j)))
+            for i, j in ((1, 1), (1, 2), (2, 2)))
+        self.stiffness, self.M_ff = shapes.T @ self.K @ shapes, shapes.T @ self.M @ shapes
+
+    @staticmethod
+    def pick(shapes, element, xi, i, j):
+        values = interpolate(shapes, element, xi)
+        return values[i], values[j]
+
+    def clamped_frequencies(self):
+        held = [i for i in range(len(self.K)) if i // 3 != 1]
+        squares = np.linalg.eigvals(np.linalg.solve(self.M[np.ix_(held, held)], self.K[np.ix_(held, held)]))
+        return np.sqrt(np.sort(squares.real)) / (2.0 * np.pi)
+
+
+class ExportTest(ReduceTestCase):
+    def make_body(self, rest=CLAMPED):
+        (self.folder / "beam.toml").write_text(DESIGN + rest)
+        self.build("beam.toml", "--force")
+        return h5py.File(self.folder / "out/beam.h5")
+
+    def export(self, target):
+        result = self.run_program("export", "out/beam.h5", "--to", target, "-o", "body")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("left out: ", result.stdout)
+        for line in result.stdout.splitlines():
+            if not line.startswith("left out: "):
+                self.assertTrue((self.folder / line).exists(), line)
+        return result.stdout
+
+    def read_csv(self, name):
+        with open(self.folder / name, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def order(self, positions):
+        np.testing.assert_allclose(np.sort(positions), PLACES, atol=1e-14)
+        return np.argsort(positions)
+
+    def assert_frequencies(self, stiffness, mass, expected):
+        squares = np.linalg.eigvals(np.linalg.solve(mass, stiffness))
+        found = np.sqrt(np.sort(squares.real)) / (2.0 * np.pi)
+        np.testing.assert_allclose(found[: len(expected)], expected, rtol=1e-9)
+
+    def test_matrix_market(self):
+        for rest in (CLAMPED, FREE):
+            self.make_body(rest).close()
+            self.export("matrix-market")
+            nodes, modes, freedoms = (self.read_csv(f"body_{name}.csv") for name in ("nodes", "modes", "freedoms"))
+            read = {name: files.read_matrix_market(self.folder / f"body_{name}.mtx")
+                    for name in ("stiffness", "mass", "damping", "shapes", "body_mass", "B")}
+            self.assertEqual([(row["node"], row["direction"]) for row in freedoms],
+                             [(node["node"], d) for node in nodes for d in ("x", "y", "rz")])
+            order = self.order([float(node["x"]) for node in nodes])
+            self.assertEqual([nodes[i]["point"] for i in order], ["a", "b", "", "c"])
+            shapes = read["shapes"].reshape(len(nodes), 3, -1)[order].reshape(read["shapes"].shape)
+            expected = Expected(shapes)
+            np.testing.assert_allclose(read["stiffness"], expected.stiffness, atol=1e-9 * expected.stiffness.max())
+            np.testing.assert_allclose(read["mass"], expected.M_ff, atol=1e-9)
+            np.testing.assert_allclose(read["B"], expected.xy - expected.xy.T, atol=1e-9)
+            omega = 2.0 * np.pi * np.array([float(mode["frequency_hz"]) for mode in modes])
+            np.testing.assert_allclose(np.diag(read["damping"]), 0.04 * omega, rtol=1e-12)
+            n = len(modes)
+            body = np.zeros((3 + n, 3 + n))
+            body[0, 0] = body[1, 1] = expected.mass
+            body[1, 2] = body[2, 1] = expected.mass * expected.centre
+            body[2, 2] = expected.second_moment
+            body[:2, 3:], body[2, 3:], body[3:, 3:] = expected.P, expected.c, expected.M_ff
+            np.testing.assert_allclose(np.triu(read["body_mass"]), np.triu(body), atol=1e-9 * expected.mass)
+            if rest == CLAMPED:
+                self.assert_frequencies(read["stiffness"], read["mass"], expected.clamped_frequencies())
+
+    def test_csv_has_every_number_of_the_file(self):
+        with self.make_body() as file:
+            self.export("csv")
+            found = {}
+            for row in self.read_csv("body_values.csv"):
+                found.setdefault(row["dataset"], []).append(float(row["value"]))
+            names = []
+            file.visititems(lambda name, item: names.append("/" + name)
+                            if isinstance(item, h5py.Dataset) and item.dtype.kind == "f" and item.size else None)
+            self.assertEqual(sorted(found), sorted(names))
+            for name in names:
+                self.assertEqual(sorted(found[name]), sorted(file[name][()].ravel()), name)
+            self.assertEqual([int(row["mode"]) for row in self.read_csv("body_modes.csv")],
+                             list(range(1, len(file["modes/frequency"]) + 1)))
+
+    # MBDyn's modal joint.
+
+    def read_fem(self):
+        """Record groups by number: the numbers of each, without comments."""
+        groups, group = {}, None
+        for line in (self.folder / "body.fem").read_text().splitlines():
+            heading = re.match(r"\*\* RECORD GROUP (\d+),", line)
+            if heading:
+                group = groups.setdefault(int(heading[1]), [])
+            elif not line.startswith("**"):
+                group.extend(line.split())
+        return groups
+
+    def test_mbdyn(self):
+        for rest in (CLAMPED, FREE):
+            self.make_body(rest).close()
+            self.assertIn("moments of inertia about x and y", self.export("mbdyn"))
+            groups = self.read_fem()
+            self.assertEqual(sorted(groups), [1, 2, *range(5, 11), *range(12, 19)])
+            revision, num_nodes, n, *none = groups[1]
+            self.assertEqual((revision, none), ("REV0", ["0", "0", "0"]))
+            num_nodes, n = int(num_nodes), int(n)
+            self.assertEqual(len(groups[2]), num_nodes)
+            numbers = {number: np.array(words, float) for number, words in groups.items() if number > 2}
+            order = self.order(numbers[5])
+            self.assertFalse(numbers[6].any() or numbers[7].any())
+            all_shapes = numbers[8].reshape(n, num_nodes, 6)
+            self.assertFalse(all_shapes[:, :, 2:5].any())
+            shapes = all_shapes[:, order][:, :, [0, 1, 5]].reshape(n, 3 * num_nodes).T
+            expected = Expected(shapes)
+            mass, stiffness, damping = (numbers[i].reshape(n, n) for i in (9, 10, 13))
+            np.testing.assert_allclose(mass, expected.M_ff, atol=1e-9)
+            np.testing.assert_allclose(stiffness, expected.stiffness, atol=1e-9 * expected.stiffness.max())
+            np.testing.assert_allclose(np.diag(damping), 0.04 * np.sqrt(np.diag(stiffness)), rtol=1e-9)
+            if rest == CLAMPED:
+                self.assert_frequencies(stiffness, mass, expected.clamped_frequencies())
+            J = expected.second_moment - expected.mass * expected.centre**2
+            np.testing.assert_allclose(
+                numbers[12], [expected.mass, expected.centre, 0, 0, J / 2, 0, 0, 0, J / 2, 0, 0, 0, J], atol=1e-9)
+            zero = np.zeros(n)
+            np.testing.assert_allclose(numbers[14].reshape(3, n), [*expected.P, zero], atol=1e-9)
+            np.testing.assert_allclose(numbers[15].reshape(3, n), [zero, zero, expected.c], atol=1e-9)
+            # ∫((r·φ) I − φ rᵀ) dm, with y = 0 along the beam.
+            blocks = numbers[16].reshape(3, n, 3)
+            for k in range(n):
+                np.testing.assert_allclose(blocks[:, k], [[0, 0, 0], [-expected.x_phi_y[k], expected.x_phi_x[k], 0],
+                                                          [0, 0, expected.x_phi_x[k]]], atol=1e-9)
+            cross = numbers[17].reshape(3, n, n)  # ∫φᵢ × φⱼ dm
+            np.testing.assert_allclose(cross[2], expected.xy - expected.xy.T, atol=1e-9)
+            self.assertFalse(cross[:2].any())
+            # ∫(φⱼ φᵢᵀ − (φᵢ·φⱼ) I) dm
+            blocks = numbers[18].reshape(3, n, n, 3)
+            xx, xy, yy = expected.xx, expected.xy, expected.yy
+            for i in range(n):
+                for j in range(n):
+                    np.testing.assert_allclose(
+                        blocks[:, i, j], [[-yy[i, j], xy[j, i], 0], [xy[i, j], -xx[i, j], 0],
+                                          [0, 0, -xx[i, j] - yy[i, j]]], atol=1e-9)
+
+    # Standard input data.
+
+    def read_sid(self):
+        """(refmod, nodes, matrices): a matrix is (zero order, [first order for each mode])."""
+        lines = iter((self.folder / "body.SID_FEM").read_text().splitlines())
+        header, part, modal = next(lines), next(lines), next(lines)
+        self.assertRegex(header, r"^4 \d+ : ")
+        self.assertEqual((part, modal), ("part", "new modal = beam"))
+        refmod, nodes, matrices = {}, {}, {}
+        target, ends = matrices, []
+        for line in lines:
+            key, _, value = (word.strip() for word in line.partition("="))
+            if key in ("refmod", "frame"):
+                ends.append(key)
+            elif key == "new node":
+                target = nodes.setdefault(int(value), {})
+                ends.append("node")
+            elif key.startswith("end "):
+                self.assertEqual(key[4:], ends.pop() if ends else key[4:])
+                target = matrices if key == "end node" else target
+            elif value and ends == ["refmod"]:
+                refmod[key] = value
+            elif key == "rframe":
+                self.assertEqual(value, "body ref")
+            else:
+                target[key] = self.read_taylor(key, lines)
+        return refmod, nodes, matrices
+
+    def read_taylor(self, name, lines):
+        head = [next(lines).split(" = ") for _ in range(6)]
+        self.assertEqual([key for key, _ in head], ["order", "nrow", "ncol", "nq", "nqn", "structure"])
+        order, rows, columns, num_modes, _, _ = (int(value) for _, value in head)
+        zero, first = np.zeros((rows, columns)), np.zeros((num_modes if order else 0, rows, columns))
+        for line in lines:
+            if line == f"end {name}":
+                return zero, first
+            match = re.fullmatch(r"m([01])\(([\d,]+)\) = (\S+)", line)
+            place = [int(number) - 1 for number in match[2].split(",")]
+            self.assertIn("D", match[3])
+            value = float(match[3].replace("D", "E"))
+            if match[1] == "0":
+                zero[tuple(place)] = value
+            else:
+                row, mode, column = place
+                first[mode, row, column] = value
+        self.fail(f"{name} has no end")
+
+    def test_sid_in_both_orders_of_the_indices(self):
+        for target, by_mode in (("sid", False), ("sid-by-mode", True)):
+            for rest in (CLAMPED, FREE):
+                with self.make_body(rest) as file:
+                    self.assertIn("moments of inertia about x and y", self.export(target))
+                    self.check_sid(*self.read_sid(), by_mode, {name[12:]: file[name][()] for name in (
+                        "/stiffening/centrifugal", "/stiffening/angular_acceleration", "/stiffening/acceleration",
+                        "/stiffening/point_load")})
+                    if rest == CLAMPED:
+                        _, _, matrices = self.read_sid()
+                        self.assert_frequencies(matrices["Ke"][0], matrices["Me"][0],
+                                                Expected(np.zeros((12, 1))).clamped_frequencies())
+
+    def check_sid(self, refmod, nodes, matrices, by_mode, K):
+        def close(found, expected):
+            np.testing.assert_allclose(found, expected, atol=1e-9 * max(1.0, np.abs(expected).max(initial=0.0)))
+
+        n = int(refmod["nelastq"])
+        places = {number: node["origin"][0][:, 0] for number, node in nodes.items()}
+        order = sorted(nodes, key=lambda number: places[number][0])
+        close([places[number] for number in order], [(x, 0.0, 0.0) for x in PLACES])
+        shapes = np.concatenate([[*nodes[number]["phi"][0][:2], nodes[number]["psi"][0][2]] for number in order])
+        e = Expected(shapes)
+        zero, B, both = np.zeros(n), e.xy - e.xy.T, e.xx + e.yy
+        self.assertAlmostEqual(float(refmod["mass"].replace("D", "E")), e.mass, places=9)
+        close(matrices["mdCM"][0][:, 0], [e.mass * e.centre, 0, 0])
+        close(matrices["mdCM"][1][:, :, 0].T, [*e.P, zero])
+        close(matrices["J"][0][:, 0], e.second_moment * np.array([0.5, 0.5, 1.0, 0, 0, 0]))
+        close(matrices["Ct"][0].T, [*e.P, zero])
+        close(matrices["Cr"][0].T, [zero, zero, e.c])
+        close(matrices["Me"][0], e.M_ff)
+        close(matrices["Ke"][0], e.stiffness)
+        close(np.diag(matrices["De"][0]), 0.04 * np.sqrt(np.diag(e.stiffness)))
+        self.assertFalse(matrices["ksigma"][0].any())
+        # −2 ∫r~ φ_k~ dm with y = 0, and the moment of inertia's derivative, half of it and its transpose.
+        for k in range(n):
+            products = np.array([[0, 0, 0], [-e.x_phi_y[k], e.x_phi_x[k], 0], [0, 0, e.x_phi_x[k]]])
+            axes = slice(3 * k, 3 * k + 3) if by_mode else slice(k, None, n)
+            close(matrices["Gr"][0][:, axes], 2 * products)
+            tensor = products + products.T
+            close(matrices["J"][1][k][:, 0], [*np.diag(tensor), tensor[0, 1], 0, 0])
+            close(matrices["Ge"][0][:, axes].T, [zero, zero, -2 * B[:, k]])
+        close(matrices["Oe"][0].T, [zero, -e.x_phi_x, -e.x_phi_x, e.x_phi_y, zero, zero])
+        # First order: rows j, coordinates k.
+        close(matrices["Cr"][1][:, :, 2].T, B.T + K["angular_acceleration"])
+        close(matrices["Ct"][1][:, :, 0].T, K["acceleration"][0])
+        close(matrices["Ct"][1][:, :, 1].T, K["acceleration"][1])
+        first = matrices["Oe"][1].transpose(1, 0, 2)
+        for column, expected in enumerate((-e.yy, -e.xx, K["centrifugal"] - both, e.xy + e.xy.T, 0 * B, 0 * B)):
+            close(first[:, :, column], expected)
+        # Nodes: their own motion moves origin and axes, and loads on points meet the geometric stiffness.
+        points = [order[0], order[1], order[3]]  # a, b, c
+        for number, node in nodes.items():
+            close(node["origin"][1][:, :, 0].T, node["phi"][0])
+            close(node["AP"][0], np.eye(3))
+            close(node["AP"][1][:, 1, 0], node["psi"][0][2])
+            close(node["AP"][1][:, 0, 1], -node["psi"][0][2])
+            if number in points:
+                at = 3 * points.index(number)
+                for axis in range(2):
+                    close(node["phi"][1][:, axis, :], -K["point_load"][at + axis])
+                close(node["psi"][1][:, 2, :], -K["point_load"][at + 2])
+            else:
+                self.assertEqual(len(node["phi"][1]), 0)
+
+    def test_a_target_that_is_not_known_and_a_file_that_cannot_be_written(self):
+        self.make_body().close()
+        result = self.run_program("export", "out/beam.h5", "--to", "adams", "-o", "body")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("adams", result.stderr)
+        result = self.run_program("export", "out/beam.h5", "--to", "mbdyn", "-o", "none/body")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("none/body.fem: error: ", result.stderr)
+        result = self.run_program("export", "beam.toml", "--to", "mbdyn", "-o", "body")
+        self.assertEqual(result.returncode, 2)
+
+
+if __name__ == "__main__":
+    run_tests()

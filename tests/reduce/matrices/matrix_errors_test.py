@@ -1,0 +1,263 @@
+"""Files of matrices that cannot be used, and the message for each: file, line, column, what is wrong.
+
+Usage: matrix_errors_test.py PROGRAM SOURCE_DIR [unittest arguments]
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "program"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import matrix_files as files  # noqa: E402  after the path
+from reduce_case import ReduceTestCase, run_tests  # noqa: E402
+
+IDS = (1, 2, 3)
+FREEDOMS = files.plane_freedoms(IDS)
+DESIGN = """[points]
+a = [0.0, 0.0]
+[matrices]
+format = "FORMAT"
+stiffness = "k.mtx"
+mass = "m.mtx"
+freedoms = "f.csv"
+nodes = "n.csv"
+[reference]
+point = "a"
+[modes]
+count = 3
+damping_ratio = 0.01
+"""
+
+
+class MatrixErrorsTest(ReduceTestCase):
+    def setUp(self):
+        super().setUp()
+        self.stiffness, self.mass = files.make_beam(2)
+        self.write_good("matrix-market", lambda path, matrix: files.write_matrix_market(path, matrix))
+
+    def write_good(self, name, write):
+        (self.folder / "body.toml").write_text(DESIGN.replace("FORMAT", name))
+        write(self.folder / "k.mtx", self.stiffness)
+        write(self.folder / "m.mtx", self.mass)
+        files.write_freedoms(self.folder / "f.csv", FREEDOMS)
+        files.write_nodes(self.folder / "n.csv", IDS, [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)])
+
+    def assert_error(self, *parts):
+        result = self.build("body.toml", code=2)
+        self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+        for part in parts:
+            self.assertIn(part, result.stderr)
+        self.assertEqual(self.files(), [])
+
+    def assert_errors(self, name, changes):
+        """Each change of a file, (old, new, message), by itself."""
+        text = (self.folder / name).read_text()
+        for old, new, message in changes:
+            with self.subTest(new):
+                self.change(name, old, new)
+                self.assert_error(message)
+                (self.folder / name).write_text(text)
+
+    def test_matrix_market(self):
+        self.assert_errors("k.mtx", [
+            ("%%MatrixMarket matrix", "%%MatrixMarket vector", "k.mtx:1: error: does not begin with '%%MatrixMarket"),
+            ("real symmetric", "complex symmetric",
+             "k.mtx:1:34: error: 'complex' is not read, expected 'real' or 'integer'"),
+            ("real symmetric", "real hermitian", "k.mtx:1:39: error: 'hermitian' is not read, expected 'symmetric' or"),
+            ("\n9 9 ", "\n8 9 ", "k.mtx:3:1: error: the matrix has 8 rows, the table of freedoms has 9"),
+            ("\n1 1 ", "\n1 12 ", "k.mtx:4:3: error: '12' is no whole number of 1 … 9"),
+            ("\n4 1 ", "\n1 4 ", "k.mtx:5:3: error: stands above the diagonal of a symmetric matrix"),
+            ("\n1 1 100000.0", "\n1 1 1e6x", "k.mtx:4:5: error: '1e6x' is no number of a double's range"),
+            ("\n1 1 100000.0", "\n1 1 nan", "k.mtx:4:5: error: 'nan' is not finite"),
+            ("\n1 1 100000.0", "\n1 1", "k.mtx:4: error: has 2 numbers, expected 3"),
+            ("\n4 1 -100000.0", "\n1 1 5.0", "k.mtx:5:5: error: the entry (x of node 1; x of node 1) stands in line 4"),
+        ])
+        text = (self.folder / "k.mtx").read_text()
+        (self.folder / "k.mtx").write_text(text[: text.rindex("\n9 9")])
+        self.assert_error("k.mtx:23: error: ends after 20 of 21 entries")
+        (self.folder / "k.mtx").write_text(text + "9 9 1.0\n")
+        self.assert_error("k.mtx:25: error: stands after the last of 21 entries")
+        (self.folder / "k.mtx").unlink()
+        self.assert_error("k.mtx: error: ")
+
+    def test_a_matrix_that_is_not_symmetric(self):
+        changed = self.stiffness.copy()
+        changed[4, 1] *= 1.001
+        files.write_matrix_market(self.folder / "k.mtx", changed, symmetric=False)
+        self.assert_error("k.mtx:", "error: the matrix is not symmetric: the entry (y of node 1; y of node 2) is "
+                          "-12000, and -12012 on the other side of the diagonal")
+
+    def test_tables(self):
+        self.assert_errors("f.csv", [
+            ("node,direction", "node,dof", "f.csv:1: error: the heading is 'node,dof', expected 'node,direction'"),
+            ("\n2,1", "\n2,7", "f.csv:5:3: error: '7' is no direction, expected 1 … 6 or x, y, z, rx, ry, rz"),
+            ("\n2,1", "\n1,1", "f.csv:5:1: error: x of node 1 stands in the table twice"),
+            ("\n2,1", "\n2,1,0", "f.csv:5: error: has 3 cells, expected 2"),
+            ("\n2,1", "\n0,1", "f.csv:5:1: error: '0' is no whole number of 1 … 2147483647"),
+        ])
+        self.assert_errors("n.csv", [
+            ("node,x,y", "id,x,y", "n.csv:1: error: the heading is 'id,x,y', expected 'node,x,y' or 'node,x,y,z'"),
+            ("\n2,1.0", "\n2,", "n.csv:3:3: error: '' is no number"),
+            ("\n2,1.0", "\n1,1.0", "n.csv:3:1: error: node 1 stands in the table twice"),
+            ("\n2,1.0", "\n4,1.0", "k.mtx: error: node 2 of the matrices is not in the table of nodes"),
+        ])
+
+    def test_abaqus(self):
+        self.write_good("abaqus", lambda path, matrix: files.write_abaqus(path, matrix, FREEDOMS))
+        self.change("body.toml", 'freedoms = "f.csv"\n', "")
+        self.assert_errors("k.mtx", [
+            ("*MATRIX INPUT", "*MATRIX ASSEMBLE",
+             "k.mtx:2: error: '*MATRIX ASSEMBLE, NAME=K, TYPE=SYMMETRIC' is no part"),
+            ("\n1,1, 1,1, 1.0", "\n-1,1, 1,1, 1.0", "k.mtx:3:1: error: node -1 is internal to Abaqus"),
+            ("\n1,1, 1,1, 1.0", "\n1,8, 1,1, 1.0", "k.mtx:3:3: error: '8' is no whole number of 1 … 6"),
+            ("1.000000000000000e+05", "1.0e+36",
+             "k.mtx:3:11: error: the entry is 1e+36, which stands for a freedom that"),
+            ("\n2,1, 1,1,", "\n2,1, 1,", "k.mtx:4: error: has 4 numbers, expected 5"),
+        ])
+        files.write_coordinates(self.folder / "k.mtx", self.stiffness)
+        self.assert_error("k.mtx:1: error: is of the form row, column, value, which needs a table of the rows")
+
+    def test_calculix(self):
+        self.write_good("calculix", files.write_calculix)
+        self.change("body.toml", "f.csv", "f.dof")
+        (self.folder / "f.dof").write_text("".join(f"{node}.{direction}\n" for node, direction in FREEDOMS))
+        self.assert_errors("k.mtx", [
+            ("1 1 ", "1 10 ", "k.mtx:1:3: error: '10' is no whole number of 1 … 9"),
+            ("1 1 ", "1 1 2 ", "k.mtx:1: error: has 4 numbers, expected 3"),
+        ])
+        self.assert_errors("f.dof", [
+            ("1.2\n", "12\n", "f.dof:2: error: is '12', expected NODE.DIRECTION"),
+            ("1.2\n", "1.9\n", "f.dof:2:3: error: '9' is no direction"),
+        ])
+
+    def test_nastran(self):
+        self.write_good("nastran", lambda path, matrix: files.write_dmig(path, {"KAAX": matrix}, FREEDOMS))
+        self.change("body.toml", 'freedoms = "f.csv"\n', "")
+        self.assert_errors("k.mtx", [
+            ("       6       2", "       2       2",
+             "k.mtx:2:32: error: the matrix has the form 2, expected 1 (square) or 6"),
+            ("       6       2", "       6       4",
+             "k.mtx:2:40: error: the matrix is complex (type 4), expected 1 or 2"),
+            ("DMIG*   KAAX", "GRID*   KAAX",
+             "k.mtx:3: error: 'GRID' is no part of a matrix, expected DMIG entries alone"),
+            ("               1               1\n", "               1               0\n",
+             "k.mtx:3:56: error: 1 is a scalar point; only freedoms of grid points are read"),
+            ("1.000000000D+05", "1.0000000X0D+05", "error: '1.0000000X0D+05' is no number"),
+        ])
+        files.write_dmig(self.folder / "k.mtx", {"KAAX": self.stiffness, "MAAX": self.mass}, FREEDOMS)
+        self.assert_error("error: is a second matrix, 'MAAX' after 'KAAX': say which one is meant by 'stiffness_name'")
+        self.change("body.toml", "[reference]", 'stiffness_name = "KGG"\n[reference]')
+        self.assert_error("error: has no matrix 'KGG'")
+
+    def test_keys_of_the_design(self):
+        self.assert_errors("body.toml", [
+            ('"matrix-market"', '"ansys"', "body.toml:4:10: error: 'matrices.format' must be one of "),
+            ("nodes =", "node =", "unknown key 'node' in 'matrices' (did you mean 'nodes'?)"),
+            ("[reference]", 'axes = ["x", "-x"]\n[reference]',
+             "error: 'matrices.axes' names one axis twice, expected two"),
+            ("[reference]", 'mass_name = "M"\n[reference]',
+             "error: 'matrices.mass_name' belongs to the format \"nastran\""),
+            ("[points]", '[sections.a]\n[points]', "error: 'sections' describes beams, and stands beside [matrices]"),
+            ("a = [0.0, 0.0]", "a = [0.5, 0.0]", "error: point 'a' at (0.5, 0) is 0.5 m away from the nearest node"),
+            ("[reference]", "expected = { mass = 841.0 }\n[reference]",
+             "error: the matrices have the mass 840 kg, expected 841 kg"),
+            ("[reference]", "expected = { centre_of_mass = [0.9, 0.0] }\n[reference]",
+             "error: the matrices have the centre of mass (1, 0) m, expected (0.9, 0) m"),
+            ("[reference]", "expected = { inertia = 281.0 }\n[reference]",
+             "error: the matrices have the moment of inertia 280 kg·m² about the centre of mass, expected 281 kg·m²"),
+            ("[reference]", "length_unit = 0.0\n[reference]", "error: 'matrices.length_unit' must be > 0"),
+        ])
+
+    # Whole matrices that belong to no free body.
+
+    def write_stiffness(self, matrix):
+        files.write_matrix_market(self.folder / "k.mtx", matrix)
+
+    def write_mass(self, matrix):
+        files.write_matrix_market(self.folder / "m.mtx", matrix)
+
+    def test_a_spring_to_the_ground(self):
+        self.stiffness[4, 4] += 10.0
+        self.write_stiffness(self.stiffness)
+        self.assert_error("k.mtx: error: the stiffness resists a rigid displacement along y: 1 freedom gets a force",
+                          "at y of node 2; boundary conditions")
+
+    def test_places_of_the_nodes_in_other_units_or_another_order(self):
+        files.write_nodes(self.folder / "n.csv", IDS, [(0.0, 0.0), (1000.0, 0.0), (2000.0, 0.0)])
+        self.change("body.toml", "a = [0.0, 0.0]", "a = [1000.0, 0.0]")
+        self.assert_error("k.mtx: error: the stiffness resists a rigid rotation")
+        files.write_nodes(self.folder / "n.csv", IDS, [(1.0, 0.0), (0.0, 0.0), (2.0, 0.0)])
+        self.assert_error("k.mtx: error: the stiffness resists a rigid rotation")
+
+    def test_shuffled_freedoms(self):
+        files.write_freedoms(self.folder / "f.csv", [FREEDOMS[i] for i in (1, 0, 2, 3, 4, 5, 6, 7, 8)])
+        self.assert_error("k.mtx: error: the stiffness resists a rigid")
+
+    def test_freedoms_without_stiffness_and_bodies_in_parts(self):
+        changed = self.stiffness.copy()
+        changed[[2, 5], :] = changed[:, [2, 5]] = 0.0
+        self.write_stiffness(changed)
+        self.assert_error("k.mtx: error: no stiffness acts on 2 freedoms: the rotation of node 1, the rotation of "
+                          "node 2")
+        one, _ = files.make_beam(1)
+        changed = np.zeros((9, 9))
+        changed[:6, :6] = one
+        changed[6:, 6:] = np.eye(3)
+        self.write_stiffness(changed)
+        self.assert_error("k.mtx: error: the body is in parts: nothing connects node 3 with node 1")
+
+    def test_a_freedom_that_is_missing(self):
+        keep = [i for i in range(9) if i != 4]
+        self.write_stiffness(self.stiffness[np.ix_(keep, keep)])
+        self.write_mass(self.mass[np.ix_(keep, keep)])
+        files.write_freedoms(self.folder / "f.csv", [FREEDOMS[i] for i in keep])
+        self.assert_error("k.mtx: error: y of node 2 is missing, as if a boundary condition held it")
+
+    def test_masses_of_no_body(self):
+        changed = self.mass.copy()
+        changed[3, 3] = -1.0
+        self.write_mass(changed)
+        self.assert_error("m.mtx: error: the mass is negative at x of node 2")
+        changed = self.mass.copy()
+        changed[1, 4] = changed[4, 1] = 1000.0
+        self.write_mass(changed)
+        self.assert_error("m.mtx: error: the mass matrix is not positive definite")
+        changed = self.mass.copy()
+        changed[0, 0] += 1.0
+        self.write_mass(changed)
+        self.assert_error("m.mtx: error: the body's mass is 841 kg along x and 840 kg along y")
+        changed = self.mass.copy()
+        changed[0, 0] += 50.0
+        changed[7, 7] += 50.0
+        self.write_mass(changed)
+        self.assert_error("m.mtx: error: mass and places of the nodes do not fit together")
+
+    def test_bodies_that_are_not_symmetric_about_their_plane(self):
+        files.write_nodes(self.folder / "n.csv", IDS, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.1), (2.0, 0.0, 0.0)])
+        self.assert_error("lies off the plane in the middle and has no mirror image")
+        files.write_nodes(self.folder / "n.csv", IDS, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)])
+        whole = np.zeros((10, 10))
+        whole[:9, :9] = self.stiffness
+        whole[9, 9], whole[9, 4], whole[4, 9] = 100.0, 5.0, 5.0
+        self.write_stiffness(whole)
+        mass = np.zeros((10, 10))
+        mass[:9, :9], mass[9, 9] = self.mass, 1.0
+        self.write_mass(mass)
+        files.write_freedoms(self.folder / "f.csv", [*FREEDOMS, (2, 3)])
+        self.assert_error("k.mtx: error: the body is not symmetric about the plane: the motion in it (y of node 2) and "
+                          "the motion out of it (z of node 2) are coupled")
+
+    def test_programs_that_need_beams_say_so(self):
+        result = self.run_program("sensitivity", "body.toml")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("body.toml: error: gives the body by matrices; sensitivities are those of beams", result.stderr)
+        result = self.run_program("matrices", "body.toml", "-o", "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'body' has no beams", result.stderr)
+
+
+if __name__ == "__main__":
+    run_tests()
