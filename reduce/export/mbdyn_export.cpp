@@ -19,7 +19,7 @@ class RecordGroups {
   void rows(const Eigen::MatrixXd& matrix) {
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-        text_ += (j == 0 ? "" : " ") + format_real(matrix(i, j));
+        text_ += fmt::format("{}{}", j == 0 ? "" : " ", format_real(matrix(i, j)));
       text_ += "\n";
     }
   }
