@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace sprung::dynamics {
@@ -97,6 +98,37 @@ void read_outside(const support::TomlTable& table, std::string_view key, std::st
   outside = value->is_number() ? fmt::format("{}", value->number(support::any(unit))) : value->one_of(kHold);
 }
 
+// Takes the samples from the unit of the history to that of the function.
+void scale_samples(const support::TomlTable& table, std::string_view unit, const HistoryUse& history,
+                   std::vector<double>& values) {
+  const support::TomlValue place = table.has("unit") ? table.at("unit") : table.at("channel");
+  const double factor = find_factor(place, history.unit, unit);
+  for (double& value : values) {
+    value = history.offset + history.scale * (factor * value);
+    if (std::abs(value) <= kLargestValue) continue;
+    throw table.error(fmt::format("must stay within ±{:g} {}, got {:g}", kLargestValue, unit, value));
+  }
+}
+
+// Moves the samples to their times in the run. Late times are rounded, so that samples may fall into one.
+void place_samples(const support::TomlTable& table, HistoryUse& history, std::vector<double>& times) {
+  const std::optional<support::TomlValue> start = table.find("start");
+  const double shift = start ? start->number(support::any("s")) - times.front() : 0.0;
+  for (double& time : times) time += shift;
+  history.shortest_spacing = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool ascends = i == 0 || times[i] > times[i - 1];
+    if (!ascends || !(std::abs(times[i]) <= kLargestValue)) {
+      throw table.error(fmt::format("must have times that ascend, within ±{:g} s, got {:.17g} s in sample {}",
+                                    kLargestValue, times[i], i + 1));
+    }
+    if (i > 0) history.shortest_spacing = std::min(history.shortest_spacing, times[i] - times[i - 1]);
+  }
+  history.from = times.front();
+  history.to = times.back();
+  history.mean_spacing = (history.to - history.from) / static_cast<double>(times.size() - 1);
+}
+
 // Replaces the constants outside of the samples by the numbers that are asked for.
 TimeFunction replace_outside(const TimeFunction& f, const HistoryUse& use) {
   const auto outside = [](const std::string& text, const TimeFunction& held) {
@@ -140,8 +172,8 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   history.offset = table.number_or("offset", 0.0, support::any(unit));
   read_outside(table, "before", unit, history.before);
   read_outside(table, "after", unit, history.after);
-  const std::optional<support::TomlValue> wanted_unit = table.find("unit"), start = table.find("start");
-  table.find("channel"), table.find("time");
+  const std::optional<support::TomlValue> wanted_unit = table.find("unit");
+  table.find("channel"), table.find("time"), table.find("start");
   table.reject_unknown_keys();
 
   const File& file = open(table.at("file"));
@@ -149,21 +181,8 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   history.hash = std::visit([](const auto& one) { return one.hash(); }, file);
   history.channel = samples.channel.name;
   history.unit = wanted_unit ? wanted_unit->string() : samples.channel.unit;
-  const double factor = find_factor(wanted_unit.value_or(table.at("channel")), history.unit, unit);
-  const double shift = start ? start->number(support::any("s")) - samples.time.front() : 0.0;
-  for (double& time : samples.time) time += shift;
-  for (double& value : samples.value) {
-    value = history.offset + history.scale * (factor * value);
-    if (std::abs(value) <= kLargestValue) continue;
-    throw table.error(fmt::format("must stay within ±{:g} {}, got {:g}", kLargestValue, unit, value));
-  }
-  history.from = samples.time.front();
-  history.to = samples.time.back();
-  history.mean_spacing = (history.to - history.from) / static_cast<double>(samples.time.size() - 1);
-  history.shortest_spacing = history.mean_spacing;
-  for (std::size_t i = 1; i < samples.time.size(); ++i) {
-    history.shortest_spacing = std::min(history.shortest_spacing, samples.time[i] - samples.time[i - 1]);
-  }
+  scale_samples(table, unit, history, samples.value);
+  place_samples(table, history, samples.time);
   const bool is_smooth = history.interpolation == kInterpolations[1];
   const TimeFunction f = is_smooth ? TimeFunction::spline(samples.time, samples.value)
                                    : TimeFunction::lines(samples.time, samples.value);
