@@ -209,6 +209,24 @@ class MatrixErrorsTest(ReduceTestCase):
         self.write_stiffness(changed)
         self.assert_error("k.mtx: error: the body is in parts: nothing connects node 3 with node 1")
 
+    def test_truncated_files_of_formats_without_an_end(self):
+        # Whatever line is the last one, what is left is no free body.
+        writers = {"abaqus": lambda path, matrix: files.write_abaqus(path, matrix, FREEDOMS),
+                   "calculix": files.write_calculix,
+                   "nastran": lambda path, matrix: files.write_dmig(path, {"A": matrix}, FREEDOMS)}
+        (self.folder / "f.dof").write_text("".join(f"{node}.{direction}\n" for node, direction in FREEDOMS))
+        for name, write in writers.items():
+            self.write_good(name, write)
+            line = 'freedoms = "f.csv"\n'
+            self.change("body.toml", line, 'freedoms = "f.dof"\n' if name == "calculix" else "")
+            for cut in ("k.mtx", "m.mtx"):
+                lines = (self.folder / cut).read_text().splitlines(keepends=True)
+                for kept in (4, len(lines) // 2, len(lines) - 1):
+                    with self.subTest(f"{name} {cut} {kept}"):
+                        (self.folder / cut).write_text("".join(lines[:kept]))
+                        self.assert_error("error: ")
+                (self.folder / cut).write_text("".join(lines))
+
     def test_a_freedom_that_is_missing(self):
         keep = [i for i in range(9) if i != 4]
         self.write_stiffness(self.stiffness[np.ix_(keep, keep)])
