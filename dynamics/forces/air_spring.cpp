@@ -179,7 +179,8 @@ std::vector<InternalState> AirSpring::internal_states() const {
   }
   if (parameters_.levelling) {
     add("mass");
-    states.push_back({.name = "valve", .size = state_factors_.back(), .is_per_length = true});
+    // Differences of the linearisation stay in the dead band.
+    states.push_back({.name = "valve", .size = state_factors_.back() * parameters_.levelling->dead_band});
   }
   return states;
 }

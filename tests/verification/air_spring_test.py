@@ -165,6 +165,16 @@ damper = { coefficient = 3000.0 }
         balance = self.program("equilibrium", self.write_model(text, "duration = 1.0\n"))["forces"]["air"]
         self.assert_close(balance["partner_gauge_pressure"], balance["gauge_pressure"], relative=1e-9)
 
+    def test_a_levelling_valve_is_closed_in_modes(self):
+        valve = "levelling = { dead_band = 0.001, full_opening = 0.002, delay = 0.5, "
+        valve += "supply_gauge_pressure = 9e5, orifice = { diameter = 0.02 } }"
+        found = []
+        for keys in ("", valve):
+            run = self.write_model(vehicle(f'load = "static"\n{keys}'), "duration = 0.1\n")
+            (mode,) = self.program("modes", run)["modes"]
+            found.append([mode["undamped_frequency"], mode["damping_ratio"]])
+        self.assert_close(found[1], found[0], absolute=1e-9)
+
     def test_a_levelling_valve_brings_the_height_back(self):
         # 3 kN more than in equilibrium from 0.5 s on, and less from 20 s on.
         text = vehicle(
