@@ -22,6 +22,12 @@ std::string_view role_name(ChannelRole role) {
       return "contact";
     case ChannelRole::kRoadHeight:
       return "road-height";
+    case ChannelRole::kPressure:
+      return "pressure";
+    case ChannelRole::kMass:
+      return "mass";
+    case ChannelRole::kMassFlow:
+      return "mass-flow";
   }
   return "";
 }

@@ -36,11 +36,11 @@ struct InternalState {
   bool is_per_length = false;
 };
 
-/// A linear law in the place of a state's own: its rate is `gain` times that which motion from rest gives it,
-/// less `decay` times the state.
+/// A linear law in the place of that of an element's n states: their rates are `gain` times those which
+/// motion from rest gives them, less `decay` times the states.
 struct StateLinearisation {
-  double gain = 1.0;
-  double decay = 0.0;  ///< [1/s]
+  Eigen::VectorXd gain;   ///< n, one factor for each state
+  Eigen::MatrixXd decay;  ///< n×n [1/s]
 };
 
 /// Power by which a force element reduces (dissipated) or increases (input) the mechanical energy [W].
@@ -60,6 +60,9 @@ enum class ChannelRole {
   kRate,               ///< rate of that deflection
   kContact,            ///< 1 while a wheel touches the road, else 0
   kRoadHeight,         ///< height of the road under a wheel
+  kPressure,           ///< pressure of a gas, or a difference of two
+  kMass,               ///< mass of a gas
+  kMassFlow,           ///< mass of gas that enters per time
 };
 
 /// One quantity among a force element's results.
@@ -108,10 +111,12 @@ class ForceElement {
   virtual void calc_state_rates(const Instant& /*instant*/, std::span<const int> /*branches*/,
                                 std::span<double> /*rates*/) const {}
 
-  /// The law of its only state for random motion, where the law has no derivative at rest, as of friction.
-  /// @param rms_deflection, rms_rate  root mean squares of its channels of these roles, > 0
-  virtual std::optional<StateLinearisation> linearise_state(double /*rms_deflection*/,
-                                                            double /*rms_rate*/) const {
+  /// The law of its states for random motion about rest, where their own law is far from linear near rest, as
+  /// that of friction; none where it is not.
+  /// @param rms  root mean square of each channel; empty: of a motion that is usual for such an element
+  virtual std::optional<StateLinearisation> linearise_states(const Instant& /*at_rest*/,
+                                                             std::span<const int> /*branches*/,
+                                                             std::span<const double> /*rms*/) const {
     return std::nullopt;
   }
 

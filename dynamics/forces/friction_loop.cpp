@@ -29,7 +29,7 @@ FrictionHarmonic calc_friction_harmonic(double reach) {
   return {.in_phase = 2.0 * sum / kPhases, .ahead = 4.0 / pi * (1.0 - corner / reach)};
 }
 
-StateLinearisation linearise_friction(double rms_deflection, double rms_rate, double presliding_deflection) {
+LinearFriction linearise_friction(double rms_deflection, double rms_rate, double presliding_deflection) {
   // Mean of A² times the stiffness of a loop, for σ = 1; A² has the mean 2.
   double in_phase = 0.0, ahead = 0.0;
   const double width = kLargestAmplitude / kAmplitudes;

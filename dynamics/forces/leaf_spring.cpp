@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/forces/friction_loop.h"
 
@@ -13,6 +14,11 @@ namespace {
 // How far a branch is used beyond its end, as for springs and dampers.
 constexpr double kLeafDeadBand = 1e-9;      // m
 constexpr double kLeafRateDeadBand = 1e-6;  // m/s
+
+// R.m.s. values that the linearisation for random motion begins with, and the least that it takes.
+constexpr double kLeafDeflection = 0.01;                                // m
+constexpr double kLeafRate = kLeafDeflection * 4.0 * std::numbers::pi;  // m/s, at 2 Hz
+constexpr double kLeastLeafRms = 1e-9;                                  // m, m/s
 
 // The largest full friction at a point of its law.
 double find_largest(const PiecewisePolynomial& friction) {
@@ -90,8 +96,14 @@ void LeafSpring::calc_state_rates(const Instant& instant, std::span<const int> b
   rates[0] = (full_state_ * line.rate - speed * instant.states[0]) / parameters_.presliding_deflection;
 }
 
-std::optional<StateLinearisation> LeafSpring::linearise_state(double rms_deflection, double rms_rate) const {
-  return linearise_friction(rms_deflection, rms_rate, parameters_.presliding_deflection);
+std::optional<StateLinearisation> LeafSpring::linearise_states(const Instant& /*at_rest*/,
+                                                               std::span<const int> /*branches*/,
+                                                               std::span<const double> rms) const {
+  const double deflection = rms.empty() ? kLeafDeflection : std::max(rms[1], kLeastLeafRms);
+  const double rate = rms.empty() ? kLeafRate : std::max(rms[2], kLeastLeafRms);
+  const LinearFriction law = linearise_friction(deflection, rate, parameters_.presliding_deflection);
+  return StateLinearisation{.gain = Eigen::VectorXd::Constant(1, law.gain),
+                            .decay = Eigen::MatrixXd::Constant(1, 1, law.decay)};
 }
 
 void LeafSpring::choose_branches(const Instant& instant, std::span<int> branches) const {

@@ -9,6 +9,7 @@
 
 #include "dynamics/forces/distributed_tyre.h"
 #include "dynamics/forces/point_contact_tyre.h"
+#include "dynamics/input/air_spring_input.h"
 #include "dynamics/input/characteristic_input.h"
 #include "dynamics/input/suspension_input.h"
 #include "dynamics/input/time_function_input.h"
@@ -60,7 +61,7 @@ void read_laws(const support::TomlTable& table, const LawUnits& units, Parameter
 StaticLength read_static_length(const support::TomlTable& table) {
   static const std::array<std::string, 1> kAsDrawn{"as-drawn"};
   const support::TomlValue value = table.at("static");
-  StaticLength wanted{.length = {}, .location = value.location()};
+  StaticLength wanted{.key = "free_length.static", .length = {}, .location = value.location()};
   if (value.is_number()) {
     wanted.length = value.number(support::positive("m"));
   } else {
@@ -74,16 +75,10 @@ void read_spring_damper(const support::TomlTable& table, ForceDescription& force
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   SpringDamper::Parameters parameters;
-  const support::TomlValue free_length = table.at("free_length");
-  if (free_length.is_table()) {
-    force.static_length = read_static_length(free_length.table());
-    parameters.free_length = force.static_length->length.value_or(1.0);  // until the balance is known
-  } else {
-    parameters.free_length = free_length.number(support::positive("m"));
-  }
+  parameters.free_length = read_free_length(table, force);
   read_laws(table, kTranslation, parameters);
   if (force.static_length && !table.has("spring")) {
-    throw free_length.error("can follow from the static length only where there is a 'spring'");
+    throw table.at("free_length").error("can follow from the static length only where there is a 'spring'");
   }
   force.parameters = std::move(parameters);
 }
@@ -168,6 +163,7 @@ const std::vector<std::pair<std::string, ForceReader>>& force_readers() {
       {"hydraulic-stop", read_hydraulic_stop},
       {"bushing", read_bushing},
       {"leaf-spring", read_leaf_spring},
+      {"air-spring", read_air_spring},
   };
   return readers;
 }
@@ -221,7 +217,20 @@ std::unique_ptr<ForceElement> place(const std::string& name, LeafSpring::Paramet
   return std::make_unique<LeafSpring>(name, std::move(parameters));
 }
 
+std::unique_ptr<ForceElement> place(const std::string& name, AirSpring::Parameters parameters,
+                                    std::span<const int> markers, const PlacedRoad& /*road*/) {
+  std::copy(markers.begin(), markers.end(), parameters.markers.begin());
+  return std::make_unique<AirSpring>(name, std::move(parameters));
+}
+
 }  // namespace
+
+double read_free_length(const support::TomlTable& table, ForceDescription& force) {
+  const support::TomlValue free_length = table.at("free_length");
+  if (!free_length.is_table()) return free_length.number(support::positive("m"));
+  force.static_length = read_static_length(free_length.table());
+  return force.static_length->length.value_or(1.0);  // until the balance is known
+}
 
 ForceDescription read_force(const support::TomlTable& table, HistoryFiles& histories) {
   ForceDescription force;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/forces/air_spring.h"
 #include "dynamics/forces/applied_force.h"
 #include "dynamics/forces/bushing.h"
 #include "dynamics/forces/hydraulic_stop.h"
@@ -28,12 +29,14 @@ struct TyreDescription {
 };
 
 /// Parameters of a force element of any kind.
-using ForceParameters =
-    std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters, AppliedForce::Parameters,
-                 TyreDescription, HydraulicStop::Parameters, Bushing::Parameters, LeafSpring::Parameters>;
+using ForceParameters = std::variant<SpringDamper::Parameters, RotationalSpringDamper::Parameters,
+                                     AppliedForce::Parameters, TyreDescription, HydraulicStop::Parameters,
+                                     Bushing::Parameters, LeafSpring::Parameters, AirSpring::Parameters>;
 
-/// A length in static equilibrium, from which the free length follows (dynamics/program/static_lengths.h).
+/// A length in static equilibrium, from which the free length of a spring-damper follows, or the pressure of
+/// an air spring (dynamics/program/static_lengths.h).
 struct StaticLength {
+  std::string key;               ///< that asks for it: "free_length.static"
   std::optional<double> length;  ///< [m]; none: the distance of the points as the vehicle file has them
   support::SourceLocation location;
 };
@@ -47,8 +50,12 @@ struct ForceDescription {
   bool on_road = false;     ///< a tyre: its first point is the wheel's centre
   support::SourceLocation location;
   ForceParameters parameters;                      ///< all but its markers
-  std::optional<StaticLength> static_length = {};  ///< of a spring-damper, in place of its free length
+  std::optional<StaticLength> static_length = {};  ///< in place of its free length, or of its pressure
 };
+
+/// Reads the key `free_length`: a number, or a table that gives the static length.
+/// @return the free length [m]; of a static length one that has to be found
+double read_free_length(const support::TomlTable& table, ForceDescription& force);
 
 /// Reads one entry of `[[forces]]`: name, type and the keys of its type, by the table `force_readers`. It
 /// does not check that the points exist; `read_vehicle` does.

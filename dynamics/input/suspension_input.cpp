@@ -131,7 +131,7 @@ void read_leaf_spring(const support::TomlTable& table, ForceDescription& force) 
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   LeafSpring::Parameters parameters;
-  parameters.free_length = table.number("free_length", support::positive("m"));
+  parameters.free_length = read_free_length(table, force);
   parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
   parameters.spring = read_spring(table.at("spring").table());
   parameters.presliding_deflection = table.number("presliding_deflection", support::positive("m"));

@@ -163,7 +163,9 @@ void check_lines(const Vehicle& vehicle) {
                                           what, acting.name, point_a.name, point_b.name, a.x(), a.y()));
   };
   for (const ForceDescription& force : vehicle.forces) {
-    if (force.along_line) check(force, "force", force.points[0], force.points[1]);
+    if (!force.along_line) continue;
+    for (std::size_t i = 0; i < force.points.size(); i += 2)
+      check(force, "force", force.points[i], force.points[i + 1]);
   }
   for (const JointDescription& joint : vehicle.joints) {
     if (joint.needs_distance) check(joint, "joint", joint.a, joint.b);

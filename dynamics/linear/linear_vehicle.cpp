@@ -35,11 +35,11 @@ LinearVehicle::LinearVehicle(const Model& model, const Eigen::VectorXd& q)
 }
 
 // States are the last independent coordinates.
-void LinearVehicle::set_state_law(int force, const StateLinearisation& law) {
-  const int coordinate = model().first_state() + model().force_states[static_cast<std::size_t>(force)];
-  const Eigen::Index k = system_.mass.rows() - (model().num_coordinates - coordinate);
-  system_.damping.row(k) = law.gain * damping_at_rest_.row(k);
-  system_.damping(k, k) = law.decay;
+void LinearVehicle::set_state_law(std::size_t force, const StateLinearisation& law) {
+  const Eigen::Index n = law.gain.size();
+  const Eigen::Index first = system_.mass.rows() - model().num_states() + model().force_states[force];
+  system_.damping.middleRows(first, n) = law.gain.asDiagonal() * damping_at_rest_.middleRows(first, n);
+  system_.damping.block(first, first, n, n) = law.decay;
   solver_ = FrequencySolver(system_.mass, system_.damping, system_.stiffness, system_.stiffness_rounding);
 }
 

@@ -39,8 +39,8 @@ class LinearVehicle {
   /// @throws support::NumericalError if it cannot be linearised there
   LinearVehicle(const Model& model, const Eigen::VectorXd& q);
 
-  /// Gives the state of force element f, its only one, another linear law.
-  void set_state_law(int force, const StateLinearisation& law);
+  /// Gives the states of a force element another linear law.
+  void set_state_law(std::size_t force, const StateLinearisation& law);
 
   const Model& model() const { return equations_.terms().model(); }
   const LinearisedSystem& system() const { return system_; }

@@ -76,7 +76,9 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
     const Energy energy = calc_energy(equations.terms(), branches);
     *potential = energy.total() - 2.0 * energy.kinetic;
   }
-  return calc_relative_force(equations, equations.calc_directions(), motion);
+  Eigen::VectorXd force = calc_relative_force(equations, equations.calc_directions(), motion);
+  force.tail(equations.terms().model().num_states()).setZero();
+  return force;
 }
 
 namespace {
@@ -101,6 +103,7 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
       motion);
   const Eigen::MatrixXd& D = system.directions;
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
+  system.stiffness.bottomRows(model.num_states()).setZero();
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
   // All entries of D, zeros too, have rounding errors in natural sizes, and so does the work of each force.

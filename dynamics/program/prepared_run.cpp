@@ -175,8 +175,10 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
 std::string describe_static_lengths(const PreparedRun& prepared) {
   std::string text;
   for (const StaticLengthResult& spring : prepared.static_lengths) {
-    text += fmt::format("{}: free length {:.6g} m gives {:.6g} m in balance\n", spring.force,
-                        spring.free_length, spring.length);
+    const std::string found = spring.free_length
+                                  ? fmt::format("free length {:.6g} m", *spring.free_length)
+                                  : fmt::format("gauge pressure {:.6g} Pa", *spring.gauge_pressure);
+    text += fmt::format("{}: {} gives {:.6g} m in balance\n", spring.force, found, spring.length);
   }
   return text;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/linear/friction_response.h"
 #include "dynamics/linear/linear_outputs.h"
+#include "dynamics/linear/random_linearisation.h"
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
 #include "dynamics/program/commands.h"
@@ -89,43 +89,47 @@ std::vector<std::string> list_warnings(const PreparedRun& prepared, const Linear
   return warnings;
 }
 
-// Whether the element's law has no derivative at rest, so that it is linearised in another way.
-bool has_friction(const Model& model, const std::string& element) {
-  return std::any_of(model.forces.begin(), model.forces.end(), [&](const auto& force) {
-    return force->name == element && force->linearise_state(1.0, 1.0);
-  });
+// Whether the law of the element's states is linearised in another way.
+bool is_linearised_for_motion(const LinearVehicle& vehicle, const std::string& element) {
+  const auto& forces = vehicle.model().forces;
+  const auto found =
+      std::find_if(forces.begin(), forces.end(), [&](const auto& force) { return force->name == element; });
+  return found != forces.end() &&
+         needs_random_linearisation(vehicle, static_cast<std::size_t>(found - forces.begin()));
 }
 
 std::string describe_mean_slopes(const LinearVehicle& vehicle) {
   std::vector<std::string> names;
   for (const Kink& kink : vehicle.kinks()) {
-    if (!kink.in_position && !has_friction(vehicle.model(), kink.element)) names.push_back(kink.element);
+    if (!kink.in_position && !is_linearised_for_motion(vehicle, kink.element)) names.push_back(kink.element);
   }
   return names.empty()
              ? ""
              : fmt::format("Linearised with the mean of the two slopes at rest: {}", fmt::join(names, ", "));
 }
 
-// Linearises friction for the motion on the road. @return a line for the heading, "" without friction
-std::string linearise_friction(const Run& run, LinearVehicle& vehicle) {
+// Linearises friction and orifices for the motion on the road. @return a line for the heading, "" if there
+// are none
+std::string linearise_for_motion(const Run& run, LinearVehicle& vehicle) {
   std::vector<std::string> names;
   if (run.response.road) {
     const FrequencyRange range{.from = run.response.from, .to = run.response.to};
-    for (const LinearisedFriction& one :
-         linearise_friction_by_response(vehicle, *run.response.road, run.speed, range)) {
+    for (const RandomLinearisation& one :
+         linearise_for_random_motion(vehicle, *run.response.road, run.speed, range)) {
       names.push_back(fmt::format("{} ({:.3g} m)", one.element, one.rms_deflection));
     }
-    return names.empty() ? ""
-                         : fmt::format("Friction linearised for the r.m.s. deflection on this road: {}",
-                                       fmt::join(names, ", "));
+    return names.empty()
+               ? ""
+               : fmt::format("Friction and orifices linearised for the r.m.s. deflection on this road: {}",
+                             fmt::join(names, ", "));
   }
-  for (const auto& force : vehicle.model().forces) {
-    if (has_friction(vehicle.model(), force->name)) names.push_back(force->name);
+  for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
+    if (needs_random_linearisation(vehicle, f)) names.push_back(vehicle.model().forces[f]->name);
   }
   return names.empty() ? ""
                        : fmt::format(
-                             "Friction holds as at rest, since without response.road it has no "
-                             "amplitude: {}",
+                             "Friction holds and orifices let pass as near rest, since without response.road "
+                             "they have no amplitude: {}",
                              fmt::join(names, ", "));
 }
 
@@ -155,7 +159,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   LinearVehicle vehicle(prepared.balance_model, prepared.equilibrium->q);
   check_inputs(prepared, vehicle);
   check_stability(prepared, vehicle);
-  const std::string friction = linearise_friction(prepared.run, vehicle);
+  const std::string states = linearise_for_motion(prepared.run, vehicle);
   ResponseResult result =
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
@@ -165,7 +169,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   }
   if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
     result.remarks.push_back(means);
-  if (!friction.empty()) result.remarks.push_back(friction);
+  if (!states.empty()) result.remarks.push_back(states);
 
   if (!output.results.empty()) write_response(output.results, result);
   fmt::print("{}", output.json ? format_response_json(result) : format_response(result));

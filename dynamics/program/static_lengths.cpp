@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
@@ -18,19 +19,61 @@ constexpr int kMostIterations = 50;
 constexpr double kTolerance = 1e-9;     // relative to the static length
 constexpr double kSmallestShare = 0.2;  // of a free length that one step leaves of it
 
+// A linear spring in the place of an air spring, about as stiff as one that carries a vehicle.
+SpringDamper::Parameters make_stand_in(const AirSpring::Parameters& air) {
+  constexpr double kUsualPressure = 6e5;  // absolute [Pa]
+  const double area = air.effective_area.value(air.design_height);
+  const double stiffness = air.exponent * kUsualPressure * area * area / air.volume;
+  return {.free_length = air.design_height,
+          .multiplicity = air.multiplicity,
+          .spring = PiecewisePolynomial({0.0, stiffness}),
+          .damper = {}};
+}
+
 // The springs whose static length is given, and their lengths in a position of the vehicle.
 class StaticSprings {
  public:
-  explicit StaticSprings(const Vehicle& vehicle) {
+  // Puts the stand-ins into the vehicle; `place_back` takes them out again.
+  explicit StaticSprings(Vehicle& vehicle) {
     for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
-      if (vehicle.forces[f].static_length) forces_.push_back(f);
+      ForceParameters& parameters = vehicle.forces[f].parameters;
+      if (!vehicle.forces[f].static_length) continue;
+      forces_.push_back(f);
+      air_springs_.emplace_back();
+      if (auto* air = std::get_if<AirSpring::Parameters>(&parameters)) {
+        air_springs_.back() = *air;
+        parameters = make_stand_in(*air);
+      }
     }
   }
   bool empty() const { return forces_.empty(); }
   Eigen::Index size() const { return static_cast<Eigen::Index>(forces_.size()); }
   std::size_t force(Eigen::Index i) const { return forces_[static_cast<std::size_t>(i)]; }
   double& free_length(Vehicle& vehicle, Eigen::Index i) const {
-    return std::get<SpringDamper::Parameters>(vehicle.forces[force(i)].parameters).free_length;
+    ForceParameters& parameters = vehicle.forces[force(i)].parameters;
+    if (auto* leaf = std::get_if<LeafSpring::Parameters>(&parameters)) return leaf->free_length;
+    return std::get<SpringDamper::Parameters>(parameters).free_length;
+  }
+
+  // The result of spring i, which is written into the vehicle.
+  StaticLengthResult place_back(Vehicle& vehicle, Eigen::Index i, double length) const {
+    ForceDescription& force = vehicle.forces[this->force(i)];
+    StaticLengthResult result{.force = force.name, .length = length, .free_length = free_length(vehicle, i)};
+    std::optional<AirSpring::Parameters> air = air_springs_[static_cast<std::size_t>(i)];
+    if (!air) return result;
+    const auto& spring = std::get<SpringDamper::Parameters>(force.parameters);
+    const double load = spring.spring.value(spring.free_length - length);
+    if (!(load > 0.0)) {
+      throw support::InputError(
+          force.static_length->location,
+          fmt::format("'forces.{}.{}': the air spring would have to pull with {:.6g} N in static equilibrium",
+                      force.name, force.static_length->key, -load));
+    }
+    result.free_length.reset();
+    result.gauge_pressure = load / air->effective_area.value(length);
+    air->pressure = air->ambient_pressure + *result.gauge_pressure;
+    force.parameters = std::move(*air);
+    return result;
   }
 
   Eigen::VectorXd calc_lengths(const Model& model, const Eigen::VectorXd& q) const {
@@ -48,6 +91,7 @@ class StaticSprings {
 
  private:
   std::vector<std::size_t> forces_;
+  std::vector<std::optional<AirSpring::Parameters>> air_springs_;  // for each of these
 };
 
 // The lengths wanted: those of the file, else those of the vehicle as drawn.
@@ -69,10 +113,10 @@ Eigen::VectorXd find_targets(const Vehicle& vehicle, const StaticSprings& spring
   throw support::InputError(
       force.static_length->location,
       fmt::format(
-          "'forces.{}.free_length.static' of {:.6g} m cannot be reached together with the other static "
+          "'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
           "lengths: after {} iterations it is {:.6g} m; check that the spring carries load, and that its "
           "stops are out of reach",
-          force.name, targets[worst], kMostIterations, lengths[worst]));
+          force.name, force.static_length->key, targets[worst], kMostIterations, lengths[worst]));
 }
 
 }  // namespace
@@ -97,7 +141,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
     if ((error.array().abs() <= kTolerance * targets.array()).all()) {
       std::vector<StaticLengthResult> results;
       for (Eigen::Index i = 0; i < springs.size(); ++i)
-        results.push_back({vehicle.forces[springs.force(i)].name, lengths[i], free_lengths[i]});
+        results.push_back(springs.place_back(vehicle, i, lengths[i]));
       return results;
     }
     if (before.size() > 0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,15 @@ namespace sprung::dynamics {
 /// A force element that has the length of the vehicle file in static equilibrium.
 struct StaticLengthResult {
   std::string force;
-  double length = 0.0;       ///< in equilibrium [m]
-  double free_length = 0.0;  ///< that gives it [m]
+  double length = 0.0;                        ///< in equilibrium [m]
+  std::optional<double> free_length = {};     ///< that gives it [m]
+  std::optional<double> gauge_pressure = {};  ///< of an air spring, that gives it [Pa]
 };
 
-/// Finds the free lengths of the springs whose length in static equilibrium the vehicle file gives, and
-/// writes them into the vehicle. Broyden's method: the inverse Jacobian starts as the identity, which is
-/// exact where each spring carries a load that does not depend on the others.
+/// Finds the free lengths of the springs whose length in static equilibrium the vehicle file gives, and the
+/// pressures of such air springs, and writes them into the vehicle. Broyden's method: the inverse Jacobian
+/// starts as the identity, which is exact where each spring carries a load that does not depend on the
+/// others. Linear springs stand in for air springs; their forces in equilibrium give the pressures.
 /// @param make_balance  the model for the balance, of a vehicle with other free lengths
 /// @throws support::InputError at a force whose static length cannot be reached together with the others;
 ///         support::NumericalError if there is no equilibrium

@@ -16,8 +16,9 @@ from sprung_tools.model.resolved_model import read_elements, read_point
 TEMPLATES = ROOT / "dynamics/models/templates"
 GUIDE = TEMPLATES / "README.md"
 # Degrees of freedom with rigid bodies: three for each body, without those that the joints take.
-FREEDOMS = {"half_car": 5, "bus": 8, "truck": 7, "semitrailer": 14}
-FLEXIBLE = {"truck": ("frame",), "semitrailer": ("tractor_frame", "trailer_frame")}
+FREEDOMS = {"half_car": 5, "bus": 8, "truck": 7, "semitrailer": 14, "air_semitrailer": 16}
+FLEXIBLE = {"truck": ("frame",), "semitrailer": ("tractor_frame", "trailer_frame"),
+            "air_semitrailer": ("tractor_frame", "trailer_frame")}  # fmt: skip
 DURATION = "0.5"
 
 
@@ -83,13 +84,14 @@ class Templates(ToolTestCase):
             ends.append(place[:2] + point.position)
         return float(np.linalg.norm(ends[0] - ends[1]))
 
-    def test_the_tools_judge_and_draw_the_semitrailer(self):
-        self.run_template("semitrailer")
-        ride = self.run_tool("ride", "semitrailer.h5")
-        self.assert_succeeds(ride)
-        for words in ("driver.seat", "seat_air", "tyre_3", "trailer_frame"):
-            self.assertIn(words, ride.stdout)
-        self.assert_succeeds(self.run_tool("report", "semitrailer.h5", "-o", "page.html"))
+    def test_the_tools_judge_and_draw_the_semitrailers(self):
+        for name, elements in (("semitrailer", ()), ("air_semitrailer", ("front_leaf", "drive_air"))):
+            self.run_template(name)
+            ride = self.run_tool("ride", f"{name}.h5")
+            self.assert_succeeds(ride)
+            for words in ("driver.seat", "seat_air", "tyre_3", "trailer_frame", *elements):
+                self.assertIn(words, ride.stdout)
+            self.assert_succeeds(self.run_tool("report", f"{name}.h5", "-o", "page.html"))
 
     def test_the_guide_goes_through(self):
         # Its vehicle file is the template; every command of it is run as it stands there.

@@ -5,6 +5,7 @@ The two share the elements, but neither the equations nor the steps. No run of t
 off by more than ten times its tolerance. By hand with more vehicles: SPRUNG_FAMILY=300 suspension_family_test.py
 """
 
+import math
 import os
 import unittest
 
@@ -188,6 +189,56 @@ metering = {{ coefficient = {mass * random.uniform(0.0, 5.0):.6g} }}
 """
 
         self.assertGreater(self.compare(make, 3), 10 * COUNT)
+
+    def test_air_springs_with_stops(self):
+        # An auxiliary volume behind an orifice, from nearly closed to wide open, and an impact; some with a levelling
+        # valve that acts from the start.
+        def make(random):
+            text, mass = self.head(random, 0.04)
+            gauge = random.uniform(2e5, 7e5)
+            area = mass * 9.81 / gauge
+            volume, slope = area * random.uniform(0.15, 0.4), random.uniform(-3.0, 0.5) * area
+            table = ", ".join(f"[{h}, {area + slope * (h - 0.5):.6g}]" for h in (0.45, 0.5, 0.55))
+            load, valve = f"{mass * 9.81 * random.uniform(0.9, 1.1):.6g}", ""
+            opening = 10.0 ** random.uniform(-2.8, -0.8) * math.sqrt(area)
+            if random.random() < 0.3:
+                load = '"static"'
+                valve = (
+                    "levelling = { dead_band = 0.004, full_opening = 0.02, "
+                    f"delay = {10.0 ** random.uniform(-1.0, 1.0):.6g}, supply_gauge_pressure = 9e5, "
+                    f"orifice = {{ diameter = {0.02 * math.sqrt(area):.6g} }} }}"
+                )
+            return text + GUIDE + f"""
+[[forces]]
+name = "air"
+type = "air-spring"
+a = "base.origin"
+b = "load.origin"
+design_height = 0.5
+effective_area = [{table}]
+volume = {volume:.6g}
+load = {load}
+exponent = {random.uniform(1.0, 1.4):.6g}
+auxiliary = {{ volume = {volume * random.uniform(0.3, 3.0):.6g}, orifice = {{ diameter = {opening:.6g} }} }}
+{valve}
+[[forces]]
+name = "absorber"
+type = "spring-damper"
+a = "base.origin"
+b = "load.origin"
+free_length = 0.5
+damper = {{ coefficient = {mass * random.uniform(0.2, 2.0):.6g} }}
+[[forces]]
+name = "bump"
+type = "hydraulic-stop"
+a = "base.origin"
+b = "load.origin"
+contact_length = {random.uniform(0.44, 0.47):.6g}
+spring = {{ polynomial = [0.0, {mass * 10.0 ** random.uniform(2.5, 4.0):.6g}] }}
+metering = {{ coefficient = {mass * random.uniform(0.0, 5.0):.6g} }}
+"""
+
+        self.assertGreater(self.compare(make, 4), 5 * COUNT)
 
 
 if __name__ == "__main__":

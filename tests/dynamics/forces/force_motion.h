@@ -9,7 +9,8 @@
 
 namespace sprung::test {
 
-/// Two markers in uniform motion, for force elements alone, with the states of one at constant rates.
+/// Markers in uniform motion, two if not said otherwise, for force elements alone, with the states of one at
+/// constant rates.
 struct MarkerPair {
   std::vector<dynamics::MarkerState> markers = std::vector<dynamics::MarkerState>(2);
   std::vector<double> states = {}, state_rates = {};
@@ -30,7 +31,7 @@ struct MarkerPair {
 /// Power that a force element gives to its markers [W].
 inline double calc_power(const MarkerPair& pair, const std::vector<dynamics::Wrench>& wrenches) {
   double power = 0.0;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < pair.markers.size(); ++i) {
     power += wrenches[i].force.dot(pair.markers[i].v) + wrenches[i].torque * pair.markers[i].omega;
   }
   return power;
@@ -40,7 +41,7 @@ inline double calc_power(const MarkerPair& pair, const std::vector<dynamics::Wre
 /// dissipated − input + power on its markers, with d/dt of the stored energy by differences of fourth order.
 inline double calc_energy_leak(const dynamics::ForceElement& element, const MarkerPair& pair,
                                const std::vector<int>& branches) {
-  std::vector<dynamics::Wrench> wrenches(2);
+  std::vector<dynamics::Wrench> wrenches(pair.markers.size());
   MarkerPair moving = pair;
   moving.state_rates.resize(pair.states.size());
   element.calc_state_rates(pair.instant(), branches, moving.state_rates);

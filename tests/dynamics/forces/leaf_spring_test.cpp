@@ -152,10 +152,10 @@ TEST_CASE(
 
 TEST_CASE("Friction is linearised as a spring for small random motion, and as dry friction for large motion",
           "[forces]") {
-  const dynamics::StateLinearisation small = dynamics::linearise_friction(1e-6, 1e-5, 0.01);
+  const dynamics::LinearFriction small = dynamics::linearise_friction(1e-6, 1e-5, 0.01);
   CHECK(small.gain == Approx(1.0).epsilon(1e-3));
   CHECK(small.decay < 1e-2);
   // p = g ḋ/(β λ), which for dry friction under Gaussian motion is √(2/π) ḋ/σ_ḋ.
-  const dynamics::StateLinearisation large = dynamics::linearise_friction(10.0, 20.0, 0.01);
+  const dynamics::LinearFriction large = dynamics::linearise_friction(10.0, 20.0, 0.01);
   CHECK(large.gain * 20.0 / (0.01 * large.decay) == Approx(std::sqrt(2.0 / pi)).epsilon(2e-3));
 }

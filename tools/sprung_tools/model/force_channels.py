@@ -10,7 +10,8 @@ from sprung_tools.model.resolved_model import find_group
 
 FORCE, LONGITUDINAL, GIVEN, TORQUE, DEFLECTION = "force", "longitudinal-force", "given", "torque", "deflection"
 EXTENT, RATE, CONTACT, ROAD_HEIGHT = "extent", "rate", "contact", "road-height"
-ROLES = (FORCE, LONGITUDINAL, GIVEN, TORQUE, DEFLECTION, EXTENT, RATE, CONTACT, ROAD_HEIGHT)
+PRESSURE, MASS, MASS_FLOW = "pressure", "mass", "mass-flow"
+ROLES = (FORCE, LONGITUDINAL, GIVEN, TORQUE, DEFLECTION, EXTENT, RATE, CONTACT, ROAD_HEIGHT, PRESSURE, MASS, MASS_FLOW)
 
 
 class ForceChannel(NamedTuple):
