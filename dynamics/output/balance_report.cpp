@@ -124,9 +124,13 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
   std::string text = fmt::format(
       "{}: modes about {}, {} freedoms\n"
       "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
-      "counts with their mean.\n\n",
+      "counts with their mean.\n{}\n",
       vehicle.name, is_steady ? "steady motion" : "static equilibrium",
-      model.num_freedoms() - model.num_states());
+      model.num_freedoms() - model.num_states(),
+      model.num_states() > 0
+          ? "Undamped frequencies are without friction of leaf springs and parts that relax or "
+            "flow; damped frequencies contain them.\n"
+          : "");
   support::TextTable table({"mode", "undamped Hz", "damped Hz", "damping ratio", "kinetic energy"});
   int number = 0;
   for (const VehicleMode& mode : modes) {

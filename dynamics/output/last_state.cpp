@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "dynamics/output/results_writer.h"
@@ -75,15 +76,45 @@ State read_last_rows(const support::Hdf5Reader& file, const Model& model) {
   return state;
 }
 
+std::vector<std::string> list_coordinates(const Model& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < model.num_coordinates; ++i) names.push_back(model.coordinate_name(i));
+  return names;
+}
+
+// The coordinates go by their names, so that bodies and force elements may stand in another order. A force
+// element that the file does not know starts with its states at rest. A state keeps its share of its natural
+// size, so that friction is no larger than its full value where that has changed.
 State read_stored_state(const support::Hdf5Reader& file, const Model& model) {
-  const auto read = [&](const std::string& name) {
-    const std::vector<double> values = file.reals("/last_state/" + name, {model.num_coordinates});
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), model.num_coordinates));
-  };
-  return {.time = file.reals("/last_state/time", {1})[0],
-          .q = read("coordinates"),
-          .v = read("velocities"),
-          .branches = {}};
+  const std::vector<std::string> wanted = list_coordinates(model);
+  const std::vector<std::string> found =
+      file.has("/last_state/name") ? file.strings("/last_state/name", {-1}) : wanted;
+  const auto size = static_cast<std::int64_t>(found.size());
+  const std::vector<double> coordinates = file.reals("/last_state/coordinates", {size}),
+                            velocities = file.reals("/last_state/velocities", {size});
+  std::vector<double> state_sizes;
+  if (file.has("/last_state/state_size")) state_sizes = file.reals("/last_state/state_size", {-1});
+  if (state_sizes.size() > found.size()) fail(file, "has more sizes of states than coordinates");
+  const std::size_t first_state = found.size() - state_sizes.size();
+  State state{.time = file.reals("/last_state/time", {1})[0],
+              .q = Eigen::VectorXd::Zero(model.num_coordinates),
+              .v = Eigen::VectorXd::Zero(model.num_coordinates),
+              .branches = {}};
+  for (int i = 0; i < model.num_coordinates; ++i) {
+    const int own_state = i - model.first_state();
+    const auto place = std::find(found.begin(), found.end(), wanted[static_cast<std::size_t>(i)]);
+    const auto j = static_cast<std::size_t>(place - found.begin());
+    if (place == found.end() || (own_state >= 0 && j < first_state)) {
+      if (own_state >= 0) continue;
+      fail(file, fmt::format("its last state lacks '{}'", wanted[static_cast<std::size_t>(i)]));
+    }
+    const double factor =
+        own_state < 0 ? 1.0
+                      : model.states[static_cast<std::size_t>(own_state)].size / state_sizes[j - first_state];
+    state.q[i] = factor * coordinates[j];
+    state.v[i] = factor * velocities[j];
+  }
+  return state;
 }
 
 }  // namespace

@@ -100,6 +100,12 @@ void ResultsWriter::make_last_state(const Model& model) {
   last_ = {.q = Eigen::VectorXd::Zero(model.num_coordinates),
            .v = Eigen::VectorXd::Zero(model.num_coordinates),
            .branches = {}};
+  std::vector<std::string> names;
+  for (int i = 0; i < model.num_coordinates; ++i) names.push_back(model.coordinate_name(i));
+  file_.write("/last_state/name", names);
+  std::vector<double> sizes;
+  for (const InternalState& state : model.states) sizes.push_back(state.size);
+  if (!sizes.empty()) file_.write("/last_state/state_size", sizes, "J^0.5, J^0.5/m");
   file_.write("/last_state/time", std::vector<double>{0.0}, "s");
   file_.write("/last_state/coordinates", last_.q, "m, rad, kg^0.5 m");
   file_.write("/last_state/velocities", last_.v, "m/s, rad/s, kg^0.5 m/s");

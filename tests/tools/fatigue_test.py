@@ -184,6 +184,8 @@ class FatigueCommand(ToolTestCase):
                 "--at: error: no stresses of a body 'arm'; there are those of body",
             ),
             (("a.h5", "--category", "71", "--at", "body"), "--at: error: 'body' is not BODY:METRES"),
+            (("a.h5", "--category", "71", "--at", "body:nan"), "--at: error: 'body:nan' is not BODY:METRES"),
+            (("a.h5", "--category", "71", "--at", "body:99"), "--at: error: 99 m is beyond 'body', which reaches from"),
             (("a.h5", "--category", "71", "--bodies", "arm"), "no loads of the sections of 'arm'"),
             (("bare.h5", "--category", "71"), "no flexible body with loads of its sections"),
             (("a.h5", "bare.h5", "--category", "71", "--histories", "b.csv"), "--histories: error: takes one run"),

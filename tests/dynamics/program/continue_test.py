@@ -11,6 +11,49 @@ from dynamics_test_case import DynamicsTestCase
 TIGHT = ("--quiet", "--set", "integrator.relative_tolerance=1e-9")
 FROM_FIRST = ("--set", 'continue_from="first.h5"')
 
+SLIDER = """
+name = "slider"
+[ground.points]
+rail = [0.0, 0.0]
+anchor = [0.0, -1.0]
+[bodies.m]
+mass = 100.0
+inertia = 1.0
+position = [0.0, 0.0]
+[[joints]]
+name = "slide"
+type = "translational"
+a = "ground.rail"
+b = "m.origin"
+axis = [0.0, 1.0]
+"""
+LEAF = """
+[[forces]]
+name = "leaf"
+type = "leaf-spring"
+a = "m.origin"
+b = "ground.anchor"
+free_length = 1.0
+spring = { polynomial = [0.0, 2e4] }
+friction = { coefficient = 500.0 }
+presliding_deflection = 0.002
+"""
+MOUNT = """
+[[forces]]
+name = "mount"
+type = "bushing"
+a = "ground.rail"
+b = "m.origin"
+y = { spring = { polynomial = [0.0, 1e3] }, relaxation = { stiffness = 3e4, time = 1.0 } }
+"""
+PUSH = """
+[[forces]]
+name = "push"
+type = "applied"
+point = "m.origin"
+force = [0.0, { table = [[0.1, 0.0], [0.2, -900.0], [0.6, -900.0], [1.2, 0.0]] }]
+"""
+
 
 class Continue(DynamicsTestCase):
     def run_until(self, duration, name, *arguments):
@@ -77,6 +120,30 @@ class Continue(DynamicsTestCase):
             del file["bodies/chassis/velocity"]
         self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST), "dataset '/bodies/chassis/velocity' is missing")
         self.assertFalse((self.folder / "b.h5").exists())
+
+    def test_a_force_element_takes_over_its_own_states(self):
+        # At 0.5 s the load holds the leaf spring's friction and the bushing's relaxing part away from zero.
+        # Expected: what the elements had at the end of the first run, whatever their order in the file.
+        self.write_vehicle(LEAF, MOUNT)
+        self.assertEqual(self.run_until(0.5, "first.h5").returncode, 0)
+        forces = ("leaf/friction", "mount/force_y")
+        with h5py.File(self.folder / "first.h5") as file:
+            expected = [file["forces"][name][-1] for name in forces]
+        self.assertGreater(min(np.abs(expected)), 50.0)
+        self.write_vehicle(MOUNT, LEAF)
+        self.assertEqual(self.run_until(0.8, "second.h5", *FROM_FIRST).returncode, 0)
+        with h5py.File(self.folder / "second.h5") as file:
+            np.testing.assert_allclose([file["forces"][name][0] for name in forces], expected, rtol=1e-6)
+        # Of another full friction the share is the same, and an element of another kind remembers nothing.
+        self.write_vehicle(MOUNT.replace("mount", "other"), LEAF.replace("coefficient = 500.0", "coefficient = 100.0"))
+        self.assertEqual(self.run_until(0.8, "third.h5", *FROM_FIRST).returncode, 0)
+        with h5py.File(self.folder / "third.h5") as file:
+            self.assertAlmostEqual(file["forces/leaf/friction"][0] / expected[0], 0.2, delta=1e-6)
+            self.assertEqual(file["forces/other/state"][0, 0], 0.0)
+
+    def write_vehicle(self, *forces):
+        (self.folder / "vehicle.toml").write_text(SLIDER + "".join(forces) + PUSH, encoding="utf-8")
+        (self.folder / "bump.toml").write_text('vehicle = "vehicle.toml"\nduration = 0.5\n', encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,8 @@ import json
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import check_output, write_whole
 from sprung_tools.plots.fatigue_picture import DrawnFatigue, Place, make_fatigue_figure
@@ -33,6 +35,7 @@ from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 MPA, HOUR = 1e6, 3600.0
+SAME_PLACE = 1e-6  # m
 HEADINGS = ("body", "run", "from", "at m", "element", "side", "highest MPa", "lowest MPa", "largest range MPa",
             "damage", "life h")  # fmt: skip
 UNITS = {"damage": "1", "station": "m", "element": "1", "highest": "Pa", "lowest": "Pa", "largest_range": "Pa",
@@ -88,7 +91,9 @@ def parse_places(texts: Sequence[str], bodies: Sequence[str]) -> list[tuple[str,
         try:
             places.append((body, float(metres)))
         except ValueError:
-            raise InputError(f"--at: error: '{text}' is not BODY:METRES") from None
+            places.append((body, np.nan))
+        if not np.isfinite(places[-1][1]):
+            raise InputError(f"--at: error: '{text}' is not BODY:METRES")
         if body not in bodies:
             raise InputError(f"--at: error: no stresses of a body '{body}'; there are those of {', '.join(bodies)}")
     return places
@@ -99,6 +104,11 @@ def list_places(found: Found, asked: Sequence[tuple[str, float]]) -> list[Place]
     if not asked:
         return [Place(*found.fatigue.worst)]
     at_body = [place for body, place in asked if body == found.body]
+    along = found.fatigue.section.along
+    for place in at_body:
+        if not np.min(along) - SAME_PLACE <= place <= np.max(along) + SAME_PLACE:
+            reach = f"{np.min(along):.4g} to {np.max(along):.4g} m"
+            raise InputError(f"--at: error: {place:g} m is beyond '{found.body}', which reaches from {reach}")
     return [
         Place(station, side) for place in at_body for station in find_stations(found.fatigue, place) for side in (0, 1)
     ]
