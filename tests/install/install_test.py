@@ -1,9 +1,9 @@
 """What `cmake --install` puts into an empty folder is enough to reduce the truck's bodies, to drive it over the
-bump, to
-draw that, and to build a program that reads superelements. Needs the folder of the build (SPRUNG_BUILD), cmake
+bump, to draw that, and to build a program that reads superelements. Needs the folder of the build (SPRUNG_BUILD), cmake
 (SPRUNG_CMAKE) and the compiler flags of the build (SPRUNG_CXX_FLAGS)."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -82,7 +82,7 @@ class Installed(unittest.TestCase):
         self.assertEqual((process.returncode, process.stdout), (0, "0.2 m/s^2\n"))
 
     def test_every_tool_explains_itself(self):
-        tools = sorted(path for path in (self.share / "tools").iterdir() if path.is_file())
+        tools = sorted(path for path in (self.share / "tools").iterdir() if os.access(path, os.X_OK) and path.is_file())
         self.assertGreater(len(tools), 5)
         for tool in tools:
             with self.subTest(tool.name):
@@ -104,6 +104,17 @@ class Installed(unittest.TestCase):
         self.assertEqual(name, "chassis")
         self.assertAlmostEqual(float(first), 6.11, delta=0.01)
         self.assertAlmostEqual(float(second), 6.11, delta=0.01)
+
+    def test_the_texts_that_installed_ones_refer_to_are_installed(self):
+        links = [
+            (text, link)
+            for text in self.share.rglob("*.md")
+            for link in re.findall(r"\]\(([^():\s]+\.md)[)#]", text.read_text(encoding="utf-8"))
+            if "tests/" not in link
+        ]
+        self.assertGreater(len(links), 100)
+        missing = [f"{text}: {link}" for text, link in links if not (text.parent / link).exists()]
+        self.assertEqual(missing, [])
 
     def test_nothing_installed_names_the_folders_of_the_build(self):
         for path in (self.installed / "lib").rglob("*.cmake"):

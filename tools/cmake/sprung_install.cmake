@@ -10,6 +10,14 @@ endforeach()
 install(DIRECTORY tools/sprung tools/sprung_tools DESTINATION "${share}/tools" PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY dynamics/models DESTINATION "${share}/dynamics")
 install(DIRECTORY meshes DESTINATION "${share}")
+# What they refer to: the theory of each room, the formats of files.
+file(GLOB_RECURSE texts RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
+  dynamics/*.md fem/*.md reduce/*.md tools/*.md)
+list(FILTER texts EXCLUDE REGEX "^dynamics/models/")
+foreach(text IN LISTS texts ITEMS README.md)
+  get_filename_component(folder "${text}" DIRECTORY)
+  install(FILES "${text}" DESTINATION "${share}/${folder}")
+endforeach()
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # The rooms behind find_package(sprung), whose headers are included by the same names as here.
