@@ -233,6 +233,14 @@ std::optional<TimeFunction::Jump> TimeFunction::find_jump() const {
       largest_rate = std::max(largest_rate, std::abs(rate(time)));
     }
   }
+  // A function with a period may be zero at all of these times; a spline has its values at its own breaks.
+  for (std::size_t i = 0; i + 1 < value_.breaks().size(); ++i) {
+    for (const double share : {0.0, 0.5}) {
+      const double time = value_.breaks()[i] + share * (value_.breaks()[i + 1] - value_.breaks()[i]);
+      largest_value = std::max(largest_value, std::abs(value(time)));
+      largest_rate = std::max(largest_rate, std::abs(rate(time)));
+    }
+  }
   for (const double time : breaks_) {
     const double just_before = std::nextafter(time, -std::numeric_limits<double>::infinity());
     const Jump values{.time = time, .before = value(just_before), .after = value(time)};

@@ -41,12 +41,12 @@ std::size_t find_channel(const support::TomlValue& wanted, std::span<const Signa
 }
 
 // The factor to SI units.
-double find_factor(const support::TomlValue& at, const std::string& unit, std::string_view si_unit) {
+double find_factor(const support::TomlValue& at, const std::string& unit, std::string_view si_unit,
+                   std::string_view advice) {
   if (unit.empty()) return 1.0;
   const std::optional<KnownUnit> known = find_unit(unit);
   if (known && (si_unit.empty() || known->si_unit == si_unit)) return known->factor;
-  throw at.error(fmt::format("is in '{}', expected one of {}; 'unit' says in which unit to take it", unit,
-                             list_units(si_unit)));
+  throw at.error(fmt::format("is in '{}', expected one of {}{}", unit, list_units(si_unit), advice));
 }
 
 Samples read_samples(const ColumnFile& file, const support::TomlTable& table) {
@@ -56,7 +56,8 @@ Samples read_samples(const ColumnFile& file, const support::TomlTable& table) {
   if (channel == time) throw table.at("channel").error("must not be the column of the times");
   Samples samples{file.read_column(time), file.read_column(channel), file.columns()[channel]};
   const Signal& clock = file.columns()[time];
-  const double factor = find_factor(wanted_time.value_or(table.at("file")), clock.unit, "s");
+  const double factor = find_factor(wanted_time.value_or(table.at("file")), clock.unit, "s",
+                                    ", as it is the column of the times");
   for (double& t : samples.time) t *= factor;
   for (std::size_t i = 1; i < samples.time.size(); ++i) {
     if (samples.time[i] - samples.time[i - 1] >= kShortestSpacing) continue;
@@ -78,6 +79,11 @@ Samples read_samples(const Rpc3File& file, const support::TomlTable& table) {
   for (std::size_t i = 0; i < file.channels().size(); ++i) {
     if (wanted.string() == fmt::format("CHAN_{}", i + 1)) channel = i;
   }
+  for (std::size_t i = 0; i < file.channels().size() && channel < file.channels().size(); ++i) {
+    if (i == channel || file.channels()[i].name != wanted.string()) continue;
+    throw wanted.error(
+        fmt::format("is channel {} by its number, but also the name of channel {}", channel + 1, i + 1));
+  }
   if (channel == file.channels().size()) channel = find_channel(wanted, file.channels());
   Samples samples{{}, file.read_channel(channel), file.channels()[channel]};
   for (std::size_t i = 0; i < samples.value.size(); ++i) {
@@ -92,17 +98,19 @@ Samples read_samples(const Rpc3File& file, const support::TomlTable& table) {
 
 void read_outside(const support::TomlTable& table, std::string_view key, std::string_view unit,
                   std::string& outside) {
-  static const std::array<std::string, 1> kHold{"hold"};
+  constexpr std::string_view kHold = "hold";
   const std::optional<support::TomlValue> value = table.find(key);
   if (!value) return;
-  outside = value->is_number() ? fmt::format("{}", value->number(support::any(unit))) : value->one_of(kHold);
+  if (!value->is_number() && value->string() != kHold)
+    throw value->error(fmt::format("must be \"hold\" or a number, got '{}'", value->string()));
+  outside = value->is_number() ? fmt::format("{}", value->number(support::any(unit))) : std::string(kHold);
 }
 
 // Takes the samples from the unit of the history to that of the function.
 void scale_samples(const support::TomlTable& table, std::string_view unit, const HistoryUse& history,
                    std::vector<double>& values) {
   const support::TomlValue place = table.has("unit") ? table.at("unit") : table.at("channel");
-  const double factor = find_factor(place, history.unit, unit);
+  const double factor = find_factor(place, history.unit, unit, "; 'unit' says in which unit to take it");
   for (double& value : values) {
     value = history.offset + history.scale * (factor * value);
     if (std::abs(value) <= kLargestValue) continue;

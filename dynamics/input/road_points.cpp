@@ -10,6 +10,7 @@
 
 #include "dynamics/measured/column_file.h"
 #include "dynamics/measured/crg_file.h"
+#include "dynamics/measured/text_check.h"
 #include "tools/support/files/read_text_file.h"
 
 namespace sprung::dynamics {
@@ -81,6 +82,7 @@ void read_line(std::string_view line, support::SourceLocation location, RoadPoin
 // Two columns of numbers without names.
 RoadPoints read_plain_table(const std::filesystem::path& path) {
   const std::string text = support::read_text_file(path);
+  check_text(text, path.string());
   RoadPoints points;
   const auto num_lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   points.distance.reserve(num_lines);
@@ -133,6 +135,13 @@ RoadPoints read_named_columns(const RoadDescription& road) {
   const ColumnFile file = ColumnFile::read(road.file);
   RoadColumn distance = road.distance;
   if (distance.name.empty()) distance = {file.columns().front().name, road.file_location};
+  for (auto one = road.heights.begin(); one != road.heights.end(); ++one) {
+    const auto same = [&](const RoadColumn& other) { return other.name == one->name; };
+    if (same(distance))
+      throw support::InputError(one->location, fmt::format("'{}' is the column of the distances", one->name));
+    if (std::any_of(road.heights.begin(), one, same))
+      throw support::InputError(one->location, fmt::format("'height' names '{}' twice", one->name));
+  }
   RoadPoints points;
   points.distance = read_lengths(file, distance);
   for (const RoadColumn& column : road.heights)

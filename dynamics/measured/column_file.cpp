@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/measured/text_check.h"
 #include "tools/support/files/content_hash.h"
 #include "tools/support/files/read_text_file.h"
 
@@ -64,6 +65,7 @@ ColumnFile ColumnFile::read(const std::filesystem::path& path) {
   file.path_ = path.string();
   file.text_ = support::read_text_file(path);
   file.hash_ = support::sha256(file.text_);
+  check_text(file.text_, file.path_);
   file.read_header();
   return file;
 }

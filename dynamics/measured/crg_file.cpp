@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "dynamics/measured/signal.h"
+#include "dynamics/measured/text_check.h"
 #include "tools/support/files/content_hash.h"
 #include "tools/support/files/read_text_file.h"
 
@@ -17,6 +18,8 @@ namespace {
 
 constexpr std::size_t kRecordLength = 80;  // of a line of data
 constexpr double kSameHeading = 1e-6;      // rad
+constexpr double kSameSection = 0.01;      // of the distance of sections
+constexpr double kLargestNumber = 1e9;     // m, rad
 constexpr double kSamePlace = 1e-6;        // of the increment, or m
 
 std::string to_upper(std::string_view text) {
@@ -39,8 +42,11 @@ CrgFile CrgFile::read(const std::filesystem::path& path) {
   file.hash_ = support::sha256(file.text_);
   file.split_lines();
   file.read_header();
+  check_text(file.text_, file.path_, file.lines_[file.data_begin_ - 1].number);
   file.place_sections();
+  file.check_last_section();
   file.count_rows();
+  file.check_fields();
   file.check_straight();
   return file;
 }
@@ -104,6 +110,7 @@ void CrgFile::read_parameter(const Line& line, std::string_view text) {
   const std::optional<double> number = parse_number(value);
   if (!number) throw support::InputError(here, fmt::format("'{}' must be a number, got '{}'", name, value));
   parameters_[name] = *number;
+  places_[name] = here;
   const bool is_positive = name == "REFERENCE_LINE_INCREMENT" || name == "LONG_SECTION_V_INCREMENT";
   if (is_positive && !(*number > 0.0))
     throw support::InputError(here, fmt::format("'{}' must be > 0 m, got {}", name, *number));
@@ -190,6 +197,22 @@ void CrgFile::place_sections() {
   }
 }
 
+// Both borders and the distance may be given; then they must say the same.
+void CrgFile::check_last_section() const {
+  const double left = parameter_or("LONG_SECTION_V_LEFT", NAN),
+               right = parameter_or("LONG_SECTION_V_RIGHT", NAN),
+               step = parameter_or("LONG_SECTION_V_INCREMENT", NAN);
+  const Channel& last = channels_[section_columns_.back()];
+  const double error = std::abs(sections_.back() - left);
+  if (!last.is_numbered || sections_.size() < 2 || std::isnan(right + left + step)) return;
+  if (error <= kSameSection * step) return;
+  throw support::InputError(
+      places_.at("LONG_SECTION_V_INCREMENT"),
+      fmt::format(
+          "'LONG_SECTION_V_INCREMENT' puts section {} at {:.9g} m, but 'LONG_SECTION_V_LEFT' is {:.9g} m",
+          sections_.size(), sections_.back(), left));
+}
+
 // Each row begins a new line; fields that do not fit continue on further lines.
 void CrgFile::count_rows() {
   fields_of_line_ = kRecordLength / width_;
@@ -213,6 +236,20 @@ void CrgFile::count_rows() {
   }
 }
 
+// A field that is cut off would be another number, and one more would belong to a channel without a name.
+void CrgFile::check_fields() const {
+  for (std::size_t i = data_begin_; i < lines_.size(); ++i) {
+    const Line& line = lines_[i];
+    const std::size_t first = (i - data_begin_) % lines_of_row_ * fields_of_line_;
+    const std::size_t count = std::min(fields_of_line_, channels_.size() - first);
+    const std::size_t end = count * width_;
+    if (line.text.size() == end || (line.text.size() > end && trim(line.text.substr(end)).empty())) continue;
+    throw support::InputError({path_, line.number, static_cast<int>(std::min(line.text.size(), end)) + 1},
+                              fmt::format("the line must have {} fields of {} places, got {} places", count,
+                                          width_, line.text.size()));
+  }
+}
+
 std::string_view CrgFile::field(std::size_t row, std::size_t channel, support::SourceLocation& place) const {
   const Line& line = lines_[data_begin_ + row * lines_of_row_ + channel / fields_of_line_];
   const std::size_t begin = channel % fields_of_line_ * width_;
@@ -224,6 +261,10 @@ double CrgFile::read_field(std::size_t row, std::size_t channel) const {
   support::SourceLocation place;
   const std::string_view text = field(row, channel, place);
   const std::optional<double> number = parse_number(text);
+  if (number && std::abs(*number) > kLargestNumber) {
+    throw support::InputError(place,
+                              fmt::format("numbers must be within ±{:g}, got {}", kLargestNumber, text));
+  }
   if (number) return *number;
   throw support::InputError(
       place, fmt::format("a number must stand here, in a field of {} places, got '{}'", width_, text));

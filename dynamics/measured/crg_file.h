@@ -52,7 +52,9 @@ class CrgFile {
   void read_channel(const Line& line, std::string_view text);
   void check_straight() const;
   void place_sections();
+  void check_last_section() const;
   void count_rows();
+  void check_fields() const;
   double parameter_or(const std::string& name, double fallback) const;
   // The field of a channel in a row of data, and its place.
   std::string_view field(std::size_t row, std::size_t channel, support::SourceLocation& place) const;
@@ -61,6 +63,7 @@ class CrgFile {
   std::string path_, text_, hash_;
   std::vector<Line> lines_;
   std::map<std::string, double, std::less<>> parameters_;
+  std::map<std::string, support::SourceLocation, std::less<>> places_;  // of the parameters
   std::vector<Channel> channels_;
   std::vector<double> sections_;              // lateral positions, ascending [m]
   std::vector<std::size_t> section_columns_;  // their channels

@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kRecord = 128, kKey = 32, kBlock = 512;
 constexpr std::array<std::string_view, 3> kFirstKeys{"FORMAT", "NUM_HEADER_BLOCKS", "NUM_PARAMS"};
 constexpr std::int64_t kMostBlocks = 1'000'000, kMostChannels = 10'000, kMostPoints = 1'000'000'000;
+constexpr double kLongestStep = 1e6;  // s
 constexpr double kStandardFullScale = 32768.0;
 
 std::string_view take_text(std::string_view field) {
@@ -148,6 +149,10 @@ void Rpc3File::read_layout() {
          "expected BINARY_IEEE_LITTLE_END or BINARY_IEEE_BIG_END");
   }
   time_step_ = read_positive("DELTA_T");
+  if (time_step_ > kLongestStep) {
+    fail(at("DELTA_T").byte,
+         fmt::format("'DELTA_T' must be at most {:g} s, got '{}'", kLongestStep, at("DELTA_T").text));
+  }
   const auto frame = static_cast<std::size_t>(read_integer("PTS_PER_FRAME", 1, kMostPoints));
   group_size_ = static_cast<std::size_t>(read_integer("PTS_PER_GROUP", 1, kMostPoints));
   if (group_size_ % frame != 0) {
@@ -173,7 +178,8 @@ void Rpc3File::read_channels() {
     if (type_ == SampleType::kShortInteger) {
       const Value& text = at("SCALE." + ending);
       const std::optional<double> number = parse_number(text.text);
-      if (!number) fail(text.byte, fmt::format("'SCALE.{}' must be a number, got '{}'", ending, text.text));
+      if (!number || *number == 0.0)
+        fail(text.byte, fmt::format("'SCALE.{}' must be a number other than 0, got '{}'", ending, text.text));
       scale = *number * full_scale / kStandardFullScale;
     }
     scales_.push_back(scale);

@@ -219,3 +219,29 @@ TEST_CASE("Histories that cannot be used are refused where they are named") {
           dynamics::read_time_function(document.root().at("f"), "m", TimeFunctionUse::kForce, files);
         }) == "v.toml:1:26: error: 'f.history.file' names no file, measured/none.csv");
 }
+
+TEST_CASE("A smooth history of whole periods does not jump at its ends by its rounding") {
+  // The breaks and an eighth of the duration are whole periods, where value and rate are zero.
+  std::string content = "time,z\n";
+  for (int i = 0; i <= 160; ++i) {
+    content +=
+        std::to_string(0.05 * i) + "," + std::to_string(0.01 * (1.0 - std::cos(2.0 * pi * 0.05 * i))) + "\n";
+  }
+  CHECK(error_of(content, "channel = \"z\"", TimeFunctionUse::kMotion) == "no error");
+  CHECK_THAT(error_of(content, "channel = \"z\", before = 1e-6", TimeFunctionUse::kMotion),
+             Contains("must not jump"));
+}
+
+TEST_CASE("A name that is the number of another channel is refused") {
+  test::Rpc3History history{.samples = {{0, 1, 2, 3}, {4, 5, 6, 7}}, .changes = {{"DESC.CHAN_1", "CHAN_2"}}};
+  CHECK_THAT(error_of(test::format_rpc3(history), "channel = \"CHAN_2\""),
+             Contains("is channel 2 by its number, but also the name of channel 1"));
+}
+
+TEST_CASE("Keys of a history say what they accept") {
+  CHECK_THAT(error_of(kFile, "channel = \"front\", before = \"zero\""),
+             Contains("must be \"hold\" or a number, got 'zero'"));
+  const std::string message = error_of("x [mm],z\n0,1\n1,2\n", "channel = \"z\"");
+  CHECK_THAT(message,
+             Contains("is in 'mm', expected one of s, sec, ms, min, as it is the column of the times"));
+}

@@ -180,3 +180,11 @@ TEST_CASE("A road in OpenCRG is a line along it, or the mean of several") {
   CHECK_THAT(error_of_measured(kProfile, "lateral = 0.0", "opencrg"),
              Contains("roads/measured.csv: error: has no line '$$$$'"));
 }
+
+TEST_CASE("A column of a road has one use") {
+  CHECK_THAT(error_of_measured("s,h\n0,0\n1,1\n", "height = \"s\""),
+             Contains("'s' is the column of the distances"));
+  CHECK_THAT(error_of_measured("s,h\n0,0\n1,1\n", "height = [\"h\", \"h\"]"),
+             Contains("'height' names 'h' twice"));
+  CHECK_THAT(error_of_table(std::string("0 0\n1 \0\n", 8)), Contains(":2:3: error: is no text"));
+}

@@ -95,3 +95,14 @@ TEST_CASE("Files that do not fit are refused at the line and column") {
   CHECK_THAT(error_of("time,z\n0,1\n1,1e300\n"), Contains("got '1e300'"));
   CHECK_THAT(error_of("time,z\n0,1\n1,0x10\n"), Contains("got '0x10'"));
 }
+
+TEST_CASE("Content that is not text is refused at its byte, which is not repeated") {
+  CHECK(error_of(std::string("time,z\n0,1\n1,\0\n", 15)) ==
+        "signals.csv:3:3: error: is no text: got the byte 0x00, as of binary data or another encoding; "
+        "expected "
+        "UTF-8 or ASCII");
+  CHECK(error_of(std::string("\xFF\xFEt\0,\0z\0", 8)) ==
+        "signals.csv:1:1: error: is no text: got the byte 0xFF, as of UTF-16; expected UTF-8 or ASCII");
+  CHECK_THAT(error_of("time,\xB5m\n0,1\n1,2\n"), Contains("signals.csv:1:6: error: is no text"));
+  CHECK(error_of("time,z [\xC2\xB5m]\n0,1\n1,2\n") == "no error");
+}

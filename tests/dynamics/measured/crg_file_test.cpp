@@ -131,3 +131,18 @@ TEST_CASE("OpenCRG files that cannot be read are refused at their place") {
   std::ofstream("road.crg") << "0.0 1.0\n1.0 2.0\n";
   CHECK_THROWS_WITH(CrgFile::read("road.crg"), Contains("has no line '$$$$'"));
 }
+
+TEST_CASE("Data that contradict the header or are cut off are refused") {
+  // Cut from 10 places to 6, the last number would be 0.03.
+  CHECK(error_of(kParameters, kChannels, replace(kData, "*missing*", "0.03")) ==
+        "road.crg:24:26: error: the line must have 3 fields of 10 places, got 25 places");
+  CHECK(error_of(kParameters, kChannels, replace(kData, "*missing*", "0.0300000 0.0400000")) ==
+        "road.crg:24:31: error: the line must have 3 fields of 10 places, got 40 places");
+  // The third section lies at −1 + 2 · 0.7 = 0.4 m.
+  CHECK(error_of(kParameters + "LONG_SECTION_V_INCREMENT = 0.7\n") ==
+        "road.crg:11:1: error: 'LONG_SECTION_V_INCREMENT' puts section 3 at 0.4 m, but 'LONG_SECTION_V_LEFT' "
+        "is 1 m");
+  CHECK(error_of(kParameters + "LONG_SECTION_V_INCREMENT = 1.0\n") == "no error");
+  CHECK(error_of(kParameters, kChannels, replace(kData, " 0.0120000", "     2e+09")) ==
+        "road.crg:22:1: error: numbers must be within ±1e+09, got 2e+09");
+}

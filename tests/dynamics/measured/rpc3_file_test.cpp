@@ -151,3 +151,9 @@ TEST_CASE("A sample that is not finite is refused at its byte") {
   CHECK(error_of_bytes(test::format_rpc3(history)) ==
         "signals.rsp: error: byte 2660: sample 10 of 'post 2' is not a finite number");
 }
+
+TEST_CASE("A scale of zero and a time step beyond all tests are refused") {
+  CHECK_THAT(error_with({{"SCALE.CHAN_2", "0.0"}}),
+             Contains("'SCALE.CHAN_2' must be a number other than 0, got '0.0'"));
+  CHECK_THAT(error_with({{"DELTA_T", "1e300"}}), Contains("'DELTA_T' must be at most 1e+06 s, got '1e300'"));
+}
