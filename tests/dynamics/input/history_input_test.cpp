@@ -1,5 +1,7 @@
 #include "dynamics/input/history_input.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -233,7 +235,8 @@ TEST_CASE("A smooth history of whole periods does not jump at its ends by its ro
 }
 
 TEST_CASE("A name that is the number of another channel is refused") {
-  test::Rpc3History history{.samples = {{0, 1, 2, 3}, {4, 5, 6, 7}}, .changes = {{"DESC.CHAN_1", "CHAN_2"}}};
+  test::Rpc3History history{
+      .scales = {}, .samples = {{0, 1, 2, 3}, {4, 5, 6, 7}}, .changes = {{"DESC.CHAN_1", "CHAN_2"}}};
   CHECK_THAT(error_of(test::format_rpc3(history), "channel = \"CHAN_2\""),
              Contains("is channel 2 by its number, but also the name of channel 1"));
 }
