@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 namespace sprung::dynamics {
@@ -16,8 +15,6 @@ constexpr double kValveDeadBand = 1e-9;  // m
 constexpr double kNaturalLogarithm = 0.05;
 // R.m.s. value of ln(ρ_i/ρ_j) that the linearisation for random motion begins with, and the least.
 constexpr double kUsualImbalance = 0.01, kLeastImbalance = 1e-9;
-constexpr int kImbalances = 400;           // points of the normal distribution
-constexpr double kLargestImbalance = 6.0;  // r.m.s.
 
 }  // namespace
 
@@ -206,8 +203,7 @@ void AirSpring::calc_state_rates(const Instant& instant, std::span<const int> br
   rates[n] = (state_factors_[n] * deflection - instant.states[n]) / parameters_.levelling->delay;
 }
 
-// For each passage the flow w ↦ G w of the normal distribution's mean, G = ⟨w f(w)⟩/⟨w²⟩, which has the least
-// mean square error; w is the logarithm of the ratio of densities (forces, eq. 30).
+// Each passage has the linear flow of (forces, eq. 30).
 std::optional<StateLinearisation> AirSpring::linearise_states(const Instant& at_rest,
                                                               std::span<const int> branches,
                                                               std::span<const double> rms) const {
@@ -217,24 +213,12 @@ std::optional<StateLinearisation> AirSpring::linearise_states(const Instant& at_
   // Rates of the logarithms of densities by the logarithms of the ratios to the first.
   const auto num_chambers = static_cast<Eigen::Index>(chambers_.size());
   Eigen::MatrixXd by_ratio = Eigen::MatrixXd::Zero(num_chambers, num_chambers);
-  std::size_t difference = 0;
-  for (std::size_t k = 0; k < passages_.size(); ++k, ++difference) {
-    while (difference < channels_.size() && !channels_[difference].name.ends_with("pressure_difference"))
-      ++difference;
-    const Passage& passage = passages_[k];
+  for (const Passage& passage : passages_) {
     const double pressure = gas_.pressure(gas.x[passage.from]);
-    const double sigma = rms.empty()
-                             ? kUsualImbalance
-                             : std::max(rms[difference] / (parameters_.exponent * pressure), kLeastImbalance);
-    double mean = 0.0;
-    const double width = kLargestImbalance / kImbalances;
-    for (int i = 0; i < kImbalances; ++i) {
-      const double u = (i + 0.5) * width;
-      const double flow =
-          gas_.mass_flow(passage.area, gas.x[passage.from], gas.x[passage.from] * std::exp(-u * sigma));
-      mean += u * flow * width * std::exp(-0.5 * u * u);
-    }
-    const double gain = 2.0 * mean / (std::sqrt(2.0 * std::numbers::pi) * sigma);  // kg/s
+    const double sigma =
+        rms.empty() ? kUsualImbalance
+                    : std::max(rms[passage.channel] / (parameters_.exponent * pressure), kLeastImbalance);
+    const double gain = gas_.calc_mean_gain(passage.area, gas.x[passage.from], sigma);
     const auto from = static_cast<Eigen::Index>(passage.from), to = static_cast<Eigen::Index>(passage.to);
     for (const auto& [chamber, sign] : {std::pair{from, -1.0}, std::pair{to, 1.0}}) {
       const double share = sign * gain / gas.mass[static_cast<std::size_t>(chamber)];
@@ -304,21 +288,25 @@ ElementDescription AirSpring::describe() const {
 void AirSpring::add_channels() {
   const auto add = [this](std::initializer_list<Channel> more) { channels_.insert(channels_.end(), more); };
   const bool has_auxiliary = parameters_.auxiliary_volume > 0.0;
-  constexpr Channel kDifference{"pressure_difference", "Pa", ChannelRole::kPressure};
+  std::size_t passage = 0;
+  const auto add_difference = [&](const char* channel) {
+    passages_[passage++].channel = channels_.size();
+    add({{channel, "Pa", ChannelRole::kPressure}});
+  };
   add({{"length", "m", ChannelRole::kExtent},
        {"deflection", "m", ChannelRole::kDeflection},
        {"rate", "m/s", ChannelRole::kRate},
        {"force", "N", ChannelRole::kForce},
        {"gauge_pressure", "Pa", ChannelRole::kPressure}});
-  if (has_auxiliary) add({kDifference});
+  if (has_auxiliary) add_difference("pressure_difference");
   if (parameters_.is_coupled) {
     add({{"partner_length", "m", ChannelRole::kExtent},
          {"partner_deflection", "m", ChannelRole::kDeflection},
          {"partner_rate", "m/s", ChannelRole::kRate},
          {"partner_force", "N", ChannelRole::kForce},
-         {"partner_gauge_pressure", "Pa", ChannelRole::kPressure},
-         {"line_pressure_difference", "Pa", ChannelRole::kPressure}});
-    if (has_auxiliary) add({{"partner_pressure_difference", "Pa", ChannelRole::kPressure}});
+         {"partner_gauge_pressure", "Pa", ChannelRole::kPressure}});
+    add_difference("line_pressure_difference");
+    if (has_auxiliary) add_difference("partner_pressure_difference");
   }
   add({{"mass", "kg", ChannelRole::kMass}});
   if (parameters_.levelling) add({{"valve_flow", "kg/s", ChannelRole::kMassFlow}});

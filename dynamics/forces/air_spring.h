@@ -77,6 +77,7 @@ class AirSpring final : public ForceElement {
   struct Passage {  // an orifice or a line
     std::size_t from = 0, to = 0;
     double area = 0.0;
+    std::size_t channel = 0;  // with the difference of pressures
   };
   struct Motion;
   struct Gas;

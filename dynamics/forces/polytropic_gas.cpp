@@ -1,6 +1,7 @@
 #include "dynamics/forces/polytropic_gas.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace sprung::dynamics {
 
@@ -10,6 +11,8 @@ constexpr double kAirConstant = 287.05;    // of air [J/(kg·K)]
 constexpr double kCriticalRatio = 0.5283;  // of pressures, at which the flow of air becomes sonic
 constexpr double kSonicFlow = 0.6847;      // ṁ/(A √(p ρ)) of sonic flow
 constexpr double kLaminarShare = 0.004;    // of the pressure difference of sonic flow: linear below
+constexpr int kImbalances = 400;           // points of the normal distribution
+constexpr double kLargestImbalance = 6.0;  // r.m.s.
 
 }  // namespace
 
@@ -52,6 +55,16 @@ double PolytropicGas::mass_flow(double area, double x_1, double x_2) const {
   const double sonic =
       area * kSonicFlow * std::sqrt(ambient_pressure_ * ambient_density_ * std::pow(x, exponent_ + 1.0));
   return std::copysign(sonic * share, w);
+}
+
+double PolytropicGas::calc_mean_gain(double area, double x_1, double sigma) const {
+  const double width = kLargestImbalance / kImbalances;
+  double sum = 0.0;
+  for (int i = 0; i < kImbalances; ++i) {
+    const double u = (i + 0.5) * width;
+    sum += u * mass_flow(area, x_1, x_1 * std::exp(-u * sigma)) * width * std::exp(-0.5 * u * u);
+  }
+  return 2.0 * sum / (std::sqrt(2.0 * std::numbers::pi) * sigma);
 }
 
 }  // namespace sprung::dynamics

@@ -25,6 +25,10 @@ class PolytropicGas {
   /// Flow through an orifice from a place of density x_1 to one of x_2 [kg/s].              (forces, eq. 27)
   /// @param area  opening times discharge coefficient [m²]
   double mass_flow(double area, double x_1, double x_2) const;
+  /// Factor G of the flow G w that has the least mean square error where w = ln(x_1/x_2) has a normal
+  /// distribution about 0 [kg/s].                                                           (forces, eq. 30)
+  /// @param sigma  root mean square of w, > 0
+  double calc_mean_gain(double area, double x_1, double sigma) const;
 
  private:
   double relative_energy(double x) const;

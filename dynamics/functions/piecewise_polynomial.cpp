@@ -94,7 +94,6 @@ PiecewisePolynomial PiecewisePolynomial::through_points(std::span<const double> 
 
 PiecewisePolynomial PiecewisePolynomial::clamped_spline(std::span<const double> x,
                                                         std::span<const double> y) {
-  check_points("PiecewisePolynomial::clamped_spline", x, y);
   const std::size_t n = x.size();
   const std::vector<double> m = calc_clamped_slopes(x, y);
   PiecewisePolynomial f;

@@ -181,7 +181,7 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   read_outside(table, "before", unit, history.before);
   read_outside(table, "after", unit, history.after);
   const std::optional<support::TomlValue> wanted_unit = table.find("unit");
-  table.find("channel"), table.find("time"), table.find("start");
+  for (const char* known : {"channel", "time", "start"}) table.find(known);  // they are read with the file
   table.reject_unknown_keys();
 
   const File& file = open(table.at("file"));

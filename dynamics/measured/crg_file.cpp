@@ -9,7 +9,6 @@
 
 #include "dynamics/measured/signal.h"
 #include "dynamics/measured/text_check.h"
-#include "tools/support/files/content_hash.h"
 #include "tools/support/files/read_text_file.h"
 
 namespace sprung::dynamics {
@@ -39,7 +38,6 @@ CrgFile CrgFile::read(const std::filesystem::path& path) {
   CrgFile file;
   file.path_ = path.string();
   file.text_ = support::read_text_file(path);
-  file.hash_ = support::sha256(file.text_);
   file.split_lines();
   file.read_header();
   check_text(file.text_, file.path_, file.lines_[file.data_begin_ - 1].number);
@@ -109,8 +107,7 @@ void CrgFile::read_parameter(const Line& line, std::string_view text) {
   const std::string_view value = trim(text.substr(sign + 1));
   const std::optional<double> number = parse_number(value);
   if (!number) throw support::InputError(here, fmt::format("'{}' must be a number, got '{}'", name, value));
-  parameters_[name] = *number;
-  places_[name] = here;
+  parameters_[name] = {*number, here};
   const bool is_positive = name == "REFERENCE_LINE_INCREMENT" || name == "LONG_SECTION_V_INCREMENT";
   if (is_positive && !(*number > 0.0))
     throw support::InputError(here, fmt::format("'{}' must be > 0 m, got {}", name, *number));
@@ -161,7 +158,7 @@ void CrgFile::read_channel(const Line& line, std::string_view text) {
 
 double CrgFile::parameter_or(const std::string& name, double fallback) const {
   const auto found = parameters_.find(name);
-  return found == parameters_.end() ? fallback : found->second;
+  return found == parameters_.end() ? fallback : found->second.value;
 }
 
 // Sections are numbered from right to left. Without the position of either border they lie about the middle.
@@ -207,7 +204,7 @@ void CrgFile::check_last_section() const {
   if (!last.is_numbered || sections_.size() < 2 || std::isnan(right + left + step)) return;
   if (error <= kSameSection * step) return;
   throw support::InputError(
-      places_.at("LONG_SECTION_V_INCREMENT"),
+      parameters_.at("LONG_SECTION_V_INCREMENT").location,
       fmt::format(
           "'LONG_SECTION_V_INCREMENT' puts section {} at {:.9g} m, but 'LONG_SECTION_V_LEFT' is {:.9g} m",
           sections_.size(), sections_.back(), left));

@@ -24,7 +24,6 @@ class CrgFile {
   double increment() const { return increment_; }         ///< distance between points along the road, > 0 [m]
   double rightmost() const { return sections_.front(); }  ///< lateral position, left is positive [m]
   double leftmost() const { return sections_.back(); }
-  const std::string& hash() const { return hash_; }  ///< SHA-256 of the content
 
   /// Heights along a line at a lateral position, linear between the two sections beside it [m].
   /// @param lateral  from rightmost() to leftmost() [m]
@@ -36,6 +35,10 @@ class CrgFile {
   struct Line {
     std::string_view text;
     int number = 0;  // 1-based
+  };
+  struct Parameter {
+    double value = 0.0;
+    support::SourceLocation location;
   };
   struct Channel {
     bool is_section = false;
@@ -60,10 +63,9 @@ class CrgFile {
   std::string_view field(std::size_t row, std::size_t channel, support::SourceLocation& place) const;
   double read_field(std::size_t row, std::size_t channel) const;
 
-  std::string path_, text_, hash_;
+  std::string path_, text_;
   std::vector<Line> lines_;
-  std::map<std::string, double, std::less<>> parameters_;
-  std::map<std::string, support::SourceLocation, std::less<>> places_;  // of the parameters
+  std::map<std::string, Parameter, std::less<>> parameters_;
   std::vector<Channel> channels_;
   std::vector<double> sections_;              // lateral positions, ascending [m]
   std::vector<std::size_t> section_columns_;  // their channels

@@ -18,6 +18,12 @@ namespace {
 
 constexpr double kOpenJoint = 1e-6;  // natural sizes; results are closed to 1e-12
 
+std::vector<std::string> list_coordinates(const Model& model) {
+  std::vector<std::string> names;
+  for (int i = 0; i < model.num_coordinates; ++i) names.push_back(model.coordinate_name(i));
+  return names;
+}
+
 [[noreturn]] void fail(const support::Hdf5Reader& file, const std::string& what) {
   throw support::InputError({.path = file.path().string()}, what);
 }
@@ -76,25 +82,26 @@ State read_last_rows(const support::Hdf5Reader& file, const Model& model) {
   return state;
 }
 
-std::vector<std::string> list_coordinates(const Model& model) {
-  std::vector<std::string> names;
-  for (int i = 0; i < model.num_coordinates; ++i) names.push_back(model.coordinate_name(i));
-  return names;
-}
-
 // The coordinates go by their names, so that bodies and force elements may stand in another order. A force
 // element that the file does not know starts with its states at rest. A state keeps its share of its natural
 // size, so that friction is no larger than its full value where that has changed.
 State read_stored_state(const support::Hdf5Reader& file, const Model& model) {
   const std::vector<std::string> wanted = list_coordinates(model);
-  const std::vector<std::string> found =
-      file.has("/last_state/name") ? file.strings("/last_state/name", {-1}) : wanted;
+  std::vector<std::string> found;
+  if (file.has("/last_state/name")) {
+    found = file.strings("/last_state/name", {-1});
+  } else {  // of a program that knew no internal states
+    found.assign(wanted.begin(), wanted.begin() + model.first_state());
+  }
   const auto size = static_cast<std::int64_t>(found.size());
   const std::vector<double> coordinates = file.reals("/last_state/coordinates", {size}),
                             velocities = file.reals("/last_state/velocities", {size});
   std::vector<double> state_sizes;
   if (file.has("/last_state/state_size")) state_sizes = file.reals("/last_state/state_size", {-1});
-  if (state_sizes.size() > found.size()) fail(file, "has more sizes of states than coordinates");
+  const bool are_sizes =
+      std::all_of(state_sizes.begin(), state_sizes.end(), [](double one) { return one > 0.0; });
+  if (!are_sizes || state_sizes.size() > found.size())
+    fail(file, "dataset '/last_state/state_size' must have a size > 0 for each of the last coordinates");
   const std::size_t first_state = found.size() - state_sizes.size();
   State state{.time = file.reals("/last_state/time", {1})[0],
               .q = Eigen::VectorXd::Zero(model.num_coordinates),
@@ -118,6 +125,24 @@ State read_stored_state(const support::Hdf5Reader& file, const Model& model) {
 }
 
 }  // namespace
+
+void make_last_state(support::Hdf5Writer& file, const Model& model) {
+  file.write("/last_state/name", list_coordinates(model));
+  std::vector<double> sizes;
+  for (const InternalState& state : model.states) sizes.push_back(state.size);
+  if (!sizes.empty()) file.write("/last_state/state_size", sizes, "J^0.5, J^0.5/m");
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.num_coordinates);
+  file.write("/last_state/time", std::vector<double>{0.0}, "s");
+  file.write("/last_state/coordinates", zero, "m, rad, kg^0.5 m");
+  file.write("/last_state/velocities", zero, "m/s, rad/s, kg^0.5 m/s");
+}
+
+void write_last_state(support::Hdf5Writer& file, const State& state) {
+  file.overwrite("/last_state/time", std::vector<double>{state.time});
+  const auto size = static_cast<std::size_t>(state.q.size());
+  file.overwrite("/last_state/coordinates", {state.q.data(), size});
+  file.overwrite("/last_state/velocities", {state.v.data(), size});
+}
 
 State read_last_state(const std::filesystem::path& results, const Model& model) {
   const support::Hdf5Reader file(results);

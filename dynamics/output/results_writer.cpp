@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dynamics/output/last_state.h"
 #include "dynamics/output/partial_results.h"
 #include "dynamics/output/results_model.h"
 
@@ -30,7 +31,10 @@ ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHea
 
   write_descriptions(header);
   make_datasets(header);
-  make_last_state(header.model);
+  make_last_state(file_, header.model);
+  last_ = {.q = Eigen::VectorXd::Zero(header.model.num_coordinates),
+           .v = Eigen::VectorXd::Zero(header.model.num_coordinates),
+           .branches = {}};
   make_event_datasets(header.adaptivity ? *header.adaptivity->full : header.model);
 }
 
@@ -96,28 +100,6 @@ std::size_t ResultsWriter::Stored::num_rows(std::size_t num_outputs) const {
   return (num_outputs + step - 1) / step;
 }
 
-void ResultsWriter::make_last_state(const Model& model) {
-  last_ = {.q = Eigen::VectorXd::Zero(model.num_coordinates),
-           .v = Eigen::VectorXd::Zero(model.num_coordinates),
-           .branches = {}};
-  std::vector<std::string> names;
-  for (int i = 0; i < model.num_coordinates; ++i) names.push_back(model.coordinate_name(i));
-  file_.write("/last_state/name", names);
-  std::vector<double> sizes;
-  for (const InternalState& state : model.states) sizes.push_back(state.size);
-  if (!sizes.empty()) file_.write("/last_state/state_size", sizes, "J^0.5, J^0.5/m");
-  file_.write("/last_state/time", std::vector<double>{0.0}, "s");
-  file_.write("/last_state/coordinates", last_.q, "m, rad, kg^0.5 m");
-  file_.write("/last_state/velocities", last_.v, "m/s, rad/s, kg^0.5 m/s");
-}
-
-void ResultsWriter::write_last_state() {
-  file_.overwrite("/last_state/time", std::vector<double>{last_.time});
-  const auto size = static_cast<std::size_t>(last_.q.size());
-  file_.overwrite("/last_state/coordinates", {last_.q.data(), size});
-  file_.overwrite("/last_state/velocities", {last_.v.data(), size});
-}
-
 void ResultsWriter::add(const Snapshot& snapshot) {
   for (Stored& stored : stored_) {
     if (extent_.rows % static_cast<std::size_t>(stored.every) != 0) continue;
@@ -175,7 +157,7 @@ void ResultsWriter::write_checkpoint(const Checkpoint& checkpoint, const RunStat
 
 void ResultsWriter::write_summary(const RunStatistics& statistics, const TransientStatistics& transient) {
   write_results_summary(file_, statistics, transient);
-  write_last_state();
+  write_last_state(file_, last_);
 }
 
 void ResultsWriter::finish(const RunStatistics& statistics, const TransientStatistics& transient,

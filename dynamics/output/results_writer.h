@@ -90,8 +90,6 @@ class ResultsWriter {
 
   void write_descriptions(const ResultsHeader& header);
   void make_datasets(const ResultsHeader& header);
-  void make_last_state(const Model& model);
-  void write_last_state();
   void make_event_datasets(const Model& full);
 
   support::Hdf5Writer file_;

@@ -140,6 +140,10 @@ class Continue(DynamicsTestCase):
         with h5py.File(self.folder / "third.h5") as file:
             self.assertAlmostEqual(file["forces/leaf/friction"][0] / expected[0], 0.2, delta=1e-6)
             self.assertEqual(file["forces/other/state"][0, 0], 0.0)
+        # A share of nothing is no number.
+        with h5py.File(self.folder / "first.h5", "r+") as file:
+            file["last_state/state_size"][0] = 0.0
+        self.assert_refused(self.run_until(0.8, "b.h5", *FROM_FIRST), "'/last_state/state_size' must have a size > 0")
 
     def write_vehicle(self, *forces):
         (self.folder / "vehicle.toml").write_text(SLIDER + "".join(forces) + PUSH, encoding="utf-8")
