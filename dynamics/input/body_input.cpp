@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 

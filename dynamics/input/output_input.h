@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/input/vehicle.h"
 #include "tools/support/toml/toml.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 

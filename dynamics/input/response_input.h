@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/road/road_spectrum.h"
 #include "tools/support/toml/toml.h"
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "dynamics/adaptivity/mode_adaptation.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/input/mode_selection.h"
 #include "dynamics/input/output_input.h"
-#include "dynamics/input/point_reference.h"
 #include "dynamics/input/response_input.h"
 #include "dynamics/input/road_input.h"
 #include "dynamics/input/stiffening_input.h"

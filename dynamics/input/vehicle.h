@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/input/force_input.h"
-#include "dynamics/input/history_input.h"
-#include "dynamics/input/joint_input.h"
-#include "dynamics/input/motion_input.h"
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/force_input.h"
+#include "dynamics/element_input/history_input.h"
+#include "dynamics/element_input/joint_input.h"
+#include "dynamics/element_input/motion_input.h"
+#include "dynamics/element_input/point_reference.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/toml/toml.h"
 

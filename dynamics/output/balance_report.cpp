@@ -125,8 +125,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
       "{}: modes about {}, {} freedoms\n"
       "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
       "counts with their mean.\n{}\n",
-      vehicle.name, is_steady ? "steady motion" : "static equilibrium",
-      model.num_freedoms() - model.num_states(),
+      vehicle.name, is_steady ? "steady motion" : "static equilibrium", model.num_mechanical_freedoms(),
       model.num_states() > 0
           ? "Undamped frequencies are without friction of leaf springs and parts that relax or "
             "flow; damped frequencies contain them.\n"

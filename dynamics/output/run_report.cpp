@@ -34,7 +34,7 @@ std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& 
   std::string text =
       fmt::format("{}: {} bodies ({}), {} joints, {} coordinates, {} constraints, {} freedoms\n",
                   vehicle.name, model.bodies.size(), describe_modes(model), model.joints.size(),
-                  model.first_state(), model.num_constraints, model.num_freedoms() - model.num_states());
+                  model.first_state(), model.num_constraints, model.num_mechanical_freedoms());
   if (assembly.largest_movement > 1e-9) {
     text += fmt::format("Assembled: {} moved {:.3g} m to close the joints\n", assembly.moved_marker,
                         assembly.largest_movement);
@@ -149,7 +149,7 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
   for (const RunWarning& warning : summary.warnings) {
     warnings.push_back({{"concerns", warning.concerns}, {"of", warning.of}, {"text", warning.text}});
   }
-  return support::format_json({{"freedoms", model.num_freedoms() - model.num_states()},
+  return support::format_json({{"freedoms", model.num_mechanical_freedoms()},
                                {"points", points},
                                {"bending", bending},
                                {"sections", make_sections_json(summary.statistics.sections())},

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/section_loads/body_remarks.h"
 
 namespace sprung::dynamics {

@@ -91,7 +91,7 @@ std::string format_model_json(const PreparedRun& prepared) {
               {"forces", forces},
               {"coordinates", model.first_state()},
               {"constraints", model.num_constraints},
-              {"freedoms", model.num_freedoms() - model.num_states()}};
+              {"freedoms", model.num_mechanical_freedoms()}};
   if (prepared.choice) report["mode_choice"] = make_choice_json(*prepared.choice);
   if (prepared.equilibrium) {
     Json places = Json::object();

@@ -51,6 +51,8 @@ struct Model {
   int first_state() const { return num_coordinates - num_states(); }  ///< coordinate of the first state
   /// Independent coordinates, those of internal states included.
   int num_freedoms() const { return num_coordinates - num_constraints; }
+  /// The freedoms of the motion, without the internal states.
+  int num_mechanical_freedoms() const { return first_state() - num_constraints; }
   /// The part of all velocities, or forces, that belongs to the states of force element f.
   template <class Value>
   std::span<Value> states_of(std::size_t f, Value* v) const {

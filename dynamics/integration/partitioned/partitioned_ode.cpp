@@ -139,7 +139,7 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
 // free motion: the pairs then know their coupling by damping. Nothing depends on these coordinates.
 void PartitionedOde::hold_states(SmallMotion& motion) const {
   constexpr double kStiffness = 1.0;  // 1/s²
-  for (Eigen::Index k = num_freedoms() - model_->num_states(); k < num_freedoms(); ++k) {
+  for (Eigen::Index k = model_->num_mechanical_freedoms(); k < num_freedoms(); ++k) {
     motion.stiffness.row(k).setZero();
     motion.stiffness.col(k).setZero();
     motion.stiffness(k, k) = kStiffness;

@@ -1,4 +1,4 @@
-#include "dynamics/input/motion_input.h"
+#include "dynamics/element_input/motion_input.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "dynamics/input/input_values.h"
-#include "dynamics/input/time_function_input.h"
+#include "dynamics/element_input/input_values.h"
+#include "dynamics/element_input/time_function_input.h"
 #include "dynamics/joints/coordinate_joint.h"
 
 namespace sprung::dynamics {

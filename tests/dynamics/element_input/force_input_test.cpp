@@ -1,4 +1,4 @@
-#include "dynamics/input/force_input.h"
+#include "dynamics/element_input/force_input.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dynamics/input/joint_input.h"
+#include "dynamics/element_input/joint_input.h"
 
 #include "dynamics/joints/coordinate_joint.h"
 #include "tests/catch.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <variant>
 
-#include "dynamics/input/history_input.h"
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/history_input.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/joints/joint.h"
 #include "tools/support/toml/toml.h"
 
@@ -57,7 +57,7 @@ struct JointDescription {
 /// Reads one entry of `[[joints]]`: name, type, a, b and the keys of its type, by the table `joint_readers`.
 /// It does not check that the points exist; `read_vehicle` does.
 /// @throws support::InputError for a key that is missing, unknown or has a bad value
-/// Checked by tests/dynamics/input/joint_input_test.cpp
+/// Checked by tests/dynamics/element_input/joint_input_test.cpp
 JointDescription read_joint(const support::TomlTable& table, HistoryFiles& histories);
 
 /// Makes the joint of a description.

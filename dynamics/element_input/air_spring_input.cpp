@@ -1,4 +1,4 @@
-#include "dynamics/input/air_spring_input.h"
+#include "dynamics/element_input/air_spring_input.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 
@@ -90,7 +90,7 @@ void read_levelling(const support::TomlTable& table, AirSpring::Parameters& p,
 
 }  // namespace
 
-void read_air_spring(const support::TomlTable& table, ForceDescription& force) {
+void read_air_spring(const support::TomlTable& table, ForceDescription& force, HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   AirSpring::Parameters p;

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/element_input/history_input.h"
+#include "dynamics/element_input/point_reference.h"
 #include "dynamics/forces/air_spring.h"
 #include "dynamics/forces/applied_force.h"
 #include "dynamics/forces/bushing.h"
@@ -15,8 +17,6 @@
 #include "dynamics/forces/rotational_spring_damper.h"
 #include "dynamics/forces/spring_damper.h"
 #include "dynamics/forces/tyre.h"
-#include "dynamics/input/history_input.h"
-#include "dynamics/input/point_reference.h"
 #include "dynamics/road/road.h"
 #include "tools/support/toml/toml.h"
 
@@ -60,7 +60,7 @@ double read_free_length(const support::TomlTable& table, ForceDescription& force
 /// Reads one entry of `[[forces]]`: name, type and the keys of its type, by the table `force_readers`. It
 /// does not check that the points exist; `read_vehicle` does.
 /// @throws support::InputError for a key that is missing, unknown or has a bad value
-/// Checked by tests/dynamics/input/force_input_test.cpp
+/// Checked by tests/dynamics/element_input/force_input_test.cpp
 ForceDescription read_force(const support::TomlTable& table, HistoryFiles& histories);
 
 /// Makes the element of a description.

@@ -30,14 +30,14 @@ inline constexpr LawUnits kRotation{.deflection = "rad",
 ///     { table = [[d, F], …] }              straight lines through the points
 ///
 /// @throws support::InputError also for a negative stiffness at d = 0
-/// Checked by tests/dynamics/input/force_input_test.cpp
+/// Checked by tests/dynamics/element_input/force_input_test.cpp
 PiecewisePolynomial read_spring(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
 /// Reads a stop, { deflection, rate }, and adds it to a spring's law: beyond that deflection, above it for
 /// compression and below it for rebound, the force is linear with the slope `rate` > 0 [N/m].
 /// @param[in,out] spring  from read_spring
 /// @return the deflection where the stop begins [m]
-/// Checked by tests/dynamics/input/force_input_test.cpp
+/// Checked by tests/dynamics/element_input/force_input_test.cpp
 double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynomial& spring,
                  const LawUnits& units = kTranslation);
 
@@ -48,7 +48,7 @@ double read_stop(const support::TomlTable& table, bool rebound, PiecewisePolynom
 ///     { table = [[ḋ, F], …] }                      straight lines through the points, F(0) = 0
 ///
 /// @throws support::InputError also for a damper that would generate energy
-/// Checked by tests/dynamics/input/force_input_test.cpp
+/// Checked by tests/dynamics/element_input/force_input_test.cpp
 PiecewisePolynomial read_damper(const support::TomlTable& table, const LawUnits& units = kTranslation);
 
 }  // namespace sprung::dynamics

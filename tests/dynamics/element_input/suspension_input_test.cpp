@@ -1,5 +1,5 @@
 // The keys of force elements of suspensions.
-#include "dynamics/input/suspension_input.h"
+#include "dynamics/element_input/suspension_input.h"
 
 #include <array>
 #include <cmath>

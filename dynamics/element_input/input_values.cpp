@@ -1,4 +1,4 @@
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 #include <fmt/format.h>
 

@@ -38,7 +38,7 @@ struct HistoryUse {
 };
 
 /// Reads measured histories, each file once.
-/// Checked by tests/dynamics/input/history_input_test.cpp
+/// Checked by tests/dynamics/element_input/history_input_test.cpp
 class HistoryFiles {
  public:
   /// @param folder  that the files are relative to

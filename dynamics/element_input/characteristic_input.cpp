@@ -1,4 +1,4 @@
-#include "dynamics/input/characteristic_input.h"
+#include "dynamics/element_input/characteristic_input.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 

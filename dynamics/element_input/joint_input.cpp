@@ -1,4 +1,4 @@
-#include "dynamics/input/joint_input.h"
+#include "dynamics/element_input/joint_input.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/input/input_values.h"
-#include "dynamics/input/time_function_input.h"
+#include "dynamics/element_input/input_values.h"
+#include "dynamics/element_input/time_function_input.h"
 #include "dynamics/joints/coordinate_joint.h"
 #include "dynamics/joints/revolute_joint.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics/input/air_spring_input.h"
+#include "dynamics/element_input/air_spring_input.h"
 
 #include <array>
 #include <string>

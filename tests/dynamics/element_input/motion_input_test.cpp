@@ -1,4 +1,4 @@
-#include "dynamics/input/motion_input.h"
+#include "dynamics/element_input/motion_input.h"
 
 #include "tests/catch.h"
 #include "tests/dynamics/input/input_cases.h"

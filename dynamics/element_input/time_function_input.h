@@ -2,8 +2,8 @@
 
 #include <string_view>
 
+#include "dynamics/element_input/history_input.h"
 #include "dynamics/functions/time_function.h"
-#include "dynamics/input/history_input.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
@@ -22,7 +22,7 @@ namespace sprung::dynamics {
 /// @param histories  reads the measured ones
 /// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a motion whose
 ///         value or rate jumps
-/// Checked by tests/dynamics/input/time_function_input_test.cpp
+/// Checked by tests/dynamics/element_input/time_function_input_test.cpp
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
                                 HistoryFiles& histories);
 

@@ -1,4 +1,4 @@
-#include "dynamics/input/history_input.h"
+#include "dynamics/element_input/history_input.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "dynamics/input/time_function_input.h"
+#include "dynamics/element_input/time_function_input.h"
 #include "tests/catch.h"
 #include "tests/dynamics/input/input_cases.h"
 #include "tests/dynamics/measured/rpc3_writer.h"

@@ -1,4 +1,4 @@
-#include "dynamics/input/time_function_input.h"
+#include "dynamics/element_input/time_function_input.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "dynamics/input/suspension_input.h"
+#include "dynamics/element_input/suspension_input.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "dynamics/input/characteristic_input.h"
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/characteristic_input.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 
@@ -88,7 +88,8 @@ PiecewisePolynomial read_friction(const support::TomlTable& table, double presli
 
 }  // namespace
 
-void read_hydraulic_stop(const support::TomlTable& table, ForceDescription& force) {
+void read_hydraulic_stop(const support::TomlTable& table, ForceDescription& force,
+                         HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   HydraulicStop::Parameters parameters;
@@ -105,7 +106,7 @@ void read_hydraulic_stop(const support::TomlTable& table, ForceDescription& forc
   force.parameters = std::move(parameters);
 }
 
-void read_bushing(const support::TomlTable& table, ForceDescription& force) {
+void read_bushing(const support::TomlTable& table, ForceDescription& force, HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   Bushing::Parameters parameters;
   parameters.angle = table.number_or("angle", 0.0, support::any("rad"));
@@ -127,7 +128,7 @@ void read_bushing(const support::TomlTable& table, ForceDescription& force) {
   force.parameters = std::move(parameters);
 }
 
-void read_leaf_spring(const support::TomlTable& table, ForceDescription& force) {
+void read_leaf_spring(const support::TomlTable& table, ForceDescription& force, HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   LeafSpring::Parameters parameters;

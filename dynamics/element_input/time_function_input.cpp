@@ -1,4 +1,4 @@
-#include "dynamics/input/time_function_input.h"
+#include "dynamics/element_input/time_function_input.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dynamics/input/input_values.h"
+#include "dynamics/element_input/input_values.h"
 
 namespace sprung::dynamics {
 

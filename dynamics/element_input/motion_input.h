@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "dynamics/input/joint_input.h"
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/joint_input.h"
+#include "dynamics/element_input/point_reference.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
@@ -25,7 +25,7 @@ struct MotionDescription {
 /// @param joints  of the vehicle
 /// @throws support::InputError for a key that is missing, unknown or has a bad value, and for a joint without
 ///         a free coordinate
-/// Checked by tests/dynamics/input/motion_input_test.cpp
+/// Checked by tests/dynamics/element_input/motion_input_test.cpp
 MotionDescription read_motion(const support::TomlTable& table, std::span<const JointDescription> joints,
                               HistoryFiles& histories);
 

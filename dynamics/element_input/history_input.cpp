@@ -1,4 +1,4 @@
-#include "dynamics/input/history_input.h"
+#include "dynamics/element_input/history_input.h"
 
 #include <fmt/format.h>
 

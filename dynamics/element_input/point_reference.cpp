@@ -1,4 +1,4 @@
-#include "dynamics/input/point_reference.h"
+#include "dynamics/element_input/point_reference.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dynamics/input/force_input.h"
+#include "dynamics/element_input/force_input.h"
 
 #include <fmt/format.h>
 
@@ -7,23 +7,20 @@
 #include <optional>
 #include <utility>
 
+#include "dynamics/element_input/air_spring_input.h"
+#include "dynamics/element_input/characteristic_input.h"
+#include "dynamics/element_input/suspension_input.h"
+#include "dynamics/element_input/time_function_input.h"
 #include "dynamics/forces/distributed_tyre.h"
 #include "dynamics/forces/point_contact_tyre.h"
-#include "dynamics/input/air_spring_input.h"
-#include "dynamics/input/characteristic_input.h"
-#include "dynamics/input/suspension_input.h"
-#include "dynamics/input/time_function_input.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
 // Reads the keys of one type of force into a description that has its name and location already.
-using PlainReader = void (*)(const support::TomlTable& table, ForceDescription& force);
-// The same for a type with functions of time.
-using TimedReader = void (*)(const support::TomlTable& table, ForceDescription& force,
+using ForceReader = void (*)(const support::TomlTable& table, ForceDescription& force,
                              HistoryFiles& histories);
-using ForceReader = std::variant<PlainReader, TimedReader>;
 
 // Reads the spring with its stops, and the deflections where these begin.
 template <typename Parameters>
@@ -71,7 +68,8 @@ StaticLength read_static_length(const support::TomlTable& table) {
   return wanted;
 }
 
-void read_spring_damper(const support::TomlTable& table, ForceDescription& force) {
+void read_spring_damper(const support::TomlTable& table, ForceDescription& force,
+                        HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   SpringDamper::Parameters parameters;
@@ -83,7 +81,8 @@ void read_spring_damper(const support::TomlTable& table, ForceDescription& force
   force.parameters = std::move(parameters);
 }
 
-void read_rotational_spring_damper(const support::TomlTable& table, ForceDescription& force) {
+void read_rotational_spring_damper(const support::TomlTable& table, ForceDescription& force,
+                                   HistoryFiles& /*histories*/) {
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   RotationalSpringDamper::Parameters parameters;
   parameters.free_angle = table.number_or("free_angle", 0.0, support::any("rad"));
@@ -141,7 +140,7 @@ Tyre::Parameters read_tyre_laws(const support::TomlTable& table) {
   return parameters;
 }
 
-void read_tyre(const support::TomlTable& table, ForceDescription& force) {
+void read_tyre(const support::TomlTable& table, ForceDescription& force, HistoryFiles& /*histories*/) {
   static const std::array<std::string, 2> kContacts{"point", "distributed"};
   force.points = {read_point(table.at("wheel"))};
   force.on_road = true;
@@ -242,11 +241,7 @@ ForceDescription read_force(const support::TomlTable& table, HistoryFiles& histo
   for (const auto& [kind, reader] : force_readers()) kinds.push_back(kind);
   force.kind = table.at("type").one_of(kinds);
   const auto found = std::find(kinds.begin(), kinds.end(), force.kind);
-  const ForceReader& reader = force_readers()[static_cast<std::size_t>(found - kinds.begin())].second;
-  if (const auto* timed = std::get_if<TimedReader>(&reader))
-    (*timed)(table, force, histories);
-  else
-    std::get<PlainReader>(reader)(table, force);
+  force_readers()[static_cast<std::size_t>(found - kinds.begin())].second(table, force, histories);
   table.reject_unknown_keys();
   return force;
 }
