@@ -7,45 +7,13 @@
 #include <string>
 #include <string_view>
 
-#include "dynamics/element_input/input_values.h"
+#include "dynamics/input/spectrum_input.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
 constexpr int kMostFrequencies = 100000;
-
-RoadSpectrum read_road_class(const support::TomlValue& value) {
-  static const std::array<std::string, 8> kClasses{"A", "B", "C", "D", "E", "F", "G", "H"};
-  return RoadSpectrum::power_law(calc_iso_density(value.one_of(kClasses)[0]), 2.0);
-}
-
-RoadSpectrum read_spectrum(const support::TomlTable& table) {
-  constexpr std::array<std::string_view, 3> kWays{"class", "density", "table"};
-  table.find("band");
-  const std::optional<support::TomlValue> exponent = table.find("exponent");
-  const std::string_view way = find_only_key(table, kWays, "either a 'class', or a 'density', or a 'table'");
-  if (exponent && way != "density") throw exponent->error("goes with 'density' only");
-  RoadSpectrum spectrum = [&] {
-    if (way == "class") return read_road_class(table.at("class"));
-    if (way == "table") {
-      const PointList points =
-          read_point_list(table.at("table"), support::positive("1/m"), support::positive("m^3"));
-      return RoadSpectrum::through_points(points.x, points.y);
-    }
-    return RoadSpectrum::power_law(table.number("density", support::positive("m^3")),
-                                   table.number_or("exponent", 2.0, support::any("")));
-  }();
-  if (const std::optional<support::TomlValue> band = table.find("band")) {
-    const std::vector<double> limits = band->numbers(support::non_negative("1/m"), 2);
-    if (!(limits[1] > limits[0])) {
-      throw band->error(fmt::format("must ascend, got {} to {} 1/m", limits[0], limits[1]));
-    }
-    spectrum.limit_to(limits[0], limits[1]);
-  }
-  table.reject_unknown_keys();
-  return spectrum;
-}
 
 }  // namespace
 
@@ -68,7 +36,7 @@ ResponseRequest read_response(const support::TomlTable& table) {
     for (const support::TomlValue& item : points->items()) request.points.push_back(read_point(item));
     if (request.points.empty()) throw points->error("must name at least one point \"body.point\"");
   }
-  if (const auto road = table.find_table("road")) request.road = read_spectrum(*road);
+  if (const auto road = table.find_table("road")) request.road = read_spectrum_in_band(*road);
   table.reject_unknown_keys();
   return request;
 }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <stdexcept>
 
 #include "dynamics/input/road_points.h"
+#include "dynamics/input/spectrum_input.h"
 #include "dynamics/road/bump_road.h"
 #include "dynamics/road/flat_road.h"
 #include "dynamics/road/table_road.h"
@@ -41,12 +44,24 @@ void read_file_keys(const support::TomlTable& table, const std::filesystem::path
   }
 }
 
+std::unique_ptr<Road> make_random_road(const RoadDescription& description) {
+  try {
+    const std::vector<double> height = make_random_heights(*description.random);
+    const auto spaced =
+        Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(height.size()), 0.0, description.random->length);
+    const std::vector<double> distance(spaced.begin(), spaced.end());
+    return std::make_unique<TableRoad>(description.start, distance, height);
+  } catch (const std::invalid_argument& error) {
+    throw support::InputError(description.location, fmt::format("'road' cannot be made: {}", error.what()));
+  }
+}
+
 }  // namespace
 
 RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder) {
   std::vector<std::string> shapes{"flat"};
   shapes.insert(shapes.end(), bump_shape_names().begin(), bump_shape_names().end());
-  shapes.insert(shapes.end(), {"table", "opencrg"});
+  shapes.insert(shapes.end(), {"random", "table", "opencrg"});
 
   RoadDescription road;
   road.location = table.at("shape").location();
@@ -57,6 +72,8 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
   }
   if (road.shape == "table" || road.shape == "opencrg") {
     read_file_keys(table, folder, road);
+  } else if (road.shape == "random") {
+    road.random = read_random_road(table);
   } else if (road.shape != "flat") {
     road.length = table.number("length", support::positive("m"));
     road.height = table.number("height", support::any("m"));
@@ -67,6 +84,7 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
 
 std::unique_ptr<Road> make_road(const RoadDescription& description) {
   if (description.shape == "flat") return std::make_unique<FlatRoad>();
+  if (description.random) return make_random_road(description);
   if (description.shape == "table" || description.shape == "opencrg") {
     const RoadPoints points = read_road_points(description);
     return std::make_unique<TableRoad>(description.start, points.distance, points.height);

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/road/random_road.h"
 #include "dynamics/road/road.h"
 #include "tools/support/toml/toml.h"
 
@@ -18,7 +20,7 @@ struct RoadColumn {
 
 /// The road of a run file, `[road]`.
 struct RoadDescription {
-  std::string shape = "flat";  ///< "flat", one of bump_shape_names(), "table" or "opencrg"
+  std::string shape = "flat";  ///< "flat", one of bump_shape_names(), "random", "table" or "opencrg"
   double start = 0.0;          ///< where it begins [m]
   double length = 0.0;         ///< of a bump, > 0 [m]
   double height = 0.0;         ///< of a bump [m]
@@ -28,6 +30,7 @@ struct RoadDescription {
   std::vector<RoadColumn> heights;  ///< the road is their mean; none for a table of two plain columns
   std::vector<double> lateral;  ///< positions across the road in OpenCRG, left is positive; their mean [m]
   support::SourceLocation lateral_location;
+  std::optional<RandomRoad> random = {};  ///< of the shape "random"
   support::SourceLocation location;
 };
 
@@ -38,8 +41,8 @@ struct RoadDescription {
 RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder);
 
 /// Makes the road of a description; for a table or OpenCRG it reads the file.
-/// @throws support::InputError at the line and column of the fault in the file
-/// Checked by tests/dynamics/input/road_input_test.cpp
+/// @throws support::InputError at the line and column of the fault in the file, or where the road is
+/// described Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 
 }  // namespace sprung::dynamics

@@ -131,7 +131,7 @@ std::string section_of(const std::string& path, const std::string& type) {
   if (path == "forces.*") return "Forces: " + type;
   if (path == "output.store" || path == "output.step") return "Output: histories";
   if (path == "road")
-    return type == "flat" || type == "table" || type == "opencrg"
+    return type == "flat" || type == "random" || type == "table" || type == "opencrg"
                ? "Road: " + (type == "opencrg" ? "OpenCRG" : type)
                : "Road: a bump";
   if (path.ends_with(".history")) return "Functions of time: history";

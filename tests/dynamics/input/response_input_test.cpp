@@ -61,7 +61,8 @@ TEST_CASE("Wrong keys and values of a response table are refused at their locati
              Contains("either a 'class', or a 'density', or a 'table'"));
   CHECK_THAT(error_of("[response.road]\nclass = \"A\"\ndensity = 1.0\n"), Contains("not several of them"));
   CHECK_THAT(error_of("[response.road]\nclass = \"A\"\nexponent = 3.0\n"),
-             Contains("run.toml:3:12: error: 'response.road.exponent' goes with 'density' only"));
+             Contains("run.toml:3:12: error: 'response.road.exponent' belongs to a power law, which 'class' "
+                      "does not give"));
   CHECK_THAT(error_of("[response.road]\nclass = \"A\"\nband = [2.0, 1.0]\n"),
              Contains("must ascend, got 2 to 1 1/m"));
   CHECK_THAT(error_of("[response.road]\ntable = [[0.1, 1.0], [0.1, 2.0]]\n"), Contains("must ascend"));

@@ -67,7 +67,7 @@ TEST_CASE("Keys of a road that are missing, unknown or have a bad value are refu
   CHECK(error_of("start = 1.0") == "run.toml:1:1: error: missing key 'shape' in 'road'");
   CHECK(error_of("shape = \"half-sin\"") ==
         "run.toml:2:9: error: 'road.shape' must be one of \"flat\", \"half-sine\", \"haversine\", "
-        "\"triangle\", \"ramp\", \"table\", \"opencrg\"; got a string \"half-sin\" (did you mean "
+        "\"triangle\", \"ramp\", \"random\", \"table\", \"opencrg\"; got a string \"half-sin\" (did you mean "
         "'half-sine'?)");
   CHECK(error_of("shape = \"flat\"\nstart = 1.0") ==
         "run.toml:3:1: error: unknown key 'start' in 'road' (known keys: shape)");
@@ -187,4 +187,38 @@ TEST_CASE("A column of a road has one use") {
   CHECK_THAT(error_of_measured("s,h\n0,0\n1,1\n", "height = [\"h\", \"h\"]"),
              Contains("'height' names 'h' twice"));
   CHECK_THAT(error_of_table(std::string("0 0\n1 \0\n", 8)), Contains(":2:3: error: is no text"));
+}
+
+TEST_CASE("A random road has one level, a band and waves in it") {
+  const auto random = [](const std::string& lines) {
+    return "shape = \"random\"\nstart = 1.0\nlength = 50.0\n" + lines;
+  };
+  const std::unique_ptr<dynamics::Road> road = dynamics::make_road(read(random("class = \"C\"\nease = 5.0")));
+  CHECK(road->height(0.9) == 0.0);
+  CHECK(road->height(20.0) != 0.0);
+  CHECK(road->height(51.0) == Approx(0.0).margin(1e-15));
+  CHECK(dynamics::make_road(read(random("table = [[0.1, 1e-4], [2.0, 1e-7]]")))->height(20.0) != 0.0);
+  CHECK(dynamics::make_road(read(random("rms = 0.01\nexponent = 3\nband = [0.1, 1.0]")))->height(20.0) !=
+        0.0);
+  CHECK(error_of(random("seed = 2")) ==
+        "run.toml:1:1: error: 'road' must have either a 'class', or a 'density', or a 'table', or an 'rms'");
+  CHECK(error_of(random("class = \"C\"\nrms = 0.1")) ==
+        "run.toml:1:1: error: 'road' must have either a 'class', or a 'density', or a 'table', or an 'rms', "
+        "not "
+        "several of them");
+  CHECK(error_of(random("class = \"K\"")) ==
+        "run.toml:5:9: error: 'road.class' must be one of \"A\", \"B\", \"C\", \"D\", \"E\", \"F\", \"G\", "
+        "\"H\"; got a string \"K\" (did you mean 'A'?)");
+  CHECK(error_of(random("rms = 0.1")) == "run.toml:1:1: error: 'road' must have a 'band' beside 'rms'");
+  CHECK(error_of(random("class = \"C\"\nexponent = 3")) ==
+        "run.toml:6:12: error: 'road.exponent' belongs to a power law, which 'class' does not give");
+  CHECK(error_of(random("class = \"C\"\nband = [2.0, 1.0]")) ==
+        "run.toml:6:8: error: 'road.band' must ascend, got 2 to 1 1/m");
+  CHECK(error_of(random("class = \"C\"\nease = 25.0")) ==
+        "run.toml:6:8: error: 'road.ease' must be below half of the length 50 m, got 25 m");
+  CHECK(error_of(random("class = \"C\"\nseed = -1")).starts_with("run.toml:6:8: error: 'road.seed' must be"));
+  CHECK(input_error_of([&] {
+          dynamics::make_road(read(random("class = \"C\"\nband = [0.001, 0.002]")));
+        }).find("'road' cannot be made: the band from 0.001 to 0.002 1/m holds no multiple of 1/50 m") !=
+        std::string::npos);
 }
