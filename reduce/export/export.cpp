@@ -3,8 +3,10 @@
 #include <stdexcept>
 
 #include "reduce/export/csv_export.h"
+#include "reduce/export/exudyn_export.h"
 #include "reduce/export/matrix_market_export.h"
 #include "reduce/export/mbdyn_export.h"
+#include "reduce/export/mbsim_export.h"
 #include "reduce/export/sid_export.h"
 
 namespace sprung::reduce {
@@ -23,6 +25,8 @@ constexpr Target kTargets[] = {
     {"sid", [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, false); }},
     {"sid-by-mode",
      [](const Superelement& s, const std::string& prefix) { return export_sid(s, prefix, true); }},
+    {"exudyn", export_exudyn},
+    {"mbsim", export_mbsim},
 };
 
 }  // namespace

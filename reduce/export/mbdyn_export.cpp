@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/export/spatial_integrals.h"
 #include "reduce/export/text_output.h"
 
 namespace sprung::reduce {
@@ -90,12 +91,8 @@ void write_momenta(const InertiaInvariants& inertia, RecordGroups& file) {
 // ∫((r·φ) I − φ rᵀ) dm, a block of three columns for each mode.
 void write_linear_products(const InertiaInvariants& inertia, RecordGroups& file) {
   const Eigen::Index n = inertia.P.cols();
-  Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(3, 3 * n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    blocks.middleCols<3>(3 * k) << inertia.y_phi_y(k), -inertia.y_phi_x(k), 0.0,  //
-        -inertia.x_phi_y(k), inertia.x_phi_x(k), 0.0,                             //
-        0.0, 0.0, inertia.d(k);
-  }
+  Eigen::MatrixXd blocks(3, 3 * n);
+  for (Eigen::Index k = 0; k < n; ++k) blocks.middleCols<3>(3 * k) = calc_linear_products(inertia, k);
   file.begin(16, "INVARIANT 8");
   file.rows(blocks);
 }
@@ -103,15 +100,12 @@ void write_linear_products(const InertiaInvariants& inertia, RecordGroups& file)
 // ∫φᵢ×φⱼ dm, and ∫(φⱼ φᵢᵀ − (φᵢ·φⱼ) I) dm; j runs faster.
 void write_quadratic_products(const InertiaInvariants& inertia, RecordGroups& file) {
   const Eigen::Index n = inertia.P.cols();
-  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(3, n * n), blocks = Eigen::MatrixXd::Zero(3, 3 * n * n);
-  const Eigen::MatrixXd &xx = inertia.phi_x_phi_x, &xy = inertia.phi_x_phi_y, &yy = inertia.phi_y_phi_y;
+  Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(3, n * n), blocks(3, 3 * n * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
       const Eigen::Index column = i * n + j;
       cross(2, column) = inertia.B(i, j);
-      blocks.middleCols<3>(3 * column) << -yy(i, j), xy(j, i), 0.0,  //
-          xy(i, j), -xx(i, j), 0.0,                                  //
-          0.0, 0.0, -xx(i, j) - yy(i, j);
+      blocks.middleCols<3>(3 * column) = -calc_quadratic_products(inertia, i, j);
     }
   }
   file.begin(17, "INVARIANT 5");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "reduce/export/spatial_integrals.h"
 #include "reduce/export/text_output.h"
 
 namespace sprung::reduce {
@@ -137,15 +138,6 @@ void write_node(const Superelement& s, int node, SidFile& file) {
   file.line("end node");
 }
 
-// ∫((r·φ_k) I − φ_k rᵀ) dm, which is −∫r~ φ_k~ dm.
-Eigen::Matrix3d calc_products(const InertiaInvariants& inertia, Eigen::Index k) {
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  products.topLeftCorner<2, 2>() << inertia.y_phi_y(k), -inertia.y_phi_x(k),  //
-      -inertia.x_phi_y(k), inertia.x_phi_x(k);
-  products(2, 2) = inertia.d(k);
-  return products;
-}
-
 // xx, yy, zz, xy, xz, yz.
 Eigen::MatrixXd pack_tensor(const Eigen::Matrix3d& tensor) {
   Eigen::MatrixXd packed(6, 1);
@@ -156,11 +148,10 @@ Eigen::MatrixXd pack_tensor(const Eigen::Matrix3d& tensor) {
 void write_rigid(const InertiaInvariants& inertia, SidFile& file) {
   const Eigen::Index n = inertia.P.cols();
   Taylor moment{.zero = Eigen::Vector3d(inertia.first_moment.x(), inertia.first_moment.y(), 0.0)};
-  const double J = inertia.second_moment;
-  Taylor tensor{.zero = pack_tensor(Eigen::Vector3d(0.5 * J, 0.5 * J, J).asDiagonal())};
+  Taylor tensor{.zero = pack_tensor(calc_inertia_tensor(inertia))};
   for (Eigen::Index k = 0; k < n; ++k) {
     moment.first.emplace_back(Eigen::Vector3d(inertia.P(0, k), inertia.P(1, k), 0.0));
-    const Eigen::Matrix3d products = calc_products(inertia, k);
+    const Eigen::Matrix3d products = calc_linear_products(inertia, k);
     tensor.first.push_back(pack_tensor(products + products.transpose()));
   }
   file.taylor("mdCM", moment);
@@ -199,7 +190,7 @@ void write_velocity_terms(const Superelement& s, bool by_mode, SidFile& file) {
   Oe.zero.leftCols(4) << -inertia.y_phi_y.transpose(), -inertia.x_phi_x.transpose(), -inertia.d.transpose(),
       (inertia.y_phi_x + inertia.x_phi_y).transpose();
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Matrix3d products = 2.0 * calc_products(inertia, k);
+    const Eigen::Matrix3d products = 2.0 * calc_linear_products(inertia, k);
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       Gr.zero.col(by_mode ? 3 * k + axis : axis * n + k) = products.col(axis);
     Ge.zero.col(by_mode ? 3 * k + 2 : 2 * n + k) = -2.0 * inertia.B.col(k);
