@@ -102,7 +102,8 @@ std::string list_superelements(const std::filesystem::path& folder, const std::s
   return support::nearest_name_hint(wanted, names);
 }
 
-reduce::Superelement read_named(const BodyDescription& body, const std::filesystem::path& folder) {
+reduce::Superelement read_named(const BodyDescription& body, const std::filesystem::path& folder,
+                                SuperelementCache* cache) {
   const std::filesystem::path path = folder / (body.superelement + ".h5");
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
@@ -113,7 +114,7 @@ reduce::Superelement read_named(const BodyDescription& body, const std::filesyst
                     body.name, body.superelement, path.string(),
                     list_superelements(folder, body.superelement)));
   }
-  return reduce::read_superelement(path);
+  return cache ? cache->read(path) : reduce::read_superelement(path);
 }
 
 // A node may be named `origin` only if it is at the origin.
@@ -167,12 +168,13 @@ std::vector<BodyDescription> read_bodies(const support::TomlTable& table) {
 }
 
 std::map<std::string, reduce::Superelement> read_superelements(const std::vector<BodyDescription>& bodies,
-                                                               const std::filesystem::path& folder) {
+                                                               const std::filesystem::path& folder,
+                                                               SuperelementCache* cache) {
   std::map<std::string, reduce::Superelement> superelements;
   for (const BodyDescription& body : bodies) {
     if (body.superelement.empty()) continue;
     if (!superelements.contains(body.superelement)) {
-      superelements.emplace(body.superelement, read_named(body, folder));
+      superelements.emplace(body.superelement, read_named(body, folder, cache));
     }
     check_nodes(body, superelements.at(body.superelement));
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/input/superelement_cache.h"
 #include "dynamics/input/vehicle.h"
 
 namespace sprung::dynamics {
@@ -21,10 +22,12 @@ std::vector<BodyDescription> read_bodies(const support::TomlTable& table);
 std::vector<PointDescription> read_points(const support::TomlTable& table, bool on_superelement);
 
 /// Reads FOLDER/NAME.h5 of each superelement that a body names, each once.
+/// @param cache  of those read before; nullptr: none
 /// @throws support::InputError at the body for a file that does not exist; at the file if it cannot be used;
 ///         at the point for a node that the superelement lacks, or for a name that is taken
 /// Checked by tests/dynamics/input/vehicle_test.cpp
 std::map<std::string, reduce::Superelement> read_superelements(const std::vector<BodyDescription>& bodies,
-                                                               const std::filesystem::path& folder);
+                                                               const std::filesystem::path& folder,
+                                                               SuperelementCache* cache);
 
 }  // namespace sprung::dynamics

@@ -191,8 +191,8 @@ std::vector<std::string> Vehicle::body_names() const {
   return names;
 }
 
-Vehicle read_vehicle(const support::TomlDocument& document,
-                     const std::filesystem::path& superelement_folder) {
+Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder,
+                     SuperelementCache* cache) {
   const support::TomlTable root = document.root();
   Vehicle vehicle;
   vehicle.text = document.text();
@@ -213,7 +213,7 @@ Vehicle read_vehicle(const support::TomlDocument& document,
   // Unknown keys are reported before other files are read.
   for (const std::string_view key : {"joints", "motions", "forces", "monitor"}) root.find(key);
   root.reject_unknown_keys();
-  vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder);
+  vehicle.superelements = read_superelements(vehicle.bodies, superelement_folder, cache);
   check_masses(vehicle);
   const std::vector<std::string> points = point_names(vehicle);
   HistoryFiles histories(std::filesystem::path(document.name()).parent_path());

@@ -16,6 +16,8 @@
 
 namespace sprung::dynamics {
 
+class SuperelementCache;
+
 /// A named point of a body, or of the ground.
 struct PointDescription {
   std::string name;
@@ -62,9 +64,11 @@ struct Vehicle {
 
 /// Reads a vehicle file (dynamics/models/README.md lists the keys), FOLDER/NAME.h5 of every superelement that
 /// a body names, and the files of measured histories.
+/// @param cache  of superelements read before; nullptr: none
 /// @throws support::InputError at the first key or value that is wrong
 /// Checked by tests/dynamics/input/vehicle_test.cpp
-Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder);
+Vehicle read_vehicle(const support::TomlDocument& document, const std::filesystem::path& superelement_folder,
+                     SuperelementCache* cache = nullptr);
 
 /// A point that joints, forces and results can refer to.
 struct VehiclePoint {

@@ -39,8 +39,9 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle),
                              &section_loads};
-  fmt::print("{}", json ? format_equilibrium_json(report)
-                        : describe_static_lengths(prepared) + format_equilibrium(report));
+  fmt::print(request.streams.out, "{}",
+             json ? format_equilibrium_json(report)
+                  : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
 
@@ -53,12 +54,14 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared);
   if (output.json) {
-    fmt::print("{}", format_modes_json(modes, section_loads, bracket ? &*bracket : nullptr));
+    fmt::print(request.streams.out, "{}",
+               format_modes_json(modes, section_loads, bracket ? &*bracket : nullptr));
     return support::kGood;
   }
-  fmt::print("{}", format_modes(model, prepared.vehicle, modes, section_loads,
-                                prepared.run.start == Run::Start::kSteady));
-  if (bracket) fmt::print("{}", format_bracket(modes, *bracket));
+  fmt::print(
+      request.streams.out, "{}",
+      format_modes(model, prepared.vehicle, modes, section_loads, prepared.run.start == Run::Start::kSteady));
+  if (bracket) fmt::print(request.streams.out, "{}", format_bracket(modes, *bracket));
   return support::kGood;
 }
 

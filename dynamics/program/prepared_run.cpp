@@ -92,7 +92,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   }
   support::TomlDocument vehicle_document = support::TomlDocument::read(prepared.run.vehicle_path);
   apply_overrides(vehicle_document, request.overrides, true);
-  prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder);
+  prepared.vehicle = read_vehicle(vehicle_document, request.superelement_folder, request.superelements);
   // Equilibrium and linearisation need functions of time at t = 0 alone.
   const double end = preparation == Preparation::kBalance ? 0.0 : prepared.run.duration;
   check_histories(prepared.vehicle.histories, end);
@@ -100,7 +100,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   std::vector<std::string> remarks = list_unit_remarks(prepared.vehicle);
   for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
     remarks.push_back(std::move(remark));
-  for (const std::string& remark : remarks) fmt::print(stderr, "remark: {}\n", remark);
+  for (const std::string& remark : remarks) fmt::print(request.streams.err, "remark: {}\n", remark);
 }
 
 // Damping and stiffening of the flexible bodies of the models.
@@ -148,8 +148,8 @@ void find_free_lengths(const Flexibility& flexibility, const ModeSelection& mode
 
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
-Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation, bool is_quiet,
-                             PreparedRun& prepared) {
+Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation,
+                             const RunRequest& request, PreparedRun& prepared) {
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   find_free_lengths(flexibility, prepared.available, prepared);
@@ -160,8 +160,9 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   check_massless_bodies(vehicle, prepared.balance_model, q);
   if (preparation != Preparation::kBalance && run.start == Run::Start::kAsGiven) return q;
-  support::ProgressBar progress("static equilibrium", is_quiet);
+  support::ProgressBar progress("static equilibrium", request.quiet, request.streams.err);
   const auto show = [&progress](int iteration, double step) {
+    if (support::interrupt_requested()) throw support::Interrupted("in the static equilibrium");
     progress.update(fmt::format("iteration {}, step {:.1e} of the natural size", iteration, step));
   };
   prepared.equilibrium =
@@ -195,7 +196,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Flexibility flexibility = choose_modes(prepared);
   if (preparation == Preparation::kChoice) return prepared;
 
-  const Eigen::VectorXd q = find_balance(flexibility, preparation, request.quiet, prepared);
+  const Eigen::VectorXd q = find_balance(flexibility, preparation, request, prepared);
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,

@@ -9,19 +9,24 @@
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/input/run.h"
+#include "dynamics/input/superelement_cache.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/mode_choice/basis_choice.h"
 #include "dynamics/program/static_lengths.h"
+#include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
 
-/// The input that the command line names.
+/// The input that the command line names, and how it is read.
 struct RunRequest {
   std::filesystem::path run_file;
   std::filesystem::path superelement_folder;
   std::vector<std::string> overrides;  ///< "key.path=value", "vehicle.key.path=value"
   bool quiet = false;
+  support::Streams streams = {};
+  SuperelementCache* superelements = nullptr;  ///< of those read by earlier commands, if they are kept
+  double earlier_cpu_time = 0.0;               ///< of the process before this command [s]
 };
 
 /// A run that is ready to start: input read, vehicle assembled and in equilibrium, road placed under it.

@@ -164,7 +164,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
   for (const std::string& warning : list_warnings(prepared, vehicle)) {
-    fmt::print(stderr, "warning: {}\n", warning);
+    fmt::print(request.streams.err, "warning: {}\n", warning);
     result.remarks.push_back("Warning: " + warning);
   }
   if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
@@ -172,8 +172,9 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   if (!states.empty()) result.remarks.push_back(states);
 
   if (!output.results.empty()) write_response(output.results, result);
-  fmt::print("{}", output.json ? format_response_json(result) : format_response(result));
-  if (!output.results.empty() && !output.json) fmt::print("Response: {}\n", output.results.string());
+  fmt::print(request.streams.out, "{}", output.json ? format_response_json(result) : format_response(result));
+  if (!output.results.empty() && !output.json)
+    fmt::print(request.streams.out, "Response: {}\n", output.results.string());
   return support::kGood;
 }
 

@@ -52,23 +52,28 @@ TransientOptions make_options(const Run& run, const Model& model) {
                   writer->abandon().string()));
 }
 
-void print_description(const PreparedRun& prepared) {
-  fmt::print("{}", describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
-                                prepared.initial_velocities,
-                                prepared.equilibrium ? &*prepared.equilibrium : nullptr));
-  fmt::print("{}", describe_static_lengths(prepared));
+void print_description(std::FILE* out, const PreparedRun& prepared) {
+  fmt::print(
+      out, "{}",
+      describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
+                   prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
+  fmt::print(out, "{}", describe_static_lengths(prepared));
   if (!prepared.run.continue_from.empty()) {
-    fmt::print("Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
+    fmt::print(out, "Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
                prepared.start.time);
   }
-  if (prepared.choice) fmt::print("{}", summarise_choice(*prepared.choice));
+  if (prepared.choice) fmt::print(out, "{}", summarise_choice(*prepared.choice));
 }
 
-void print_of_computation(const std::vector<RunWarning>& warnings) {
+void print_of_computation(std::FILE* err, const std::vector<RunWarning>& warnings) {
   for (const RunWarning& warning : warnings) {
-    if (is_of_computation(warning)) fmt::print(stderr, "warning: {}\n", warning.text);
+    if (is_of_computation(warning)) fmt::print(err, "warning: {}\n", warning.text);
   }
 }
+
+// Reading the clock of the processor takes as long as the statistics of an output. Where there is no file to
+// write, all outputs take the same time, and one of so many is timed.
+constexpr int kOutputsForOneTimed = 16;
 
 // CPU time of the program so far [s].
 double cpu_time() {
@@ -117,11 +122,11 @@ WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, Ru
   return run;
 }
 
-void print_resumption(const std::optional<Checkpoint>& checkpoint) {
+void print_resumption(std::FILE* out, const std::optional<Checkpoint>& checkpoint) {
   if (checkpoint) {
-    fmt::print("Resumes from the checkpoint at t = {:.6g} s\n", checkpoint->state.time);
+    fmt::print(out, "Resumes from the checkpoint at t = {:.6g} s\n", checkpoint->state.time);
   } else {
-    fmt::print("Resumes from the start: the run was interrupted before its first checkpoint\n");
+    fmt::print(out, "Resumes from the start: the run was interrupted before its first checkpoint\n");
   }
 }
 
@@ -136,12 +141,15 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   const double cpu_before = cpu_time();
   const auto start = std::chrono::steady_clock::now();
   double storing = 0.0;
+  const int timed_share = writer ? 1 : kOutputsForOneTimed;
+  int num_outputs = 0;
   options.on_output = [&](const Snapshot& snapshot) {
-    const double before = cpu_time();
+    const bool is_timed = num_outputs++ % timed_share == 0;
+    const double before = is_timed ? cpu_time() : 0.0;
     sections.update(snapshot.terms(), snapshot.multipliers(), snapshot.q, snapshot.v, snapshot.v_dot);
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
-    storing += cpu_time() - before;
+    if (is_timed) storing += timed_share * (cpu_time() - before);
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
@@ -180,6 +188,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
 }  // namespace
 
 int run_command(const RunRequest& request, const RunOutput& output) {
+  const support::Streams& streams = request.streams;
   if (support::is_foreign_file(output.results, kResultsFormat)) {
     throw support::InputError(
         {.path = output.results.string()},
@@ -190,12 +199,12 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
   if (output.dry_run) {
-    fmt::print("{}", output.json ? format_model_json(prepared) : format_model(prepared));
+    fmt::print(streams.out, "{}", output.json ? format_model_json(prepared) : format_model(prepared));
     return support::kGood;
   }
-  if (!output.json && !request.quiet) print_description(prepared);
+  if (!output.json && !request.quiet) print_description(streams.out, prepared);
   const std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
-  print_of_computation(model_warnings);
+  print_of_computation(streams.err, model_warnings);
 
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
@@ -209,23 +218,25 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);
   const bool prints = !output.json && !request.quiet;
   if (written.writer && prints)
-    fmt::print("Results: {}\n", describe_storage(written.writer->storage(), run.output));
-  if (output.resume && prints) print_resumption(written.checkpoint);
+    fmt::print(streams.out, "Results: {}\n", describe_storage(written.writer->storage(), run.output));
+  if (output.resume && prints) print_resumption(streams.out, written.checkpoint);
   const support::DeferredInterrupts deferred;  // what was calculated is kept
-  support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json);
+  support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json,
+                                streams.err);
   RunTimes times;
   const TransientStatistics transient =
       integrate(prepared, options, written, progress, sections, statistics, times);
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings = list_run_warnings(prepared.model, statistics, transient, adaptivity);
-  print_of_computation(warnings);
+  print_of_computation(streams.err, warnings);
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
-  times.cpu = cpu_time();
+  times.cpu = cpu_time() - request.earlier_cpu_time;
   const RunSummary summary{statistics, transient,  run.duration - prepared.start.time,
                            times,      adaptivity, warnings};
-  fmt::print("{}", output.json ? format_summary_json(prepared.model, summary) : format_summary(summary));
-  if (written.writer && !output.json) fmt::print("Results: {}\n", output.results.string());
+  fmt::print(streams.out, "{}",
+             output.json ? format_summary_json(prepared.model, summary) : format_summary(summary));
+  if (written.writer && !output.json) fmt::print(streams.out, "Results: {}\n", output.results.string());
   return is_balanced(statistics) ? support::kGood : support::kCheckFailed;
 }
 

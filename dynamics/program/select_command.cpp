@@ -41,9 +41,11 @@ int select_modes_command(const RunRequest& request, const RunOutput& output) {
                               "has no body with modes \"auto\", so there is nothing to choose");
   }
   if (!output.results.empty()) write_choice_file(output.results, prepared, request.overrides);
-  fmt::print("{}", output.json ? support::format_json(make_choice_json(*prepared.choice))
-                               : format_choice(*prepared.choice));
-  if (!output.results.empty() && !output.json) fmt::print("Choice: {}\n", output.results.string());
+  fmt::print(request.streams.out, "{}",
+             output.json ? support::format_json(make_choice_json(*prepared.choice))
+                         : format_choice(*prepared.choice));
+  if (!output.results.empty() && !output.json)
+    fmt::print(request.streams.out, "Choice: {}\n", output.results.string());
   return support::kGood;
 }
 

@@ -76,10 +76,17 @@ class Installed(unittest.TestCase):
             "import sprung, sys\n"
             "with sprung.run(sys.argv[1], superelements=sys.argv[2], overrides={'duration': 0.2}) as results:\n"
             "    print(results.time[-1], results.unit('bodies/chassis/acceleration.y'))\n"
+            "print(sprung.explain_calls())\n"
         )
         run_file = self.share / "dynamics/models/truck/bump.toml"
         process = run(sys.executable, "-c", code, run_file, self.folder / "bodies", cwd=self.folder, env=environment)
-        self.assertEqual((process.returncode, process.stdout), (0, "0.2 m/s^2\n"))
+        self.assertEqual(process.returncode, 0, process.stdout)
+        number, how = process.stdout.splitlines()
+        self.assertEqual(number, "0.2 m/s^2")
+        if list(Path(os.environ["SPRUNG_BUILD"]).glob("dynamics/sprung_dynamics.*.so")):
+            self.assertIn(f"in this process, by {self.installed}/lib/sprung/sprung_dynamics.", how)
+        else:
+            self.assertIn(f"by processes of {self.installed}/bin/sprung-dynamics: no module", how)
 
     def test_every_tool_explains_itself(self):
         tools = sorted(path for path in (self.share / "tools").iterdir() if os.access(path, os.X_OK) and path.is_file())

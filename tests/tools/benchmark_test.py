@@ -138,7 +138,7 @@ class Tool(ToolTestCase):
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
         self.assert_succeeds(process)
-        for heading in ("One evaluation", "Whole runs", "Growth", "Targets"):
+        for heading in ("One evaluation", "Whole runs", "Many runs", "Growth", "Targets"):
             self.assertRegex(process.stdout, rf"(?m)^{heading}")
         self.assertEqual((self.folder / "out/benchmark.txt").read_text(encoding="utf-8"), process.stdout)
         with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:

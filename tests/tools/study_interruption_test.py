@@ -5,9 +5,12 @@ import select
 import signal
 import subprocess
 import unittest
+from pathlib import Path
 
 from study_case import DYNAMICS, HEIGHT, StudyCase
 from tool_test_case import TOOLS
+
+from sprung_tools.programs.in_process import load_module
 
 
 class Interruption(StudyCase):
@@ -101,6 +104,47 @@ class Interruption(StudyCase):
         process.kill()
         process.communicate()
         self.wait_for_end(held)
+
+
+@unittest.skipUnless(load_module(Path(DYNAMICS)).call, "the module for Python is not built")
+class InterruptionInOneProcess(Interruption):
+    """The same where the runs are made in a kept process, by a stand-in for the module."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "sprung_dynamics.py").write_text(
+            f"""import os, signal
+from pathlib import Path
+from sprung_tools.programs.in_process import load_module
+
+def call(arguments):
+    words = b" ".join(arguments).decode()
+    with open("{self.folder}/calls", "a") as calls:
+        calls.write(words + "\\n")
+    if "height=0.03" in words and os.path.exists("{self.folder}/hold"):
+        with open("{self.folder}/arrived", "w") as arrived:
+            arrived.write(str(os.getpid()))
+        while True:
+            signal.pause()
+    return load_module(Path("{DYNAMICS}")).call(arguments)
+""",
+            encoding="utf-8",
+        )
+
+    def test_the_rows_are_those_of_the_program(self):
+        settings = 'measures = ["program/steps", "points/sprung.origin/wk_rms", "summary/energy_closure"]\n'
+        self.write_study(f"{settings}set.duration = 1.0\n{HEIGHT}values = [0.01, 0.02, -1e3, 0.04]")
+        self.assert_succeeds(self.run_tool("study", "study.toml", "-o", "here", "--keep-results"))
+        self.assert_succeeds(
+            self.run_tool("study", "study.toml", "-o", "program", "--keep-results", SPRUNG_PROCESSES="1")
+        )
+        for name in ("table.csv", "table.h5", "study.html"):
+            self.assertEqual((self.folder / "here" / name).read_bytes(), (self.folder / "program" / name).read_bytes())
+        files = sorted(path.name for path in (self.folder / "here/results").iterdir())
+        self.assertEqual(files, sorted(path.name for path in (self.folder / "program/results").iterdir()))
+        self.assertGreater(len(files), 2)
+        for name in files:
+            self.assertEqual(*((self.folder / one / "results" / name).read_bytes() for one in ("here", "program")))
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ function(_sprung_compile_options name)
   target_compile_features(${name} PUBLIC cxx_std_20)
   set_target_properties(${name} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${name} PRIVATE
+    -fPIC -fvisibility=hidden -fvisibility-inlines-hidden  # for the module for Python
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     $<$<BOOL:${SPRUNG_WARNINGS_AS_ERRORS}>:-Werror> ${compiler_memory})
 endfunction()

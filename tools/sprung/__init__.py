@@ -9,20 +9,21 @@
     results.unit("points/chassis.seat/acceleration.y")      # "m/s^2"
     results.measures()["points/chassis.seat/wk_rms"].value
 
-Each function starts the program of that name, sprung-reduce or sprung-dynamics, as a process, and reads what it writes:
-nothing is computed twice or differently here. The programs are those of the environment variables SPRUNG_REDUCE and
+Nothing is computed here: `build` starts sprung-reduce as a process, and the other functions have the commands of
+sprung-dynamics done in this process, by a module that is built with the program; without it they start the program,
+with the same results. explain_calls() says which. The programs are those of the environment variables SPRUNG_REDUCE and
 SPRUNG_DYNAMICS, else those of the installation or of build/release, else those in the PATH.
 
 Bad input is an InputError, whose text is that of the program, `path:line:column: error: …`. A NumericalError says that
 a computation did not come to its end.
 """
 
-from sprung.commands import NumericalError, build, equilibrium, modes, response, run
+from sprung.commands import NumericalError, build, equilibrium, explain_calls, modes, response, run
 from sprung.results import Mode, Response, Results
 from sprung_tools.files.errors import InputError
 from sprung_tools.runs.measures import Measure
 
 __all__ = [
-    "InputError", "Measure", "Mode", "NumericalError", "Response", "Results", "build", "equilibrium", "modes",
-    "response", "run",
+    "InputError", "Measure", "Mode", "NumericalError", "Response", "Results", "build", "equilibrium",
+    "explain_calls", "modes", "response", "run",
 ]  # fmt: skip

@@ -19,6 +19,7 @@ from sprung_tools.programs.calls import (
     make_command,
 )
 from sprung_tools.programs.finding import DYNAMICS, REDUCE, find_program
+from sprung_tools.programs.in_process import call_here, load_module
 
 PathLike = str | Path
 Overrides = Mapping[str, Any] | None
@@ -81,6 +82,13 @@ def equilibrium(
     return start("equilibrium", file, superelements, overrides)
 
 
+def explain_calls() -> str:
+    """Whether the commands of sprung-dynamics are done in this process, or by processes and why."""
+    program = find_program(DYNAMICS)
+    module = load_module(program)
+    return f"in this process, by {module.what}" if module.call else f"by processes of {program}: {module.what}"
+
+
 @contextmanager
 def prepare_output(output: PathLike | None) -> Iterator[tuple[Path, Folder | None]]:
     """The file to be written, and the folder that goes away with it where none is given; at once after an error."""
@@ -101,7 +109,7 @@ def start(
     """Has sprung-dynamics do something. Returns the JSON that it prints."""
     where = None if superelements is None else Path(superelements)
     settings = format_overrides(overrides or {})
-    outcome = call(make_command(find_program(DYNAMICS), verb, Path(file), where, settings, output))
+    outcome = call_here(make_command(find_program(DYNAMICS), verb, Path(file), where, settings, output))
     check(outcome, GOOD, CHECK_FAILED)
     found: dict[str, Any] = json.loads(outcome.printed)
     return found

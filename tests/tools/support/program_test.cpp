@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 
@@ -110,6 +112,72 @@ TEST_CASE("a program under nohup continues when its terminal is closed") {
   });
   std::signal(SIGHUP, SIG_DFL);
   CHECK(result.exit_code == 7);
+}
+
+namespace {
+
+struct Inside {
+  int exit_code;
+  std::string out, err;
+};
+
+// Runs a body with streams in memory.
+Inside run_in_memory(const std::function<bool()>& is_interrupted,
+                     const std::function<int(const Streams&)>& body) {
+  std::array<char*, 2> texts{};
+  std::array<std::size_t, 2> sizes{};
+  const Streams streams{open_memstream(&texts[0], &sizes[0]), open_memstream(&texts[1], &sizes[1])};
+  const int code = run_inside("sprung-test", streams, is_interrupted, [&] { return body(streams); });
+  std::fclose(streams.out);
+  std::fclose(streams.err);
+  Inside result{code, texts[0], texts[1]};
+  for (char* text : texts) std::free(text);
+  return result;
+}
+
+bool never() {
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a body inside another program prints to its streams and gives the exit codes of a program") {
+  const Inside good = run_in_memory(never, [](const Streams& streams) {
+    std::fputs("step 1\n", streams.out);
+    return 7;
+  });
+  CHECK(good.exit_code == 7);
+  CHECK(good.out == "step 1\n");
+  CHECK(good.err.empty());
+
+  const Inside bad = run_in_memory(never, [](const Streams&) -> int {
+    throw InputError({"a.toml", 3, 1}, "unknown key 'x'");
+  });
+  CHECK(bad.exit_code == 2);
+  CHECK(bad.err == "a.toml:3:1: error: unknown key 'x'\n");
+  CHECK(run_in_memory(never, [](const Streams&) -> int { throw NumericalError("stuck"); }).exit_code == 3);
+}
+
+TEST_CASE("a body inside another program asks that for interruptions and leaves the signals alone") {
+  const auto handler = std::signal(SIGINT, SIG_IGN);
+  bool asked = false;
+  const Inside result = run_in_memory(
+      [&] {
+        asked = true;
+        return true;
+      },
+      [](const Streams&) {
+        const DeferredInterrupts deferred;
+        std::raise(SIGINT);  // which the other program ignores
+        // A body within the body has its own question; afterwards that of the outer one counts again.
+        const Inside inner =
+            run_in_memory(never, [](const Streams&) { return interrupt_requested() ? 1 : 0; });
+        return inner.exit_code == 0 && interrupt_requested() ? 5 : 6;
+      });
+  CHECK(result.exit_code == 5);
+  CHECK(asked);
+  CHECK(std::signal(SIGINT, handler) == SIG_IGN);
+  CHECK_FALSE(interrupt_requested());
 }
 
 TEST_CASE("a file-size limit and a closed pipe are errors of the write, not signals") {

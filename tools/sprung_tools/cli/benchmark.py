@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 from sprung_tools.benchmark.lattices import LATTICES, QUICK_LATTICES, format_builds, measure_build
+from sprung_tools.benchmark.many_runs import check_many_runs, format_many_runs, measure_many_runs
 from sprung_tools.benchmark.programs import measure_evaluations, measure_growth, run_program
 from sprung_tools.benchmark.tables import format_evaluations, format_growth, format_runs
 from sprung_tools.benchmark.targets import check_targets, format_targets
@@ -81,14 +82,19 @@ def main() -> int:
         times = measure_evaluations(programs / "evaluation_benchmark", plan.repetitions, min_time)
         sizes = (10, 20) if arguments.quick else (10, 100, 1000)
         growth = measure_growth(programs / "growth_benchmark", sizes, 5 if arguments.quick else 50)
+        dynamics = arguments.programs.resolve() / "dynamics/sprung-dynamics"
+        many = measure_many_runs(dynamics, folder, 2 if arguments.quick else 20, plan.duration)
         results, firsts, ladders, durations = measure_runs(programs / "run_benchmark", folder, folder, plan)
+    targets = [*check_targets(times, results, firsts, durations, growth), *check_many_runs(many)]
     text = "\n\n".join(
         (
             "One evaluation (positions, velocities, accelerations)\n" + format_evaluations(times),
             "Whole runs at the loosest tolerance that is good enough, as are the next two finer ones\n"
             + format_runs(results, firsts, durations),
+            "Many runs of the bump with the outputs of its file, results as JSON\n"
+            + format_many_runs(many),
             "Growth with the number of bodies (adams, 1e-6)\n" + format_growth(growth),
-            "Targets\n" + format_targets(check_targets(times, results, firsts, durations, growth)),
+            "Targets\n" + format_targets(targets),
         )
     )
     write_whole(arguments.output_dir / "benchmark.txt", text + "\n")

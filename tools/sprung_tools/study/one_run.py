@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
 from sprung_tools.files.results_file import open_results
-from sprung_tools.programs.calls import BAD_INPUT, CHECK_FAILED, GOOD, INTERRUPTED, Outcome, call, make_command
+from sprung_tools.programs.calls import BAD_INPUT, CHECK_FAILED, GOOD, INTERRUPTED, Outcome, make_command
+from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.measures import (
     Measure,
@@ -91,7 +92,7 @@ def make_run(task: Task, setting: Setting) -> Row:
         if setting.command == "run" and setting.results is None and output is not None:
             overrides += choose_storage(setting.measures, task.overrides)
         command = make_command(setting.program, setting.command, setting.run, folder / "bodies", overrides, output)
-        outcome = call(command, is_tied=True)
+        outcome = call_kept(command)
         exit_code, error = outcome.exit_code, outcome.error
         measured = Measured(False, (), {})
         if exit_code in (GOOD, CHECK_FAILED):

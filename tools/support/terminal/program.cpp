@@ -11,6 +11,7 @@
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
@@ -26,6 +27,8 @@ std::atomic<int> num_deferrals{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler reads it");
 
 const char* program_name = "";
+
+const std::function<bool()>* question = nullptr;  // of the program that we are inside of, if there is one
 
 // Only calls that are safe in a signal handler.
 [[noreturn]] void end_at_once() {
@@ -60,43 +63,44 @@ void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-// Prints to stderr, after the output so far. If stderr itself is closed, nothing can be done.
-void print_message(std::string_view text) {
-  std::fflush(stdout);
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fputc('\n', stderr);
+// Prints a message after the output so far. If its stream itself is closed, nothing can be done.
+void print_message(const Streams& streams, std::string_view text) {
+  std::fflush(streams.out);
+  std::fwrite(text.data(), 1, text.size(), streams.err);
+  std::fputc('\n', streams.err);
 }
 
 // The reader of the output may end first (`| head`), which is not an error.
-int finish_output(const char* name, int code) {
+int finish_output(const char* name, const Streams& streams, int code) {
   errno = 0;
-  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const bool failed = std::fflush(streams.out) != 0 || std::ferror(streams.out) != 0;
   if (!failed || errno == EPIPE) return code;
-  print_message(fmt::format("{}: error: standard output cannot be written: {}", name, std::strerror(errno)));
+  print_message(streams,
+                fmt::format("{}: error: standard output cannot be written: {}", name, std::strerror(errno)));
   return code == kGood ? kBadInput : code;
 }
 
-int run_body(const char* name, const std::function<int()>& body) {
+int run_body(const char* name, const Streams& streams, const std::function<int()>& body) {
   try {
-    return finish_output(name, body());
+    return finish_output(name, streams, body());
   } catch (const InputError& error) {
-    print_message(error.what());
+    print_message(streams, error.what());
     return kBadInput;
   } catch (const NumericalError& error) {
-    print_message(fmt::format("{}: error: {}", name, error.what()));
+    print_message(streams, fmt::format("{}: error: {}", name, error.what()));
     return kNumerics;
   } catch (const Interrupted& error) {
-    print_message(fmt::format("{}: interrupted: {}", name, error.what()));
+    print_message(streams, fmt::format("{}: interrupted: {}", name, error.what()));
     return kInterrupted;
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::broken_pipe) return kInterrupted;  // fmt::print, its reader gone
-    print_message(fmt::format("{}: internal error: {}", name, error.what()));
+    print_message(streams, fmt::format("{}: internal error: {}", name, error.what()));
   } catch (const std::bad_alloc&) {
-    print_message(fmt::format("{}: internal error: out of memory", name));
+    print_message(streams, fmt::format("{}: internal error: out of memory", name));
   } catch (const std::exception& error) {
-    print_message(fmt::format("{}: internal error: {}", name, error.what()));
+    print_message(streams, fmt::format("{}: internal error: {}", name, error.what()));
   } catch (...) {
-    print_message(fmt::format("{}: internal error: an exception of unknown type", name));
+    print_message(streams, fmt::format("{}: internal error: an exception of unknown type", name));
   }
   return kNumerics;
 }
@@ -112,13 +116,21 @@ DeferredInterrupts::~DeferredInterrupts() {
 }
 
 bool interrupt_requested() {
-  return interrupted.load(std::memory_order_relaxed);
+  return question ? (*question)() : interrupted.load(std::memory_order_relaxed);
 }
 
 int run_program(const char* name, const std::function<int()>& body) {
   program_name = name;
   install_signal_handlers();
-  return run_body(name, body);
+  return run_body(name, {}, body);
+}
+
+int run_inside(const char* name, const Streams& streams, const std::function<bool()>& is_interrupted,
+               const std::function<int()>& body) {
+  const std::function<bool()>* const outer = std::exchange(question, &is_interrupted);
+  const int code = run_body(name, streams, body);  // which throws nothing
+  question = outer;
+  return code;
 }
 
 }  // namespace sprung::support

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdio>
 #include <functional>
 #include <stdexcept>
 
@@ -8,6 +9,12 @@ namespace sprung::support {
 
 /// Exit codes of every program.
 enum ExitCode : int { kGood = 0, kCheckFailed = 1, kBadInput = 2, kNumerics = 3, kInterrupted = 130 };
+
+/// Where a command writes its results, and where its warnings, its progress and the reason of its failure.
+struct Streams {
+  std::FILE* out = stdout;
+  std::FILE* err = stderr;
+};
 
 /// An interruption that was deferred; it is thrown after open files have been closed.
 class Interrupted : public std::runtime_error {
@@ -28,11 +35,16 @@ class DeferredInterrupts {
   DeferredInterrupts& operator=(const DeferredInterrupts&) = delete;
 };
 
-/// Whether an interruption has come that was deferred.
+/// Whether an interruption has come that was deferred; inside another program, whether that asks for the end.
 bool interrupt_requested();
 
 /// Runs a program's body: installs the signal handlers, turns exceptions into one message on stderr and an
 /// exit code (InputError 2, NumericalError 3, Interrupted 130, anything else 3 as an internal error).
 int run_program(const char* name, const std::function<int()>& body);
+
+/// Runs a body inside another program: as run_program(), but the handlers of signals stay those of that
+/// program, and interrupt_requested() asks `is_interrupted`. Not in two threads at a time.
+int run_inside(const char* name, const Streams& streams, const std::function<bool()>& is_interrupted,
+               const std::function<int()>& body);
 
 }  // namespace sprung::support

@@ -20,10 +20,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
+ProgressBar::ProgressBar(std::string label, bool quiet, std::FILE* stream)
     : label_(std::move(label)),
+      stream_(stream),
       quiet_(quiet),
-      is_terminal_(isatty(STDERR_FILENO) == 1),
+      is_terminal_(isatty(fileno(stream)) == 1),
       start_(std::chrono::steady_clock::now()),
       last_drawn_(start_) {}
 
@@ -34,14 +35,14 @@ void ProgressBar::update(double fraction) {
     if (is_time_to_draw()) draw(fraction);
   } else if (static_cast<int>(10.0 * fraction) > tenths_) {
     tenths_ = static_cast<int>(10.0 * fraction);
-    fmt::print(stderr, "{}: {} %\n", label_, 10 * tenths_);
+    fmt::print(stream_, "{}: {} %\n", label_, 10 * tenths_);
   }
 }
 
 void ProgressBar::update(const std::string& state) {
   if (quiet_ || !is_terminal_ || seconds_since(start_) < kSecondsOfSilence || !is_time_to_draw()) return;
-  fmt::print(stderr, "\r{}: {}\x1b[K", label_, state);
-  std::fflush(stderr);
+  fmt::print(stream_, "\r{}: {}\x1b[K", label_, state);
+  std::fflush(stream_);
   drawn_ = true;
 }
 
@@ -59,13 +60,13 @@ void ProgressBar::draw(double fraction) {
   const double elapsed = seconds_since(start_);
   const std::string left =
       fraction > 0.01 ? fmt::format("{:.0f} s left", elapsed * (1.0 - fraction) / fraction) : std::string{};
-  fmt::print(stderr, "\r{} {} {:3.0f} %  {}\x1b[K", label_, bar, 100.0 * fraction, left);
-  std::fflush(stderr);
+  fmt::print(stream_, "\r{} {} {:3.0f} %  {}\x1b[K", label_, bar, 100.0 * fraction, left);
+  std::fflush(stream_);
   drawn_ = true;
 }
 
 void ProgressBar::finish() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) fmt::print(stream_, "\r\x1b[K");
   drawn_ = false;
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <string>
 
 namespace sprung::support {
 
-/// Shows the progress of a long calculation on stderr: on a terminal a bar with the time left, elsewhere a
+/// Shows the progress of a long calculation: on a terminal a bar with the time left, elsewhere a
 /// line for each tenth, and nothing if quiet.
 class ProgressBar {
  public:
-  ProgressBar(std::string label, bool quiet);
+  ProgressBar(std::string label, bool quiet, std::FILE* stream = stderr);
   ~ProgressBar() { finish(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -27,6 +28,7 @@ class ProgressBar {
   void draw(double fraction);
 
   std::string label_;
+  std::FILE* stream_;
   bool quiet_, is_terminal_;
   bool drawn_ = false;
   int tenths_ = 0;
