@@ -19,6 +19,11 @@ double calc_largest_deflection(const Model& full, int coordinate) {
   return largest;
 }
 
+void add_point(const Eigen::Vector2d& motion, EffectiveModes::Mode& mode) {
+  mode.reach.push_back(motion.norm());
+  mode.motion.push_back(motion);
+}
+
 }  // namespace
 
 EffectiveModes::EffectiveModes(const FullSmallMotion& motion, const std::vector<bool>& is_active)
@@ -78,7 +83,7 @@ void EffectiveModes::update(const std::vector<bool>& is_active) {
       modes_[j] = {.mass = mass[column],
                    .damping = std::max(0.0, damping[column]),
                    .stiffness = std::max(0.0, stiffness[column])};
-      for (const Eigen::MatrixXd& motion : reach) modes_[j].reach.push_back(motion.col(column).norm());
+      for (const Eigen::MatrixXd& motion : reach) add_point(motion.col(column), modes_[j]);
     }
     modes_[j].deflection = deflection;
   }
@@ -93,7 +98,7 @@ EffectiveModes::Mode EffectiveModes::make_lone_mode(int coordinate) const {
   const Eigen::Index k = coordinate - body->first_coordinate - 3;
   Mode mode{.mass = body->M_ff(k, k), .damping = body->damping(k, k), .stiffness = body->stiffness(k, k)};
   for (std::size_t i = 0; i < motion_->num_points(); ++i) {
-    mode.reach.push_back(motion_->point_motion(i).col(coordinate).norm());
+    add_point(motion_->point_motion(i).col(coordinate), mode);
   }
   return mode;
 }

@@ -15,6 +15,7 @@ class EffectiveModes {
     double mass = 0.0, damping = 0.0, stiffness = 0.0;
     double deflection = 0.0;         ///< largest of a named point, per unit of the mode [m/(m·√kg)]
     std::vector<double> reach = {};  ///< displacement of each point asked for, per unit of the mode
+    std::vector<Eigen::Vector2d> motion = {};  ///< the same along x and y
   };
 
   /// @param motion  has to outlive this   @param is_active  of each mode

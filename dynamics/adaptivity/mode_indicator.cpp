@@ -20,6 +20,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
       unbalanced_(full),
       state_{.time = time, .oscillators = std::vector<Oscillator>(active_.size())},
       responses_(active_.size()),
+      accelerations_(active_.size()),
       amplitudes_(active_.size()),
       neglected_(active_.size()) {}
 
@@ -29,6 +30,7 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
     if (now != active_[j]) state_.oscillators[j] = {.is_fresh = state_.has_begun};
     active_[j] = now;
     responses_[j] = {};
+    accelerations_[j] = 0.0;
     amplitudes_[j] = {};
     neglected_[j] = {};
   }
@@ -45,6 +47,13 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
 ModeShare ModeIndicator::calc_share(std::size_t mode, const ModeAmplitude& amplitude) const {
   return sizes_.calc_share(calc_deflection(mode, amplitude),
                            [&](std::size_t point) { return calc_acceleration(mode, point, amplitude); });
+}
+
+Eigen::Vector2d ModeIndicator::calc_missing_acceleration(std::size_t point) const {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t j = 0; j < active_.size(); ++j)
+    if (!active_[j]) sum += accelerations_[j] * effective_[j].motion[point];
+  return sum;
 }
 
 void ModeIndicator::update(double time, const ConstrainedEquations& run, const Eigen::VectorXd& q,
@@ -87,8 +96,8 @@ void ModeIndicator::follow(std::size_t mode, double step) {
                                ? std::max(std::sqrt(one.place * one.place + one.rate * one.rate / stiffness),
                                           std::abs(force) / stiffness)
                                : std::abs(one.place);
-  const double acceleration =
-      std::hypot(force - 2.0 * decay * one.rate - stiffness * one.place, std::sqrt(stiffness) * one.rate);
+  accelerations_[mode] = force - 2.0 * decay * one.rate - stiffness * one.place;
+  const double acceleration = std::hypot(accelerations_[mode], std::sqrt(stiffness) * one.rate);
   amplitudes_[mode] = {amplitude, acceleration};
   neglected_[mode] = calc_share(mode, amplitudes_[mode]);
 }

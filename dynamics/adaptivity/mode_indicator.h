@@ -65,6 +65,9 @@ class ModeIndicator {
   double calc_acceleration(std::size_t mode, std::size_t point, const ModeAmplitude& amplitude) const {
     return effective_[mode].reach[point] * amplitude.acceleration;  ///< [m/s²]
   }
+  /// What all modes left out together would add to the acceleration of a point asked for, at the last update
+  /// [m/s²].
+  Eigen::Vector2d calc_missing_acceleration(std::size_t point) const;
   /// The part of the force that the run leaves unbalanced on a mode left out that was there before the last
   /// update: without the part that has jumped at that very instant, or with which the run starts.
   double held_force(std::size_t mode) const { return state_.oscillators[mode].held_force; }
@@ -109,6 +112,7 @@ class ModeIndicator {
   UnbalancedForce unbalanced_;
   State state_;
   std::vector<Response> responses_;
+  std::vector<double> accelerations_;  // ξ̈ of each mode left out
   std::vector<ModeAmplitude> amplitudes_;
   std::vector<ModeShare> neglected_;
 };

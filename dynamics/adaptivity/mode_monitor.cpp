@@ -16,6 +16,7 @@ ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
     : modes_(options, start),
       motion_(*options.full, start),
       record_(modes_.indicator(), start.time),
+      missing_(options.points.size()),
       rates_(start.v),
       largest_(modes_.indicator().num_modes()) {}
 
@@ -23,6 +24,7 @@ void ModeMonitor::update(double time, const HeldModes& held, const ConstrainedEq
   motion_.take(held, equations);
   modes_.update(time, equations, motion_.q(), motion_.v(), motion_.v_dot());
   rates_ = motion_.v();
+  if (!modes_.options().changes) missing_.add(modes_.indicator());
 }
 
 void ModeMonitor::begin_step() {
@@ -53,12 +55,14 @@ void ModeMonitor::save(support::ByteWriter& bytes) const {
   modes_.save(bytes);
   motion_.save(bytes);
   record_.save(bytes);
+  missing_.save(bytes);
 }
 
 void ModeMonitor::restore(support::ByteReader& bytes) {
   modes_.restore(bytes);
   motion_.restore(bytes);
   record_.restore(bytes, modes_.indicator());
+  missing_.restore(bytes);
 }
 
 void ModeMonitor::update_largest() {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/adaptivity/full_motion.h"
+#include "dynamics/adaptivity/missing_acceleration.h"
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/adaptivity/neglect_record.h"
 #include "dynamics/integration/system_stepper.h"
@@ -21,6 +22,8 @@ class ModeMonitor {
   FullMotion& motion() { return motion_; }  ///< at the last update, or where it has been taken since
   const Eigen::VectorXd& rates() const { return rates_; }  ///< v of the full model at the last update
   WorstNeglect find_worst() const { return record_.find_worst(modes_.indicator()); }
+  /// Only where the modes do not change; else none is missing for long.
+  MissingAcceleration find_missing_acceleration() const { return missing_.find_worst(modes_.indicator()); }
 
   /// Updates at a time at which the equations are evaluated, up to accelerations.
   /// @param held  where the coordinates of the model that is run are in the full one
@@ -47,6 +50,7 @@ class ModeMonitor {
   ModeAdaptation modes_;
   FullMotion motion_;
   NeglectRecord record_;
+  MissingAccelerationRecord missing_;
   Eigen::VectorXd rates_;
   std::vector<ModeAmplitude> largest_;
 };

@@ -16,7 +16,9 @@ constexpr double kSmallestAcceleration = 1e-2;  // of gravity
 ReferenceSizes::ReferenceSizes(const Model& full, std::vector<int> points)
     : full_(&full), points_(std::move(points)), deflection_(kSmallestDeflection * full.length_scale) {
   const double gravity = std::max(full.gravity.norm(), full.length_scale);
-  accelerations_.assign(points_.size(), kSmallestAcceleration * gravity);
+  least_acceleration_ = kSmallestAcceleration * gravity;
+  accelerations_.assign(points_.size(), least_acceleration_);
+  present_.assign(points_.size(), Eigen::Vector2d::Zero());
   for (const int i : points_) {
     point_states_.push_back(make_marker_state(full.markers[static_cast<std::size_t>(i)]));
   }
@@ -59,8 +61,8 @@ void ReferenceSizes::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
     const FrameRotation rotation = FrameRotation::from_angle(q[first + 2]);
     calc_marker_position(marker, rotation, q.data() + first, point_states_[i]);
     calc_marker_velocity(marker, v.data() + first, point_states_[i]);
-    const double acceleration = calc_marker_acceleration(point_states_[i], v_dot.segment(first, size)).norm();
-    accelerations_[i] = std::max(accelerations_[i], acceleration);
+    present_[i] = calc_marker_acceleration(point_states_[i], v_dot.segment(first, size));
+    accelerations_[i] = std::max(accelerations_[i], present_[i].norm());
   }
 }
 

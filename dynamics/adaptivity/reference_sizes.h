@@ -27,6 +27,9 @@ class ReferenceSizes {
 
   std::size_t num_points() const { return points_.size(); }
   double acceleration(std::size_t point) const { return accelerations_[point]; }  ///< > 0 [m/s²]
+  /// At the last update [m/s²].
+  const Eigen::Vector2d& present_acceleration(std::size_t point) const { return present_[point]; }
+  double least_acceleration() const { return least_acceleration_; }  ///< that counts, > 0 [m/s²]
   /// The share of a deflection [m] and of an acceleration of each point, `acceleration_at(point)` [m/s²]. A
   /// share is at most 1: where a mode alone would do more than the run, it is the reference itself.
   template <class AccelerationAt>
@@ -58,11 +61,13 @@ class ReferenceSizes {
   std::vector<int> points_;
   double deflection_;                  // [m]
   std::vector<double> accelerations_;  // of each point [m/s²]
+  double least_acceleration_;
   // Deflections of the named points of each body by its modes, two rows for each point.
   std::vector<Eigen::MatrixXd> shapes_;
   // Work space.
   Eigen::VectorXd deflections_;  // of one body
   std::vector<MarkerState> point_states_;
+  std::vector<Eigen::Vector2d> present_;
 };
 
 }  // namespace sprung::dynamics

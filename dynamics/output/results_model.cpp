@@ -136,7 +136,7 @@ void write_section_peaks(support::Hdf5Writer& file, const SectionStatistics& sta
       write(body.has_loads(), "_from_loads", peaks.from_loads[i]);
       write(body.has_modes() && body.has_loads(), "_difference", peaks.difference[i]);
     }
-    if (!body.has_modes() || !body.has_loads()) continue;
+    if (!body.has_missing()) continue;
     file.attribute(group, "missing_moment_share", peaks.missing_moment_share());
     file.attribute(group, "missing_moment_time", peaks.missing_moment.time);
     file.attribute(group, "missing_deflection_share", peaks.missing_deflection_share());

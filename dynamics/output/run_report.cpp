@@ -101,6 +101,12 @@ std::string format_summary(const RunSummary& summary) {
                       100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
       run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
     }
+    if (const MissingAcceleration& missing = transient.missing_acceleration; missing.point >= 0) {
+      run.add_row({"modes left out, together",
+                   fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %",
+                               100.0 * missing.rms_share, name_missing_point(*summary.adaptivity, missing),
+                               100.0 * missing.peak_change)});
+    }
   }
   const RunTimes& times = summary.times;
   run.add_row({"wall time of the run", fmt::format("{:.3f} s", times.wall)});
@@ -129,6 +135,12 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
          worst.coordinate >= 0 ? summary.adaptivity->full->coordinate_name(worst.coordinate) : std::string()},
         {"left_out_of_deflection", worst.share.deflection},
         {"left_out_of_acceleration", worst.share.acceleration}};
+    if (const MissingAcceleration& missing = summary.transient.missing_acceleration; missing.point >= 0) {
+      modes["left_out_together"] = {{"point", name_missing_point(*summary.adaptivity, missing)},
+                                    {"axis", missing.direction == 0 ? "x" : "y"},
+                                    {"of_rms_acceleration", missing.rms_share},
+                                    {"change_of_largest_acceleration", missing.peak_change}};
+    }
   }
   Json points = Json::object();
   for (const PointStatistics& point : summary.statistics.point_statistics()) {

@@ -37,23 +37,37 @@ std::vector<std::string> list_points_of(const std::string& body, const RunStatis
   return points;
 }
 
+std::string describe_missing(const MissingAcceleration& missing, const AdaptivityOptions& adaptivity) {
+  if (missing.point < 0) return "";
+  return fmt::format(
+      "; all modes left out together are {:.3g} % of the r.m.s. acceleration of {}, most of it along {}, and "
+      "would change its largest by {:.3g} %",
+      100.0 * missing.rms_share, name_missing_point(adaptivity, missing), missing.direction == 0 ? "x" : "y",
+      100.0 * missing.peak_change);
+}
+
 void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,
                  std::vector<RunWarning>& warnings) {
   for (const BodyRemark& remark : remarks)
     warnings.push_back({kSummary, list_points_of(remark.body, statistics), remark.text});
 }
 
-void warn_of_missing_modes(const Model& model, const RunStatistics& statistics, const WorstNeglect& worst,
-                           const AdaptivityOptions& adaptivity, std::vector<RunWarning>& warnings) {
-  if (adaptivity.changes || worst.coordinate < 0 || !(worst.share.worst() > kTooMuchLeftOut)) return;
+void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
+                           const TransientStatistics& transient, const AdaptivityOptions& adaptivity,
+                           std::vector<RunWarning>& warnings) {
+  const WorstNeglect& worst = transient.worst_neglect;
+  const MissingAcceleration& missing = transient.missing_acceleration;
+  const bool is_much =
+      worst.share.deflection > kTooMuchLeftOut || (missing.point >= 0 && missing.worst() > kTooMuchLeftOut);
+  if (adaptivity.changes || worst.coordinate < 0 || !is_much) return;
   const bool is_stiffened = std::any_of(model.bodies.begin(), model.bodies.end(),
                                         [](const Body& body) { return body.stiffening.has_value(); });
   const std::string text = fmt::format(
       "modes are missing: {}, which was left out, would have reached {:.3g} % of the largest deflection, "
       "{:.3g} "
-      "% of the largest acceleration of the points asked for (at t = {:.3g} s); take more modes{}",
+      "% of the largest acceleration of the points asked for (at t = {:.3g} s){}; take more modes{}",
       adaptivity.full->coordinate_name(worst.coordinate), 100.0 * worst.share.deflection,
-      100.0 * worst.share.acceleration, worst.time,
+      100.0 * worst.share.acceleration, worst.time, describe_missing(missing, adaptivity),
       is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
   const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(worst.coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
@@ -62,6 +76,11 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics, 
 }
 
 }  // namespace
+
+std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing) {
+  const int marker = adaptivity.points[static_cast<std::size_t>(missing.point)];
+  return adaptivity.full->markers[static_cast<std::size_t>(marker)].name;
+}
 
 bool is_of_computation(const RunWarning& warning) {
   return warning.of == std::vector<std::string>{std::string(kComputation)};
@@ -97,7 +116,7 @@ std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistic
   std::vector<RunWarning> warnings;
   warn_of_energy(statistics, warnings);
   if (adaptivity != nullptr) {
-    warn_of_missing_modes(model, statistics, transient.worst_neglect, *adaptivity, warnings);
+    warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
   }
   add_remarks(list_missing_parts(statistics.sections()), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);

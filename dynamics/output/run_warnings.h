@@ -36,6 +36,9 @@ std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistic
                                           const TransientStatistics& transient,
                                           const AdaptivityOptions* adaptivity);
 
+/// The point at which modes left out are missing the most.
+std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);
+
 /// Writes /warnings (dynamics/output/results.md).
 void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings);
 

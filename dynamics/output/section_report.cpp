@@ -31,7 +31,7 @@ std::string format_sections(const SectionStatistics& statistics) {
                    format_value(body.positions()(peak.station, 1)), fmt::format("{:.3f}", peak.time),
                    body.has_modes() ? format_value(peaks.from_modes[SectionPeaks::kMoment].value) : "",
                    has_both ? format_value(peaks.difference[SectionPeaks::kMoment].value) : "",
-                   has_both ? fmt::format("{:.3g}", 100.0 * peaks.missing_moment_share()) : ""});
+                   body.has_missing() ? fmt::format("{:.3g}", 100.0 * peaks.missing_moment_share()) : ""});
   }
   if (statistics.peaks().empty()) return "";
   return "\nLargest bending moments along the beams\n" + table.str();
@@ -55,7 +55,7 @@ Json make_sections_json(const SectionStatistics& statistics) {
       if (body.has_modes()) quantity["from_modes"] = describe(peaks.from_modes[i]);
       if (body.has_loads() && body.has_modes()) quantity["difference"] = describe(peaks.difference[i]);
     }
-    if (body.has_loads() && body.has_modes()) {
+    if (body.has_missing()) {
       quantities["missing_moment_share"] = peaks.missing_moment_share();
       quantities["missing_deflection_share"] = peaks.missing_deflection_share();
     }

@@ -1,5 +1,7 @@
 #include "dynamics/section_loads/body_sections.h"
 
+#include "tools/support/dense/dense_solvers.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -33,10 +35,11 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
   for (const int number : moving.mode_numbers) columns.push_back(number - 1);
   by_mode_ = superelement.resultants(Eigen::all, columns);
   from_modes_ = from_loads_ = Eigen::Matrix3Xd::Zero(3, stations);
-  if (!superelement.section_loads || moving.stiffening) return;
+  if (!superelement.section_loads) return;
   by_load_ = combine(*superelement.section_loads, columns);
   accelerations_ = Eigen::VectorXd::Zero(by_load_.cols());
   if (has_modes()) prepare_missing(moving, superelement, columns);
+  if (moving.stiffening) by_load_.resize(0, 0);
 }
 
 Eigen::MatrixXd BodySections::combine(const reduce::UnitLoads& unit, const std::vector<int>& columns) const {
@@ -49,13 +52,19 @@ Eigen::MatrixXd BodySections::combine(const reduce::UnitLoads& unit, const std::
 void BodySections::prepare_missing(const Body& body, const reduce::Superelement& superelement,
                                    const std::vector<int>& columns) {
   const Eigen::Index num_elements = superelement.elements.cols();
-  lengths_.resize(num_elements);
+  missing_by_load_.resize(num_elements, by_load_.cols());
   mean_moment_.resize(num_elements, num_modes_);
   for (Eigen::Index e = 0; e < num_elements; ++e) {
-    lengths_[e] = (positions_.row(2 * e + 1) - positions_.row(2 * e)).norm();
+    const double length = (positions_.row(2 * e + 1) - positions_.row(2 * e)).norm();
+    missing_by_load_.row(e) = 0.5 * (by_load_.row(6 * e + 2) + by_load_.row(6 * e + 5)) -
+                              length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
     mean_moment_.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
   }
   delay_ = body.damping.diagonal().cwiseQuotient(body.stiffness.diagonal());
+  if (body.stiffening) {
+    amplitude_by_load_ =
+        support::solve_positive_definite(body.stiffness, calc_modal_load(body, superelement, columns));
+  }
   missing_moment_ = Eigen::VectorXd::Zero(num_elements);
   const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
   deflection_by_load_ = combine(*superelement.point_deflections, columns);
@@ -71,32 +80,49 @@ void BodySections::prepare_missing(const Body& body, const reduce::Superelement&
   deflections_ = missing_deflections_ = Eigen::Matrix3Xd::Zero(3, num_points);
 }
 
+// Loads on the modes (section_loads, eq. 5), modes × columns of by_load_.
+Eigen::MatrixXd BodySections::calc_modal_load(const Body& body, const reduce::Superelement& superelement,
+                                              const std::vector<int>& columns) const {
+  const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
+  Eigen::MatrixXd of_points(num_modes_, 3 * num_points), of_frame(num_modes_, 4);
+  for (Eigen::Index p = 0; p < num_points; ++p) {
+    const int node = superelement.points[static_cast<std::size_t>(p)].node;
+    of_points.middleCols<3>(3 * p) = superelement.shapes(Eigen::seqN(3 * node, 3), columns).transpose();
+  }
+  of_frame << -body.P.transpose(), -body.c.transpose(), body.d.transpose();
+  Eigen::MatrixXd load(num_modes_, by_load_.cols());
+  load << loads_.combine(of_points, of_frame), -body.M_ff, body.B;
+  return load;
+}
+
 void BodySections::update(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                           const Eigen::VectorXd& v_dot) {
   const auto eta = q.segment(first_ + 3, num_modes_), eta_dot = v.segment(first_ + 3, num_modes_),
              eta_ddot = v_dot.segment(first_ + 3, num_modes_);
   loads_.update(loads, q, v, v_dot);
   if (has_modes()) as_vector(from_modes_).noalias() = by_mode_ * eta;
-  if (!has_loads()) return;
+  if (!has_loads() && !has_missing()) return;
   const double rate = v[first_ + 2], turning = v_dot[first_ + 2];
   accelerations_.head(loads_.size()) = loads_.coefficients();
   accelerations_.segment(loads_.size(), num_modes_) = eta_ddot - rate * rate * eta;
   accelerations_.tail(num_modes_) = turning * eta + 2.0 * rate * eta_dot;
-  as_vector(from_loads_).noalias() = by_load_ * accelerations_;
-  if (!has_modes()) return;
-  amplitudes_ = eta + delay_.cwiseProduct(eta_dot);
+  if (has_loads()) as_vector(from_loads_).noalias() = by_load_ * accelerations_;
+  if (!has_missing()) return;
+  if (amplitude_by_load_.size() > 0) {
+    amplitudes_.noalias() = amplitude_by_load_ * accelerations_;
+  } else {
+    amplitudes_ = eta + delay_.cwiseProduct(eta_dot);
+  }
   update_missing();
+  as_vector(deflections_).noalias() = deflection_by_mode_ * eta;
+  deflections_ += missing_deflections_;
 }
 
 void BodySections::update_missing() {
-  missing_moment_.noalias() = -mean_moment_ * amplitudes_;
-  for (Eigen::Index e = 0; e < missing_moment_.size(); ++e) {
-    const auto first = from_loads_.col(2 * e), second = from_loads_.col(2 * e + 1);
-    missing_moment_[e] += 0.5 * (first[2] + second[2]) - lengths_[e] / 12.0 * (first[1] - second[1]);
-  }
-  as_vector(deflections_).noalias() = deflection_by_load_ * accelerations_;
-  as_vector(missing_deflections_).noalias() = deflection_by_mode_ * amplitudes_;
-  missing_deflections_ = deflections_ - missing_deflections_;
+  missing_moment_.noalias() = missing_by_load_ * accelerations_;
+  missing_moment_.noalias() -= mean_moment_ * amplitudes_;
+  as_vector(missing_deflections_).noalias() = deflection_by_load_ * accelerations_;
+  as_vector(missing_deflections_).noalias() -= deflection_by_mode_ * amplitudes_;
 }
 
 }  // namespace sprung::dynamics

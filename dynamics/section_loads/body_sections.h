@@ -39,13 +39,14 @@ class BodySections {
   const BodyLoads& loads() const { return loads_; }
   const Eigen::Matrix3Xd& from_modes() const { return from_modes_; }
   const Eigen::Matrix3Xd& from_loads() const { return from_loads_; }
-  /// What the modes lack of the mean bending moment of each element; where there are both ways
-  /// (section_loads, eq. 3) [N·m].
+  /// Whether it is known what the modes lack.
+  bool has_missing() const { return missing_by_load_.size() > 0; }
+  /// What the modes lack of the mean bending moment of each element (section_loads, eqs. 3, 5) [N·m].
   const Eigen::VectorXd& missing_moment() const { return missing_moment_; }
   /// Names of the superelement's points, "body.point".
   const std::vector<std::string>& points() const { return points_; }
-  /// Deflections of these points from the loads, and what the modes lack of them, body axes (section_loads,
-  /// eq. 4); where there are both ways. Rows x [m], y [m], rotation [rad], 3×points
+  /// Deflections of these points with what the modes lack of them, and this part alone, body axes
+  /// (section_loads, eqs. 4, 5). Rows x [m], y [m], rotation [rad], 3×points
   const Eigen::Matrix3Xd& deflections() const { return deflections_; }
   const Eigen::Matrix3Xd& missing_deflections() const { return missing_deflections_; }
 
@@ -53,6 +54,8 @@ class BodySections {
   Eigen::MatrixXd combine(const reduce::UnitLoads& unit, const std::vector<int>& columns) const;
   void prepare_missing(const Body& body, const reduce::Superelement& superelement,
                        const std::vector<int>& columns);
+  Eigen::MatrixXd calc_modal_load(const Body& body, const reduce::Superelement& superelement,
+                                  const std::vector<int>& columns) const;
   void update_missing();
 
   std::string name_;
@@ -65,10 +68,11 @@ class BodySections {
   Eigen::MatrixXd by_load_;        // 3 stations × coefficients of the loads, modes, modes turned
   Eigen::VectorXd accelerations_;  // by these
   Eigen::Matrix3Xd from_modes_, from_loads_;
-  Eigen::VectorXd lengths_;      // of the elements
-  Eigen::MatrixXd mean_moment_;  // of each element by mode
-  Eigen::VectorXd delay_;        // damping over stiffness of each mode
-  Eigen::VectorXd amplitudes_;   // η + delay η̇: what the elastic and the damping forces belong to
+  Eigen::MatrixXd missing_by_load_;    // mean moment of each element by the columns of by_load_
+  Eigen::MatrixXd mean_moment_;        // of each element by mode
+  Eigen::VectorXd delay_;              // damping over stiffness of each mode
+  Eigen::MatrixXd amplitude_by_load_;  // with stiffening: K⁻¹ times the modal load, modes × columns
+  Eigen::VectorXd amplitudes_;         // that the loads have: η + delay η̇, with stiffening by the above
   Eigen::VectorXd missing_moment_;
   std::vector<std::string> points_;
   Eigen::MatrixXd deflection_by_load_;  // 3 points × columns of by_load_

@@ -37,7 +37,8 @@ void add_deflections(const BodySections& body, double time, SectionPeaks& peaks)
 }  // namespace
 
 double SectionPeaks::missing_moment_share() const {
-  return calc_share(missing_moment, from_loads[kMoment]);
+  const bool has_loads = from_loads[kMoment].value != 0.0;
+  return calc_share(missing_moment, (has_loads ? from_loads : from_modes)[kMoment]);
 }
 
 double SectionPeaks::missing_deflection_share() const {
@@ -52,8 +53,9 @@ void SectionStatistics::add(double time) {
     const BodySections& body = sections_->bodies()[b];
     if (body.has_modes()) add_values(body.from_modes(), time, peaks_[b].from_modes);
     if (body.has_loads()) add_values(body.from_loads(), time, peaks_[b].from_loads);
-    if (!body.has_modes() || !body.has_loads()) continue;
-    add_values(body.from_loads() - body.from_modes(), time, peaks_[b].difference);
+    if (body.has_modes() && body.has_loads())
+      add_values(body.from_loads() - body.from_modes(), time, peaks_[b].difference);
+    if (!body.has_missing()) continue;
     SectionPeak& missing = peaks_[b].missing_moment;
     Eigen::Index element = 0;
     const double size = body.missing_moment().cwiseAbs().maxCoeff(&element);

@@ -26,7 +26,8 @@ struct SectionPeaks {
   /// (section_loads, eq. 4). The station is 3 × point + direction [m].
   SectionPeak deflection, missing_deflection;
 
-  /// What the modes lack as a share of the largest value from the loads; 0 where all are 0.
+  /// What the modes lack as a share of the largest value, of moments that from the loads where there is one;
+  /// 0 where all are 0.
   double missing_moment_share() const;
   double missing_deflection_share() const;
 };

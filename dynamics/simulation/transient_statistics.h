@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/adaptivity/missing_acceleration.h"
 #include "dynamics/adaptivity/neglect_record.h"
 #include "dynamics/integration/system_stepper.h"
 
@@ -10,9 +11,10 @@ struct TransientStatistics {
   long output_evaluations = 0;  ///< of the equations, for the outputs
   long switches = 0;
   long mode_changes = 0;
-  double mean_active_modes = 0.0;  ///< over time
-  WorstNeglect worst_neglect;      ///< where adaptivity was asked for
-  bool completed = false;          ///< false: stopped by on_step
+  double mean_active_modes = 0.0;            ///< over time
+  WorstNeglect worst_neglect;                ///< where adaptivity was asked for
+  MissingAcceleration missing_acceleration;  ///< where a fixed set of modes leaves some out
+  bool completed = false;                    ///< false: stopped by on_step
 };
 
 }  // namespace sprung::dynamics

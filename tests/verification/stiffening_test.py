@@ -209,6 +209,32 @@ class SpinUp(VerificationCase):
         self.assertLess(np.max(np.abs(across[results.time > 16.0])), 0.015)
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
+    def test_a_beam_clamped_at_its_middle_and_driven_at_its_root_does_not_pass_quietly(self):
+        # Its modes leave its middle straight and unmoved, and have no moment at the root: they are 36 and 11 % off in
+        # the largest lag. Those clamped at the root are right.
+        design = (MODELS / "spin_up_beam.toml").read_text(encoding="utf-8")
+        for old, new in (("root = [0.0, 0.0]", "root = [-4.0, 0.0]\nmiddle = [0.0, 0.0]"), ("[8.0,", "[4.0,"),
+                         ('["root", "tip"]', '["root", "middle", "tip"]'), ("elements = 16", "elements = 8"),
+                         ('point = "root"', 'point = "middle"'), ("count = 4", "count = 20")):
+            self.assertEqual(design.count(old), 1, old)
+            design = design.replace(old, new)
+        (self.folder / "spin_up_beam.toml").write_text(design, encoding="utf-8")
+        build = [os.environ["SPRUNG_REDUCE"], "build", "spin_up_beam.toml", "--output-dir", "."]
+        run_program(build, cwd=self.folder, check=True)
+        for modes, off, superelements in ((4, 0.36, self.folder), (16, 0.11, self.folder), (4, 0.0, SUPERELEMENTS)):
+            vehicle = self.vehicle()
+            if off > 0.0:
+                vehicle = vehicle.replace("position = [0.0, 0.0]", "position = [4.0, 0.0]")
+            run = SPIN_UP_RUN.format(stiffening="true").replace("beam = 4", f"beam = {modes}").replace("20.0", "8.0")
+            results = self.run_to_results(self.write_model(vehicle, run), superelements=superelements)
+            angle = self.angle(results.time)
+            tip = results["points/beam.tip/position"]
+            lag = np.max(np.sin(angle) * tip[:, 0] - np.cos(angle) * tip[:, 1])
+            self.assertAlmostEqual(lag / 0.7566, 1.0 - off, delta=0.01)
+            warnings = [one["text"] for one in results.summary["warnings"] if "its modes miss" in one["text"]]
+            self.assertEqual(bool(warnings), off > 0.0, warnings)
+            self.assertEqual(results.summary["sections"]["beam"]["missing_moment_share"] > 0.05, off > 0.0)
+
     def test_flies_apart_without_stiffening(self):
         results = self.run_text(self.vehicle(), SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"))
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)

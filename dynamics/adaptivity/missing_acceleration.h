@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/adaptivity/mode_indicator.h"
+
+namespace sprung::dynamics {
+
+/// What all modes left out together would add to the acceleration of a point, over a run.
+struct MissingAcceleration {
+  int point = -1;            ///< place among the points asked for; −1: no mode was left out
+  int direction = 0;         ///< 0: most of it is along x, 1: along y
+  double rms_share = 0.0;    ///< r.m.s. of what is missing over that of the point's acceleration
+  double peak_change = 0.0;  ///< change of the point's largest acceleration, as a share of it
+  double worst() const { return rms_share > peak_change ? rms_share : peak_change; }
+};
+
+/// Adds up the accelerations of all modes that a run with a fixed set leaves out, at each point asked for
+/// (adaptivity, eq. 7).
+/// Checked by tests/verification/section_test.py
+class MissingAccelerationRecord {
+ public:
+  explicit MissingAccelerationRecord(std::size_t num_points) : points_(num_points) {}
+
+  /// Takes the indicator's last update into account.
+  void add(const ModeIndicator& indicator);
+  /// At the point for which the larger of both shares is the largest.
+  MissingAcceleration find_worst(const ModeIndicator& indicator) const;
+
+  void save(support::ByteWriter& bytes) const { transfer(bytes, *this); }
+  void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
+
+ private:
+  struct Point {
+    Eigen::Array2d missing = Eigen::Array2d::Zero();  // squares along x and y, at the last update [m²/s⁴]
+    double present = 0.0;                             // square, at the last update
+    Eigen::Array2d missing_sum = Eigen::Array2d::Zero();  // integrals of the squares over time [m²/s³]
+    double present_sum = 0.0;
+    double peak = 0.0, changed_peak = 0.0;  // of the run, and with what is missing [m/s²]
+  };
+  template <class Bytes, class Record>
+  static void transfer(Bytes& bytes, Record& record) {
+    bytes.transfer(record.has_begun_);
+    bytes.transfer(record.time_);
+    bytes.transfer(record.length_);
+    bytes.transfer_items(record.points_, [&](auto& point) {
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        bytes.transfer(point.missing[i]);
+        bytes.transfer(point.missing_sum[i]);
+      }
+      for (auto* value : {&point.present, &point.present_sum, &point.peak, &point.changed_peak})
+        bytes.transfer(*value);
+    });
+  }
+
+  bool has_begun_ = false;
+  double time_ = 0.0, length_ = 0.0;  // of the last update; of all [s]
+  std::vector<Point> points_;
+};
+
+}  // namespace sprung::dynamics
