@@ -19,6 +19,8 @@ from report_differences import (
 from tool_test_case import ROOT, make_class_folder
 
 from sprung_tools.paper_report.paper_claims import list_claims
+from sprung_tools.paper_report.certified_runs import list_certified_runs, list_timed_certified_runs
+from sprung_tools.paper_report.certified_tables import make_basis_cost_table
 from sprung_tools.paper_report.markdown import format_markdown, format_words
 from sprung_tools.paper_report.mode_claims import list_mode_claims
 from sprung_tools.paper_report.mode_runs import RECALLS, list_mode_runs, list_timed_mode_runs, name_recall
@@ -49,7 +51,8 @@ from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superel
 
 OTHER_TERRAIN = "road_1_seed2"
 OTHER_SPEED = "speed8.5"
-TIMED = ("cost", "mode cost")
+TIMED = ("cost", "mode cost", "certified cost")
+MODES = ("mode claims", "certified accuracy")  # compared as the tables on modes are
 
 
 class Report(unittest.TestCase):
@@ -72,6 +75,7 @@ class Report(unittest.TestCase):
             *others,
             *list_tyre_runs(),
             *list_mode_runs(),
+            *list_certified_runs(),
             at_rest,
         ]
         run_all(cls.programs, runs, cls.folder, report=lambda _: None)
@@ -91,7 +95,7 @@ class Report(unittest.TestCase):
                 kept = parse_markdown(read_part(self.text, name))
             with self.subTest(name):
                 self.assertGreater(len(rows), 0)
-                if name == "mode claims" or name in list_mode_tables():
+                if name in MODES or name in list_mode_tables():
                     self.assertEqual(find_mode_differences(name, kept, (headings, rows)), [])
                     continue
                 counts = [row for row in rows if rows_of_evaluations(name, row)]
@@ -164,6 +168,18 @@ class Report(unittest.TestCase):
         )
         self.assertEqual(len(parse_markdown(read_part(self.text, "recall"))[1]), len(RECALLS))
         self.assertEqual(len(parse_markdown(read_part(self.text, "adaptive bump"))[1]), 12)
+
+    def test_the_section_on_the_certified_chassis_has_every_claim_on_flexibility_and_a_time_for_every_row(self):
+        rows = parse_markdown(read_part(self.text, "certified claims"))[1]
+        numbers = {number for row in rows for number in NUMBER.findall(row[0])}
+        # Not those on the clamped modes themselves, the rigid truck, all 36 modes, and the cost.
+        others = {"1", "2", "3", "20", "23", "26", "27", "28", "29", "30"}
+        self.assertEqual(numbers, {claim.number for claim in list_claims()} - others)
+        times = {run.name: 1.0 + place for place, run in enumerate(list_timed_certified_runs())}
+        made = make_basis_cost_table(Numbers(self.folder, times))[1]
+        accuracy = [row[0] for row in parse_markdown(read_part(self.text, "certified accuracy"))[1]]
+        for shown in (made, parse_markdown(read_part(self.text, "certified cost"))[1]):
+            self.assertEqual([row[0] for row in shown], accuracy)
 
     def test_the_programs_own_thresholds_are_among_those_that_are_tightened(self):
         own = self.numbers.run("bump_adaptive")

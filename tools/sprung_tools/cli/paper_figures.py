@@ -11,6 +11,7 @@ from pathlib import Path
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT
 from sprung_tools.files.whole_file import write_whole
+from sprung_tools.paper_report.certified_runs import list_certified_runs, list_timed_certified_runs
 from sprung_tools.paper_report.markdown import format_markdown, format_words, replace_part
 from sprung_tools.paper_report.mode_runs import list_mode_runs, list_timed_mode_runs
 from sprung_tools.paper_report.paper_runs import (
@@ -89,6 +90,7 @@ def list_runs(quick: bool, folder: Path) -> list[PaperRun]:
         *list_speed_runs(),
         *list_tyre_runs(),
         *list_mode_runs(),
+        *list_certified_runs(),
     ]
     return [run for run in runs if not quick or count_chassis_modes(run) < EXPENSIVE_MODES]
 
@@ -117,7 +119,7 @@ def main() -> int:
     run_all(programs, runs, folder, print_progress)
     costs = None
     if not arguments.no_timing:
-        timed = [*list_timed_main_runs(), *list_timed_mode_runs()]
+        timed = [*list_timed_main_runs(), *list_timed_mode_runs(), *list_timed_certified_runs()]
         costs = measure_costs(programs, folder, timed, report=print_progress)
     numbers = Numbers(folder, costs, [run.name for run in runs])
     tables = {name: make(numbers) for name, make in list_tables().items()}

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT
+from sprung_tools.paper_report.certified_runs import CERTIFIED_DESIGN, write_free_design
 from sprung_tools.paper_report.paper_runs import DESIGNS, TRUCK, PaperRun, count_chassis_modes, name_start
 
 Printer = Callable[[str], None]
@@ -49,9 +50,10 @@ def call(command: Sequence[str | Path]) -> str:
 
 
 def build_superelements(programs: Programs, folder: Path) -> None:
-    """Reduces chassis and long arm into a folder, unless they are up to date there."""
+    """Reduces chassis, by each basis, and long arm into a folder, unless they are up to date there."""
     folder.mkdir(parents=True, exist_ok=True)
-    call([programs.reduce, "build", *DESIGNS, "--output-dir", folder.resolve()])
+    designs: list[str | Path] = [*DESIGNS, CERTIFIED_DESIGN, write_free_design(folder.resolve())]
+    call([programs.reduce, "build", *designs, "--output-dir", folder.resolve()])
 
 
 def make_command(programs: Programs, run: PaperRun, folder: Path, output: Path | None = None) -> list[str | Path]:

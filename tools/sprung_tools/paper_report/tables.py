@@ -9,6 +9,7 @@ import numpy as np
 from sprung_tools.files.hdf5_file import read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.paper_report.certified_tables import list_certified_tables
 from sprung_tools.paper_report.claims import Claim, format_holds
 from sprung_tools.paper_report.mode_claims import list_mode_claims
 from sprung_tools.paper_report.mode_tables import list_mode_tables
@@ -289,6 +290,7 @@ def list_tables() -> dict[str, Callable[[Numbers], Table]]:
         "cost": make_cost_table,
         "mode claims": make_mode_claims_table,
         **list_mode_tables(),
+        **list_certified_tables(),
     }
 
 
