@@ -71,16 +71,38 @@ void print_of_computation(std::FILE* err, const std::vector<RunWarning>& warning
   }
 }
 
-// Reading the clock of the processor takes as long as the statistics of an output. Where there is no file to
-// write, all outputs take the same time, and one of so many is timed.
-constexpr int kOutputsForOneTimed = 16;
-
 // CPU time of the program so far [s].
 double cpu_time() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+// The CPU time of what is done with outputs. Reading that clock takes longer than the statistics of an
+// output. Where there is no file to write, all outputs take the same time: one of so many is timed, less the
+// reading.
+class OutputClock {
+ public:
+  explicit OutputClock(bool has_file) : share_(has_file ? 1 : 16) {}
+  void start() {
+    is_timed_ = number_++ % share_ == 0;
+    if (!is_timed_) return;
+    start_ = cpu_time();
+    if (share_ == 1) return;
+    reading_ = -start_;
+    start_ = cpu_time();
+    reading_ += start_;
+  }
+  void stop() {
+    if (is_timed_) total_ += static_cast<double>(share_) * (cpu_time() - start_ - reading_);
+  }
+  double total() const { return std::max(total_, 0.0); }  ///< [s]
+
+ private:
+  long share_, number_ = 0;
+  bool is_timed_ = false;
+  double start_ = 0.0, reading_ = 0.0, total_ = 0.0;
+};
 
 ResultsHeader make_header(const PreparedRun& prepared, const RunRequest& request,
                           const std::optional<AdaptivityOptions>& adaptivity,
@@ -140,16 +162,14 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   ResultsWriter* writer = run.writer.get();
   const double cpu_before = cpu_time();
   const auto start = std::chrono::steady_clock::now();
-  double storing = 0.0;
-  const int timed_share = writer ? 1 : kOutputsForOneTimed;
-  int num_outputs = 0;
+  OutputClock clock(writer != nullptr);
+  double checkpoints = 0.0;  // CPU time [s]
   options.on_output = [&](const Snapshot& snapshot) {
-    const bool is_timed = num_outputs++ % timed_share == 0;
-    const double before = is_timed ? cpu_time() : 0.0;
+    clock.start();
     sections.update(snapshot.terms(), snapshot.multipliers(), snapshot.q, snapshot.v, snapshot.v_dot);
     statistics.add(snapshot);
     if (writer) writer->add(snapshot);
-    if (is_timed) storing += timed_share * (cpu_time() - before);
+    clock.stop();
   };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
@@ -157,7 +177,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   options.on_checkpoint = [&](const Checkpoint& checkpoint) {
     const double before = cpu_time();
     if (writer) writer->write_checkpoint(checkpoint, statistics);
-    storing += cpu_time() - before;
+    checkpoints += cpu_time() - before;
   };
   options.on_step = [&](double time) {
     time_reached = time;
@@ -179,7 +199,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   }
   progress.finish();
   times.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  times.integration = cpu_time() - cpu_before - storing;
+  times.integration = cpu_time() - cpu_before - clock.total() - checkpoints;
   if (transient.completed) return transient;
   if (writer) writer->write_summary(statistics, transient);
   throw_interrupted(time_reached, writer);
