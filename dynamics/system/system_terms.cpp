@@ -38,6 +38,8 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
     } else if (scope == Markers::kAll ||
                std::binary_search(model.acting_markers.begin(), model.acting_markers.end(), i)) {
       other_markers_.push_back(make_moving_marker(i));
+    } else {
+      idle_markers_.push_back(make_moving_marker(i));
     }
   }
 }
@@ -100,12 +102,8 @@ void SystemTerms::move_markers(std::span<const MovingMarker> markers) {
 
 void SystemTerms::update_all_markers() {
   assert(has(Term::kVelocities));
-  for (int i = 0; i < static_cast<int>(markers_.size()); ++i) {
-    if (model_->markers[static_cast<std::size_t>(i)].body == kGround) continue;
-    const MovingMarker moving = make_moving_marker(i);
-    place_markers({&moving, 1});
-    move_markers({&moving, 1});
-  }
+  place_markers(idle_markers_);
+  move_markers(idle_markers_);
   set(Term::kAllMarkers);
 }
 

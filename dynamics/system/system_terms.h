@@ -134,6 +134,7 @@ class SystemTerms {
 
   const Model* model_;
   std::vector<MovingMarker> joint_markers_, other_markers_;  // of the scope
+  std::vector<MovingMarker> idle_markers_;                   // outside of it
   std::vector<int> angles_;                                  // coordinates, of each body
   std::vector<std::size_t> varying_bodies_;                  // whose mass matrix depends on the state
   unsigned up_to_date_ = 0;                                  // set of Term
