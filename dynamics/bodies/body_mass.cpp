@@ -61,20 +61,22 @@ BodyMass::BodyMass(const Body& body)
 }
 
 // rows ← rows M_ff⁻¹, where M_ff is not diagonal. @param rows  k×n
-void BodyMass::multiply_inverse(Eigen::Ref<Eigen::MatrixXd> rows) const {
+template <int num_rows>
+void BodyMass::multiply_inverse(double* values) const {
+  const Eigen::Index n = body_->num_modes();
+  Eigen::Map<Eigen::Matrix<double, num_rows, Eigen::Dynamic>> rows(values, num_rows, n);
   if (inverse_factor_.cols() == 0) {
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    for (int i = 0; i < num_rows; ++i) {
       modal_work_ = rows.row(i).transpose();
       rows.row(i).transpose().noalias() = M_ff_inverse_.lazyProduct(modal_work_);
     }
     return;
   }
   for (Eigen::Index j = 0; j < inverse_factor_.cols(); ++j) {
-    const Eigen::Ref<const Eigen::VectorXd> G = inverse_factor_.col(j);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      const double amount = rows.row(i).dot(G);
-      rows.row(i) -= amount * G.transpose();
-    }
+    const double* G = inverse_factor_.col(j).data();
+    Eigen::Matrix<double, num_rows, 1> amount = Eigen::Matrix<double, num_rows, 1>::Zero();
+    for (Eigen::Index k = 0; k < n; ++k) amount += G[k] * rows.col(k);
+    for (Eigen::Index k = 0; k < n; ++k) rows.col(k) -= G[k] * amount;
   }
 }
 
@@ -85,7 +87,7 @@ void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eige
   const Eigen::Index n = body_->num_modes();
   if (!diagonal_) {
     W_ = M_.topRightCorner(3, n);
-    multiply_inverse(W_);
+    multiply_inverse<3>(W_.data());
   }
   double xx = M_(0, 0), xy = M_(1, 0), yy = M_(1, 1), xt = M_(2, 0), yt = M_(2, 1), tt = M_(2, 2);  // C
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -127,7 +129,7 @@ void BodyMass::solve_coupled(double* x) const {
     if (diagonal_) modal[k] *= diagonal_inverse_[k];
   }
   if (diagonal_) return;
-  multiply_inverse(Eigen::Map<Eigen::MatrixXd>(modal, 1, n));
+  multiply_inverse<1>(modal);
 }
 
 void BodyMass::reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U,
@@ -144,7 +146,7 @@ void BodyMass::reduce_modal_part(const double* upper, const double* lower, Eigen
   for (int i = 0; i < 3; ++i) U[i] = y[i];
   if (diagonal_) return;
   for (Eigen::Index k = 0; k < n; ++k) V[3 + k] = U[3 + k];
-  multiply_inverse(Eigen::Map<Eigen::MatrixXd>(V[3].data(), 2, n));
+  multiply_inverse<2>(V[3].data());
 }
 
 }  // namespace sprung::dynamics

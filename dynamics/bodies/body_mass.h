@@ -56,7 +56,9 @@ class BodyMass {
 
  private:
   void solve_coupled(double* x) const;
-  void multiply_inverse(Eigen::Ref<Eigen::MatrixXd> rows) const;
+  // Multiplies rows of modal values by M_ff⁻¹. @param values  num_rows×n
+  template <int num_rows>
+  void multiply_inverse(double* values) const;
   void reduce_modal_part(const double* upper, const double* lower, Eigen::Vector2d* U,
                          Eigen::Vector2d* V) const;
 

@@ -57,15 +57,6 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
   return pairs;
 }
 
-template <int num_rows>
-void multiply_rows(const Eigen::MatrixXd& A, Eigen::Index first, const double* x, double* y) {
-  using Rows = Eigen::Matrix<double, num_rows, 1>;
-  const double* entry = A.data() + first;
-  Rows sum = Rows::Zero();
-  for (Eigen::Index k = 0; k < A.cols(); ++k, entry += A.rows()) sum += x[k] * Eigen::Map<const Rows>(entry);
-  Eigen::Map<Rows>(y + first) = sum;
-}
-
 // Brings the damped motion of the modes that have a frequency to pairs, (x, ẋ) = U u. Nothing changes where
 // there are too many for it, or where the damped modes nearly coincide.
 // @param omega  f, ascending   @param blocks, U, inverse_U  those of the undamped modes
@@ -103,19 +94,6 @@ void couple_by_damping(const Eigen::ArrayXd& omega, const Eigen::MatrixXd& dampi
 }
 
 }  // namespace
-
-// Four rows at a time, in registers: for small matrices the overhead of Eigen's product exceeds the product.
-void VibrationBasis::multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
-  constexpr Eigen::Index kSmall = 24;
-  const Eigen::Index size = A.rows();
-  if (size > kSmall) {
-    Eigen::Map<Eigen::VectorXd>(y, size).noalias() = A * Eigen::Map<const Eigen::VectorXd>(x, size);
-    return;
-  }
-  Eigen::Index first = 0;
-  for (; first + 4 <= size; first += 4) multiply_rows<4>(A, first, x, y);
-  if (first < size) multiply_rows<2>(A, first, x, y);  // size is even
-}
 
 VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   const Eigen::Index f = motion.mass.rows();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "dynamics/integration/exponential/wide_product.h"
 #include "dynamics/integration/ode_system.h"
 
 namespace sprung::dynamics {
@@ -31,9 +32,6 @@ struct VibrationBasis {
   /// @param u, state  2f
   void to_state(const Eigen::VectorXd& u, double* state) const { multiply(T, u.data(), state); }
   void to_pairs(const double* state, double* u) const { multiply(inverse, state, u); }
-
- private:
-  static void multiply(const Eigen::MatrixXd& A, const double* x, double* y);
 };
 
 /// Modes with a frequency are coupled by damping; their pairs are the complex modes of that part, in real
