@@ -5,7 +5,7 @@
 namespace sprung::dynamics {
 
 /// The exact solution of x″ + 2d x′ + ω² x = p at one instant, for unit initial values and for forces that
-/// are powers of time. The rates of the forced parts follow from dX_k/dt = X_{k−1} (functions, eq. 3).
+/// are powers of time. The rates of the forced parts follow from dX_k/dt = X_{k−1} (functions, eq. 4).
 struct OscillatorResponse {
   static constexpr int kMaxPower = 4;
 

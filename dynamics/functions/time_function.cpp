@@ -23,6 +23,11 @@ double angular_frequency(double frequency_hz) {
   return 2.0 * std::numbers::pi * frequency_hz;
 }
 
+// An eighth of a period.
+DetailLengths find_details(double frequency_hz) {
+  return DetailLengths(0.125 / frequency_hz);
+}
+
 // Ascending, each once.
 std::vector<double> merge_times(std::span<const double> a, std::span<const double> b) {
   std::vector<double> merged;
@@ -63,6 +68,7 @@ TimeFunction TimeFunction::harmonic(const Harmonic& parameters) {
   f.add_oscillation({.amplitude = PiecewisePolynomial({parameters.amplitude}),
                      .frequency_hz = parameters.frequency_hz,
                      .phase = parameters.phase});
+  if (!f.oscillations_.empty()) f.details_ = find_details(parameters.frequency_hz);
   return f;
 }
 
@@ -90,7 +96,7 @@ TimeFunction TimeFunction::spline(std::span<const double> t, std::span<const dou
   value.continue_straight(t.back(), 0.0, false);
   TimeFunction f(std::move(value));
   f.breaks_ = {t.front(), t.back()};
-  for (std::size_t i = 1; i < t.size(); ++i) f.resolution_ = std::min(f.resolution_, t[i] - t[i - 1]);
+  f.details_ = DetailLengths::between(t);
   return f;
 }
 
@@ -116,7 +122,7 @@ TimeFunction TimeFunction::smooth_step(const Step& parameters) {
 TimeFunction TimeFunction::sum(const TimeFunction& a, const TimeFunction& b) {
   TimeFunction f(calc_sum(a.value_, b.value_));
   f.breaks_ = merge_times(a.breaks_, b.breaks_);
-  f.resolution_ = std::min(a.resolution_, b.resolution_);
+  f.details_ = DetailLengths::shorter(a.details_, b.details_);
   for (const Oscillation& one : a.oscillations_) f.add_oscillation(one);
   for (const Oscillation& one : b.oscillations_) f.add_oscillation(one);
   return f;
@@ -125,7 +131,7 @@ TimeFunction TimeFunction::sum(const TimeFunction& a, const TimeFunction& b) {
 TimeFunction TimeFunction::product(const TimeFunction& a, const TimeFunction& b) {
   TimeFunction f(calc_product(a.value_, b.value_));
   f.breaks_ = merge_times(a.breaks_, b.breaks_);
-  f.resolution_ = std::min(a.resolution_, b.resolution_);
+  f.details_ = DetailLengths::shorter(a.details_, b.details_);
   const auto scale = [&](const Oscillation& one, const PiecewisePolynomial& factor) {
     f.add_oscillation({calc_product(one.amplitude, factor), one.frequency_hz, one.phase});
   };
@@ -148,12 +154,13 @@ TimeFunction TimeFunction::pieces(std::span<const double> ends, std::span<const 
   for (const TimeFunction& part : parts) cut.push_back(part.value_);
   TimeFunction f(join_parts(ends, cut));
   std::vector<double> inside;
+  std::vector<DetailLengths> details;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const double from = k == 0 ? -std::numeric_limits<double>::infinity() : ends[k - 1];
     const double to = k == ends.size() ? std::numeric_limits<double>::infinity() : ends[k];
     std::copy_if(parts[k].breaks_.begin(), parts[k].breaks_.end(), std::back_inserter(inside),
                  [&](double at) { return at > from && at < to; });
-    f.resolution_ = std::min(f.resolution_, parts[k].resolution_);
+    details.push_back(parts[k].details_);
     std::fill(cut.begin(), cut.end(), PiecewisePolynomial());
     for (const Oscillation& one : parts[k].oscillations_) {
       cut[k] = one.amplitude;
@@ -161,13 +168,12 @@ TimeFunction TimeFunction::pieces(std::span<const double> ends, std::span<const 
     }
   }
   f.breaks_ = merge_times(ends, inside);
+  f.details_ = DetailLengths::join(ends, details);
   return f;
 }
 
 void TimeFunction::add_oscillation(const Oscillation& oscillation) {
-  if (oscillation.amplitude.is_zero()) return;
-  resolution_ = std::min(resolution_, 0.125 / oscillation.frequency_hz);
-  oscillations_.push_back(oscillation);
+  if (!oscillation.amplitude.is_zero()) oscillations_.push_back(oscillation);
 }
 
 void TimeFunction::add_cosine(const PiecewisePolynomial& a, const PiecewisePolynomial& b, double frequency_hz,
@@ -178,6 +184,8 @@ void TimeFunction::add_cosine(const PiecewisePolynomial& a, const PiecewisePolyn
     return;
   }
   const double direction = frequency_hz > 0.0 ? 1.0 : -1.0;  // cos(−x) = cos x
+  if (!amplitude.is_zero())
+    details_ = DetailLengths::shorter(details_, find_details(direction * frequency_hz));
   add_oscillation({amplitude, direction * frequency_hz, direction * phase + 0.5 * std::numbers::pi});
 }
 
@@ -225,7 +233,7 @@ std::optional<TimeFunction::Jump> TimeFunction::find_jump() const {
   double largest_value = 0.0, largest_rate = 0.0;
   for (std::size_t i = 0; i < breaks_.size(); ++i) {
     const double gap =
-        i + 1 < breaks_.size() ? breaks_[i + 1] - breaks_[i] : std::min(1.0, 8.0 * resolution_);
+        i + 1 < breaks_.size() ? breaks_[i + 1] - breaks_[i] : std::min(1.0, 8.0 * details_.shortest());
     const double from = i == 0 ? breaks_[0] - gap : breaks_[i];
     for (int k = 0; k <= 2 * kSamples; ++k) {
       const double time = from + gap * k / kSamples;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "dynamics/functions/detail_lengths.h"
 #include "dynamics/functions/piecewise_polynomial.h"
 
 namespace sprung::dynamics {
@@ -76,8 +76,8 @@ class TimeFunction {
 
   /// Times at which the function or a derivative may jump, ascending [s].
   std::span<const double> breaks() const { return breaks_; }
-  /// Longest step in time that does not step over a detail of the function [s]; infinite without details.
-  double resolution() const { return resolution_; }
+  /// How long its details are: an eighth of a period, the distance of two points of a spline.
+  const DetailLengths& details() const { return details_; }
 
   struct Jump {
     double time = 0.0;                 ///< [s]
@@ -98,7 +98,7 @@ class TimeFunction {
   PiecewisePolynomial value_;
   std::vector<Oscillation> oscillations_;
   std::vector<double> breaks_;
-  double resolution_ = std::numeric_limits<double>::infinity();
+  DetailLengths details_;
 };
 
 }  // namespace sprung::dynamics

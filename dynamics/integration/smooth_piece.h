@@ -32,9 +32,10 @@ class SmoothPiece {
   int num_switches() const { return num_switches_; }
   /// @param terms  positions and velocities up to date   @param[out] values  num_switches
   void calc_switches(const SystemTerms& terms, std::span<double> values) const;
-  /// Longest step that passes over nothing that force elements and prescribed motions know to come, from the
-  /// state of the terms [s].
-  double calc_longest_step(const SystemTerms& terms) const;
+  /// Longest step that passes over nothing that force elements and functions of time know to come.
+  /// @param terms  of a state at `time` or shortly before   @param time  where the step begins [s]
+  /// @return [s]
+  double calc_longest_step(const SystemTerms& terms, double time) const;
 
   /// Makes the piece end at the next break of a function of time after `time`. Pieces too short to be
   /// integrated are passed over.

@@ -112,7 +112,7 @@ class TimedForces {
   double find_resolution(const TimedForce& timed) const {
     double shortest = std::numeric_limits<double>::infinity();
     for (const TimeFunction* f : vehicle_.model().forces[timed.force]->time_functions()) {
-      shortest = std::min(shortest, f->resolution());
+      shortest = std::min(shortest, f->details().shortest());
     }
     return shortest;
   }

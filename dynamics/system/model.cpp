@@ -35,11 +35,11 @@ void set_stand_ins(Model& model) {
 void collect_time_functions(Model& model) {
   model.has_motions = false;
   model.time_breaks.clear();
-  model.time_resolution = std::numeric_limits<double>::infinity();
+  model.time_details = DetailLengths();
   const auto add = [&](const std::vector<const TimeFunction*>& functions) {
     for (const TimeFunction* function : functions) {
       model.time_breaks.insert(model.time_breaks.end(), function->breaks().begin(), function->breaks().end());
-      model.time_resolution = std::min(model.time_resolution, function->resolution());
+      model.time_details = DetailLengths::shorter(model.time_details, function->details());
     }
   };
   for (const auto& joint : model.joints) {

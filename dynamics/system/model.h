@@ -9,6 +9,7 @@
 #include "dynamics/bodies/body.h"
 #include "dynamics/bodies/marker.h"
 #include "dynamics/forces/force_element.h"
+#include "dynamics/functions/detail_lengths.h"
 #include "dynamics/joints/joint.h"
 #include "dynamics/system/fading_force.h"
 
@@ -45,7 +46,7 @@ struct Model {
   bool has_motions = false;           ///< some joint prescribes a motion
   bool has_massless_bodies = false;   ///< some body has no mass or no inertia
   std::vector<double> time_breaks;    ///< where functions of time have a kink or jump, ascending [s]
-  double time_resolution = 0.0;       ///< longest step that passes over no detail of a function of time [s]
+  DetailLengths time_details;         ///< of all functions of time
 
   int num_states() const { return static_cast<int>(states.size()); }
   int first_state() const { return num_coordinates - num_states(); }  ///< coordinate of the first state

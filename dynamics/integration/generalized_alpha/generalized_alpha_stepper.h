@@ -29,7 +29,9 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   void resume(double time, double end_time) override;
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return time_; }
-  double calc_longest_step() const override { return piece_.calc_longest_step(step_.residual().terms()); }
+  double calc_longest_step() const override {
+    return piece_.calc_longest_step(step_.residual().terms(), time_);
+  }
   void evaluate(double time, Level level) override;
   const ConstrainedEquations& equations() const override { return equations_; }
   EnergyFlow energy_flow() const override { return {energy_.x(), energy_.y()}; }

@@ -29,7 +29,7 @@ class PartitionedStepper final : public SystemStepper {
   Integrator::StepResult step(double longest_step) override;
   double time() const override { return is_running_ ? integrator_->time() : start_time_; }
   double calc_longest_step() const override {
-    return ode_.piece().calc_longest_step(equations().terms()) / integrator_->largest_gap();
+    return ode_.piece().calc_longest_step(equations().terms(), time()) / integrator_->largest_gap();
   }
   void evaluate(double time, Level level) override;
   void evaluate_end_approximately() override;

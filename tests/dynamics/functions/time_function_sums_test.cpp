@@ -62,7 +62,7 @@ TEST_CASE("A product of two oscillations is a sum of two; a square has a mean", 
   REQUIRE(beat.oscillations().size() == 2);
   CHECK(beat.oscillations()[0].frequency_hz == Approx(2.0).epsilon(1e-15));
   CHECK(beat.oscillations()[1].frequency_hz == Approx(12.0).epsilon(1e-15));
-  CHECK(beat.resolution() == Approx(0.125 / 12.0).epsilon(1e-15));
+  CHECK(beat.details().shortest() == Approx(0.125 / 12.0).epsilon(1e-15));
   CHECK(beat.value(0.17) ==
         Approx(6.0 * std::sin(10.0 * pi * 0.17) * std::sin(14.0 * pi * 0.17 + 0.3)).epsilon(1e-13));
   const TimeFunction square = TimeFunction::product(b, b);  // 9 (½ − ½ cos 2x)

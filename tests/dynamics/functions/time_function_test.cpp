@@ -88,7 +88,7 @@ TEST_CASE("Derivatives jump at breaks; at a break the function has the derivativ
   CHECK(TimeFunction::polynomial({1.0, 2.0}).breaks().empty());
   CHECK(TimeFunction(2.0).is_constant());
   CHECK_FALSE(lines.is_constant());
-  CHECK(TimeFunction::harmonic({.amplitude = 1.0, .frequency_hz = 4.0}).resolution() == 0.125 / 4.0);
+  CHECK(TimeFunction::harmonic({.amplitude = 1.0, .frequency_hz = 4.0}).details().shortest() == 0.125 / 4.0);
 }
 
 TEST_CASE("Impossible functions of time are refused", "[forces]") {

@@ -49,7 +49,7 @@ TEST_CASE("Evaluating the truck's equations takes no memory", "[truck]") {
       good &= ode.calc_derivative(0.0, y, rate);
       good &= ode.calc_switches(0.0, y, switches);
       ode.calc_error_scales(y, scales);
-      good &= ode.piece().calc_longest_step(ode.equations().terms()) > 0.0 &&
+      good &= ode.piece().calc_longest_step(ode.equations().terms(), ode.equations().terms().time()) > 0.0 &&
               ode.equations().partition_decay() > 0.0;
     }
     const long taken = test::num_allocations() - before;
@@ -100,7 +100,7 @@ TEST_CASE("Steps of the exponential integrator over the bump take no memory", "[
     while (integrator->time() < 1.0) {
       const long before = test::num_allocations();
       const dynamics::Integrator::StepResult result =
-          integrator->step(ode.piece().calc_longest_step(ode.equations().terms()));
+          integrator->step(ode.piece().calc_longest_step(ode.equations().terms(), integrator->time()));
       integrator->interpolate(integrator->time(), y);
       taken += test::num_allocations() - before;
       ++steps;
