@@ -2,6 +2,7 @@
 """Measured input: a car on a four-post rig against the linear response of the same car on the road, and the reading of
 histories by a whole run."""
 
+import math
 import os
 import struct
 import unittest
@@ -153,6 +154,33 @@ class Histories(VerificationCase):
             with self.subTest(method):
                 by_table = self.run_sled(table, method)["bodies/sled/position"]
                 np.testing.assert_array_equal(self.run_sled(history, method)["bodies/sled/position"], by_table)
+
+    def drive_sled(self, times, method, duration):
+        """The sled on a rail that a smooth history drives: 0.2 m at 1 Hz, in mm with six digits as measured."""
+        samples = [(time, f"{100.0 * (1.0 - math.cos(2.0 * math.pi * time)):.6g}") for time in times]
+        text = "time [s],place [mm]\n" + "".join(f"{time:.9f},{place}\n" for time, place in samples)
+        (self.folder / "drive.csv").write_text(text, encoding="utf-8")
+        motion = '[[motions]]\nname = "drive"\njoint = "rail"\n'
+        motion += 'function = { history = { file = "drive.csv", channel = "place" } }\n'
+        return self.run_text(
+            SLED.format(0.0) + motion, f'duration = {duration}\nstart = "as-given"\n[integrator]\nmethod = "{method}"\n'
+        )
+
+    def test_a_sled_without_freedoms_follows_a_measured_history_by_every_method(self):
+        # Its place is that of the history: six digits of at most 200 mm.
+        times = np.arange(1001) / 1000.0
+        for method in ("exponential", "bdf", "generalized-alpha"):
+            with self.subTest(method):
+                results = self.drive_sled(times, method, 1.0)
+                expected = 0.1 * (1.0 - np.cos(2.0 * np.pi * results.time))
+                self.assert_close(results["bodies/sled/position"][:, 0], expected, absolute=1e-6)
+
+    def test_two_close_samples_shorten_only_the_steps_near_them(self):
+        # 201 samples, and one more 1 microsecond before the middle: steps of that length everywhere would be 1e6.
+        times = np.sort(np.append(np.arange(201) / 200.0, 0.5 - 1e-6))
+        with_both = self.drive_sled(times, "exponential", 1.0).summary["steps"]
+        without = self.drive_sled(np.arange(201) / 200.0, "exponential", 1.0).summary["steps"]
+        self.assertLess(with_both, without + 200)
 
     def test_a_history_in_rpc3_pushes_as_its_samples_say(self):
         # Straight lines between forces of 1000 sin(3t) N, 2 ms apart: velocity 1000 (1 − cos 3t)/(3 · 2 kg) to
