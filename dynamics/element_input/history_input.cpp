@@ -148,6 +148,14 @@ TimeFunction replace_outside(const TimeFunction& f, const HistoryUse& use) {
   return TimeFunction::pieces(ends, std::array{outside(use.before, f), f, outside(use.after, f)});
 }
 
+// The times of a run at which a history counts.
+struct Need {
+  Need(const HistoryUse& history, double run_end)
+      : from(history.needed_from), to(std::min(run_end, history.needed_to)) {}
+  bool exists() const { return from <= to; }
+  double from, to;
+};
+
 std::string locate(const HistoryUse& history) {
   const support::SourceLocation& at = history.location;
   return at.line > 0 ? fmt::format("{}:{}:{}: ", at.path, at.line, at.column) : at.path + ": ";
@@ -189,6 +197,7 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   history.hash = std::visit([](const auto& one) { return one.hash(); }, file);
   history.channel = samples.channel.name;
   history.unit = wanted_unit ? wanted_unit->string() : samples.channel.unit;
+  if (const std::optional<KnownUnit> known = find_unit(history.unit)) history.si_unit = known->si_unit;
   scale_samples(table, unit, history, samples.value);
   place_samples(table, history, samples.time);
   const bool is_smooth = history.interpolation == kInterpolations[1];
@@ -198,10 +207,19 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   return replace_outside(f, history);
 }
 
+void HistoryFiles::limit(std::size_t first, double from, double to) {
+  for (std::size_t i = first; i < used_.size(); ++i) {
+    used_[i].needed_from = std::max(used_[i].needed_from, from);
+    used_[i].needed_to = std::min(used_[i].needed_to, to);
+  }
+}
+
 void check_histories(std::span<const HistoryUse> histories, double to) {
   for (const HistoryUse& history : histories) {
-    const bool begins_late = history.before.empty() && history.from > kRoundedTime;
-    const bool ends_early = history.after.empty() && history.to < to - kRoundedTime;
+    const Need need(history, to);
+    if (!need.exists()) continue;
+    const bool begins_late = history.before.empty() && history.from > need.from + kRoundedTime;
+    const bool ends_early = history.after.empty() && history.to < need.to - kRoundedTime;
     if (!begins_late && !ends_early) continue;
     throw support::InputError(
         history.location,
@@ -209,7 +227,7 @@ void check_histories(std::span<const HistoryUse> histories, double to) {
             "'{}' is known from {:.9g} s to {:.9g} s, but is needed {}; say by '{}' what holds there, "
             "\"hold\" or a number",
             history.key, history.from, history.to,
-            begins_late ? "from 0 s on" : fmt::format("until {:.9g} s", to),
+            begins_late ? fmt::format("from {:.9g} s on", need.from) : fmt::format("until {:.9g} s", need.to),
             begins_late ? "before" : "after"));
   }
 }
@@ -220,20 +238,21 @@ std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histor
     return outside == "hold" ? fmt::format("its {} value holds", held) : fmt::format("{} holds", outside);
   };
   for (const HistoryUse& history : histories) {
-    if (history.from > kRoundedTime) {
+    const Need need(history, to);
+    if (need.exists() && history.from > need.from + kRoundedTime) {
       remarks.push_back(fmt::format("{}'{}' begins at {:.9g} s; until then {}", locate(history), history.key,
                                     history.from, describe(history.before, "first")));
     }
-    if (history.to < to - kRoundedTime) {
-      remarks.push_back(fmt::format("{}'{}' ends at {:.9g} s, the run at {:.9g} s; from then on {}",
-                                    locate(history), history.key, history.to, to,
-                                    describe(history.after, "last")));
+    if (need.exists() && history.to < need.to - kRoundedTime) {
+      remarks.push_back(fmt::format(
+          "{}'{}' ends at {:.9g} s, {} at {:.9g} s; from then on {}", locate(history), history.key,
+          history.to, need.to < to ? "its piece" : "the run", need.to, describe(history.after, "last")));
     }
     if (history.interpolation == "smooth" &&
         history.shortest_spacing < kCloseSamples * history.mean_spacing) {
       remarks.push_back(
-          fmt::format("{}'{}' has samples {:.3g} s apart, where the mean is {:.3g} s: no step of the run "
-                      "is longer than that",
+          fmt::format("{}'{}' has samples {:.3g} s apart, where the mean is {:.3g} s: steps near them are no "
+                      "longer",
                       locate(history), history.key, history.shortest_spacing, history.mean_spacing));
     }
   }

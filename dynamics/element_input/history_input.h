@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -29,11 +30,14 @@ struct HistoryUse {
   std::string file;     ///< as the vehicle file names it
   std::string channel;  ///< name in the file
   std::string unit;     ///< the samples are taken to be in this unit; "" for SI
+  std::string si_unit;  ///< the SI unit of that one; "" if the unit is not known
   std::string hash;     ///< SHA-256 of the file
   std::string interpolation;
   double scale = 1.0, offset = 0.0;
-  double from = 0.0, to = 0.0;                        ///< of the run, at the first and the last sample [s]
-  double shortest_spacing = 0.0, mean_spacing = 0.0;  ///< of the samples [s]
+  double from = 0.0, to = 0.0;  ///< of the run, at the first and the last sample [s]
+  double needed_from = 0.0;     ///< it counts from this time of the run on [s]
+  double needed_to = std::numeric_limits<double>::infinity();  ///< until this one [s]
+  double shortest_spacing = 0.0, mean_spacing = 0.0;           ///< of the samples [s]
   std::string before, after;  ///< what holds outside: "hold" or a number; "" if nothing does
 };
 
@@ -52,6 +56,8 @@ class HistoryFiles {
 
   /// The histories that have been read.
   const std::vector<HistoryUse>& used() const { return used_; }
+  /// Those from number `first` on count between two times only, as part of a function in pieces.
+  void limit(std::size_t first, double from, double to);
 
  private:
   using File = std::variant<ColumnFile, Rpc3File>;

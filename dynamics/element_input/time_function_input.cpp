@@ -21,6 +21,7 @@ constexpr std::size_t kHighestDegree = 100;
 struct FunctionContext {
   TimeFunctionUse use;
   HistoryFiles& histories;
+  std::string_view unit;  // of the whole function
 };
 
 TimeFunction read_function(const support::TomlValue& value, std::string_view unit,
@@ -108,11 +109,31 @@ TimeFunction read_sum(const support::TomlValue& value, std::string_view unit,
   return sum;
 }
 
+// Whether some history in a factor of a product, those from number `first` on, has the unit of the product.
+bool has_unit(const support::TomlValue& factor, std::size_t first, const FunctionContext& context) {
+  bool has = false;
+  for (const HistoryUse& history : std::span(context.histories.used()).subspan(first)) {
+    if (history.si_unit.empty()) continue;
+    if (history.si_unit != context.unit) {
+      throw factor.error(fmt::format("has a history in '{}', expected one of {} or a pure number",
+                                     history.unit, list_units(context.unit)));
+    }
+    has = true;
+  }
+  return has;
+}
+
 // One factor may have the unit; the others are pure numbers.
 TimeFunction read_product(const support::TomlValue& value, const FunctionContext& context) {
   TimeFunction product(1.0);
+  bool is_dimensional = false;
   for (const support::TomlValue& part : list_parts(value)) {
+    const std::size_t first = context.histories.used().size();
     const TimeFunction factor = read_function(part, "", context);
+    if (has_unit(part, first, context) && std::exchange(is_dimensional, true)) {
+      throw part.error(
+          fmt::format("is the second factor with a unit; a product in {} has one", context.unit));
+    }
     check_size(value, count_oscillations(product, factor));
     const std::size_t degree = find_degree(product) + find_degree(factor);
     if (degree > kHighestDegree) {
@@ -142,7 +163,10 @@ TimeFunction read_pieces(const support::TomlValue& value, std::string_view unit,
     } else if (const std::optional<support::TomlValue> until = row.find("until")) {
       throw until->error("must be left out of the last piece, which goes on for ever");
     }
+    const std::size_t first = context.histories.used().size();
     parts.push_back(read_function(row.at("function"), unit, context));
+    context.histories.limit(first, k == 0 ? 0.0 : ends[k - 1],
+                            k + 1 < rows.size() ? ends[k] : std::numeric_limits<double>::infinity());
     row.reject_unknown_keys();
     oscillations += parts.back().oscillations().size();
     check_size(value, oscillations);
@@ -179,7 +203,7 @@ TimeFunction read_function(const support::TomlValue& value, std::string_view uni
 
 TimeFunction read_time_function(const support::TomlValue& value, std::string_view unit, TimeFunctionUse use,
                                 HistoryFiles& histories) {
-  TimeFunction f = read_function(value, unit, {use, histories});
+  TimeFunction f = read_function(value, unit, {use, histories, unit});
   if (use == TimeFunctionUse::kForce) return f;
   const std::optional<TimeFunction::Jump> jump = f.find_jump();
   if (!jump) return f;

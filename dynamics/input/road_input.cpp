@@ -101,4 +101,17 @@ std::unique_ptr<Road> make_road(const RoadDescription& description) {
                            .height = description.height});
 }
 
+std::string remark_on_road_end(const RoadDescription& description, const Road& road, double speed,
+                               double duration) {
+  const bool has_file = !description.file.empty();
+  if ((!has_file && !description.random) || road.num_segments() < 2) return {};
+  const double end = road.segment_end(road.num_segments() - 2);
+  if (!(speed * duration > end)) return {};
+  const support::SourceLocation& at = has_file ? description.file_location : description.location;
+  return fmt::format(
+      "{}:{}:{}: the road ends at {:.6g} m, which the leading axle passes after {:.6g} s of {:.6g} s at the "
+      "speed of the start; from there on it is level",
+      at.path, at.line, at.column, end, end / speed, duration);
+}
+
 }  // namespace sprung::dynamics

@@ -45,4 +45,10 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
 /// described Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 
+/// A text if the leading axle passes the last point of a measured or random road before the run ends, at the
+/// speed of the start; else "".
+/// @param speed  along the heading [m/s]   @param duration  > 0 [s]
+std::string remark_on_road_end(const RoadDescription& description, const Road& road, double speed,
+                               double duration);
+
 }  // namespace sprung::dynamics

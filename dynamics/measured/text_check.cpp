@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::dynamics {
@@ -20,6 +22,17 @@ std::size_t character_size(std::string_view rest) {
   return size;
 }
 
+// What the file may be, for the message.
+std::string_view guess_encoding(std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) return "UTF-16";
+  const bool has_controls = std::any_of(text.begin(), text.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x80 && character_size({&c, 1}) == 0;
+  });
+  if (has_controls) return "binary data or another encoding";
+  return "Latin-1 or Windows-1252; convert it by iconv -f WINDOWS-1252 -t UTF-8 OLD > NEW";
+}
+
 }  // namespace
 
 void check_text(std::string_view text, const std::string& path, int lines_before) {
@@ -29,10 +42,7 @@ void check_text(std::string_view text, const std::string& path, int lines_before
     if (size == 0 && place.line > lines_before) {
       throw support::InputError(
           place, fmt::format("is no text: got the byte 0x{:02X}, as of {}; expected UTF-8 or ASCII",
-                             static_cast<unsigned char>(text[at]),
-                             text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")
-                                 ? "UTF-16"
-                                 : "binary data or another encoding"));
+                             static_cast<unsigned char>(text[at]), guess_encoding(text)));
     }
     const std::size_t step = size == 0 ? 1 : size;
     place.column += static_cast<int>(step);

@@ -191,6 +191,11 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.output_points = resolve_output_points(prepared.run, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.road = make_road(prepared.run);
+  if (preparation == Preparation::kRun && !request.quiet) {
+    const std::string remark =
+        remark_on_road_end(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
+    if (!remark.empty()) fmt::print(stderr, "remark: {}\n", remark);
+  }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);
   const Flexibility flexibility = choose_modes(prepared);

@@ -69,7 +69,7 @@ TEST_CASE("The integrator stops at each sample of straight lines, and at the end
   CHECK(lines.function.breaks().size() == 3);
   const Reading smooth(kFile, "channel = \"front\", interpolation = \"smooth\"");
   CHECK(smooth.function.breaks().size() == 2);
-  CHECK(smooth.function.resolution() == Approx(0.5).epsilon(1e-12));
+  CHECK(smooth.function.details().shortest() == Approx(0.5).epsilon(1e-12));
   CHECK(smooth.function.value(1.5) == Approx(0.030).epsilon(1e-12));
   CHECK(smooth.function.rate(1.0) == Approx(0.0).margin(1e-12));
   // A motion is smooth without being told so, and cannot be otherwise.
@@ -168,9 +168,8 @@ TEST_CASE("Samples of a smooth history that are much closer than the others are 
   const std::vector<std::string> remarks = remarks_on("channel = \"z\", interpolation = \"smooth\"");
   REQUIRE(remarks.size() == 1);
   CHECK(remarks[0] ==
-        "v.toml:1:17: 'f.history' has samples 0.01 s apart, where the mean is 0.8 s: no step of the run is "
-        "longer "
-        "than that");
+        "v.toml:1:17: 'f.history' has samples 0.01 s apart, where the mean is 0.8 s: steps near them "
+        "are no longer");
 }
 
 TEST_CASE("What has been read is known by file, channel and content") {
@@ -247,4 +246,53 @@ TEST_CASE("Keys of a history say what they accept") {
   const std::string message = error_of("x [mm],z\n0,1\n1,2\n", "channel = \"z\"");
   CHECK_THAT(message,
              Contains("is in 'mm', expected one of s, sec, ms, min, as it is the column of the times"));
+}
+
+namespace {
+
+// A function in m that contains histories of kFile, at the place of "{}".
+TimeFunction read_around(HistoryFiles& files, const std::string& function) {
+  std::filesystem::create_directories("measured");
+  std::ofstream("measured/rig.csv") << kFile;
+  std::ofstream("measured/share.csv") << "time [s],share [%],push [kN]\n0,50,1\n9,50,1\n";
+  const support::TomlDocument document = support::TomlDocument::parse("f = " + function + "\n", "v.toml");
+  return dynamics::read_time_function(document.root().at("f"), "m", TimeFunctionUse::kForce, files);
+}
+
+constexpr const char* kFront = "{ history = { file = \"rig.csv\", channel = \"front\" } }";
+constexpr const char* kShare = "{ history = { file = \"share.csv\", channel = \"share\" } }";
+constexpr const char* kPush = "{ history = { file = \"share.csv\", channel = \"push\" } }";
+
+}  // namespace
+
+TEST_CASE("One factor of a product may have the unit of the function, the others are pure numbers") {
+  // 10 mm at 1 s, of which 50 %.
+  HistoryFiles files{"measured"};
+  CHECK(read_around(files, fmt::format("{{ product = [{}, {}] }}", kFront, kShare)).value(1.0) ==
+        Approx(0.005).epsilon(1e-14));
+  const auto refused = [&](const std::string& a, const std::string& b) {
+    return test::input_error_of([&] { read_around(files, fmt::format("{{ product = [{}, {}] }}", a, b)); });
+  };
+  CHECK_THAT(refused(kShare, kPush),
+             Contains("v.toml:1:") && Contains("has a history in 'kN', expected one of"));
+  CHECK_THAT(refused(kFront, kFront), Contains("is the second factor with a unit; a product in m has one"));
+  CHECK_THAT(refused(kFront, fmt::format("{{ product = [2.0, {}] }}", kFront)), Contains("second factor"));
+}
+
+TEST_CASE("A history in pieces has to cover its piece only") {
+  HistoryFiles files{"measured"};  // from 1 s to 2.5 s
+  const auto read = [&](double from, double until) {
+    files = HistoryFiles("measured");
+    read_around(files,
+                fmt::format("{{ pieces = [{{ until = {}, function = 0.0 }}, {{ until = {}, function = {} "
+                            "}}, {{ function = 0.0 }}] }}",
+                            from, until, kFront));
+    return test::input_error_of([&] { dynamics::check_histories(files.used(), 10.0); });
+  };
+  CHECK(read(1.0, 2.5) == "no error");
+  CHECK(dynamics::list_history_remarks(files.used(), 10.0).empty());
+  CHECK_THAT(read(0.9, 2.5), Contains("is known from 1 s to 2.5 s, but is needed from 0.9 s on"));
+  CHECK_THAT(read(1.0, 2.6), Contains("but is needed until 2.6 s"));
+  // A piece behind the end of the run needs nothing.
+  CHECK_NOTHROW(dynamics::check_histories(files.used(), 0.5));
 }
