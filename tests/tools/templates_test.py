@@ -1,6 +1,7 @@
 """dynamics/models/templates: each vehicle is built, stands where it is drawn, runs and is judged, as its README says.
 Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
+import csv
 import json
 import os
 import re
@@ -92,6 +93,56 @@ class Templates(ToolTestCase):
             for words in ("driver.seat", "seat_air", "tyre_3", "trailer_frame", *elements):
                 self.assertIn(words, ride.stdout)
             self.assert_succeeds(self.run_tool("report", f"{name}.h5", "-o", "page.html"))
+
+    def test_every_choice_of_modes_works_with_the_elements_of_suspensions(self):
+        # Leaf spring, air springs with orifices and a valve, bushings that relax, hydraulic stops: modes chosen or
+        # changing give the seat's r.m.s. acceleration of all modes of the certified bases to 5 %.
+        frames = FLEXIBLE["air_semitrailer"]
+
+        def find_rms(*settings):
+            process = run_program(
+                [os.environ["SPRUNG_DYNAMICS"], "run", TEMPLATES / "air_semitrailer_run.toml", "--superelements",
+                 self.made, "--json", "--set", "duration=1.5", "-o", self.folder / "modes.h5",
+                 *(word for setting in settings for word in ("--set", setting))],
+            )  # fmt: skip
+            self.assertEqual(process.returncode, 0, process.stderr)
+            printed = json.loads(process.stdout)
+            return printed["points"]["driver.seat"]["acceleration"]["rms"], printed["modes"]
+
+        certified, _ = find_rms(*(f'modes.{frame}="certified"' for frame in frames))
+        self.assertGreater(certified, 0.3)  # m/s²
+        chosen, _ = find_rms(*(f'modes.{frame}="auto"' for frame in frames))
+        changing, modes = find_rms("adaptivity.enabled=true")
+        self.assertGreater(modes["changes"], 0)
+        for rms in (chosen, changing):
+            self.assertAlmostEqual(rms, certified, delta=0.05 * certified)
+
+    def test_a_study_varies_the_elements_of_suspensions(self):
+        # More friction in the leaf springs, and a narrower orifice behind the cab: other forces at the seat.
+        (self.folder / "study.toml").write_text(
+            f"""run = "{TEMPLATES / "air_semitrailer_run.toml"}"
+superelements = "{self.made}"
+measures = ["summary/points/driver.seat/acceleration_max", "suspensions/front_leaf/compression"]
+[set]
+duration = 1.0
+[[parameters]]
+name = "friction"
+key = "vehicle.forces.front_leaf.friction.coefficient"
+values = [500.0, 3000.0]
+[[parameters]]
+name = "orifice"
+key = "vehicle.forces.cab_rear.auxiliary.orifice.diameter"
+values = [0.002, 0.008]
+""",
+            encoding="utf-8",
+        )
+        self.assert_succeeds(self.run_tool("study", "study.toml", "-o", "out"))
+        with open(self.folder / "out/table.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 4)
+        for column in ("summary/points/driver.seat/acceleration_max", "suspensions/front_leaf/compression"):
+            name = next(key for key in rows[0] if key.startswith(column))
+            self.assertGreater(len({row[name] for row in rows}), 1)
 
     def test_the_guide_goes_through(self):
         # Its vehicle file is the template; every command of it is run as it stands there.

@@ -240,6 +240,73 @@ metering = {{ coefficient = {mass * random.uniform(0.0, 5.0):.6g} }}
 
         self.assertGreater(self.compare(make, 4), 5 * COUNT)
 
+    def test_coupled_air_springs_with_levelling(self):
+        # Two bellows side by side, between which gas flows, and one with a valve carry a load that pitches and meets
+        # stops. Some have auxiliary volumes. Two springs hold the load upright, which coupled bellows do not.
+        def make(random):
+            text, mass = self.head(random, 0.03)
+            gauge = random.uniform(2e5, 7e5)
+            area = mass * 9.81 / 3.0 / gauge
+            volume, side = area * random.uniform(0.15, 0.4), random.uniform(0.2, 0.5)
+            line = 10.0 ** random.uniform(-2.5, -0.7) * math.sqrt(area)
+            auxiliary = ""
+            if random.random() < 0.5:
+                opening = 10.0 ** random.uniform(-2.5, -0.8) * math.sqrt(area)
+                auxiliary = f"auxiliary = {{ volume = {volume * random.uniform(0.3, 3.0):.6g}, "
+                auxiliary += f"orifice = {{ diameter = {opening:.6g} }} }}"
+            for body in ("base", "load"):
+                text += f"[bodies.{body}.points]\nleft = [{-side:.6g}, 0.0]\nright = [{side:.6g}, 0.0]\n"
+            text += GUIDE.replace("translational", "pin-in-slot") + f"""
+[[forces]]
+name = "air"
+type = "air-spring"
+a = "base.left"
+b = "load.left"
+design_height = 0.5
+effective_area = {area:.6g}
+volume = {volume:.6g}
+load = {mass * 9.81 / 3.0:.6g}
+exponent = {random.uniform(1.0, 1.4):.6g}
+partner = {{ a = "base.right", b = "load.right", line = {{ diameter = {line:.6g} }} }}
+{auxiliary}
+[[forces]]
+name = "level"
+type = "air-spring"
+a = "base.origin"
+b = "load.origin"
+design_height = 0.5
+effective_area = {area:.6g}
+volume = {volume:.6g}
+load = "static"
+[forces.levelling]
+dead_band = {random.uniform(0.001, 0.006):.6g}
+full_opening = 0.015
+delay = {10.0 ** random.uniform(-1.0, 0.5):.6g}
+supply_gauge_pressure = 9e5
+orifice = {{ diameter = {0.03 * math.sqrt(area):.6g} }}
+"""
+            for name, reach in (("left", random.uniform(0.42, 0.47)), ("right", random.uniform(0.42, 0.47))):
+                text += f"""
+[[forces]]
+name = "absorber_{name}"
+type = "spring-damper"
+a = "base.{name}"
+b = "load.{name}"
+free_length = 0.5
+spring = {{ polynomial = [0.0, {mass * random.uniform(10.0, 60.0):.6g}] }}
+damper = {{ coefficient = {mass * random.uniform(0.3, 1.5):.6g} }}
+[[forces]]
+name = "bump_{name}"
+type = "hydraulic-stop"
+a = "base.{name}"
+b = "load.{name}"
+contact_length = {reach:.6g}
+spring = {{ polynomial = [0.0, {mass * 10.0 ** random.uniform(2.5, 4.0):.6g}] }}
+"""
+            return text
+
+        self.assertGreater(self.compare(make, 5), COUNT)
+
 
 if __name__ == "__main__":
     unittest.main()
