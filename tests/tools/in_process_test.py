@@ -86,6 +86,16 @@ class Commands(ToolTestCase):
         finally:
             os.chdir(before)
 
+    def test_a_run_continues_from_a_file_that_is_open_and_may_replace_it(self):
+        path = self.folder / "first.h5"
+        with sprung.run(CAR, overrides={"duration": 0.5}, output=path) as first:
+            settings = {"duration": 1.0, "continue_from": str(path)}
+            with sprung.run(CAR, overrides=settings) as second:
+                self.assertEqual((second.time[0], second.time[-1]), (0.5, 1.0))
+            with sprung.run(CAR, overrides={"duration": 0.25}, output=path) as third:
+                self.assertEqual(third.time[-1], 0.25)
+            self.assertEqual(len(first["points/sprung.origin/acceleration.y"]), 501)  # of the file as it was
+
     def test_a_superelement_that_is_reduced_again_is_read_again(self):
         run = BEAM / "pinned_beam_run.toml"
         text = (BEAM / "beam_inside.toml").read_text(encoding="utf-8")

@@ -74,6 +74,20 @@ void make_foreign_dataset(hid_t file, hid_t type, std::vector<hsize_t> shape,
 
 }  // namespace
 
+TEST_CASE("a file that another library of the process has open can be read") {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a.h5").string();
+  {
+    Hdf5Writer writer(path);
+    writer.write("ids", std::vector<std::int64_t>{1, 2});
+    writer.commit();
+  }
+  const hid_t other = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  REQUIRE(other >= 0);
+  CHECK(Hdf5Reader(path).integers("/ids", {2}) == std::vector<std::int64_t>{1, 2});
+  CHECK(H5Fclose(other) == 0);  // it is still that library's
+}
+
 TEST_CASE("a dataset that is missing or of another type is refused") {
   const SmallFile file;
   CHECK(file.error([](const Hdf5Reader& r) {

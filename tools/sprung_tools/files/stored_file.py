@@ -42,6 +42,7 @@ class StoredFile:
         self.filename: str = file.filename
         self._file = file
         self._layout = layout
+        self._found: dict[str, h5py.Group | h5py.Dataset | None] = {}  # by path; the file does not change while open
 
     def __enter__(self) -> "StoredFile":
         return self
@@ -169,12 +170,17 @@ class StoredFile:
         """The object of a path; None if a name on the way is not there. A name that is there and leads nowhere is an
         error."""
         note_file(self.filename)
-        found = self._file
+        found: h5py.Group | h5py.Dataset | None = self._file
+        path = ""
         for part in filter(None, name.split("/")):
-            with reading(self.filename, f"'{name}'"):
-                if not isinstance(found, h5py.Group) or not found.id.links.exists(part.encode()):
-                    return None
-                found = found[part]
+            path += f"/{part}"
+            if path not in self._found:
+                with reading(self.filename, f"'{name}'"):
+                    group = found if isinstance(found, h5py.Group) and found.id.links.exists(part.encode()) else None
+                    self._found[path] = group[part] if group is not None else None
+            found = self._found[path]
+            if found is None:
+                return None
         return found
 
     def _dataset(self, name: str) -> h5py.Dataset | None:

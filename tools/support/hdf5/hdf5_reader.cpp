@@ -38,7 +38,10 @@ Hdf5Reader::Hdf5Reader(fs::path path, Compression compression)
     const std::string_view what = "cannot be read";
     const Hdf5Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     hdf5::check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
-    file_ = hdf5::own(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, what);
+    hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access.get());
+    // In a Python process h5py may have the file open. All that have it open must close it in the same way.
+    if (file < 0) file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_ = hdf5::own(file, H5Fclose, what);
   });
 }
 
