@@ -52,7 +52,7 @@ InputFiles read_beams(const TomlTable& root, const std::filesystem::path& folder
 }
 
 InputFiles read_matrices(const TomlTable& root, const std::filesystem::path& folder, Design& design) {
-  for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines"}) {
+  for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines", "springs"}) {
     if (const auto found = root.find(key))
       throw found->error("describes beams, and stands beside [matrices]; give either");
   }
@@ -214,9 +214,9 @@ Design read_design(const DesignSource& source) {
   const std::filesystem::path& path = source.path;
   const support::TomlDocument document = read_document(source);
   const TomlTable root = document.root();
-  expect_keys(root,
-              {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points", "lines",
-               "mesh", "matrices", "point_masses", "reference", "modes", "interface", "reduction"});
+  expect_keys(
+      root, {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points", "lines",
+             "springs", "mesh", "matrices", "point_masses", "reference", "modes", "interface", "reduction"});
   Design design;
   design.name = root.string_or("name", path.stem().string());
   if (design.name.empty()) throw root.at("name").error("is empty");

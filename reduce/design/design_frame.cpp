@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -50,13 +51,13 @@ std::vector<TomlValue> read_corners(const TomlTable& table) {
 
 // Elements of each of a line's segments: one number for all, or a list.
 std::vector<int> read_element_numbers(const TomlTable& table, std::size_t num_segments) {
-  constexpr std::int64_t kMax = 100000;
   const TomlValue elements = table.at("elements");
   if (!elements.is_array()) {
-    return std::vector<int>(num_segments, static_cast<int>(elements.integer(1, kMax)));
+    return std::vector<int>(num_segments, static_cast<int>(elements.integer(1, kMostElements)));
   }
   std::vector<int> numbers;
-  for (const TomlValue& item : elements.items()) numbers.push_back(static_cast<int>(item.integer(1, kMax)));
+  for (const TomlValue& item : elements.items())
+    numbers.push_back(static_cast<int>(item.integer(1, kMostElements)));
   if (numbers.size() == num_segments) return numbers;
   throw elements.error(
       fmt::format("has {} numbers for the line's {} segments", numbers.size(), num_segments));
@@ -81,19 +82,32 @@ void read_line(const TomlTable& table, const Sections& sections, const std::vect
                fem::FrameGeometry& geometry) {
   expect_keys(table, {"from", "to", "through", "section", "elements"});
   const std::vector<TomlValue> corners = read_corners(table);
-  const TomlValue section = table.at("section");
-  check_section(section, sections);
+  const std::optional<TaperedLine> taper = find_taper(table);
+  if (!taper) check_section(table.at("section"), sections);
   const std::vector<int> num_elements = read_element_numbers(table, corners.size() - 1);
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     fem::FrameGeometry::Line line{.name = {},
                                   .from = read_point_name(corners[i], point_names),
                                   .to = read_point_name(corners[i + 1], point_names),
-                                  .section = section.string(),
+                                  .section = taper ? taper->section_name(0) : table.at("section").string(),
                                   .num_elements = num_elements[i],
                                   .where = corners[i].location()};
     line.name = fmt::format("{}: {} – {}", table.key(), line.from, line.to);
     geometry.lines.push_back(std::move(line));
   }
+}
+
+void read_spring_line(const TomlTable& table, const std::vector<std::string>& point_names,
+                      fem::FrameGeometry& geometry) {
+  const TomlValue from = table.at("from"), to = table.at("to");
+  fem::FrameGeometry::Line line{.name = {},
+                                .from = read_point_name(from, point_names),
+                                .to = read_point_name(to, point_names),
+                                .section = name_spring_section(from.string(), to.string()),
+                                .num_elements = 1,
+                                .where = from.location()};
+  line.name = fmt::format("{}: {} – {}", table.key(), line.from, line.to);
+  geometry.lines.push_back(std::move(line));
 }
 
 double calc_distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
@@ -132,12 +146,37 @@ void name_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
                                             point.position.x(), point.position.y(), fault));
 }
 
+// Gives each element of tapered lines its section. Elements stand line by line.
+void assign_tapered_sections(const TomlTable& root, fem::Mesh& mesh) {
+  std::map<std::string, int> known;
+  for (const std::string& name : mesh.section_names) known.emplace(name, static_cast<int>(known.size()));
+  std::size_t element = 0;
+  for (const TomlValue& item : root.at("lines").items()) {
+    const TomlTable line = item.table();
+    const std::optional<TaperedLine> taper = find_taper(line);
+    if (!taper) {
+      for (const int count : read_element_numbers(line, read_corners(line).size() - 1))
+        element += static_cast<std::size_t>(count);
+      continue;
+    }
+    for (int i = 0; i < taper->num_elements; ++i, ++element) {
+      const auto [found, is_new] =
+          known.emplace(taper->section_name(i), static_cast<int>(mesh.section_names.size()));
+      if (is_new) mesh.section_names.push_back(found->first);
+      mesh.elements[element].section = found->second;
+    }
+  }
+}
+
 DesignFrame read_lines(const TomlTable& root, const Points& points, const Sections& sections) {
   fem::FrameGeometry geometry;
   std::vector<std::string> point_names;
   for (const fem::FrameGeometry::Point& point : points) point_names.push_back(point.name);
   for (const TomlValue& line : root.at("lines").items())
     read_line(line.table(), sections, point_names, geometry);
+  if (const auto springs = root.find("springs")) {
+    for (const TomlValue& spring : springs->items()) read_spring_line(spring.table(), point_names, geometry);
+  }
   if (geometry.lines.empty()) throw root.at("lines").error("is empty, expected at least one line");
   std::set<std::string> corners;
   for (const fem::FrameGeometry::Line& line : geometry.lines) corners.insert({line.from, line.to});
@@ -146,6 +185,7 @@ DesignFrame read_lines(const TomlTable& root, const Points& points, const Sectio
     (corners.count(point.name) > 0 ? geometry.points : other).push_back(point);
   }
   DesignFrame frame{.mesh = fem::mesh_lines(geometry), .input_names = {}, .input_hashes = {}};
+  assign_tapered_sections(root, frame.mesh);
   for (const fem::FrameGeometry::Point& point : other) name_node(frame.mesh, point);
   return frame;
 }
@@ -208,6 +248,8 @@ DesignFrame read_design_frame(const TomlTable& root, const std::filesystem::path
   const auto mesh = root.find("mesh");
   if (!mesh) return read_lines(root, points, sections);
   if (const auto lines = root.find("lines")) throw lines->error("stands beside 'mesh'; give either");
+  if (const auto springs = root.find("springs"))
+    throw springs->error("stands beside 'mesh', and needs [[lines]]");
   return read_mesh(*mesh, points, folder, sections);
 }
 

@@ -57,17 +57,14 @@ class DesignVariation {
     const TomlDocument changed = read_document(change(number, value));
     const TomlTable root = changed.root();
     const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
-    fem::BeamModel model = design_.model;
-    for (std::size_t i = 0; i < model.sections.size(); ++i)
-      model.sections[i] = sections.at(model.mesh.section_names[i]);
-    return model;
+    return make_model_with(sections);
   }
 
   fem::BeamModel read_changed_nodes(const Number& number, double value) const {
     const TomlDocument changed = read_document(change(number, value));
     const TomlTable root = changed.root();
     const Sections sections = read_sections(root, read_materials(root), read_beam_theory(root));
-    fem::BeamModel model = design_.model;
+    fem::BeamModel model = make_model_with(sections);  // springs depend on their lengths
     model.mesh.node_positions =
         read_design_frame(root, source_.path.parent_path(), sections).mesh.node_positions;
     return model;
@@ -85,6 +82,12 @@ class DesignVariation {
   }
 
  private:
+  fem::BeamModel make_model_with(const Sections& sections) const {
+    fem::BeamModel model = design_.model;
+    for (std::size_t i = 0; i < model.sections.size(); ++i)
+      model.sections[i] = sections.at(model.mesh.section_names[i]);
+    return model;
+  }
   DesignSource change(const Number& number, double value) const {
     DesignSource changed = source_;
     changed.overrides.push_back(fmt::format("{}={:.17g}", number.key, value));
