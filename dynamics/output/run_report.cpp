@@ -26,6 +26,30 @@ std::string describe_modes(const Model& model) {
   return flexible.empty() ? "all bodies rigid" : fmt::format("{}", fmt::join(flexible, ", "));
 }
 
+void add_certified_row(const CertifiedShare& share, const CertifiedError& body, support::TextTable& run) {
+  if (share.point.empty()) return;
+  std::string text = fmt::format(
+      "up to {:.4g} Hz at most {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
+      body.highest_hz(), 100.0 * share.missing, share.point, share.direction == 0 ? "x" : "y",
+      100.0 * share.above);
+  if (!share.uncovered.empty())
+    text += fmt::format("; without loads on {} outside of the interface", share.uncovered);
+  run.add_row({"basis of " + body.name() + " misses", text});
+}
+
+Json describe_certified(const std::vector<CertifiedError>& bodies) {
+  Json all = Json::object();
+  for (const CertifiedError& body : bodies) {
+    const CertifiedShare share = body.find_worst();
+    if (share.point.empty()) continue;
+    all[body.name()] = {
+        {"highest_frequency", body.highest_hz()},   {"point", share.point},
+        {"axis", share.direction == 0 ? "x" : "y"}, {"of_rms_acceleration", share.missing},
+        {"above_highest_frequency", share.above},   {"outside_of_interface", share.uncovered}};
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string describe_run(const Vehicle& vehicle, const Model& model, const Run& run,
@@ -108,6 +132,8 @@ std::string format_summary(const RunSummary& summary) {
                                100.0 * missing.peak_change)});
     }
   }
+  for (const CertifiedError& body : summary.statistics.certified())
+    add_certified_row(body.find_worst(), body, run);
   const RunTimes& times = summary.times;
   run.add_row({"wall time of the run", fmt::format("{:.3f} s", times.wall)});
   run.add_row({"CPU time of the program", fmt::format("{:.3f} s", times.cpu)});
@@ -165,6 +191,7 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
                                {"points", points},
                                {"bending", bending},
                                {"sections", make_sections_json(summary.statistics.sections())},
+                               {"certified", describe_certified(summary.statistics.certified())},
                                {"constraint_violation", summary.statistics.constraint_violation()},
                                {"velocity_violation", transient.stepper.velocity_violation},
                                {"energy_closure", summary.statistics.energy_closure()},

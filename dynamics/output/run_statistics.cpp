@@ -47,7 +47,7 @@ double calc_work_of_loads(const SystemTerms& terms, const Eigen::VectorXd& no_mu
 }  // namespace
 
 RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>& points,
-                             const Eigen::VectorXd& reference_q, double from, double to,
+                             const Eigen::VectorXd& reference_q, double from, double to, double output_step,
                              const Vehicle& vehicle, const VehicleSections& sections)
     : model_(&model),
       from_(from),
@@ -67,6 +67,14 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     if (!body.has_modes()) continue;
     bending_.emplace_back(model.bodies[body.body()], *vehicle.superelement_of(vehicle.bodies[body.body()]),
                           body.loads());
+  }
+  const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
+  for (const BodySections& body : sections.bodies()) {
+    if (!body.has_modes()) continue;
+    const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[body.body()]);
+    const std::optional<reduce::Certificate>& certificate = superelement.certificate;
+    if (!certificate || !certificate->is_bounded() || certificate->interface.empty()) continue;
+    certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle, output_step);
   }
 }
 
@@ -98,6 +106,8 @@ void RunStatistics::add(const Snapshot& snapshot) {
     if (body.has_modes()) (bending++)->add(snapshot.time, body.loads(), snapshot.q);
   }
 
+  add_to_certified(snapshot);
+
   const double tolerance = 1e-9;
   if (snapshot.time < from_ - tolerance || snapshot.time > to_ + tolerance) return;
   ++num_samples_;
@@ -106,6 +116,18 @@ void RunStatistics::add(const Snapshot& snapshot) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
     point.acceleration.add(snapshot.calc_acceleration(marker).y());
+  }
+}
+
+void RunStatistics::add_to_certified(const Snapshot& snapshot) {
+  for (CertifiedError& body : certified_) {
+    const auto num_markers = static_cast<Eigen::Index>(body.markers().size());
+    Eigen::Matrix2Xd acceleration(2, num_markers);
+    for (Eigen::Index i = 0; i < num_markers; ++i) {
+      const auto marker = static_cast<std::size_t>(body.markers()[static_cast<std::size_t>(i)]);
+      acceleration.col(i) = snapshot.calc_acceleration(marker);
+    }
+    body.add(sections_.sections().loads(), snapshot.q, acceleration);
   }
 }
 
@@ -133,6 +155,7 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
   }
   SectionStatistics::transfer(bytes, statistics.sections_);
   for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);
+  for (auto& body : statistics.certified_) CertifiedError::transfer(bytes, body);
   bytes.transfer(statistics.num_samples_);
   bytes.transfer(statistics.constraint_violation_);
   bytes.transfer(statistics.has_first_);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/section_loads/body_bending.h"
+#include "dynamics/section_loads/certified_error.h"
 #include "dynamics/section_loads/section_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/files/bytes.h"
@@ -32,10 +33,11 @@ class RunStatistics {
   /// @param points       names of markers to report, "body.point"
   /// @param reference_q  positions that displacements refer to: the equilibrium, or the given start
   /// @param from, to     window of time for the points and sections [s]
+  /// @param output_step  > 0 [s]
   /// @param sections     of the model and vehicle; has to outlive this
   RunStatistics(const Model& model, const std::vector<std::string>& points,
-                const Eigen::VectorXd& reference_q, double from, double to, const Vehicle& vehicle,
-                const VehicleSections& sections);
+                const Eigen::VectorXd& reference_q, double from, double to, double output_step,
+                const Vehicle& vehicle, const VehicleSections& sections);
 
   /// Adds an output, at which the sections are up to date.
   void add(const Snapshot& snapshot);
@@ -48,6 +50,8 @@ class RunStatistics {
   long num_samples() const { return num_samples_; }
   const SectionStatistics& sections() const { return sections_; }
   const std::vector<BodyBending>& bending() const { return bending_; }  ///< of each body with modes
+  /// Of each body with modes whose superelement has a bound.
+  const std::vector<CertifiedError>& certified() const { return certified_; }
 
   /// What has been added so far, as bytes and back into statistics of the same model and points.
   void save(support::ByteWriter& bytes) const;
@@ -67,6 +71,7 @@ class RunStatistics {
     Accumulator displacement, acceleration;
   };
 
+  void add_to_certified(const Snapshot& snapshot);
   template <class Bytes, class Statistics>
   static void transfer(Bytes& bytes, Statistics& statistics);
 
@@ -75,6 +80,7 @@ class RunStatistics {
   std::vector<Point> points_;
   SectionStatistics sections_;
   std::vector<BodyBending> bending_;
+  std::vector<CertifiedError> certified_;
   long num_samples_ = 0;
   double constraint_violation_ = 0.0;
   Eigen::VectorXd phi_, no_multipliers_;  // constraint residual; zeros

@@ -120,6 +120,7 @@ std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistic
   }
   add_remarks(list_missing_parts(statistics.sections()), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
+  add_remarks(list_missed_by_bases(statistics.certified()), statistics, warnings);
   return warnings;
 }
 

@@ -232,7 +232,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   VehicleSections sections(prepared.vehicle, prepared.model);
   RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
-                           run.statistics_to, prepared.vehicle, sections);
+                           run.statistics_to, run.output_step, prepared.vehicle, sections);
   WrittenRun written;
   if (!output.results.empty())
     written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);

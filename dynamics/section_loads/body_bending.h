@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 inline constexpr double kNoDeflection = 1e-4;
 
 /// How large a flexible body's deflection has become in a run, and what axial forces that the model leaves
-/// out would have changed in it (section_loads, eqs. 6, 7).
+/// out would have changed in it (section_loads, eqs. 7, 8).
 class BodyBending {
  public:
   /// @param loads  of the body

@@ -42,6 +42,22 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics) 
   return remarks;
 }
 
+std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& bodies) {
+  std::vector<BodyRemark> remarks;
+  for (const CertifiedError& body : bodies) {
+    const CertifiedShare share = body.find_worst();
+    if (share.point.empty() || !(share.missing > kTooMuchMissing)) continue;
+    remarks.push_back(
+        {body.name(),
+         fmt::format(
+             "{}: under these loads its superelement may miss {:.3g} % of the r.m.s. acceleration of {} "
+             "along {} up to {:.4g} Hz; reduce it with a smaller tolerance",
+             body.name(), 100.0 * share.missing, share.point, share.direction == 0 ? "x" : "y",
+             body.highest_hz())});
+  }
+  return remarks;
+}
+
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies) {
   std::vector<BodyRemark> remarks;
   for (const BodyBending& body : bodies) {

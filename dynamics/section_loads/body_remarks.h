@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/section_loads/body_bending.h"
+#include "dynamics/section_loads/certified_error.h"
 #include "dynamics/section_loads/section_statistics.h"
 
 namespace sprung::dynamics {
@@ -18,5 +19,9 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics);
 /// A remark on each body for which linear bending without axial forces does not hold: one that deflects by
 /// more than a tenth of its length, or whose bending axial forces change by more than a tenth.
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);
+
+/// A remark on each body whose basis may miss more than a twentieth of an acceleration within its certified
+/// band.
+std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& bodies);
 
 }  // namespace sprung::dynamics

@@ -20,6 +20,8 @@ class VehicleSections {
   void update(const SystemTerms& terms, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
               const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
   const std::vector<BodySections>& bodies() const { return bodies_; }
+  /// Force and torque on each marker of the model at the last update, world axes.
+  const std::vector<Wrench>& loads() const { return loads_; }
 
  private:
   std::vector<BodySections> bodies_;

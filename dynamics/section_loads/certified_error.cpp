@@ -1,0 +1,159 @@
+#include "dynamics/section_loads/certified_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+
+#include "dynamics/bodies/body_equations.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr Eigen::Index kBlock = 512;        // outputs that are transformed together
+constexpr double kLeastAcceleration = 0.1;  // m/s², r.m.s. below which no share is formed
+
+int find_row(const reduce::Certificate& certificate, const reduce::Superelement& superelement, int node,
+             int freedom) {
+  for (std::size_t j = 0; j < certificate.interface.size(); ++j) {
+    const reduce::InterfaceError& one = certificate.interface[j];
+    if (one.freedom == freedom && superelement.points[static_cast<std::size_t>(one.point)].node == node)
+      return static_cast<int>(j);
+  }
+  return -1;
+}
+
+}  // namespace
+
+CertifiedError::CertifiedError(const Model& model, int body, const reduce::Superelement& superelement,
+                               const std::vector<VehiclePoint>& points, double output_step)
+    : name_(model.bodies[static_cast<std::size_t>(body)].name),
+      highest_hz_(superelement.certificate->highest_hz),
+      step_(output_step),
+      first_(model.bodies[static_cast<std::size_t>(body)].first_coordinate) {
+  const reduce::Certificate& certificate = *superelement.certificate;
+  Eigen::Index reference = 0;
+  superelement.node_positions.colwise().norm().minCoeff(&reference);
+  for (const int i : model.acting_markers) {
+    const VehiclePoint& point = points[static_cast<std::size_t>(i)];
+    if (point.body != body || point.kind == VehiclePoint::Kind::kCenterOfMass) continue;
+    const bool is_fixed = point.kind == VehiclePoint::Kind::kFixed;
+    const int node = is_fixed ? static_cast<int>(reference) : point.node;
+    Load load{
+        .marker = static_cast<std::size_t>(i), .offset = is_fixed ? point.p_BP : point.offset, .rows = {}};
+    for (int freedom = 0; freedom < 3; ++freedom)
+      load.rows[static_cast<std::size_t>(freedom)] = find_row(certificate, superelement, node, freedom);
+    loads_.push_back(load);
+  }
+  for (const VehiclePoint& point : points) point_names_.push_back(point.name);
+  const auto num_freedoms = static_cast<Eigen::Index>(certificate.interface.size());
+  weights_.resize(num_freedoms);
+  for (Eigen::Index j = 0; j < num_freedoms; ++j) {
+    const reduce::InterfaceError& one = certificate.interface[static_cast<std::size_t>(j)];
+    weights_[j] = std::sqrt(one.error * one.static_flexibility);
+    const std::string name = name_ + "." + superelement.points[static_cast<std::size_t>(one.point)].name;
+    const int marker = model.find_marker(name);
+    if (marker < 0 || one.freedom > 1) {
+      rows_.emplace_back(-1, 0);
+      continue;
+    }
+    const auto known = std::find(markers_.begin(), markers_.end(), marker);
+    rows_.emplace_back(static_cast<int>(known - markers_.begin()), one.freedom);
+    if (known == markers_.end()) markers_.push_back(marker);
+  }
+  const auto num_markers = static_cast<Eigen::Index>(markers_.size());
+  samples_ = Eigen::MatrixXd::Zero(kBlock, num_freedoms + 2 * num_markers);
+  total_ = above_ = Eigen::VectorXd::Zero(num_markers);
+}
+
+void CertifiedError::add(std::span<const Wrench> loads, const Eigen::VectorXd& q,
+                         const Eigen::Matrix2Xd& acceleration) {
+  if (num_samples_ == kBlock) {
+    add_block(kBlock, missing_, total_, above_);
+    ++num_blocks_;
+    samples_.topRows(kBlock / 2) = samples_.bottomRows(kBlock / 2).eval();
+    num_samples_ = kBlock / 2;
+  }
+  auto row = samples_.row(num_samples_++);
+  row.setZero();
+  const FrameRotation rotation = FrameRotation::from_angle(q[first_ + 2]);
+  for (const Load& load : loads_) {
+    const Wrench& wrench = loads[load.marker];
+    const Eigen::Vector2d force = rotation.transposed_times(wrench.force);
+    const Eigen::Vector3d nodal(force.x(), force.y(),
+                                wrench.torque + load.offset.x() * force.y() - load.offset.y() * force.x());
+    for (std::size_t freedom = 0; freedom < 3; ++freedom) {
+      const double value = nodal[static_cast<Eigen::Index>(freedom)];
+      if (load.rows[freedom] >= 0) {
+        row[load.rows[freedom]] += value;
+      } else if (value != 0.0) {
+        uncovered_ = static_cast<int>(load.marker);
+      }
+    }
+  }
+  row.tail(acceleration.size()) = acceleration.reshaped().transpose();
+}
+
+// Adds the mean squares of a block of samples under a Hann window, without their means.
+void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total,
+                               Eigen::VectorXd& above) const {
+  using std::numbers::pi;
+  const Eigen::ArrayXd window =
+      0.5 - 0.5 * (2.0 * pi / static_cast<double>(length) *
+                   Eigen::ArrayXd::LinSpaced(length, 0.0, static_cast<double>(length - 1)))
+                      .cos();
+  const double scale = 2.0 / (static_cast<double>(length) * window.square().sum());
+  Eigen::FFT<double> fft;
+  const auto transform = [&](Eigen::Index column) {
+    const Eigen::ArrayXd values = samples_.col(column).head(length).array();
+    const Eigen::VectorXd windowed = ((values - values.mean()) * window).matrix();
+    Eigen::VectorXcd lines;
+    fft.fwd(lines, windowed);
+    return Eigen::ArrayXd(lines.head(length / 2 + 1).cwiseAbs().array());
+  };
+  const Eigen::ArrayXd frequency =
+      Eigen::ArrayXd::LinSpaced(length / 2 + 1, 0.0, static_cast<double>(length / 2)) /
+      (static_cast<double>(length) * step_);
+  const Eigen::ArrayXd is_inside = (frequency <= highest_hz_).cast<double>();
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(length / 2 + 1);
+  for (Eigen::Index j = 0; j < weights_.size(); ++j) sum += weights_[j] * transform(j);
+  sum *= (2.0 * pi * frequency).square();
+  missing += scale * (is_inside * sum.square()).sum();
+  for (Eigen::Index m = 0; m < total.size(); ++m) {
+    for (Eigen::Index direction = 0; direction < 2; ++direction) {
+      const Eigen::ArrayXd square = transform(weights_.size() + 2 * m + direction).square();
+      total[m] += scale * square.sum();
+      above[m] += scale * ((1.0 - is_inside) * square).sum();
+    }
+  }
+}
+
+CertifiedShare CertifiedError::find_worst() const {
+  CertifiedShare worst;
+  if (uncovered_ >= 0) worst.uncovered = point_names_[static_cast<std::size_t>(uncovered_)];
+  double missing = missing_;
+  Eigen::VectorXd total = total_, above = above_;
+  auto blocks = static_cast<double>(num_blocks_);
+  if (num_blocks_ == 0 && num_samples_ > 2) {
+    add_block(num_samples_, missing, total, above);
+    blocks = 1.0;
+  }
+  if (blocks == 0.0) return worst;
+  for (std::size_t j = 0; j < rows_.size(); ++j) {
+    if (rows_[j].first < 0) continue;
+    const auto marker = static_cast<Eigen::Index>(rows_[j].first);
+    const double rms = std::sqrt(total[marker] / blocks);
+    const double bound = weights_[static_cast<Eigen::Index>(j)] * std::sqrt(missing / blocks);
+    const double share = bound / std::max(rms, kLeastAcceleration);
+    if (!worst.point.empty() && share <= worst.missing) continue;
+    const auto place = static_cast<std::size_t>(markers_[static_cast<std::size_t>(marker)]);
+    worst.point = point_names_[place];
+    worst.direction = rows_[j].second;
+    worst.missing = share;
+    worst.above = total[marker] > 0.0 ? std::sqrt(above[marker] / total[marker]) : 0.0;
+  }
+  return worst;
+}
+
+}  // namespace sprung::dynamics
