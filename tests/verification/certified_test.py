@@ -78,6 +78,75 @@ class CertifiedChassis(VerificationCase):
         self.assertEqual(results["bodies/chassis/modal/amplitude"].shape[1], 5)
 
 
+PUSHED = """
+name = "pushed chassis"
+gravity = [0.0, 0.0]
+[bodies.chassis]
+superelement = "{superelement}"
+position = [0.0, 0.0]
+[[forces]]
+name = "push"
+type = "applied"
+point = "chassis.{point}"
+axes = "following"
+force = [0.0, {{ product = [
+  {{ harmonic = {{ amplitude = 1000.0, frequency = 52.0 }} }},
+  {{ table = [[0.0, 0.0], [0.5, 1.0], [10.0, 1.0]] }},
+] }}]
+"""
+PUSHED_RUN = """
+start = "as-given"
+duration = 2.0
+output_step = 1e-3
+[modes]
+chassis = "all"
+[modal_damping]
+chassis = 0.02
+[integrator]
+relative_tolerance = 1e-8
+"""
+
+
+class Bound(VerificationCase):
+    """What a run may lack because of its superelement, under its own loads."""
+
+    def build(self, **changes):
+        """Builds the certified chassis with other values of `[reduction]`: name → (old, new)."""
+        design = (ROOT / "meshes/truck/chassis_certified.toml").read_text(encoding="utf-8")
+        for name, (old, new) in changes.items():
+            self.assertEqual(design.count(old), 1)
+            (self.folder / f"{name}.toml").write_text(design.replace(old, new), encoding="utf-8")
+        files = [f"{name}.toml" for name in changes]
+        run_program([os.environ["SPRUNG_REDUCE"], "build", *files, "--output-dir", "."], cwd=self.folder, check=True)
+
+    def push(self, superelement, point="rear_spring"):
+        run = self.write_model(PUSHED.format(superelement=superelement, point=point), PUSHED_RUN)
+        return self.run_to_results(run, superelements=self.folder)
+
+    # Truth: all 36 motions of the model. The force is within the band, so that all that is missing is, too.
+    def test_it_is_above_what_the_basis_misses_and_warns_where_that_is_much(self):
+        tolerance = "tolerance = 0.01 "
+        self.build(truth=("= 60.0", "= 1e5"), loose=(tolerance, "tolerance = 0.5 "), good=(tolerance, tolerance))
+        truth = self.push("truth")
+        self.assertEqual(truth.summary["certified"]["chassis"]["of_rms_acceleration"], 0.0)
+        for name, warns in (("loose", True), ("good", False)):
+            results = self.push(name)
+            found = results.summary["certified"]["chassis"]
+            self.assertEqual((found["highest_frequency"], found["outside_of_interface"]), (60.0, ""))
+            series = f"points/{found['point']}/acceleration"
+            missing = (results[series] - truth[series])[:, "xy".index(found["axis"])]
+            share = np.sqrt(np.mean(missing**2) / np.mean(np.sum(truth[series] ** 2, axis=1)))
+            self.assertLess(share, found["of_rms_acceleration"])
+            self.assertGreater(share, 0.1 * found["of_rms_acceleration"])
+            told = [one["text"] for one in results.summary["warnings"] if "its superelement may miss" in one["text"]]
+            self.assertEqual(bool(told), warns, results.summary["warnings"])
+
+    def test_loads_that_are_not_in_the_interface_are_named(self):
+        self.build(good=("= 60.0", "= 60.0"))
+        found = self.push("good", point="front_end").summary["certified"]["chassis"]
+        self.assertEqual(found["outside_of_interface"], "chassis.front_end")
+
+
 class AllVectors(VerificationCase):
     """A vehicle does not depend on the basis of a body, nor on where the body is held, if the basis has all motions."""
 
