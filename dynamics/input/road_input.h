@@ -41,8 +41,8 @@ struct RoadDescription {
 RoadDescription read_road(const support::TomlTable& table, const std::filesystem::path& folder);
 
 /// Makes the road of a description; for a table or OpenCRG it reads the file.
-/// @throws support::InputError at the line and column of the fault in the file, or where the road is
-/// described Checked by tests/dynamics/input/road_input_test.cpp
+/// @throws support::InputError at the fault in the file, or where a road is described that cannot be made
+/// Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 
 /// A text if the leading axle passes the last point of a measured or random road before the run ends, at the

@@ -194,7 +194,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   if (preparation == Preparation::kRun && !request.quiet) {
     const std::string remark =
         remark_on_road_end(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
-    if (!remark.empty()) fmt::print(stderr, "remark: {}\n", remark);
+    if (!remark.empty()) fmt::print(request.streams.err, "remark: {}\n", remark);
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);
