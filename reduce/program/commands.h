@@ -25,6 +25,7 @@ struct SweepCommand {
   DesignSource design;
   std::string vary;  ///< KEY=FROM:TO:STEPS
   int num_modes = 6;
+  bool preview = false;
   bool json = false;
 };
 

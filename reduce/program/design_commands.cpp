@@ -40,8 +40,11 @@ SweepOptions read_sweep(const SweepCommand& command) {
   const double to = read_end(text.substr(first + 1, second - first - 1), text);
   const double steps = read_end(text.substr(second + 1), text);
   if (!(steps >= 1.0 && steps <= kMostSteps) || steps != std::floor(steps)) reject_range(text);
-  SweepOptions options{
-      .design = command.design, .key = text.substr(0, equals), .values = {}, .num_modes = command.num_modes};
+  SweepOptions options{.design = command.design,
+                       .key = text.substr(0, equals),
+                       .values = {},
+                       .num_modes = command.num_modes,
+                       .is_preview = command.preview};
   for (int i = 0; i <= static_cast<int>(steps); ++i) options.values.push_back(from + (to - from) * i / steps);
   return options;
 }

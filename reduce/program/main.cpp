@@ -75,6 +75,7 @@ void add_sweep(CLI::App& app, reduce::SweepCommand& command) {
   sweep->add_option("--modes", command.num_modes, "Number of free and of clamped modes")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  sweep->add_flag("--preview", command.preview, "Solve the first value alone; for small changes");
   sweep->add_flag("--json", command.json, "As one JSON object");
   sweep->footer(
       "Example: sprung-reduce sweep meshes/truck/chassis.toml --vary "

@@ -165,13 +165,14 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
 
 }  // namespace
 
+fem::AssembledMatrices make_full_matrices(const Design& design) {
+  if (!design.matrices) return fem::assemble(design.model);
+  return {.stiffness = design.matrices->stiffness, .mass = design.matrices->mass};
+}
+
 BodyMatrices make_body_matrices(const Design& design) {
   BodyMatrices matrices;
-  if (design.matrices) {
-    matrices.full = {.stiffness = design.matrices->stiffness, .mass = design.matrices->mass};
-  } else {
-    matrices.full = fem::assemble(design.model);
-  }
+  matrices.full = make_full_matrices(design);
   matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
                    .mass = remove_node(matrices.full.mass, design.reference_node)};
   matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);

@@ -22,6 +22,8 @@ struct BodyMatrices {
   RigidMotions rigid;
   Eigen::Matrix2Xd node_positions;  ///< 2×N, from the reference node [m]
 };
+/// Stiffness and mass of the free frame alone, as in BodyMatrices::full.
+fem::AssembledMatrices make_full_matrices(const Design& design);
 /// @throws support::NumericalError if the stiffness is not positive definite to rounding
 BodyMatrices make_body_matrices(const Design& design);
 

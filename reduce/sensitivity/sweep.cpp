@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "reduce/modes/clusters.h"
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
@@ -17,6 +19,7 @@ constexpr double kSureCorrelation = 0.9;
 constexpr int kMostHalvings = 6;
 constexpr double kPartOfCluster = 0.1;  // least singular value for modes that continue in a cluster
 constexpr int kGuards = 6;              // modes beyond those followed, which may come down to them
+constexpr int kPreviewModes = 4;        // times the modes followed, of which a preview is made
 
 // A body for one value, with its modes.
 struct SweptBody {
@@ -35,9 +38,47 @@ SweptBody make_body(const SweepOptions& options, double value) {
                  .matrices = make_body_matrices(design),
                  .free = {},
                  .clamped = {}};
-  const int computed = options.num_modes + kGuards;
+  const int computed = (options.is_preview ? kPreviewModes : 1) * options.num_modes + kGuards;
   body.free = calc_body_modes(design, body.matrices, true, computed);
   body.clamped = calc_body_modes(design, body.matrices, false, computed);
+  return body;
+}
+
+// Modes in the space of given shapes, by the matrices of a changed body: without its rigid motions, which
+// come first in the space.
+BodyModes calc_ritz_modes(const fem::AssembledMatrices& full, const Eigen::MatrixXd& space,
+                          Eigen::Index num_rigid) {
+  const Eigen::MatrixXd mass = space.transpose() * (full.mass * space);
+  const Eigen::MatrixXd stiffness = space.transpose() * (full.stiffness * space);
+  const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const auto pairs = support::solve_undamped(scale.asDiagonal() * stiffness * scale.asDiagonal(),
+                                             scale.asDiagonal() * mass * scale.asDiagonal());
+  if (!pairs) throw support::NumericalError("sweep: the shapes of the first value have no modes together");
+  const Eigen::Index n = space.cols() - num_rigid;
+  BodyModes modes{.omega_squared = pairs->values.tail(n),
+                  .shapes = space * (scale.asDiagonal() * pairs->vectors.rightCols(n)),
+                  .cluster = {}};
+  modes.cluster = find_clusters(modes.omega_squared);
+  return modes;
+}
+
+// A body for another value, by the modes of the first one.
+SweptBody preview_body(const SweepOptions& options, const SweptBody& first, double value) {
+  DesignSource source = options.design;
+  source.overrides.push_back(fmt::format("{}={:.17g}", options.key, value));
+  const Design design = read_design(source);
+  SweptBody body{
+      .value = value, .num_nodes = design.model.mesh.num_nodes(), .matrices = {}, .free = {}, .clamped = {}};
+  if (body.num_nodes != first.num_nodes) return body;  // refused by the caller
+  const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
+  body.matrices.full = make_full_matrices(design);
+  body.matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
+  body.matrices.rigid =
+      calc_rigid_motions(body.matrices.node_positions, body.matrices.full.mass, design.reference_node);
+  Eigen::MatrixXd space(first.free.shapes.rows(), 3 + first.free.shapes.cols());
+  space << body.matrices.rigid.shapes, first.free.shapes;
+  body.free = calc_ritz_modes(body.matrices.full, space, 3);
+  body.clamped = calc_ritz_modes(body.matrices.full, first.clamped.shapes, 0);
   return body;
 }
 
@@ -59,8 +100,9 @@ SweepPoint make_point(const SweptBody& body, TrackedModes free, TrackedModes cla
 }
 
 // From a point to a value; by halves where a mode could be mistaken for another.
-SweepPoint continue_to(const SweepOptions& options, const SweepPoint& from, double value, int halvings) {
-  const SweptBody body = make_body(options, value);
+SweepPoint continue_to(const SweepOptions& options, const SweptBody& first, const SweepPoint& from,
+                       double value, int halvings) {
+  const SweptBody body = options.is_preview ? preview_body(options, first, value) : make_body(options, value);
   if (3 * body.num_nodes != from.free.shapes.rows()) {
     throw support::InputError({.path = options.design.path.string()},
                               fmt::format("'{}' = {:.6g} gives the frame another number of nodes, so that "
@@ -72,8 +114,8 @@ SweepPoint continue_to(const SweepOptions& options, const SweepPoint& from, doub
   const double least = std::min(free.correlation.minCoeff(), clamped.correlation.minCoeff());
   if (least >= kSureCorrelation || halvings == 0)
     return make_point(body, std::move(free), std::move(clamped));
-  const SweepPoint middle = continue_to(options, from, 0.5 * (from.value + value), halvings - 1);
-  return continue_to(options, middle, value, halvings - 1);
+  const SweepPoint middle = continue_to(options, first, from, 0.5 * (from.value + value), halvings - 1);
+  return continue_to(options, first, middle, value, halvings - 1);
 }
 
 // The basis of a cluster that is nearest to the modes that continue in it most.
@@ -133,16 +175,12 @@ TrackedModes continue_modes(const TrackedModes& from, const BodyModes& modes,
 }
 
 std::vector<SweepPoint> calc_sweep(const SweepOptions& options) {
-  std::vector<SweepPoint> points;
-  for (const double value : options.values) {
-    if (points.empty()) {
-      const SweptBody body = make_body(options, value);
-      points.push_back(make_point(body, begin_modes(body.free, options.num_modes),
-                                  begin_modes(body.clamped, options.num_modes)));
-    } else {
-      points.push_back(continue_to(options, points.back(), value, kMostHalvings));
-    }
-  }
+  if (options.values.empty()) return {};
+  const SweptBody first = make_body(options, options.values.front());
+  std::vector<SweepPoint> points{make_point(first, begin_modes(first.free, options.num_modes),
+                                            begin_modes(first.clamped, options.num_modes))};
+  for (std::size_t i = 1; i < options.values.size(); ++i)
+    points.push_back(continue_to(options, first, points.back(), options.values[i], kMostHalvings));
   return points;
 }
 

@@ -29,6 +29,8 @@ struct SweepOptions {
   std::string key;             ///< of the number that changes
   std::vector<double> values;  ///< that it takes, one after the other
   int num_modes = 6;           ///< free and clamped ones
+  /// Only the first value is solved: its modes are the shapes of which those of the others are made.
+  bool is_preview = false;
 };
 
 struct SweepPoint {
@@ -39,7 +41,8 @@ struct SweepPoint {
 };
 
 /// Frequencies, mass and inertia of a design while one of its numbers takes other values. Between two values
-/// a step is halved while a mode's correlation is below 0.9, at most six times.
+/// a step is halved while a mode's correlation is below 0.9, at most six times. A preview has Ritz's
+/// frequencies, which are not below the true ones (reduce/sensitivity, eq. 7).
 ///
 /// @throws support::InputError if a value makes no design, or one with other nodes (at the key, with the
 /// value)

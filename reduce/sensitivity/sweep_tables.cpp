@@ -39,7 +39,10 @@ Json make_tracked(const TrackedModes& modes) {
 }  // namespace
 
 std::string format_sweep(const SweepOptions& options, const std::vector<SweepPoint>& points) {
-  return format_tracked(options, points, "Modes of the free body, each followed by its shape",
+  const std::string remark =
+      options.is_preview ? "Preview: all but the first line by the modes of the first line\n\n" : "";
+  return remark +
+         format_tracked(options, points, "Modes of the free body, each followed by its shape",
                         &SweepPoint::free) +
          "\n" +
          format_tracked(options, points, "Modes of the body clamped at its reference node",
@@ -55,7 +58,7 @@ std::string format_sweep_json(const SweepOptions& options, const std::vector<Swe
                      {"free", make_tracked(point.free)},
                      {"clamped", make_tracked(point.clamped)}});
   }
-  return support::format_json({{"key", options.key}, {"points", items}});
+  return support::format_json({{"key", options.key}, {"preview", options.is_preview}, {"points", items}});
 }
 
 }  // namespace sprung::reduce
