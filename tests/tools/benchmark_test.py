@@ -134,6 +134,9 @@ class Tool(ToolTestCase):
         for row in rows:
             self.assertIn("freedoms,", row)  # what the program says of a superelement
             self.assertGreater(float(row[3]), 1.0)  # of memory; CPU time has no lower bound
+            limit, *parts = map(float, row[4:8])
+            self.assertAlmostEqual(limit, sum(parts), delta=0.02)  # by two digits each
+            self.assertGreaterEqual(float(row[8]), 0.0)  # scipy
 
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")

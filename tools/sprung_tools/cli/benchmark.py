@@ -55,9 +55,10 @@ def make_plan(arguments: argparse.Namespace) -> Plan:
 
 def measure_reduction(arguments: argparse.Namespace) -> str:
     """Builds lattices, and writes what that took. The largest needs 8 GB."""
-    program = arguments.programs.resolve() / "reduce/sprung-reduce"
+    programs = arguments.programs.resolve()
     with tempfile.TemporaryDirectory() as folder:
-        costs = [measure_build(program, one, Path(folder)) for one in (QUICK_LATTICES if arguments.quick else LATTICES)]
+        lattices = QUICK_LATTICES if arguments.quick else LATTICES
+        costs = [measure_build(programs, one, Path(folder)) for one in lattices]
     text = "Whole builds of lattices, about 20 free modes\n" + format_builds(costs)
     write_whole(arguments.output_dir / "benchmark_reduce.txt", text + "\n")
     return text
