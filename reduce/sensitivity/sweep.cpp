@@ -19,6 +19,7 @@ constexpr double kSureCorrelation = 0.9;
 constexpr int kMostHalvings = 6;
 constexpr double kPartOfCluster = 0.1;  // least singular value for modes that continue in a cluster
 constexpr int kGuards = 6;              // modes beyond those followed, which may come down to them
+constexpr double kSamePlace = 1e-12;    // relative
 constexpr int kPreviewModes = 4;        // times the modes followed, of which a preview is made
 
 // A body for one value, with its modes.
@@ -73,6 +74,12 @@ SweptBody preview_body(const SweepOptions& options, const SweptBody& first, doub
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   body.matrices.full = make_full_matrices(design);
   body.matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
+  if (!body.matrices.node_positions.isApprox(first.matrices.node_positions, kSamePlace)) {
+    throw support::InputError({.path = options.design.path.string()},
+                              fmt::format("'{}' = {:.6g} moves nodes, where the shapes of the first value do "
+                                          "not fit; a preview is for sections, materials and masses",
+                                          options.key, value));
+  }
   body.matrices.rigid =
       calc_rigid_motions(body.matrices.node_positions, body.matrices.full.mass, design.reference_node);
   Eigen::MatrixXd space(first.free.shapes.rows(), 3 + first.free.shapes.cols());

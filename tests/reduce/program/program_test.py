@@ -215,6 +215,29 @@ class Program(ReduceTestCase):
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"'{bad}' is not of the form key.path=FROM:TO:STEPS", result.stderr)
 
+    def test_a_preview_of_a_sweep_is_right_for_small_changes_without_solving_them(self):
+        # Expected: the modes solved for each value. Those in a space of shapes are not below them.
+        sweep = ("sweep", "ladder_frame.toml", "--vary", "sections.post.height=0.08:0.084:1", "--modes", "6")
+        result = self.run_program(*sweep, "--preview")
+        self.assertTrue(result.stdout.startswith("Preview: all but the first line by the modes of the first line\n"))
+        solved, previewed = (
+            json.loads(self.run_program(*sweep, "--json", *flag).stdout) for flag in ((), ("--preview",))
+        )
+        self.assertEqual((solved["preview"], previewed["preview"]), (False, True))
+        for kind in ("free", "clamped"):
+            (before, after), (same, found) = (
+                [point[kind]["frequency_hz"] for point in points["points"]] for points in (solved, previewed)
+            )
+            for mode in range(6):
+                self.assertAlmostEqual(same[mode] / before[mode], 1.0, delta=1e-9)
+                self.assertGreater(found[mode] / after[mode] - 1.0, -1e-9)
+                self.assertLess(found[mode] / after[mode] - 1.0, 1e-3)
+            self.assertGreater(after[2] / before[2], 1.03)
+        moving = ("--vary", "points.front_end.0=-3.8257:-3.9:1", "--preview")
+        result = self.run_program("sweep", "chassis.toml", *moving)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'points.front_end.0' = -3.9 moves nodes", result.stderr)
+
     def test_quiet_prints_nothing_and_errors_still(self):
         result = self.build("chassis.toml", "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))

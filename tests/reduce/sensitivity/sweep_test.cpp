@@ -38,26 +38,6 @@ TEST_CASE("modes are followed by their shapes through an exact crossing") {
   CHECK_THAT(format_sweep_json(options, points), Contains("\"correlation\""));
 }
 
-// Expected: the modes that are solved for each value. Ritz's frequencies are not below them, and exact for
-// the first value; the change itself, 4 % of the lowest frequency, is previewed to a fortieth.
-TEST_CASE("a preview has the frequencies of a small change, from above, without solving it") {
-  SweepOptions options = make_sweep("sections.first.height", {0.03, 0.0315, 0.033});
-  const std::vector<SweepPoint> solved = calc_sweep(options);
-  options.is_preview = true;
-  const std::vector<SweepPoint> previewed = calc_sweep(options);
-  for (std::size_t i = 0; i < solved.size(); ++i) {
-    for (auto member : {&SweepPoint::free, &SweepPoint::clamped}) {
-      const Eigen::ArrayXd off = (previewed[i].*member).hz.array() / (solved[i].*member).hz.array() - 1.0;
-      CHECK(off.minCoeff() > -1e-9);
-      CHECK(off.maxCoeff() < (i == 0 ? 1e-9 : 1e-3));
-    }
-    CHECK(previewed[i].mass == solved[i].mass);
-  }
-  CHECK(std::abs(solved.back().free.hz(0) / solved.front().free.hz(0) - 1.0) > 0.02);
-  CHECK_THAT(format_sweep(options, previewed), Contains("Preview: all but the first line"));
-  CHECK_THAT(format_sweep_json(options, previewed), Contains("\"preview\": true"));
-}
-
 // A pair in another basis is the same pair: rotated back it continues the modes without a change.
 TEST_CASE("the basis of a cluster is rotated to the modes that continue in it") {
   const Design design = read_design(make_sweep("sections.first.height", {}).design);
