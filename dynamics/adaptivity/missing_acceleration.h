@@ -18,7 +18,7 @@ struct MissingAcceleration {
 
 /// Adds up the accelerations of all modes that a run with a fixed set leaves out, at each point asked for
 /// (adaptivity, eq. 7).
-/// Checked by tests/verification/section_test.py
+/// Checked by tests/verification/left_out_test.py
 class MissingAccelerationRecord {
  public:
   explicit MissingAccelerationRecord(std::size_t num_points) : points_(num_points) {}

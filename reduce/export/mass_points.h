@@ -21,7 +21,7 @@ struct MassPoints {
 /// that motion in the plane needs (reduce/export, eqs. 1–5). The positions are not those of material points.
 /// @throws std::domain_error if no masses have these integrals, as of a body from matrices of few elements,
 ///         whose B is not exact
-/// Checked by tests/reduce/export/export_test.py
+/// Checked by tests/reduce/export/program_export_test.py
 MassPoints find_mass_points(const InertiaInvariants& inertia);
 
 }  // namespace sprung::reduce

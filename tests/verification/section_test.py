@@ -276,66 +276,6 @@ class Warnings(VerificationCase):
                 self.assertEqual(bool(missed), expected, (superelement, modes, found))
 
 
-class LeftOut(VerificationCase):
-    """Modes left out are judged by what they would do together."""
-
-    def calc_rms(self, vectors):
-        return np.sqrt(np.mean(np.sum(vectors**2, axis=1)))
-
-    def test_their_sum_is_the_acceleration_that_is_missing(self):
-        # Modes of a beam that is clamped where it is held do not act on each other, so that their sum is all that is
-        # missing. The force has 40 Hz, the third mode 49 Hz. Trapezoids over steps of 0.3 ms: 2 %.
-        vehicle = CANTILEVER.format(wall="origin", held="left", loaded="right").replace(
-            "force = [0.0, -10.0]", "force = [0.0, { harmonic = { amplitude = 10.0, frequency = 40.0 } }]"
-        ).replace('name = "cantilever"', 'name = "cantilever"\nmonitor = ["beam.right"]')
-        run = "duration = 0.5\noutput_step = 2e-4\n[integrator]\nlargest_step = 3e-4\n[modes]\nbeam = {modes}\n"
-        for modes in (1, 3):
-            full = self.run_text(vehicle, run.format(modes=20))["points/beam.right/acceleration"]
-            results = self.run_text(vehicle, run.format(modes=modes))
-            missing = full - results["points/beam.right/acceleration"]
-            found = results.summary["modes"]["left_out_together"]
-            self.assertEqual((found["point"], found["axis"]), ("beam.right", "y"))
-            expected = self.calc_rms(missing) / self.calc_rms(full - missing)
-            self.assert_close(found["of_rms_acceleration"], expected, relative=0.02)
-
-    def test_a_semitrailer_whose_seat_is_right_to_four_digits_does_not_warn(self):
-        # 17 of the 20 modes of the tractor's frame, all 20 of the trailer's. One of those left out would reach more
-        # than a twentieth of a largest acceleration, for an instant.
-        for name in ("tractor_frame", "trailer_frame"):
-            design = (ROOT / f"meshes/templates/{name}.toml").read_text(encoding="utf-8")
-            begin, end = design.index("[reduction]"), design.index("[modes]")
-            design = design[:begin] + design[end:].replace("[modes]", "[modes]\ncount = 20")
-            (self.folder / f"{name}.toml").write_text(design, encoding="utf-8")
-            build = [os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", "."]
-            run_program(build, cwd=self.folder, check=True)
-        road = ["--iso-class", "C", "--length", "480", "--spacing", "0.05", "--ease", "5", "--seed", "7"]
-        run_program([ROOT / "tools/make_road.py", "-o", self.folder / "road.txt", *road], check=True)
-        run = f"""
-            vehicle = "{ROOT}/dynamics/models/templates/semitrailer.toml"
-            speed = 16.7
-            duration = 30.0
-            output_step = 0.005
-            [modes]
-            tractor_frame = 17
-            trailer_frame = 20
-            [road]
-            shape = "table"
-            file = "road.txt"
-            start = 3.0
-        """
-        (self.folder / "run.toml").write_text(run, encoding="utf-8")
-        seat = []
-        for modes in (20, 17):
-            results = self.run_to_results(
-                self.folder / "run.toml", "--set", f"modes.tractor_frame={modes}", superelements=self.folder
-            )
-            seat.append(results.summary["points"]["driver.seat"]["acceleration"]["rms"])
-        self.assert_close(seat[1], seat[0], relative=5e-4)
-        self.assertEqual(results.summary["warnings"], [])
-        self.assertGreater(results.summary["modes"]["left_out_of_acceleration"], 0.05)
-        self.assertLess(results.summary["modes"]["left_out_together"]["of_rms_acceleration"], 0.01)
-
-
 class LinearBending(VerificationCase):
     """Deflections that are too large, and axial forces that change them, do not pass without a remark."""
 
