@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kPointsOnWave = 6.0;  // the spline through them is 1.6 % of the amplitude off
 constexpr double kMostPoints = 1e7;
-constexpr double kWhole = 1e-9;  // a number of waves this near to a whole one counts as that
+constexpr double kLargestRms = 1e3;  // m
+constexpr double kWhole = 1e-9;      // a number of waves this near to a whole one counts as that
 
 // Begins a Mersenne Twister as Python's `random.Random(seed)` does, by an array of 32-bit words, of which a
 // seed below 2⁶⁴ has one or two: init_by_array of [Matsumoto & Nishimura 1998].
@@ -113,11 +114,13 @@ std::vector<double> make_random_heights(const RandomRoad& road) {
     sum += height * height;
   }
   const double found = std::sqrt(sum / static_cast<double>(heights.size()));
-  if (!(found > 0.0) || std::isinf(found))
-    throw std::invalid_argument(fmt::format("the heights have an r.m.s. value of {} m", found));
-  if (road.rms > 0.0) {
-    for (double& height : heights) height *= road.rms / found;
+  const double wanted = road.rms > 0.0 ? road.rms : found;
+  if (!(found > 0.0) || std::isinf(found) || !(wanted <= kLargestRms)) {
+    throw std::invalid_argument(
+        fmt::format("the heights have an r.m.s. value of {:.3g} m, expected up to {:g} m",
+                    found > 0.0 && std::isfinite(found) ? wanted : found, kLargestRms));
   }
+  for (double& height : heights) height *= wanted / found;
   return heights;
 }
 

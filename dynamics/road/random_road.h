@@ -20,7 +20,7 @@ struct RandomRoad {
 /// Points of a random road at equal distances from 0 to its length, at least six to the shortest wave.
 /// @return the heights [m]; the first is 0                                                    (road, eq. 2)
 /// @throws std::invalid_argument if no wave of a whole number of periods lies in the band, for more than 1e7
-///         points, and for heights that vanish or leave the range of numbers
+///         points, and for heights that vanish or have an r.m.s. value above 1 km
 /// Checked by tests/dynamics/road/random_road_test.cpp
 std::vector<double> make_random_heights(const RandomRoad& road);
 

@@ -72,4 +72,6 @@ TEST_CASE("A random road without waves, with too many points or without height i
   road = make_road();
   road.spectrum = dynamics::RoadSpectrum::power_law(1e308, 300.0);
   CHECK_THROWS_WITH(dynamics::make_random_heights(road), Contains("r.m.s. value of"));
+  CHECK_THROWS_WITH(dynamics::make_random_heights(make_road(1e300)),
+                    Contains("of 1e+300 m, expected up to 1000 m"));
 }
