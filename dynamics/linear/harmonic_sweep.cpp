@@ -99,7 +99,8 @@ DrivenSystem make_held_system(const LinearVehicle& vehicle, const LinearOutputs&
   held.mass = free.transpose() * full.mass * free;
   held.damping = free.transpose() * full.damping * free;
   held.stiffness = free.transpose() * full.stiffness * free;
-  held.stiffness_rounding = free.cwiseAbs().transpose() * full.stiffness_rounding * free.cwiseAbs();
+  const Eigen::MatrixXd size = free.cwiseAbs();
+  held.stiffness_rounding = size.transpose() * full.stiffness_rounding * size;
   held.input = free.transpose();
   held.by_position *= free;
   held.by_velocity *= free;
@@ -148,10 +149,11 @@ void HarmonicSweep::uncouple() {
   force.bottomRows(g) = V.transpose() * system_.input;
   input_ = inverse.solve(force);
   state_outputs_.resize(p, num_bound + g + num_free);
-  state_outputs_.leftCols(num_bound + g) = system_.by_velocity * V * T.bottomRows(g) +
-                                           system_.by_position * V.rightCols(num_bound) *
-                                               form.scale.cwiseInverse().asDiagonal() * T.topRows(num_bound);
-  state_outputs_.rightCols(num_free) = system_.by_position * V.leftCols(num_free);
+  const Eigen::MatrixXd by_position = system_.by_position * V, by_rate = system_.by_velocity * V;
+  Eigen::MatrixXd by_state(p, num_bound + g);
+  by_state << by_position.rightCols(num_bound) * form.scale.cwiseInverse().asDiagonal(), by_rate;
+  state_outputs_.leftCols(num_bound + g) = by_state * T;
+  state_outputs_.rightCols(num_free) = by_position.leftCols(num_free);
   free_rates_ = T.middleRows(num_bound, num_free);
 }
 

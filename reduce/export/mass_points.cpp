@@ -1,8 +1,10 @@
 #include "reduce/export/mass_points.h"
 
-#include <Eigen/Eigenvalues>
+#include <cmath>
 #include <complex>
 #include <stdexcept>
+
+#include "tools/support/dense/eigenproblems.h"
 
 namespace sprung::reduce {
 
@@ -13,21 +15,42 @@ using Complex = std::complex<double>;
 constexpr double kRounding = 1e-13;  // eigenvalues below this share of the largest are rounding
 constexpr double kNegative = 1e-9;   // and below minus this, of no mass
 
+support::SymmetricEigenpairs solve(const Eigen::MatrixXd& A) {
+  return support::solve_symmetric(A).value();
+}
+support::HermitianEigenpairs solve(const Eigen::MatrixXcd& A) {
+  return support::solve_hermitian(A).value();
+}
+
+// The eigenvalues above rounding, and their vectors, of a semidefinite matrix whose rows and columns are
+// divided by `size`, so that its diagonal is 1.
+template <typename Matrix>
+struct ScaledPairs {
+  Eigen::VectorXd size, values;
+  Matrix vectors;
+};
+
+template <typename Matrix>
+ScaledPairs<Matrix> solve_scaled(const Matrix& A) {
+  const Eigen::VectorXd size =
+      A.diagonal().real().unaryExpr([](double x) { return x > 0.0 ? std::sqrt(x) : 1.0; });
+  const Matrix scaled = A.array() / (size * size.transpose()).array();
+  const auto [values, vectors] = solve(scaled);  // ascending
+  const double largest = values(values.size() - 1);
+  if (values(0) < -kNegative * largest)
+    throw std::domain_error("find_mass_points: no masses have these integrals");
+  const Eigen::Index rank = (values.array() > kRounding * largest).count();
+  return {.size = size, .values = values.tail(rank), .vectors = vectors.rightCols(rank)};
+}
+
 // W with A = W Wᴴ, all of whose entries in the first row are equal (reduce/export, eq. 3). A is Hermitian.
 template <typename Matrix>
 Matrix factor_with_equal_row(const Matrix& A) {
   using Scalar = typename Matrix::Scalar;
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  const Eigen::VectorXd scale =
-      A.diagonal().real().unaryExpr([](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 1.0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(scale.asDiagonal() * A * scale.asDiagonal());
-  const Eigen::VectorXd& lambda = solver.eigenvalues();  // ascending
-  const double largest = lambda(lambda.size() - 1);
-  if (lambda(0) < -kNegative * largest)
-    throw std::domain_error("find_mass_points: no masses have these integrals");
-  const Eigen::Index rank = (lambda.array() > kRounding * largest).count();
-  Matrix W = scale.cwiseInverse().asDiagonal() * solver.eigenvectors().rightCols(rank) *
-             lambda.tail(rank).cwiseSqrt().asDiagonal();
+  const ScaledPairs<Matrix> pairs = solve_scaled(A);
+  const Eigen::Index rank = pairs.values.size();
+  Matrix W = pairs.vectors.array() * (pairs.size * pairs.values.cwiseSqrt().transpose()).array();
   // A reflection of the row onto equal entries. A common phase makes the product of both real.
   const Vector equal = Vector::Constant(rank, W.row(0).norm() / std::sqrt(static_cast<double>(rank)));
   const Scalar product = (W.row(0) * equal).value();
@@ -48,7 +71,10 @@ double choose_rotary_inertia(const InertiaInvariants& inertia, double least, con
   others.bottomRightCorner(A.rows() - 2, A.cols() - 2) = A.bottomRightCorner(A.rows() - 2, A.cols() - 2);
   Eigen::VectorXcd moments(A.rows() - 1);
   moments << A(0, 1), A.col(1).tail(A.rows() - 2);
-  const double needed = others.completeOrthogonalDecomposition().solve(moments).dot(moments).real();
+  const ScaledPairs<Eigen::MatrixXcd> pairs = solve_scaled(others);
+  moments.array() /= pairs.size.array();
+  const double needed =
+      ((pairs.vectors.adjoint() * moments).cwiseAbs2().array() / pairs.values.array()).sum();
   return least + std::max(0.5 * (inertia.second_moment - least - needed), kNegative * inertia.second_moment);
 }
 
@@ -76,12 +102,11 @@ Eigen::MatrixXd make_rotary_products(const InertiaInvariants& inertia) {
   const Eigen::MatrixXd R = inertia.M_ff - inertia.phi_x_phi_x - inertia.phi_y_phi_y;
   const Eigen::RowVectorXd momentum = inertia.c - (inertia.x_phi_y - inertia.y_phi_x);
   if (R.norm() <= 1e-12 * inertia.M_ff.norm()) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(R);
-  const Eigen::VectorXd share = solver.eigenvectors().transpose() * momentum.transpose();
+  const auto [values, vectors] = solve(R);
+  const Eigen::VectorXd share = vectors.transpose() * momentum.transpose();
   double least = 0.0;
   for (Eigen::Index k = 0; k < n; ++k) {
-    if (solver.eigenvalues()(k) > kRounding * solver.eigenvalues()(n - 1))
-      least += share(k) * share(k) / solver.eigenvalues()(k);
+    if (values(k) > kRounding * values(n - 1)) least += share(k) * share(k) / values(k);
   }
   Eigen::MatrixXd products(n + 1, n + 1);
   products << least, momentum, momentum.transpose(), R;

@@ -15,6 +15,14 @@ std::optional<SymmetricEigenpairs> solve_symmetric(const Eigen::MatrixXd& A) {
   return pairs;
 }
 
+std::optional<HermitianEigenpairs> solve_hermitian(const Eigen::MatrixXcd& A) {
+  HermitianEigenpairs pairs{.values = Eigen::VectorXd(A.rows()), .vectors = A};
+  if (LAPACKE_zheevd(LAPACK_COL_MAJOR, 'V', 'L', lapack::rows(A), pairs.vectors.data(), lapack::stride(A),
+                     pairs.values.data()) != 0)
+    return std::nullopt;
+  return pairs;
+}
+
 Eigen::VectorXd calc_symmetric_eigenvalues(const Eigen::MatrixXd& A) {
   Eigen::MatrixXd overwritten = A;
   Eigen::VectorXd values(A.rows());

@@ -14,6 +14,13 @@ struct SymmetricEigenpairs {
 /// A x = λ x with xᵀx = 1. @param A  n×n symmetric; its lower triangle is read
 /// @return none if the iteration does not converge
 std::optional<SymmetricEigenpairs> solve_symmetric(const Eigen::MatrixXd& A);
+/// The same of a complex matrix, xᴴx = 1.
+struct HermitianEigenpairs {
+  Eigen::VectorXd values;
+  Eigen::MatrixXcd vectors;
+};
+/// @param A  n×n Hermitian; its lower triangle is read   @return none if the iteration does not converge
+std::optional<HermitianEigenpairs> solve_hermitian(const Eigen::MatrixXcd& A);
 /// The eigenvalues alone, ascending. @param A  n×n symmetric; its lower triangle is read
 Eigen::VectorXd calc_symmetric_eigenvalues(const Eigen::MatrixXd& A);
 
