@@ -15,6 +15,7 @@ from sprung_tools.limits.ride_limits import Obstacles, Terrain, calc_peak, calc_
 from sprung_tools.limits.roads import calc_obstacle
 from sprung_tools.limits.root_finding import CallFailed, find_root
 from sprung_tools.limits.trials import Variant, Vehicle
+from sprung_tools.programs.in_process import load_module
 from sprung_tools.signals.road_profile import Recipe
 
 BOUNDS = (0.0, 10.0)
@@ -188,6 +189,22 @@ class Command(QuarterCarCase):
         # A softer damper passes on less of what is fast.
         self.assertLess(first["terrain"][0]["roughness"], second["terrain"][0]["roughness"])
         self.assertEqual(first["obstacles"][0]["height"], 0.1)
+
+    def test_runs_start_no_programs_where_the_module_is_there(self):
+        module = load_module(Path(os.environ["SPRUNG_DYNAMICS"]))
+        if module.call is None:
+            self.skipTest(module.what)
+        program = self.folder / "bin/sprung-dynamics"  # fails at each start
+        program.parent.mkdir()
+        program.write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+        program.chmod(0o755)
+        (program.parent / Path(module.what).name).symlink_to(module.what)
+        words = ("ride_limits", "run.toml", "--point", "sprung.origin", "--speeds", "5", "--heights", "--length", "60",
+                 "--ease", "5", "--json")  # fmt: skip
+        done = self.run_tool(*words, SPRUNG_DYNAMICS=str(program))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (limit,) = json.loads(done.stdout)["vehicles"][0]["terrain"]
+        self.assertEqual((limit["problem"], limit["roughness"] is None), ("", False))
 
     def test_what_cannot_be_is_refused(self):
         for arguments, message in (

@@ -13,8 +13,11 @@ vehicle, its modes and the step of the outputs; each --variant is a vehicle of i
 import argparse
 import json
 import math
+import tempfile
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,9 +28,9 @@ from sprung_tools.limits.trials import Variant, Vehicle
 from sprung_tools.plots.limits_picture import Curve, make_limits_figure
 from sprung_tools.plots.picture_file import write_picture
 from sprung_tools.programs.finding import DYNAMICS, find_program
+from sprung_tools.programs.process_pool import count_processors, open_pool
 from sprung_tools.signals.absorbed_power import LIMIT
 from sprung_tools.signals.road_profile import Recipe
-from sprung_tools.study.execution import count_processors
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.progress_bar import Progress
 from sprung_tools.terminal.text_table import format_table
@@ -55,25 +58,20 @@ class Search(NamedTuple):
     obstacles: Obstacles
 
 
-def find_limits(vehicles: Sequence[Vehicle], search: Search, jobs: int) -> tuple[list[Found], list[Found]]:
+def find_limits(
+    vehicles: Sequence[Vehicle], search: Search, pool: ProcessPoolExecutor
+) -> tuple[list[Found], list[Found]]:
     """All limits of all vehicles, over terrain and over obstacles."""
     tasks: list[Task] = [
         *((find_roughness, one, search.terrain, speed) for one in vehicles for speed in search.speeds),
         *((find_speed, one, search.obstacles, height) for one in vehicles for height in search.heights),
     ]
-    with ThreadPoolExecutor(jobs) as pool, Progress("limits", len(tasks)) as progress:
-
-        def find(task: Task) -> Found:
-            function, vehicle, road, given = task
-            found = Found(vehicle, given, function(vehicle, road, given))
+    roots = [pool.submit(*task) for task in tasks]
+    with Progress("limits", len(tasks)) as progress:
+        for root in as_completed(roots):
+            root.result()  # throws an error of the input at once
             progress.step()
-            return found
-
-        try:
-            all_found = list(pool.map(find, tasks))
-        except BaseException:  # an error of the input, or an interruption: what has not begun is not made
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    all_found = [Found(vehicle, given, root.result()) for (_, vehicle, _, given), root in zip(tasks, roots)]
     over_terrain = len(vehicles) * len(search.speeds)
     return all_found[:over_terrain], all_found[over_terrain:]
 
@@ -241,8 +239,14 @@ def main() -> int:
     if arguments.jobs < 1:
         raise InputError(f"--jobs: error: must be at least 1, got {arguments.jobs}")
     program = find_program(DYNAMICS)
-    vehicles = [Vehicle(program, arguments.run, arguments.superelements, arguments.point, one) for one in variants]
-    terrain, obstacles = find_limits(vehicles, search, arguments.jobs)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch, open_pool(arguments.jobs) as pool:
+        make_vehicle = partial(Vehicle, program, arguments.run, arguments.superelements, arguments.point,
+                               scratch=Path(scratch))  # fmt: skip
+        try:
+            vehicles = list(pool.map(make_vehicle, variants))
+            terrain, obstacles = find_limits(vehicles, search, pool)
+        except BrokenProcessPool as error:
+            raise InputError("ride_limits: error: one of its processes was ended from outside") from error
     if arguments.output:
         title = vehicles[0].title
         curves = (make_curves(vehicles, terrain, True), make_curves(vehicles, obstacles, False))

@@ -16,8 +16,9 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import CHECK_FAILED
 from sprung_tools.programs.finding import find_programs
+from sprung_tools.programs.process_pool import count_processors
 from sprung_tools.study.effects import Effect, calc_effects
-from sprung_tools.study.execution import Finished, Options, count_processors, run_study
+from sprung_tools.study.execution import Finished, Options, run_study
 from sprung_tools.study.page import make_study_page
 from sprung_tools.study.sampling import is_balanced, make_points
 from sprung_tools.study.study_file import Study, read_study

@@ -13,7 +13,8 @@ from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.limits.root_finding import CallFailed
 from sprung_tools.model.resolved_model import read_elements
-from sprung_tools.programs.calls import BAD_INPUT, GOOD, call, format_overrides, make_command
+from sprung_tools.programs.calls import BAD_INPUT, GOOD, format_overrides, make_command
+from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.ride_measures import sampling_step
 
 AHEAD = 2.0  # m of level road before what the vehicle meets
@@ -46,19 +47,22 @@ class Felt(NamedTuple):
 
 
 class Vehicle:
-    """A run file with the point of the driver, of which single runs are made."""
+    """A run file with the point of the driver, of which single runs are made. scratch: a folder for their files; None:
+    the system's."""
 
     def __init__(
-        self, program: Path, run: Path, superelements: Path | None, point: str, variant: Variant
+        self, program: Path, run: Path, superelements: Path | None, point: str, variant: Variant,
+        scratch: Path | None = None,
     ) -> None:  # fmt: skip
         self.program, self.run, self.superelements, self.variant = program, run, superelements, variant
+        self.scratch = scratch
         self.quantity = f"points/{point}/acceleration.y"
         self.title, self.wheels = self.probe()
 
     def probe(self) -> tuple[str, Wheels]:
         """Asks a very short run for the vehicle's name and its wheels. InputError where the vehicle, its point or its
         wheels cannot be used."""
-        with tempfile.TemporaryDirectory() as name:
+        with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             try:
                 self.start({"duration": PROBE, "road": {"shape": "flat"}}, Path(name) / "probe.h5")
             except CallFailed as failure:
@@ -73,7 +77,7 @@ class Vehicle:
     def drive(self, speed: float, road: str, duration: float) -> Felt:
         """Drives over a road, the text of a road table. CallFailed for a run that fails, or whose energy balance does
         not close."""
-        with tempfile.TemporaryDirectory() as name:
+        with tempfile.TemporaryDirectory(dir=self.scratch) as name:
             folder = Path(name)
             write_whole(folder / "road.txt", road)
             table = {"shape": "table", "start": AHEAD, "file": str(folder / "road.txt")}
@@ -90,7 +94,7 @@ class Vehicle:
         # What makes this run comes last: it counts before what a variant changes.
         settings = {**settings, "statistics.from": 0.0, "statistics.to": settings["duration"]}
         overrides = [*format_overrides(STORED), *self.variant.overrides, *format_overrides(settings)]
-        outcome = call(make_command(self.program, "run", self.run, self.superelements, overrides, output))
+        outcome = call_kept(make_command(self.program, "run", self.run, self.superelements, overrides, output))
         if outcome.exit_code == BAD_INPUT:
             raise InputError(outcome.error)
         if outcome.exit_code != GOOD:

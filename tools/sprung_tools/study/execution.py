@@ -1,20 +1,17 @@
 """Making the runs of a study on all processors, and keeping each row as its run ends."""
 
-import multiprocessing
-import os
 import shutil
-import signal
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.programs.calls import BAD_INPUT, INTERRUPTED, call, end_with_parent, make_command
+from sprung_tools.programs.calls import BAD_INPUT, INTERRUPTED, call, make_command
 from sprung_tools.programs.finding import Programs
+from sprung_tools.programs.process_pool import open_pool
 from sprung_tools.study.kept_rows import KeptRows, Row
 from sprung_tools.study.one_run import Setting, Task, make_and_keep
 from sprung_tools.study.plan import Planner, reduce_variants
@@ -57,7 +54,7 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
     points = make_points(study)
     if options.part is not None:
         points = options.part.choose(points)
-    with KeptRows(options.folder) as kept, open_pool(options) as pool:
+    with KeptRows(options.folder) as kept, make_scratch(options.folder), open_pool(options.jobs) as pool:
         tasks = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
         setting = Setting(kept.path, programs.dynamics, study.command, study.run, tuple(study.measures),
@@ -148,39 +145,12 @@ def make_runs(
 
 
 @contextmanager
-def open_pool(options: Options) -> Iterator[ProcessPoolExecutor]:
-    """A pool of processes that end, with the programs they run, when this process ends or the block is left by an
-    error; and an empty folder for what they write."""
-    scratch = options.folder / SCRATCH
+def make_scratch(folder: Path) -> Iterator[None]:
+    """An empty folder in the study's, for what the runs under way write."""
+    scratch = folder / SCRATCH
     shutil.rmtree(scratch, ignore_errors=True)  # of a study that was killed
     scratch.mkdir()
-    pool = ProcessPoolExecutor(options.jobs, multiprocessing.get_context("fork"), prepare_process)
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # else it is ignored, as under nohup
-        signal.signal(signal.SIGINT, interrupt_once)
     try:
-        yield pool
-    except BaseException:
-        for child in multiprocessing.active_children():
-            child.kill()
-        raise
+        yield
     finally:
-        pool.shutdown(cancel_futures=True)
         shutil.rmtree(scratch, ignore_errors=True)
-
-
-def interrupt_once(_signal: int, _frame: FrameType | None) -> NoReturn:
-    """Interrupts this process, which ignores further interruptions: one that came while it ends its processes would
-    leave them at work."""
-    signal.signal(signal.SIGINT, lambda *_: None)
-    raise KeyboardInterrupt
-
-
-def prepare_process() -> None:
-    """In each process of the pool: an interruption is the business of the parent, which ends this process."""
-    end_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def count_processors() -> int:
-    """The processors that this process may use."""
-    return len(os.sched_getaffinity(0))
