@@ -6,7 +6,6 @@ UnbalancedForce::UnbalancedForce(const Model& full)
     : full_(&full),
       acting_(full.bodies.size()),
       loads_(full.markers.size()),
-      spin_(Eigen::VectorXd::Zero(full.num_coordinates)),
       force_(Eigen::VectorXd::Zero(full.num_coordinates)) {
   for (const Body& body : full.bodies) {
     is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
@@ -33,13 +32,11 @@ void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lamb
     auto r = force_.segment(first + 3, n);
     r.noalias() = body.P.transpose() * pull;
     r += rate * rate * body.d.transpose() - turning * body.c.transpose();
-    r.noalias() += rate * rate * (body.M_tt * eta);
-    // B is skew: −(ηᵀB)ᵀ = B η.
-    auto spin = spin_.head(n);
-    spin = turning * eta + 2.0 * rate * eta_dot;
-    r.noalias() += body.B * spin;
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (eta_ddot[k] != 0.0) r -= eta_ddot[k] * body.M_ff.col(k);  // most are held, at rest
+      if (eta[k] == 0.0 && eta_dot[k] == 0.0 && eta_ddot[k] == 0.0) continue;  // most are held there
+      // B is skew: −(ηᵀB)ᵀ = B η.
+      const double spin = turning * eta[k] + 2.0 * rate * eta_dot[k];
+      r += rate * rate * eta[k] * body.M_tt.col(k) + spin * body.B.col(k) - eta_ddot[k] * body.M_ff.col(k);
     }
     if (is_uncoupled_[b]) {
       r -= body.damping.diagonal().cwiseProduct(eta_dot) + body.stiffness.diagonal().cwiseProduct(eta);

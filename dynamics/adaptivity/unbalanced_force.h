@@ -35,7 +35,6 @@ class UnbalancedForce {
   std::vector<std::vector<int>> acting_;  // markers by body, of those with modes
   std::vector<Wrench> loads_;             // of each marker
   std::vector<bool> is_uncoupled_;        // by body: neither stiffness nor damping couples its modes
-  Eigen::VectorXd spin_;                  // θ̈ η + 2 θ̇ η̇
   Eigen::VectorXd force_;
 };
 

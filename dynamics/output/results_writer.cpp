@@ -79,7 +79,7 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
   for (const History& history : histories_.all()) {
     const long every = storage_->every(history.name);
     if (every == 0) continue;
-    stored_.push_back({.history = &history, .every = every, .row = std::vector<double>(history.row_size())});
+    stored_.push_back({.history = &history, .every = every});
     row_size += history.row_size() * sizeof(double);
   }
   const std::size_t most_rows = kMostBuffered / row_size;
@@ -102,9 +102,13 @@ std::size_t ResultsWriter::Stored::num_rows(std::size_t num_outputs) const {
 
 void ResultsWriter::add(const Snapshot& snapshot) {
   for (Stored& stored : stored_) {
-    if (extent_.rows % static_cast<std::size_t>(stored.every) != 0) continue;
-    stored.history->fill(snapshot, stored.row);
-    file_.append(*stored.dataset, stored.row);
+    if (stored.until > 0) {
+      --stored.until;
+      continue;
+    }
+    stored.until = static_cast<std::size_t>(stored.every) - 1;
+    stored.history->fill(snapshot, stored.dataset->next_row());
+    file_.finish_row(*stored.dataset);
   }
   last_.time = snapshot.time;
   last_.q = snapshot.q;
@@ -135,8 +139,9 @@ void ResultsWriter::add(const Event& event) {
 void ResultsWriter::take_over(const PartialResults& partial, const ResultsExtent& extent,
                               const Checkpoint& checkpoint) {
   const support::Hdf5Reader& earlier = partial.file();
-  for (const Stored& stored : stored_) {
+  for (Stored& stored : stored_) {
     const std::size_t rows = stored.num_rows(extent.rows);
+    stored.until = rows * static_cast<std::size_t>(stored.every) - extent.rows;
     for (std::size_t row = 0; row < rows; row += kRowsAtOnce) {
       file_.append(*stored.dataset,
                    earlier.real_rows(stored.history->name, row, std::min(kRowsAtOnce, rows - row)));

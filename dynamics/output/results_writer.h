@@ -82,8 +82,8 @@ class ResultsWriter {
   // A history that is stored, and its dataset.
   struct Stored {
     const History* history;
-    long every;  // outputs from one row to the next
-    std::vector<double> row;
+    long every;             // outputs from one row to the next
+    std::size_t until = 0;  // outputs before its next row
     support::Hdf5GrowingDataset* dataset = nullptr;
     std::size_t num_rows(std::size_t num_outputs) const;
   };

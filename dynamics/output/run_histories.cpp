@@ -231,7 +231,10 @@ void RunHistories::add_sections(const VehicleSections& sections) {
       for (Eigen::Index i = 0; i < 3; ++i) {
         const auto quantity = static_cast<std::size_t>(i);
         add(group + kNames[quantity] + ending, static_cast<std::size_t>(values.cols()), kUnits[quantity],
-            [&values, i](const Snapshot&, std::span<double> row) { put(row, values.row(i).transpose()); });
+            [&values, i](const Snapshot&, std::span<double> row) {
+              for (Eigen::Index k = 0; k < values.cols(); ++k)
+                row[static_cast<std::size_t>(k)] = values(i, k);
+            });
       }
     };
     if (body.has_modes()) add_all("", body.from_modes());

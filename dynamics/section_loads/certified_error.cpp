@@ -105,24 +105,32 @@ void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::Vect
                       .cos();
   const double scale = 2.0 / (static_cast<double>(length) * window.square().sum());
   Eigen::FFT<double> fft;
-  const auto transform = [&](Eigen::Index column) {
-    const Eigen::ArrayXd values = samples_.col(column).head(length).array();
-    const Eigen::VectorXd windowed = ((values - values.mean()) * window).matrix();
-    Eigen::VectorXcd lines;
+  Eigen::VectorXd windowed(length);
+  Eigen::VectorXcd lines;
+  // The squares of the lines of a column.
+  const auto transform = [&](Eigen::Index column) -> Eigen::ArrayXd {
+    const auto values = samples_.col(column).head(length).array();
+    windowed = (values - values.mean()) * window;
     fft.fwd(lines, windowed);
-    return Eigen::ArrayXd(lines.head(length / 2 + 1).cwiseAbs().array());
+    return lines.head(length / 2 + 1).cwiseAbs2();
+  };
+  // At most interface freedoms nothing acts.
+  const auto is_zero = [&](Eigen::Index column) {
+    return (samples_.col(column).head(length).array() == 0.0).all();
   };
   const Eigen::ArrayXd frequency =
       Eigen::ArrayXd::LinSpaced(length / 2 + 1, 0.0, static_cast<double>(length / 2)) /
       (static_cast<double>(length) * step_);
   const Eigen::ArrayXd is_inside = (frequency <= highest_hz_).cast<double>();
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(length / 2 + 1);
-  for (Eigen::Index j = 0; j < weights_.size(); ++j) sum += weights_[j] * transform(j);
+  for (Eigen::Index j = 0; j < weights_.size(); ++j) {
+    if (!is_zero(j)) sum += weights_[j] * transform(j).sqrt();
+  }
   sum *= (2.0 * pi * frequency).square();
   missing += scale * (is_inside * sum.square()).sum();
   for (Eigen::Index m = 0; m < total.size(); ++m) {
     for (Eigen::Index direction = 0; direction < 2; ++direction) {
-      const Eigen::ArrayXd square = transform(weights_.size() + 2 * m + direction).square();
+      const Eigen::ArrayXd square = transform(weights_.size() + 2 * m + direction);
       total[m] += scale * square.sum();
       above[m] += scale * ((1.0 - is_inside) * square).sum();
     }

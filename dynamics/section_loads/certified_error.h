@@ -72,7 +72,8 @@ class CertifiedError {
   Eigen::VectorXd weights_;                // √(error · static flexibility) of each interface freedom
   std::vector<std::pair<int, int>> rows_;  // place in markers_ and direction of each; rotations: −1
   std::vector<int> markers_;
-  Eigen::MatrixXd samples_;  // of the present block: interface loads, then x and y of each marker
+  // Of the present block: interface loads, then x and y of each marker.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> samples_;
   Eigen::Index num_samples_ = 0;
   int uncovered_ = -1;  // marker with a load that is not in the interface
   long num_blocks_ = 0;

@@ -67,16 +67,15 @@ Hdf5GrowingDataset::Hdf5GrowingDataset(std::int64_t parent, const std::string& p
 }
 
 void Hdf5GrowingDataset::append(std::span<const double> values) {
-  if (values.size() == row_size_) {  // by far the most frequent case
-    append_row(values.data());
-    return;
-  }
   if (values.size() % row_size_ != 0) {
     throw std::invalid_argument(
         fmt::format("Hdf5Writer::append: {} values are not whole rows of '{}' ({} columns)", values.size(),
                     path_, row_size_));
   }
-  for (; !values.empty(); values = values.subspan(row_size_)) append_row(values.data());
+  for (; !values.empty(); values = values.subspan(row_size_)) {
+    std::copy_n(values.begin(), row_size_, next_row().begin());
+    if (advance()) write_full();
+  }
 }
 
 void Hdf5GrowingDataset::append_text(std::string_view text) {
@@ -86,23 +85,13 @@ void Hdf5GrowingDataset::append_text(std::string_view text) {
     return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U;
   };
   while (size > 0 && continues_a_character(size)) --size;
-  double* row = chunk_.data() + filled_;
-  std::fill(row, row + row_size_, 0.0);
-  std::memcpy(row, text.data(), size);
-  finish_row();
+  const std::span<double> row = next_row();
+  std::fill(row.begin(), row.end(), 0.0);
+  std::memcpy(row.data(), text.data(), size);
+  if (advance()) write_full();
 }
 
-void Hdf5GrowingDataset::append_row(const double* values) {
-  const std::size_t n = row_size_;
-  double* row = chunk_.data() + filled_;
-  for (std::size_t i = 0; i < n; ++i)
-    row[i] = values[i];  // mostly few, for which a loop is faster than a call
-  finish_row();
-}
-
-void Hdf5GrowingDataset::finish_row() {
-  filled_ += row_size_;
-  if (filled_ < chunk_.size() - 1) return;
+void Hdf5GrowingDataset::write_full() {
   if (compressor_) {
     write_single(true);
   } else {

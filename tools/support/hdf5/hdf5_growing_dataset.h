@@ -35,14 +35,20 @@ class Hdf5GrowingDataset {
 
   /// @throws std::invalid_argument if the values are not whole rows
   void append(std::span<const double> values);
+  /// The place of the next row, for its values.
+  std::span<double> next_row() { return {chunk_.data() + filled_, row_size_}; }
+  /// Appends the row that has been put there. @return whether the chunk is full: `write_full` has to follow
+  bool advance() {
+    filled_ += row_size_;
+    return filled_ == chunk_.size() - 1;
+  }
+  void write_full();
   void append_text(std::string_view text);  ///< to a dataset of texts, UTF-8
   void write_pending();       ///< writes the rows of a chunk that is not full yet; more rows may follow
   void write_replacements();  ///< compressed chunks in place of what write_pending has written
   void write_last();          ///< compresses the rows of a chunk that is not full, after which none follow
 
  private:
-  void append_row(const double* values);
-  void finish_row();
   void write_chunk();
   void write_single(bool is_final);
   void put_chunk(std::size_t first_row, std::size_t rows, std::span<const std::uint8_t> bytes,

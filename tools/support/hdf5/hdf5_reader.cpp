@@ -98,9 +98,9 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& dataset,
 
 bool Hdf5Reader::has_attribute(const std::string& object, const std::string& name) const {
   return attempt([&] {
-    if (!hdf5::exists(file_.get(), object)) return false;
-    return hdf5::check(H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT),
-                       fmt::format("attribute '{}' of '{}' cannot be looked up", name, object)) > 0;
+    const htri_t is_there = H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT);
+    if (is_there < 0 && !hdf5::exists(file_.get(), object)) return false;
+    return hdf5::check(is_there, fmt::format("attribute '{}' of '{}' cannot be looked up", name, object)) > 0;
   });
 }
 

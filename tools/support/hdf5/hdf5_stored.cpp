@@ -107,9 +107,13 @@ std::string file_name(hid_t object) {
 }
 
 Hdf5Handle open_dataset(std::int64_t file, const std::string& path) {
-  if (!exists(file, path)) throw Failure(fmt::format("dataset '{}' is missing", path));
-  Hdf5Handle object = own(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose,
-                          fmt::format("dataset '{}' cannot be read", path));
+  // Only what cannot be opened is looked up: a look-up opens each group of the path.
+  hid_t opened = H5Oopen(file, path.c_str(), H5P_DEFAULT);
+  if (opened < 0) {
+    if (!exists(file, path)) throw Failure(fmt::format("dataset '{}' is missing", path));
+    opened = H5Oopen(file, path.c_str(), H5P_DEFAULT);  // again, for its reason
+  }
+  Hdf5Handle object = own(opened, H5Oclose, fmt::format("dataset '{}' cannot be read", path));
   if (H5Iget_type(object.get()) != H5I_DATASET) throw Failure(fmt::format("'{}' is not a dataset", path));
   if (file_name(object.get()) != file_name(file)) {
     throw Failure(fmt::format("dataset '{}' is in another file, which is not read", path));
@@ -225,10 +229,9 @@ StoredAttribute::StoredAttribute(std::int64_t file, const std::string& object, c
                                  std::uint64_t file_size)
     : label_(fmt::format("attribute '{}' of '{}'", name, object)) {
   const std::string what = label_ + " cannot be read";
-  if (!exists(file, object)) throw Failure(fmt::format("'{}' is missing", object));
-  if (check(H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT), what) == 0) {
-    throw Failure(label_ + " is missing");
-  }
+  const htri_t is_there = H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT);
+  if (is_there < 0 && !exists(file, object)) throw Failure(fmt::format("'{}' is missing", object));
+  if (check(is_there, what) == 0) throw Failure(label_ + " is missing");
   attribute_ =
       own(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
   type_ = own(H5Aget_type(attribute_.get()), H5Tclose, what);

@@ -262,6 +262,10 @@ void Hdf5Writer::append(Hdf5GrowingDataset& dataset, std::span<const double> val
   attempt([&] { dataset.append(values); });
 }
 
+void Hdf5Writer::write_full(Hdf5GrowingDataset& dataset) {
+  attempt([&] { dataset.write_full(); });
+}
+
 void Hdf5Writer::write_pending() {
   for (auto& [name, dataset] : growing_) dataset.write_pending();
 }

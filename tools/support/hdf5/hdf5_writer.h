@@ -83,6 +83,10 @@ class Hdf5Writer {
   Hdf5GrowingDataset& make_growing_texts(const std::string& dataset, std::size_t text_size);
   /// Appends whole rows, row-major. Rows are collected in chunks, so that an error may appear later.
   void append(Hdf5GrowingDataset& dataset, std::span<const double> values);
+  /// Appends the row that has been put into `dataset.next_row()`.
+  void finish_row(Hdf5GrowingDataset& dataset) {
+    if (dataset.advance()) write_full(dataset);
+  }
   void append_text(Hdf5GrowingDataset& dataset, std::string_view text);  ///< UTF-8 without NUL
   void flush();  ///< writes all appended rows to the file
 
@@ -110,6 +114,7 @@ class Hdf5Writer {
   void make_groups(const std::string& path);
   void prepare_dataset(const std::string& path);
   Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
+  void write_full(Hdf5GrowingDataset& dataset);
   void write_pending();
   void replace(const std::string& dataset, std::span<const std::uint8_t> bytes);
   void move_to(const std::filesystem::path& name);
