@@ -62,6 +62,7 @@ GeneralizedAlphaStep::GeneralizedAlphaStep(const Model& model, const SmoothPiece
 
 void GeneralizedAlphaStep::reset() {
   begin_ = End(*model_, piece_->num_switches());
+  smallest_pivot_ = 1.0;
 }
 
 void GeneralizedAlphaStep::advance() {
@@ -104,7 +105,7 @@ void GeneralizedAlphaStep::renew_matrix(const Index3Newton::Weights& weights) {
 }
 
 // The error allowed in a position, and in a velocity: not less than the rounding of positions causes, which
-// for velocities is large over a short step.
+// is large near a change point, and for velocities over a short step.
 double GeneralizedAlphaStep::allowed_position(int i) const {
   return std::max(tolerance_ * scales_.position(i), rounding(i));
 }
@@ -115,7 +116,7 @@ double GeneralizedAlphaStep::allowed_velocity(int i, double length) const {
 }
 
 double GeneralizedAlphaStep::rounding(int i) const {
-  return kRounding * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
+  return kRounding / smallest_pivot_ * (model_->coordinate_scale(i) + std::abs(begin_.motion.q[i]));
 }
 
 // Root mean square of the last changes of q and v, each divided by the error that is allowed.

@@ -42,6 +42,9 @@ class GeneralizedAlphaStep {
   void reset();    ///< as if newly made
   void advance();  ///< the end becomes the beginning
 
+  /// Smallest pivot of φ_q, of that at a regular position: rounding errors grow by its inverse.
+  void set_smallest_pivot(double pivot) { smallest_pivot_ = pivot; }
+
   /// Finds the motion at the end of a step of this length. @return false where the iteration does not
   /// converge
   bool solve(double length);
@@ -80,7 +83,7 @@ class GeneralizedAlphaStep {
   const Model* model_;
   const SmoothPiece* piece_;
   GeneralizedAlpha method_;
-  double tolerance_;
+  double tolerance_, smallest_pivot_ = 1.0;
   ErrorScales scales_;
   Index3Residual residual_;
   Index3Newton newton_;

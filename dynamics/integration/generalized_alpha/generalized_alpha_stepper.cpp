@@ -43,6 +43,7 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double rela
       equations_(model, SystemTerms::Markers::kActing),
       step_(model, piece_, method_, relative_tolerance),
       next_length_(kFirstLength),
+      passage_(model),
       exact_(model, piece_.num_switches()),
       departure_(exact_),
       probe_(model),
@@ -60,7 +61,8 @@ void GeneralizedAlphaStepper::start(const State& state) {
   piece_.set_branches(state.branches);
   equations_.terms().set_fading_forces(state.fading);
   step_.residual().terms().set_fading_forces(state.fading);
-  has_step_ = has_departure_ = has_passed_ = false;
+  has_step_ = has_departure_ = false;
+  passage_.start(equations_.terms(), step_.begin().motion);
 }
 
 // The equations at a motion that need not satisfy the constraints of the velocities.
@@ -156,30 +158,38 @@ double GeneralizedAlphaStepper::choose_length(double longest_step) const {
 }
 
 Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
-  has_departure_ = has_passed_ = false;
+  has_departure_ = false;
+  passage_.leave();
   if (end_time_ - time_ <= kShortestStep) {
     time_ = end_time_;
     return Integrator::StepResult::kEnded;
   }
   if (has_step_) step_.advance();
   has_step_ = false;
+  bool has_pivot = passage_.pivot() < 1.0;
+  if (has_pivot && pass_change_point_if_near(longest_step)) return end_passage();
   double length, factor = 1.0;
   while (true) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
-      if (pass_change_point(longest_step)) {
-        return time_ < end_time_ ? Integrator::StepResult::kStepped : Integrator::StepResult::kEnded;
-      }
+      if (pass_change_point(longest_step)) return end_passage();
       throw_stopped(time_, std::string("the step has become too short; look at forces and positions just "
                                        "before that time, which may be a singular one") +
                                remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {
-      if (fixed_step_ > 0.0)
+      if (!has_pivot) {
+        has_pivot = true;
+        if (pass_change_point_if_near(longest_step)) return end_passage();
+        if (passage_.pivot() < 1.0) continue;
+      }
+      if (fixed_step_ > 0.0) {  // it may end too near to a change point
+        if (passage_.pivot() < 1.0 && pass_change_point(longest_step)) return end_passage();
         throw_stopped(time_,
                       std::string("the iteration of a step does not converge; shorten fixed_step, or leave "
                                   "it out: a step of chosen length passes the change points of a mechanism") +
                           remark_on_radius(spectral_radius_));
+      }
       next_length_ = 0.25 * length;
       continue;
     }
@@ -201,32 +211,35 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   return has_switched ? Integrator::StepResult::kSwitched : Integrator::StepResult::kEnded;
 }
 
-// Near a change point the rounding of positions is amplified more, the shorter the step.
+// Near a change point the rounding of positions is amplified, and the more in velocities, the shorter the
+// step. So a shorter step does not help where rounding keeps the iteration from converging.
+bool GeneralizedAlphaStepper::pass_change_point_if_near(double longest_step) {
+  passage_.update_pivot(equations_.terms(), step_.begin().motion);
+  step_.set_smallest_pivot(passage_.pivot());
+  return passage_.is_near() && pass_change_point(longest_step);
+}
+
 bool GeneralizedAlphaStepper::pass_change_point(double longest_step) {
-  const ConstrainedMotion& motion = step_.begin().motion;
-  if (!evaluate_closed(piece_.evaluation_time(time_), motion.q, motion.v)) return false;
-  if (!change_point_) change_point_.emplace(*model_);
-  change_point_->terms().set_fading_forces(equations_.terms().fading_forces());
-  if (!change_point_->pass(equations_, choose_partition(equations_.terms()), piece_.branches(),
-                           std::min(longest_step, end_time_ - time_)))
+  const GeneralizedAlphaStep::End& from = step_.begin();
+  if (!evaluate_closed(piece_.evaluation_time(time_), from.motion.q, from.motion.v)) return false;
+  if (!passage_.pass(equations_, piece_.branches(), std::min(longest_step, end_time_ - time_), from.energy))
     return false;
-  const ChangePointStep::End &begin = change_point_->begin(), &end = change_point_->end();
-  energy_before_ = step_.begin().energy;
-  energy_ = energy_before_ + change_point_->calc_work(end.time);
-  time_ = end.time;
+  const double length = passage_.end().time - time_;
+  time_ = passage_.end().time;
+  evaluate_passage(time_);
   ++statistics_.integrator.steps;
-  equations_.set_motion(end.time, end.q, end.v, end.v_dot, end.lambda, piece_.branches());
-  next_length_ = end.time - begin.time;
+  next_length_ = length;
   resume(time_, end_time_);
-  has_passed_ = true;
   return true;
 }
 
-bool GeneralizedAlphaStepper::evaluate_passage(double time) {
-  change_point_->interpolate(time, inside_);
+Integrator::StepResult GeneralizedAlphaStepper::end_passage() const {
+  return time_ < end_time_ ? Integrator::StepResult::kStepped : Integrator::StepResult::kEnded;
+}
+
+void GeneralizedAlphaStepper::evaluate_passage(double time) {
+  energy_ = passage_.interpolate(time, inside_);
   equations_.set_motion(time, inside_.q, inside_.v, inside_.v_dot, inside_.lambda, piece_.branches());
-  energy_ = energy_before_ + change_point_->calc_work(time);
-  return true;
 }
 
 void GeneralizedAlphaStepper::finish_step(double length) {
@@ -278,9 +291,9 @@ bool GeneralizedAlphaStepper::evaluate_closed(double time, const Vector& q, cons
 }
 
 void GeneralizedAlphaStepper::evaluate(double time, Level level) {
-  bool is_evaluated;
-  if (has_passed_ && change_point_->contains(time)) {
-    is_evaluated = evaluate_passage(time);
+  bool is_evaluated = true;
+  if (passage_.contains(time)) {
+    evaluate_passage(time);
   } else if (has_departure_ && time == time_) {  // the branches may be others than in the step
     energy_ = step_.interpolate_energy(time);
     is_evaluated = evaluate_equations(exact_.motion);

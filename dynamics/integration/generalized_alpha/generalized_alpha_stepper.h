@@ -1,14 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
+#include "dynamics/integration/generalized_alpha/change_point_passage.h"
 #include "dynamics/integration/generalized_alpha/generalized_alpha_step.h"
 #include "dynamics/integration/stepping_options.h"
 #include "dynamics/integration/switch_search.h"
 #include "dynamics/integration/system_stepper.h"
 #include "dynamics/integration/touch_search.h"
-#include "dynamics/system/change_point.h"
 
 namespace sprung::dynamics {
 
@@ -52,8 +51,10 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   Pair calc_power();
   bool update_end_power();
   bool evaluate_closed(double time, const Vector& q, const Vector& v);
+  bool pass_change_point_if_near(double longest_step);
   bool pass_change_point(double longest_step);
-  bool evaluate_passage(double time);
+  Integrator::StepResult end_passage() const;
+  void evaluate_passage(double time);
   void leave_piece();
   void calc_exact(GeneralizedAlphaStep::End& end, double shift);
 
@@ -70,10 +71,8 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   double time_ = 0.0, end_time_ = 0.0, next_length_;
   Pair energy_ = Pair::Zero();  // at the time evaluated last [J]
 
-  std::optional<ChangePointStep> change_point_;  // made at the first
-  bool has_passed_ = false;                      // the last step was one over a change point
-  Pair energy_before_ = Pair::Zero();            // that step [J]
-  ChangePointStep::End inside_;
+  ChangePointPassage passage_;   // the last step, where that was one over a change point
+  ChangePointStep::End inside_;  // it
 
   // Work space.
   Vector interpolated_q_, interpolated_v_;
