@@ -120,17 +120,19 @@ std::array<double, kTop + 2> exponential_responses(double rate, double time, int
   return Y;
 }
 
-// Far beyond critical damping: the difference of two exponentials with very different rates.
-OscillatorResponse by_two_decays(double stiffness, double decay, double time, int top) {
+// Two exponentials with very different rates: far beyond critical damping, whatever its sign, and with a
+// negative stiffness.
+OscillatorResponse by_two_rates(double stiffness, double decay, double time, int top) {
   const double root = std::sqrt(decay * decay - stiffness);
-  const double slow_rate = -stiffness / (decay + root), fast_rate = -(decay + root);
-  const auto slow = exponential_responses(slow_rate, time, top);
-  const auto fast = exponential_responses(fast_rate, time, top);
+  const double large = -(decay + std::copysign(root, decay)), small = stiffness / large;  // the rates
+  const auto by_large = exponential_responses(large, time, top);
+  const auto by_small = exponential_responses(small, time, top);
+  const double difference = small - large;
   OscillatorResponse r{};
-  r.s = (slow[0] - fast[0]) / (2.0 * root);
-  r.s_rate = (slow_rate * slow[0] - fast_rate * fast[0]) / (2.0 * root);
+  r.s = (by_small[0] - by_large[0]) / difference;
+  r.s_rate = (small * by_small[0] - large * by_large[0]) / difference;
   for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k)
-    r.forced[k] = (slow[k + 1] - fast[k + 1]) / (2.0 * root);
+    r.forced[k] = (by_small[k + 1] - by_large[k + 1]) / difference;
   return r;
 }
 
@@ -138,11 +140,12 @@ OscillatorResponse by_two_decays(double stiffness, double decay, double time, in
 
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
   if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
-  const double omega = std::sqrt(stiffness);
+  const double omega = std::sqrt(std::abs(stiffness));
+  const bool has_two_rates = stiffness < 0.0 || std::abs(decay) > kOverdamped * omega;
   OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit
                              ? by_series(stiffness, decay, time, max_power)
-                         : decay > kOverdamped * omega ? by_two_decays(stiffness, decay, time, max_power)
-                                                       : by_recurrence(stiffness, decay, time, max_power);
+                         : has_two_rates ? by_two_rates(stiffness, decay, time, max_power)
+                                         : by_recurrence(stiffness, decay, time, max_power);
   r.c = r.s_rate + 2.0 * decay * r.s;
   r.c_rate = -stiffness * r.s;
   return r;

@@ -26,9 +26,12 @@ constexpr double kLeastContraction = 0.02;
 constexpr double kUselessContraction = 0.9;
 constexpr double kHopelessError =
     2.0;  // of what is allowed: a step with more is given up before its iteration ends
-// The pairs may be those of a state long past: iterations that fail, or are slow step after step, show it.
+// The pairs may be those of a state long past. Three things show it: iterations that fail; iterations that
+// are slow step after step; and errors that the steps before did not foretell, again and again. Such an error
+// is that of an iteration that diverges, where the pairs lack a stiff part of the motion.
 constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
 constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
+constexpr double kForetold = 10.0, kSurprise = 1.35;
 
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
@@ -215,6 +218,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
       continue;
     }
     const double error = calc_truncation();
+    if (is_surprise(error)) failures_ += kSurprise;
     factor = kSafety * std::pow(std::max({error, kMemory * last_error_, 1e-10}), -1.0 / kOrder);
     factor = std::clamp(factor, kLeastFactor, kLargestFactor);
     last_error_ = error;
@@ -225,6 +229,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
     }
     ++statistics_.error_test_failures;
     next_length_ = std::min(factor, 0.9) * now_.length;
+    renew_linearisation();
   }
   ++statistics_.steps;
   hiding_length_ *= kForgetting;
@@ -245,6 +250,12 @@ void ExponentialIntegrator::update_propagators() {
   propagator_length_ = now_.length;
 }
 
+// @param error  of now_: is it far above what the error of the last step and the order foretell?
+bool ExponentialIntegrator::is_surprise(double error) const {
+  if (error <= kHopelessError || past_ != Past::kSmooth) return false;
+  return error > kForetold * last_error_ * std::pow(now_.length / last_.length, kOrder);
+}
+
 // The next attempt is half as long, and where iterations keep failing it is about a new linearisation.
 void ExponentialIntegrator::give_up_iteration() {
   ++statistics_.iteration_failures;
@@ -252,6 +263,11 @@ void ExponentialIntegrator::give_up_iteration() {
   past_ = Past::kNone;
   next_length_ = 0.5 * now_.length;
   failures_ += 1.0;
+  renew_linearisation();
+}
+
+// Before another attempt of a step.
+void ExponentialIntegrator::renew_linearisation() {
   if (!has_outlived_linearisation()) return;
   linearise();
   begin();

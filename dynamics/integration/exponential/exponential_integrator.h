@@ -44,7 +44,9 @@ class ExponentialIntegrator final : public Integrator {
   double calc_change(std::size_t node, PairedMotion& motion);
   double calc_truncation();
   void update_propagators();
+  bool is_surprise(double error) const;
   void give_up_iteration();
+  void renew_linearisation();
   bool has_outlived_linearisation() const;
   bool finish_step();
   void locate_switch();
@@ -58,7 +60,7 @@ class ExponentialIntegrator final : public Integrator {
   int version_ = 0;  // of the coordinates in y that the pairs are for
   bool wants_linearisation_ = true;
   long last_linearisation_ = 0;  // step
-  double failures_ = 0.0;        // of the iteration; those of earlier steps count less and less
+  double failures_ = 0.0;        // of the pairs; those of earlier steps count less and less
 
   double time_ = 0.0, end_time_ = 0.0;
   Vector y_;                    // at time_

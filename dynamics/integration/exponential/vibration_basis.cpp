@@ -1,6 +1,8 @@
 #include "dynamics/integration/exponential/vibration_basis.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tools/support/dense/dense_solvers.h"
@@ -13,6 +15,8 @@ namespace {
 
 constexpr Eigen::Index kMostCoupled = 80;  // modes; the effort grows with the cube
 constexpr double kFree = 1e-6;  // frequency, of the highest, below which a mode counts as free motion
+constexpr double kSlowlyDamped =
+    10.0;  // 1/s; free modes that are damped more slowly are not coupled to others
 constexpr double kIllConditioned = 1e6;
 
 // Columns that span the invariant subspaces of two dimensions of a real matrix, and the blocks on them. Pair
@@ -57,21 +61,38 @@ RealPairs pair_up(const Eigen::MatrixXd& matrix) {
   return pairs;
 }
 
-// Brings the damped motion of the modes that have a frequency to pairs, (x, ẋ) = U u. Nothing changes where
-// there are too many for it, or where the damped modes nearly coincide.
-// @param omega  f, ascending   @param blocks, U, inverse_U  those of the undamped modes
-void couple_by_damping(const Eigen::ArrayXd& omega, const Eigen::MatrixXd& damping, PairBlocks& blocks,
-                       Eigen::MatrixXd& U, Eigen::MatrixXd& inverse_U) {
-  const Eigen::Index f = omega.size();
-  Eigen::Index first = 0;  // mode with a frequency
-  while (first < f && omega[first] <= kFree * omega[f - 1]) ++first;
-  const Eigen::Index n = f - first;
+// Turns the free modes among each other so that damping does not couple them.
+// @param num_free  the first columns of Phi   @param damping  in these modes
+// @return the number of those that are hardly damped; they then come first
+Eigen::Index separate_free_modes(Eigen::Index num_free, Eigen::MatrixXd& Phi, Eigen::MatrixXd& damping) {
+  const Eigen::MatrixXd among = damping.topLeftCorner(num_free, num_free);
+  if (num_free == 0 || among.diagonal().maxCoeff() <= kSlowlyDamped) return num_free;
+  const auto rates = support::solve_symmetric(0.5 * (among + among.transpose()));
+  if (!rates) return num_free;
+  const Eigen::MatrixXd& turn = rates->vectors;
+  Phi.leftCols(num_free) = (Phi.leftCols(num_free) * turn).eval();
+  damping.leftCols(num_free) = (damping.leftCols(num_free) * turn).eval();
+  damping.topRows(num_free) = (turn.transpose() * damping.topRows(num_free)).eval();
+  return (rates->values.array() <= kSlowlyDamped).count();
+}
+
+// Brings the damped motion of the modes from `first` on to pairs, (x, ẋ) = U u. Nothing changes where there
+// are too many for it, or where the damped modes nearly coincide.
+// @param num_free  lowest ones without a frequency   @param omega  f, ascending   @param blocks, U, inverse_U
+// those of the undamped modes
+void couple_by_damping(Eigen::Index first, Eigen::Index num_free, const Eigen::ArrayXd& omega,
+                       const Eigen::MatrixXd& damping, PairBlocks& blocks, Eigen::MatrixXd& U,
+                       Eigen::MatrixXd& inverse_U) {
+  const Eigen::Index f = omega.size(), n = f - first;
   if (n == 0 || n > kMostCoupled) return;
-  // With ωx and ẋ as unknowns all entries are of one size.
+  // With wx and ẋ as unknowns the entries that matter are of one size. w is the frequency; free modes take
+  // part in slow motion with the lowest one, or have the rate of their damping.
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  const Eigen::ArrayXd w = omega.tail(n);
+  const double lowest = num_free < f ? omega[num_free] : std::numeric_limits<double>::infinity();
+  Eigen::ArrayXd w = omega.tail(n);
+  for (Eigen::Index i = first; i < num_free; ++i) w[i - first] = std::min(lowest, damping(i, i));
   A.topRightCorner(n, n).diagonal() = w;
-  A.bottomLeftCorner(n, n).diagonal() = -w;
+  A.bottomLeftCorner(n, n).diagonal() = -omega.tail(n);
   A.bottomRightCorner(n, n) = -damping.bottomRightCorner(n, n);
   const RealPairs pairs = pair_up(A);
   const Eigen::MatrixXd inverse = support::solve_lu(pairs.vectors, Eigen::MatrixXd::Identity(2 * n, 2 * n));
@@ -99,10 +120,13 @@ VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   const Eigen::Index f = motion.mass.rows();
   const auto undamped = support::solve_undamped(motion.stiffness, motion.mass);
   if (!undamped) throw support::NumericalError("the modes of small motion were not found");
-  const Eigen::MatrixXd& Phi = undamped->vectors;  // ascending frequencies
+  Eigen::MatrixXd Phi = undamped->vectors;  // ascending frequencies
+  Eigen::MatrixXd damping = Phi.transpose() * motion.damping * Phi;
+  Eigen::ArrayXd omega = undamped->values.cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Index num_free = (omega <= kFree * omega[f - 1]).count();
+  const Eigen::Index num_undamped = separate_free_modes(num_free, Phi, damping);
+  if (num_undamped < num_free) omega.head(num_free) = 0.0;
   const Eigen::MatrixXd inverse_Phi = Phi.transpose() * motion.mass;
-  const Eigen::MatrixXd damping = Phi.transpose() * motion.damping * Phi;
-  const Eigen::ArrayXd omega = undamped->values.cwiseMax(0.0).cwiseSqrt();
 
   VibrationBasis basis;
   PairBlocks& B = basis.blocks;
@@ -113,7 +137,7 @@ VibrationBasis make_vibration_basis(const SmallMotion& motion) {
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(2 * f, 2 * f);  // (x, ẋ) = U u
   Eigen::MatrixXd inverse_U = U;
 
-  couple_by_damping(omega, damping, B, U, inverse_U);
+  couple_by_damping(num_undamped, num_free, omega, damping, B, U, inverse_U);
   basis.T.resize(2 * f, 2 * f);
   basis.inverse.resize(2 * f, 2 * f);
   basis.T.topRows(f) = Phi * U.topRows(f);

@@ -262,3 +262,47 @@ TEST_CASE("The exponential method needs few steps for motion of the given linear
   CHECK(integrator->y()[0] == Approx(std::cos(1e5)).margin(1e-9));  // the phase is known to 1e5 · 1e-16
   CHECK(integrator->y()[1] == Approx(-1e4 * std::sin(1e5)).margin(1e-5));
 }
+
+TEST_CASE("The exponential method notices damping that became stiff", "[analysis]") {
+  // A mass of 1 kg on a spring of 1000 N/m slides on a belt that moves at 0.1 m/s without friction, until it
+  // sticks to it: then the force is 2e5 N·s/m times the difference of their speeds. While it sticks, its
+  // speed lags by k x/c, up to terms in 1/c². The 3 s are 600 000 times as long as 1/c.
+  static constexpr double kBelt = 0.1, kStiffness = 1e3;
+  class Sticking final : public dynamics::OdeSystem {
+   public:
+    double damping = 0.0;
+
+    int size() const override { return 2; }
+    int num_freedoms() const override { return 1; }
+    bool calc_derivative(double /*time*/, std::span<const double> y, std::span<double> y_dot) override {
+      y_dot[0] = y[1];
+      y_dot[1] = -kStiffness * y[0] - damping * (y[1] - kBelt);
+      return true;
+    }
+    int num_switches() const override { return 0; }
+    bool calc_switches(double, std::span<const double>, std::span<double>) override { return true; }
+    void calc_error_scales(std::span<const double> /*y*/, std::span<double> scales) const override {
+      scales[0] = scales[1] = 0.01;
+    }
+    bool calc_small_motion(double, std::span<const double>, dynamics::SmallMotion& motion) override {
+      motion.mass = Eigen::MatrixXd::Identity(1, 1);
+      motion.damping = damping * Eigen::MatrixXd::Identity(1, 1);
+      motion.stiffness = kStiffness * Eigen::MatrixXd::Identity(1, 1);
+      return true;
+    }
+  } mass;
+  const auto integrator = make_integrator(mass, {.method = Method::kExponential, .relative_tolerance = 1e-6});
+  const auto run_to = [&](double from, std::array<double, 2> y, double end) {
+    integrator->start(from, y, end);
+    while (integrator->step(kInfinity) != Integrator::StepResult::kEnded) {
+    }
+    return std::array{integrator->y()[0], integrator->y()[1]};
+  };
+  const std::array<double, 2> touching = run_to(0.0, {0.0, kBelt}, 0.1);
+  mass.damping = 2e5;
+  const std::array<double, 2> end = run_to(0.1, touching, 3.1);
+  CHECK(integrator->statistics().steps < 200);
+  const double rate = kStiffness / mass.damping, limit = kBelt / rate;
+  CHECK(end[0] == Approx(limit + (touching[0] - limit) * std::exp(-rate * 3.0)).margin(1e-6));
+  CHECK(end[1] == Approx(kBelt - rate * end[0]).margin(1e-6));
+}

@@ -48,13 +48,15 @@ Eigen::MatrixXd random_positive(Eigen::Index n, std::mt19937& random) {
 }  // namespace
 
 TEST_CASE("An oscillator's response composes: two spans of time are one", "[analysis]") {
-  // All regimes: free, slow, fast, critical, far beyond critical, unstable.
+  // All regimes: free, slow, fast, critical, far beyond critical, unstable by damping or by stiffness.
   struct Case {
     double stiffness, decay;
   };
-  for (const Case& c : {Case{0.0, 0.0}, Case{1e-8, 0.0}, Case{4.0, 0.1}, Case{1e4, 2.0}, Case{1e8, 50.0},
-                        Case{1.0, 1.0}, Case{1e4, 100.0}, Case{1e4, 100.0001}, Case{0.0, 30.0},
-                        Case{1e-3, 1e3}, Case{4.0, 500.0}, Case{1e6, 1e4}, Case{100.0, -0.5}}) {
+  for (const Case& c :
+       {Case{0.0, 0.0}, Case{1e-8, 0.0}, Case{4.0, 0.1}, Case{1e4, 2.0}, Case{1e8, 50.0}, Case{1.0, 1.0},
+        Case{1e4, 100.0}, Case{1e4, 100.0001}, Case{0.0, 30.0}, Case{1e-3, 1e3}, Case{4.0, 500.0},
+        Case{1e6, 1e4}, Case{100.0, -0.5}, Case{4.0, -40.0}, Case{0.0, -20.0}, Case{-900.0, 0.0},
+        Case{-4.0, 100.0}, Case{-1e-3, -20.0}}) {
     for (const double first : {1e-5, 3e-3, 0.2}) {
       for (const double second : {1e-4, 2e-2, 1.1}) {
         INFO("stiffness " << c.stiffness << ", decay " << c.decay << ", times " << first << " and "
@@ -104,6 +106,24 @@ TEST_CASE("The vibration basis decouples small motion into pairs", "[analysis]")
   }
   SECTION("far beyond critical damping") {
     motion.damping *= 1e4;
+  }
+  SECTION(
+      "with two coordinates that only dampers hold, far stiffer ones than the springs, one between them") {
+    for (const int free : {2, 4}) {
+      motion.stiffness.row(free).setZero();
+      motion.stiffness.col(free).setZero();
+      motion.damping.row(free).setZero();
+      motion.damping.col(free).setZero();
+    }
+    motion.damping(2, 2) = 1e8;
+    motion.damping(4, 4) = 1e8;
+    motion.damping(2, 4) = motion.damping(4, 2) = -1e8;
+    motion.damping(1, 1) += 1e6;
+    motion.damping(2, 2) += 1e6;
+    motion.damping(1, 2) = motion.damping(2, 1) = -1e6;
+  }
+  SECTION("with damping that puts energy in") {
+    motion.damping *= -1e3;
   }
   const dynamics::VibrationBasis basis = dynamics::make_vibration_basis(motion);
   const Eigen::MatrixXd A = first_order(motion);
