@@ -102,6 +102,30 @@ std::vector<PointReference> read_monitor(const support::TomlTable& root, const V
   return monitor;
 }
 
+// `[modes] judge`.
+JudgedQuantities read_judged(const support::TomlTable& table) {
+  static const std::array<std::string, 4> kKinds{"points", "moments", "forces", "reactions"};
+  const std::optional<support::TomlValue> list = table.find("judge");
+  table.reject_unknown_keys();
+  if (!list) return {};
+  JudgedQuantities judged{.points = false, .moments = false, .forces = false, .reactions = false};
+  const std::array<bool*, 4> flags{&judged.points, &judged.moments, &judged.forces, &judged.reactions};
+  bool is_any = false;
+  for (const support::TomlValue& item : list->items()) {
+    const std::string& kind = item.one_of(kKinds);
+    bool& flag =
+        *flags[static_cast<std::size_t>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin())];
+    if (flag) throw item.error(fmt::format("names \"{}\" twice", kind));
+    flag = is_any = true;
+  }
+  if (!is_any) {
+    throw list->error(
+        "must name at least one of \"points\", \"moments\", \"forces\", \"reactions\"; leave it out for the "
+        "first two");
+  }
+  return judged;
+}
+
 Eigen::Vector2d start_position(const Vehicle& vehicle, const std::vector<VehiclePoint>& points,
                                const std::string& name) {
   const auto found =
@@ -210,6 +234,8 @@ Vehicle read_vehicle(const support::TomlDocument& document, const std::filesyste
     vehicle.ground_points = read_points(ground->at("points").table(), false);
     ground->reject_unknown_keys();
   }
+  if (const std::optional<support::TomlTable> modes = root.find_table("modes"))
+    vehicle.judged = read_judged(*modes);
   // Unknown keys are reported before other files are read.
   for (const std::string_view key : {"joints", "motions", "forces", "monitor"}) root.find(key);
   root.reject_unknown_keys();

@@ -11,6 +11,7 @@
 #include "dynamics/element_input/joint_input.h"
 #include "dynamics/element_input/motion_input.h"
 #include "dynamics/element_input/point_reference.h"
+#include "dynamics/mode_choice/judged_quantities.h"
 #include "reduce/superelement/superelement.h"
 #include "tools/support/toml/toml.h"
 
@@ -53,6 +54,7 @@ struct Vehicle {
   std::vector<ForceDescription> forces;
   /// Points whose motion is reported; every body's origin if the file has none.
   std::vector<PointReference> monitor;
+  JudgedQuantities judged;  ///< by which modes are left out
   std::map<std::string, reduce::Superelement> superelements;
   std::vector<HistoryUse> histories;  ///< measured, that joints, motions and forces follow
 

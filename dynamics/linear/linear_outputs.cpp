@@ -24,6 +24,7 @@ LinearOutputs make_empty(const LinearVehicle& vehicle, Eigen::Index p) {
   LinearOutputs outputs;
   outputs.by_position = outputs.by_velocity = outputs.by_acceleration = Eigen::MatrixXd::Zero(p, f);
   outputs.by_force = Eigen::MatrixXd::Zero(p, vehicle.model().num_coordinates);
+  outputs.by_load = Eigen::MatrixXd::Zero(p, 3 * static_cast<Eigen::Index>(vehicle.model().markers.size()));
   outputs.channels.assign(static_cast<std::size_t>(p), -1);
   return outputs;
 }
@@ -74,8 +75,8 @@ Eigen::VectorXd calc_reactions(const PartitionedEquations& equations, const Eige
   return reactions;
 }
 
-// ∂λ/∂Q of a model with massless bodies: from the matrix of (system, eq. 1) as a whole, m×nq.
-Eigen::MatrixXd solve_multipliers_by_force(const SystemTerms& terms) {
+// Those of a model with massless bodies: from the matrix of (system, eq. 1) as a whole.
+ForceEffects solve_force_effects(const SystemTerms& terms) {
   const Eigen::Index n = terms.model().num_coordinates, m = terms.model().num_constraints;
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n + m, n + m);
   for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
@@ -85,21 +86,18 @@ Eigen::MatrixXd solve_multipliers_by_force(const SystemTerms& terms) {
   }
   whole.bottomLeftCorner(m, n) = terms.jacobian().dense();
   whole.topRightCorner(n, m) = whole.bottomLeftCorner(m, n).transpose();
-  return support::solve_lu(whole, Eigen::MatrixXd::Identity(n + m, n)).bottomRows(m);
+  const Eigen::MatrixXd solution = support::solve_lu(whole, Eigen::MatrixXd::Identity(n + m, n));
+  return {.accelerations = solution.topRows(n), .multipliers = solution.bottomRows(m)};
 }
 
-// ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, m×nq (system, eq. 6).
-Eigen::MatrixXd calc_multipliers_by_force(const SystemTerms& terms) {
-  if (terms.model().has_massless_bodies) return solve_multipliers_by_force(terms);
-  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
-  Eigen::MatrixXd transposed = Phi_q.transpose();  // to be M⁻¹ φ_qᵀ
+// M⁻¹ A, body by body.
+Eigen::MatrixXd divide_by_mass(const SystemTerms& terms, Eigen::MatrixXd A) {
   for (std::size_t b = 0; b < terms.model().bodies.size(); ++b) {
     const Body& body = terms.model().bodies[b];
-    auto rows = transposed.middleRows(body.first_coordinate, body.num_coordinates());
+    auto rows = A.middleRows(body.first_coordinate, body.num_coordinates());
     rows = support::solve_positive_definite(terms.mass(b), rows);
   }
-  const Eigen::MatrixXd S = Phi_q * transposed;
-  return support::solve_positive_definite(S, transposed.transpose());
+  return A;
 }
 
 // Derivatives of p values of the state with respect to the vehicle's independent coordinates: p×f each.
@@ -119,6 +117,29 @@ bool is_quantity(const Channel& channel) {
 
 }  // namespace
 
+// ∂λ/∂Q = (φ_q M⁻¹ φ_qᵀ)⁻¹ φ_q M⁻¹, ∂q̈/∂Q = M⁻¹ (1 − φ_qᵀ ∂λ/∂Q) (system, eq. 6).
+ForceEffects calc_force_effects(const LinearVehicle& vehicle) {
+  const SystemTerms& terms = vehicle.equations().terms();
+  if (terms.model().has_massless_bodies) return solve_force_effects(terms);
+  const Eigen::MatrixXd Phi_q = terms.jacobian().dense();
+  const Eigen::MatrixXd by_multipliers = divide_by_mass(terms, Phi_q.transpose());
+  const Eigen::MatrixXd S = Phi_q * by_multipliers;
+  const Eigen::Index nq = Phi_q.cols();
+  ForceEffects effects{.accelerations = divide_by_mass(terms, Eigen::MatrixXd::Identity(nq, nq)),
+                       .multipliers = support::solve_positive_definite(S, by_multipliers.transpose())};
+  effects.accelerations -= by_multipliers * effects.multipliers;
+  return effects;
+}
+
+LinearOutputs make_state_outputs(const LinearVehicle& vehicle, const StateFunction& function) {
+  Eigen::MatrixXd by_position, by_velocity;
+  differentiate(vehicle, function, by_position, by_velocity);
+  LinearOutputs outputs = make_empty(vehicle, by_position.rows());
+  outputs.by_position = std::move(by_position);
+  outputs.by_velocity = std::move(by_velocity);
+  return outputs;
+}
+
 void LinearOutputs::append(const LinearOutputs& other) {
   names.insert(names.end(), other.names.begin(), other.names.end());
   units.insert(units.end(), other.units.begin(), other.units.end());
@@ -133,6 +154,7 @@ void LinearOutputs::append(const LinearOutputs& other) {
   put_below(by_velocity, other.by_velocity);
   put_below(by_acceleration, other.by_acceleration);
   put_below(by_force, other.by_force);
+  put_below(by_load, other.by_load);
 }
 
 LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
@@ -143,6 +165,7 @@ LinearOutputs LinearOutputs::pick(const std::vector<int>& rows) const {
                        .by_velocity = by_velocity(rows, Eigen::all),
                        .by_acceleration = by_acceleration(rows, Eigen::all),
                        .by_force = by_force(rows, Eigen::all),
+                       .by_load = by_load(rows, Eigen::all),
                        .channels = {}};
   for (const int row : rows) {
     const auto i = static_cast<std::size_t>(row);
@@ -240,10 +263,9 @@ LinearOutputs make_reaction_outputs(const LinearVehicle& vehicle) {
     return calc_reactions(at, at.multipliers());
   };
   const auto num_joints = static_cast<Eigen::Index>(vehicle.model().joints.size());
-  LinearOutputs outputs = make_empty(vehicle, 3 * num_joints);
-  if (num_joints == 0) return outputs;
-  differentiate(vehicle, reactions, outputs.by_position, outputs.by_velocity);
-  const Eigen::MatrixXd multipliers = calc_multipliers_by_force(vehicle.equations().terms());
+  if (num_joints == 0) return make_empty(vehicle, 0);
+  LinearOutputs outputs = make_state_outputs(vehicle, reactions);
+  const Eigen::MatrixXd multipliers = calc_force_effects(vehicle).multipliers;
   for (Eigen::Index i = 0; i < multipliers.cols(); ++i) {
     outputs.by_force.col(i) = calc_reactions(vehicle.equations(), multipliers.col(i));
   }

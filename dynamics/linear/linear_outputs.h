@@ -10,10 +10,11 @@ namespace sprung::dynamics {
 
 /// The meaning of an output, by which code selects outputs.
 struct OutputSubject {
-  enum class Kind { kPoint, kModeShare, kMode, kChannel, kReaction };
+  enum class Kind { kPoint, kModeShare, kMode, kChannel, kReaction, kMoment };
   enum class Derivative { kDisplacement, kVelocity, kAcceleration };
   Kind kind = Kind::kPoint;
-  int object = 0;  ///< marker; for kMode the body, for kChannel the force element, for kReaction the joint
+  /// Marker; for kMode and kMoment the body, for kChannel the force element, for kReaction the joint.
+  int object = 0;
   Derivative derivative = Derivative::kDisplacement;  ///< of a motion
   int component = 0;                                  ///< 0: x, 1: y, 2: angle or torque; for kMode the mode
   ChannelRole role = ChannelRole::kForce;             ///< of a channel
@@ -28,6 +29,9 @@ struct LinearOutputs {
   std::vector<OutputSubject> subjects;
   Eigen::MatrixXd by_position, by_velocity, by_acceleration;  ///< p×f
   Eigen::MatrixXd by_force;                                   ///< p×nq, of the road's generalized forces
+  /// p×3 markers, direct effect of a load on each marker beside that of its generalized forces, world axes;
+  /// only calls that say so count it.
+  Eigen::MatrixXd by_load;
   std::vector<int> channels;  ///< p, the channel whose direct part is added, among all channels; −1 for none
 
   int size() const { return static_cast<int>(names.size()); }
@@ -49,6 +53,17 @@ LinearOutputs make_modal_outputs(const LinearVehicle& vehicle);
 
 /// Channels of all force elements, except contact flags and road heights.
 LinearOutputs make_force_outputs(const LinearVehicle& vehicle);
+
+/// Accelerations of all coordinates and multipliers per generalized force on each, about the equilibrium.
+struct ForceEffects {
+  Eigen::MatrixXd accelerations, multipliers;  ///< nq×nq, m×nq
+};
+ForceEffects calc_force_effects(const LinearVehicle& vehicle);
+
+/// Outputs that are a function of the state, without names, units and subjects. Their effects of forces and
+/// loads are zero.
+/// @param function  of p values
+LinearOutputs make_state_outputs(const LinearVehicle& vehicle, const StateFunction& function);
 
 /// Reactions of all joints, x, y and torque at their point a.
 /// Checked by tests/dynamics/linear/linear_vehicle_test.cpp

@@ -235,7 +235,8 @@ std::size_t BasisChoice::num_kept() const {
 }
 
 BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,
-                         const std::vector<int>& points, const KnownForcing& forcing, double tolerance) {
+                         const JudgedPlaces& places, const JudgedQuantities& judged,
+                         const KnownForcing& forcing, double tolerance) {
   if (!(tolerance >= 0.0) || !(tolerance < 1.0)) {
     throw std::invalid_argument(
         fmt::format("choose_basis: tolerance must be from 0 to below 1, got {}", tolerance));
@@ -244,7 +245,9 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
   if (candidates.empty()) return choice;
   std::vector<int> coordinates;
   for (const CandidateMode& mode : candidates) coordinates.push_back(mode.coordinate);
-  const WatchedQuantities watched = make_watched_quantities(vehicle, points);
+  const WatchedQuantities watched = make_watched_quantities(vehicle, places, judged);
+  if (!watched.judges_any())
+    return keep_all(candidates, tolerance, "the vehicle has none of the quantities that judge");
   // An r.m.s. decreases by e²/2 without a part of the share e (mode_choice, eq. 6).
   const double cut = std::min(std::sqrt(2.0 * kCutChange * std::max(tolerance, kLeastTolerance)), kMostAbove);
   const NeglectMeasure measure(vehicle, watched, coordinates, forcing, cut);
@@ -278,7 +281,7 @@ BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<Candida
       verdict.reason = explain(place, cluster, own, left_out, candidates, watched, tolerance);
     }
   }
-  add_spectrum(vehicle, measure, watched, points, forcing.speed, choice);
+  add_spectrum(vehicle, measure, watched, places.points, forcing.speed, choice);
   return choice;
 }
 

@@ -24,7 +24,7 @@ struct ModeWorth {
   struct Pair {
     double rms = 0.0, peak = 0.0;
   };
-  Pair displacement, acceleration, force;  ///< `force`: forces, torques and reactions together
+  Pair displacement, acceleration, force;  ///< `force`: forces, torques, reactions and moments together
   double weight = 0.0;                     ///< under the weight alone, the largest of all quantities
 };
 
@@ -57,12 +57,14 @@ struct BasisChoice {
 /// left out stays below the tolerance (mode_choice, eqs. 1–6; linear, eqs. 12, 13). At a tolerance of 0 all
 /// modes are kept.
 /// @param vehicle    with all candidates active, at its equilibrium
-/// @param points     markers whose motion is watched
+/// @param places     points and sections that are watched
+/// @param judged     kinds of quantities that count; where the vehicle has none of them, all modes are kept
 /// @param tolerance  ≥ 0, < 1
 /// @throws std::invalid_argument for another tolerance
 /// Checked by tests/dynamics/mode_choice/basis_choice_test.cpp
 BasisChoice choose_basis(const LinearVehicle& vehicle, const std::vector<CandidateMode>& candidates,
-                         const std::vector<int>& points, const KnownForcing& forcing, double tolerance);
+                         const JudgedPlaces& places, const JudgedQuantities& judged,
+                         const KnownForcing& forcing, double tolerance);
 
 /// Keeps all modes without judging them.
 /// @param why  "prescribed motion drives the vehicle"

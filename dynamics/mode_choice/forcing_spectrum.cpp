@@ -176,6 +176,7 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
     gains.push_back(
         calc_marker_jacobian(vehicle.equations().terms(), one.marker).row(one.component).transpose());
     applied.push_back(transform(samples, m).transpose());
+    spectrum.loads.push_back(3 * one.marker + one.component);
   }
   const auto u = static_cast<Eigen::Index>(gains.size());
   spectrum.gains.resize(vehicle.model().num_coordinates, u);

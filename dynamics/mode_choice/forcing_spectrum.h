@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "dynamics/linear/linear_vehicle.h"
 #include "dynamics/road/road.h"
@@ -21,6 +22,7 @@ struct ForcingSpectrum {
   double period = 0.0;       ///< [s]
   Eigen::VectorXcd road;     ///< m [m]
   Eigen::MatrixXd gains;     ///< nq×u, generalized forces per unit of each of the u forces
+  std::vector<int> loads;    ///< u, each of the forces as a column of LinearOutputs::by_load
   Eigen::MatrixXcd applied;  ///< u×m
 
   Eigen::Index num_lines() const { return road.size(); }

@@ -5,11 +5,11 @@
 namespace sprung::dynamics {
 
 HarmonicInputs::HarmonicInputs(const LinearVehicle& vehicle, const LinearOutputs& outputs,
-                               const Eigen::MatrixXd& gains, double speed)
+                               const ForcingSpectrum& spectrum, double speed)
     : vehicle_(&vehicle), speed_(speed) {
   const Eigen::MatrixXd by_coordinates = vehicle.system().directions.transpose();
-  applied_ = by_coordinates * gains;
-  applied_direct_ = outputs.by_force * gains;
+  applied_ = by_coordinates * spectrum.gains;
+  applied_direct_ = outputs.by_force * spectrum.gains + outputs.by_load(Eigen::all, spectrum.loads);
   if (!(speed > 0.0)) return;
   for (std::size_t i = 0; i < vehicle.inputs().size(); ++i) {
     const RoadInput& input = vehicle.inputs()[i];
@@ -22,7 +22,7 @@ HarmonicInputs::HarmonicInputs(const LinearVehicle& vehicle, const LinearOutputs
     for (const int marker : vehicle.model().forces[force]->markers()) {
       const Eigen::MatrixXd jacobian = calc_marker_jacobian(vehicle.equations().terms(), marker).transpose();
       motions_.back().push_back(by_coordinates * jacobian);
-      reactions_.back().push_back(outputs.by_force * jacobian);
+      reactions_.back().push_back(outputs.by_force * jacobian + outputs.by_load.middleCols(3 * marker, 3));
     }
     for (std::size_t row = 0; row < outputs.channels.size(); ++row) {
       const int channel = outputs.channels[row];

@@ -14,9 +14,9 @@ namespace sprung::dynamics {
 class HarmonicInputs {
  public:
   /// @param vehicle, outputs  must outlive this
-  /// @param gains             of the forces in time, as in ForcingSpectrum
+  /// @param spectrum          whose forces in time are inputs
   /// @param speed             ≥ 0 [m/s]; at 0 the road is no input
-  HarmonicInputs(const LinearVehicle& vehicle, const LinearOutputs& outputs, const Eigen::MatrixXd& gains,
+  HarmonicInputs(const LinearVehicle& vehicle, const LinearOutputs& outputs, const ForcingSpectrum& spectrum,
                  double speed);
 
   Eigen::Index size() const { return num_wheels_ + applied_.cols(); }

@@ -30,13 +30,30 @@ double calc_highest_frequency(const LinearVehicle& vehicle) {
   return vehicle.solver().eigenvalues().cwiseAbs().maxCoeff() / (2.0 * std::numbers::pi);
 }
 
-// The quantity with the largest share in each group: displacements, accelerations, forces with torques.
+// Displacements, accelerations, forces with torques, moments.
+constexpr int kNumGroups = 4;
+
+int group_of(Kind kind) {
+  if (kind == Kind::kMoment) return kNumGroups - 1;
+  return std::min(static_cast<int>(kind), static_cast<int>(Kind::kForce));
+}
+
+// Sizes that give quantities which are not judged the share 0.
+Eigen::VectorXd set_unjudged(const WatchedQuantities& watched, Eigen::VectorXd sizes) {
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (!watched.list[i].is_judged)
+      sizes[static_cast<Eigen::Index>(i)] = std::numeric_limits<double>::infinity();
+  }
+  return sizes;
+}
+
+// The quantity with the largest share in each group.
 std::vector<std::size_t> find_largest(const WatchedQuantities& watched, const Eigen::VectorXd& shares) {
   std::vector<std::size_t> largest;
-  for (int group = 0; group < 3; ++group) {
+  for (int group = 0; group < kNumGroups; ++group) {
     std::size_t found = watched.size();
     for (std::size_t i = 0; i < watched.size(); ++i) {
-      if (std::min(static_cast<int>(watched.list[i].kind), static_cast<int>(Kind::kForce)) != group) continue;
+      if (group_of(watched.list[i].kind) != group || !watched.list[i].is_judged) continue;
       const auto better = [&](std::size_t a, std::size_t b) {
         return shares[static_cast<Eigen::Index>(a)] > shares[static_cast<Eigen::Index>(b)];
       };
@@ -80,7 +97,7 @@ NeglectMeasure::NeglectMeasure(const LinearVehicle& vehicle, const WatchedQuanti
 double NeglectMeasure::find_highest_frequency(const KnownForcing& forcing, double settling, double cut) {
   const ForcingSpectrum rough = calc_forcing_spectrum(
       *vehicle_, forcing, settling, kHighest * calc_highest_frequency(*vehicle_), kRoughSampling);
-  const HarmonicInputs inputs(*vehicle_, watched_->outputs, rough.gains, forcing.speed);
+  const HarmonicInputs inputs(*vehicle_, watched_->outputs, rough, forcing.speed);
   const ThinnedLines thinned = thin_lines(inputs.calc_amplitudes(rough), kRoughSpacing);
   const auto w = static_cast<Eigen::Index>(watched_->size());
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(w, static_cast<Eigen::Index>(thinned.size()));
@@ -98,8 +115,9 @@ double NeglectMeasure::find_highest_frequency(const KnownForcing& forcing, doubl
       squares(i, static_cast<Eigen::Index>(k)) = factor * factor * powers(quantity.rows).sum();
     }
   }
-  const Eigen::VectorXd sizes =
-      apply_lower_bounds(*watched_, squares.rowwise().sum().cwiseSqrt(), vehicle_->model().length_scale);
+  const Eigen::VectorXd sizes = set_unjudged(
+      *watched_,
+      apply_lower_bounds(*watched_, squares.rowwise().sum().cwiseSqrt(), vehicle_->model().length_scale));
   const double most = static_cast<double>(kMostLines) / rough.period;
   Eigen::VectorXd above = Eigen::VectorXd::Zero(w);
   double highest = rough.frequency(0);
@@ -135,7 +153,7 @@ HeldResponse NeglectMeasure::calc_static_response() const {
 
 void NeglectMeasure::calc_references() {
   const Eigen::Index m = forcing_.num_lines();
-  inputs_.emplace(*vehicle_, watched_->outputs, forcing_.gains, speed_);
+  inputs_.emplace(*vehicle_, watched_->outputs, forcing_, speed_);
   amplitudes_ = inputs_->calc_amplitudes(forcing_);
   omega_ =
       (2.0 * std::numbers::pi / forcing_.period) * Eigen::VectorXd::LinSpaced(m, 1.0, static_cast<double>(m));
@@ -167,9 +185,10 @@ void NeglectMeasure::calc_references() {
     weight = std::max(weight, bending[static_cast<std::size_t>(watched_->list[i].kind)]);
   }
   const double length = vehicle_->model().length_scale;
-  rms_ = apply_lower_bounds(*watched_, sizes.rms, length);
-  peak_ = apply_lower_bounds(*watched_, sizes.peak, length);
-  weight_ = apply_lower_bounds(*watched_, weight_, length);
+  is_excited_ = sizes.rms.size() > 0 && sizes.rms.maxCoeff() > 0.0;
+  rms_ = set_unjudged(*watched_, apply_lower_bounds(*watched_, sizes.rms, length));
+  peak_ = set_unjudged(*watched_, apply_lower_bounds(*watched_, sizes.peak, length));
+  weight_ = set_unjudged(*watched_, apply_lower_bounds(*watched_, weight_, length));
 }
 
 Eigen::VectorXd NeglectMeasure::calc_static_shares(const std::vector<int>& set) const {

@@ -57,7 +57,7 @@ class NeglectMeasure {
   /// Share of the r.m.s. that lies above the lines, for the quantity with the largest one.
   double share_above() const { return share_above_; }
   /// Whether the forcing moves the vehicle.
-  bool is_excited() const { return rms_.size() > 0 && rms_.maxCoeff() > 0.0; }
+  bool is_excited() const { return is_excited_; }
   /// Whether share_above() is larger than allowed.
   bool is_cut_short() const { return is_cut_short_; }
 
@@ -75,13 +75,13 @@ class NeglectMeasure {
   ForcingSpectrum forcing_;
   std::optional<HarmonicInputs> inputs_;  // made after forcing_
   double share_above_ = 0.0;
-  bool is_cut_short_ = false;
+  bool is_cut_short_ = false, is_excited_ = false;
   HeldResponse at_rest_;
   Eigen::VectorXd omega_;                // m
   Eigen::MatrixXcd amplitudes_;          // of the inputs, i×m
   Eigen::MatrixXcd forces_;              // on the independent coordinates, f×m
   RowsXcd outputs_, whole_;              // p×m, without and with the direct effect of the road
-  Eigen::VectorXd rms_, peak_, weight_;  // w, sizes that shares refer to
+  Eigen::VectorXd rms_, peak_, weight_;  // w, sizes that shares refer to; infinite: not judged
 };
 
 }  // namespace sprung::dynamics

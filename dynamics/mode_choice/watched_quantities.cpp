@@ -1,5 +1,7 @@
 #include "dynamics/mode_choice/watched_quantities.h"
 
+#include <algorithm>
+
 namespace sprung::dynamics {
 
 namespace {
@@ -28,7 +30,7 @@ std::vector<int> find_outputs(const LinearOutputs& outputs, Fits fits) {
   return rows;
 }
 
-void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
+void add_forces(const LinearVehicle& vehicle, bool is_judged, WatchedQuantities& watched) {
   const LinearOutputs outputs = make_force_outputs(vehicle);
   for (std::size_t f = 0; f < vehicle.model().forces.size(); ++f) {
     const auto& force = vehicle.model().forces[f];
@@ -44,10 +46,10 @@ void add_forces(const LinearVehicle& vehicle, WatchedQuantities& watched) {
     });
     if (!forces.empty())
       watched.list.push_back(
-          {"force of " + force->name, Kind::kForce, add_outputs(watched, outputs.pick(forces))});
+          {"force of " + force->name, Kind::kForce, add_outputs(watched, outputs.pick(forces)), is_judged});
     if (!torques.empty())
-      watched.list.push_back(
-          {"torque of " + force->name, Kind::kTorque, add_outputs(watched, outputs.pick(torques))});
+      watched.list.push_back({"torque of " + force->name, Kind::kTorque,
+                              add_outputs(watched, outputs.pick(torques)), is_judged});
   }
 }
 
@@ -71,18 +73,35 @@ void add_reactions(const LinearVehicle& vehicle, WatchedQuantities& watched) {
   }
 }
 
+void add_moments(const LinearVehicle& vehicle, const LinearOutputs& moments, WatchedQuantities& watched) {
+  for (std::size_t b = 0; b < vehicle.model().bodies.size(); ++b) {
+    const std::vector<int> rows = find_outputs(
+        moments, [&](const OutputSubject& subject) { return subject.object == static_cast<int>(b); });
+    if (rows.empty()) continue;
+    watched.list.push_back({"bending moments of " + vehicle.model().bodies[b].name, Kind::kMoment,
+                            add_outputs(watched, moments.pick(rows))});
+  }
+}
+
 }  // namespace
 
-WatchedQuantities make_watched_quantities(const LinearVehicle& vehicle, const std::vector<int>& points) {
+bool WatchedQuantities::judges_any() const {
+  return std::any_of(list.begin(), list.end(),
+                     [](const WatchedQuantity& quantity) { return quantity.is_judged; });
+}
+
+WatchedQuantities make_watched_quantities(const LinearVehicle& vehicle, const JudgedPlaces& places,
+                                          const JudgedQuantities& judged) {
   WatchedQuantities watched;
-  for (const int marker : points) {
+  for (const int marker : places.points) {
     const std::string& name = vehicle.model().markers[static_cast<std::size_t>(marker)].name;
     const std::vector<int> rows = add_outputs(watched, make_point_outputs(vehicle, marker).pick({0, 1}));
-    watched.list.push_back({"displacement of " + name, Kind::kDisplacement, rows});
-    watched.list.push_back({"acceleration of " + name, Kind::kAcceleration, rows});
+    watched.list.push_back({"displacement of " + name, Kind::kDisplacement, rows, judged.points});
+    watched.list.push_back({"acceleration of " + name, Kind::kAcceleration, rows, judged.points});
   }
-  add_forces(vehicle, watched);
-  add_reactions(vehicle, watched);
+  add_forces(vehicle, judged.forces, watched);  // wheels that leave the ground are remarked from their forces
+  if (judged.reactions) add_reactions(vehicle, watched);
+  if (judged.moments) add_moments(vehicle, places.moments, watched);
   return watched;
 }
 

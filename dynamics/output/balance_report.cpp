@@ -92,7 +92,7 @@ std::string format_equilibrium(const BalanceReport& report) {
   }
   if (report.sections == nullptr) return text;
   text += format_sections(*report.sections);
-  return text + format_remarks(list_missing_parts(*report.sections));
+  return text + format_remarks(list_missing_parts(*report.sections, report.vehicle.judged));
 }
 
 std::string format_equilibrium_json(const BalanceReport& report) {
@@ -143,7 +143,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
     }
   }
   text += table.str();
-  return text + format_remarks(list_missing_parts(sections));
+  return text + format_remarks(list_missing_parts(sections, vehicle.judged));
 }
 
 bool FrequencyBracket::holds(const std::vector<VehicleMode>& modes, std::size_t mode) const {

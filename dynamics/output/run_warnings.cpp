@@ -112,15 +112,16 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
 
 std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
                                           const TransientStatistics& transient,
+                                          const JudgedQuantities& judged,
                                           const AdaptivityOptions* adaptivity) {
   std::vector<RunWarning> warnings;
   warn_of_energy(statistics, warnings);
-  if (adaptivity != nullptr) {
+  if (adaptivity != nullptr && judged.points) {
     warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
   }
-  add_remarks(list_missing_parts(statistics.sections()), statistics, warnings);
+  add_remarks(list_missing_parts(statistics.sections(), judged), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
-  add_remarks(list_missed_by_bases(statistics.certified()), statistics, warnings);
+  if (judged.points) add_remarks(list_missed_by_bases(statistics.certified()), statistics, warnings);
   return warnings;
 }
 

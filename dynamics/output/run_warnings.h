@@ -30,10 +30,12 @@ bool is_balanced(const RunStatistics& statistics);
 /// The warnings that need no run: of sizes, and of bodies that the assembly moved far.
 std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly);
 /// The warnings about a run that has come to its end, the gravest first, without those of the model.
+/// @param judged      kinds of quantities whose missing parts are warned of
 /// @param adaptivity  null if no modes were left out
 /// Checked by tests/dynamics/program/warnings_test.py
 std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
                                           const TransientStatistics& transient,
+                                          const JudgedQuantities& judged,
                                           const AdaptivityOptions* adaptivity);
 
 /// The point at which modes left out are missing the most.

@@ -8,6 +8,7 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/program/massless_check.h"
 #include "dynamics/road/flat_road.h"
+#include "dynamics/section_loads/linear_moments.h"
 
 namespace sprung::dynamics {
 
@@ -71,13 +72,14 @@ BasisChoice choose_automatic_modes(const Run& run, const Vehicle& vehicle, const
   if (!equilibrium.stable || has_growth(linear.solver().eigenvalues())) {
     return keep_all(candidates, tolerance, "the static equilibrium is unstable");
   }
-  std::vector<int> points;
+  JudgedPlaces places;
   for (const std::string& name : resolve_output_points(run, vehicle)) {
     const int marker = model.find_marker(name);
-    if (model.markers[static_cast<std::size_t>(marker)].body != kGround) points.push_back(marker);
+    if (model.markers[static_cast<std::size_t>(marker)].body != kGround) places.points.push_back(marker);
   }
+  if (vehicle.judged.moments) places.moments = make_moment_outputs(linear, vehicle);
   const KnownForcing forcing{.road = &road, .speed = std::max(run.speed, 0.0), .duration = run.duration};
-  BasisChoice choice = choose_basis(linear, candidates, points, forcing, tolerance);
+  BasisChoice choice = choose_basis(linear, candidates, places, vehicle.judged, forcing, tolerance);
   for (const RoadInput& input : linear.inputs()) {
     if (!input.is_pressed)
       choice.remarks.push_back("'" + input.name +

@@ -259,8 +259,10 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
     }
   }
   if (settings.enabled) activate_moving_modes(prepared.model, prepared.start, options.active);
-  for (const std::string& point : prepared.output_points)
-    options.points.push_back(options.full->find_marker(point));
+  if (prepared.vehicle.judged.points) {
+    for (const std::string& point : prepared.output_points)
+      options.points.push_back(options.full->find_marker(point));
+  }
   return options;
 }
 

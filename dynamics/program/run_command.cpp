@@ -247,7 +247,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const TransientStatistics transient =
       integrate(prepared, options, written, progress, sections, statistics, times);
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
-  std::vector<RunWarning> warnings = list_run_warnings(prepared.model, statistics, transient, adaptivity);
+  std::vector<RunWarning> warnings =
+      list_run_warnings(prepared.model, statistics, transient, prepared.vehicle.judged, adaptivity);
   print_of_computation(streams.err, warnings);
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);

@@ -13,20 +13,21 @@ constexpr double kLargeAxialEffect = 0.1;  // work of axial forces in bending ov
 
 }  // namespace
 
-std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics) {
+std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
+                                           const JudgedQuantities& judged) {
   std::vector<BodyRemark> remarks;
   for (std::size_t b = 0; b < statistics.peaks().size(); ++b) {
     const BodySections& body = statistics.sections().bodies()[b];
     const SectionPeaks& peaks = statistics.peaks()[b];
     std::vector<std::string> parts;
-    if (peaks.missing_deflection_share() > kTooMuchMissing) {
+    if (judged.points && peaks.missing_deflection_share() > kTooMuchMissing) {
       const SectionPeak& peak = peaks.missing_deflection;
       parts.push_back(fmt::format("{:.3g} % of the largest deflection (at {} along {}, t = {:.3g} s)",
                                   100.0 * peaks.missing_deflection_share(),
                                   body.points()[static_cast<std::size_t>(peak.station / 3)],
                                   peak.station % 3 == 0 ? "x" : "y", peak.time));
     }
-    if (peaks.missing_moment_share() > kTooMuchMissing) {
+    if (judged.moments && peaks.missing_moment_share() > kTooMuchMissing) {
       const Eigen::RowVector2d place = body.positions().row(peaks.missing_moment.station);
       parts.push_back(
           fmt::format("{:.3g} % of the largest bending moment (at x = {:.4g} m, y = {:.4g} m, t = {:.3g} s)",

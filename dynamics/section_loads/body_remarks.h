@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/input/vehicle.h"
 #include "dynamics/section_loads/body_bending.h"
 #include "dynamics/section_loads/certified_error.h"
 #include "dynamics/section_loads/section_statistics.h"
@@ -14,8 +15,10 @@ struct BodyRemark {
   std::string body, text;
 };
 
-/// A remark on each body of whose largest deflection or bending moment the modes miss more than a twentieth.
-std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics);
+/// A remark on each body of whose largest deflection, if points are judged, or bending moment, if moments
+/// are, the modes miss more than a twentieth.
+std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
+                                           const JudgedQuantities& judged);
 /// A remark on each body for which linear bending without axial forces does not hold: one that deflects by
 /// more than a tenth of its length, or whose bending axial forces change by more than a tenth.
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);

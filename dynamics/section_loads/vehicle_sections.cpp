@@ -20,7 +20,12 @@ void VehicleSections::update(const SystemTerms& terms, const Eigen::VectorXd& la
                              const Eigen::VectorXd& v_dot) {
   if (bodies_.empty()) return;
   terms.calc_loads(lambda, loads_);
-  for (BodySections& body : bodies_) body.update(loads_, q, v, v_dot);
+  update(loads_, q, v, v_dot);
+}
+
+void VehicleSections::update(std::span<const Wrench> loads, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot) {
+  for (BodySections& body : bodies_) body.update(loads, q, v, v_dot);
 }
 
 }  // namespace sprung::dynamics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "dynamics/section_loads/body_sections.h"
@@ -19,6 +20,9 @@ class VehicleSections {
   /// @param q, v, v_dot  of the model
   void update(const SystemTerms& terms, const Eigen::VectorXd& lambda, const Eigen::VectorXd& q,
               const Eigen::VectorXd& v, const Eigen::VectorXd& v_dot);
+  /// Likewise under given loads on each marker of the model, world axes.
+  void update(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+              const Eigen::VectorXd& v_dot);
   const std::vector<BodySections>& bodies() const { return bodies_; }
   /// Force and torque on each marker of the model at the last update, world axes.
   const std::vector<Wrench>& loads() const { return loads_; }

@@ -72,6 +72,43 @@ class Truck(VerificationCase):
         neglected = difference.max() / np.hypot(*runs['"all"'].T).max()
         self.assert_close(neglected, report["neglected"], relative=0.15)
 
+    def test_the_predicted_share_of_moments_is_that_of_a_run(self):
+        # The truck on the terrain of a twentieth of its height, as above; moments alone judge, by their norm over the
+        # places where the moment of a mode is the largest.
+        s, height = np.loadtxt(TRUCK / "terrain_road.txt", unpack=True)
+        road = self.folder / "low.txt"
+        np.savetxt(road, np.column_stack([s, height / 20.0]), fmt="%.12g")
+        damper = "{ coefficient = 11527.5 }"
+        setting = [
+            *overrides(**{f"vehicle__forces__{end}_suspension__damper": damper for end in ("front", "rear")}),
+            *overrides(road=f"{{ shape = 'table', start = 1.0, file = '{road}' }}", integrator__relative_tolerance=1e-9,
+                       mode_choice__tolerance=0.05, vehicle__modes__judge="['moments']",
+                       output__store="{ recovery = 'all' }", output__precision="'double'"),
+        ]  # fmt: skip
+        report = self.select("terrain", *setting)
+        self.assertEqual(report["neglected_of"], "peak bending moments of chassis")
+        with h5py.File(f"{TRUCK_SUPERELEMENTS}/chassis.h5") as file:
+            moments = file["resultants"][:, [2, 5], :]  # at both ends of each element, by mode
+        places = np.unique(np.abs(moments).reshape(-1, moments.shape[2]).argmax(axis=0))
+        runs = {
+            modes: self.run_truck("terrain", *setting, "--set", f"modes.chassis={modes}")[
+                "recovery/chassis/moment_from_loads"
+            ][:, places]
+            for modes in ('"all"', '"auto"')
+        }
+        difference = np.linalg.norm(runs['"auto"'] - runs['"all"'], axis=1)
+        size = np.linalg.norm(runs['"all"'] - runs['"all"'][0], axis=1)
+        self.assert_close(difference.max() / size.max(), report["neglected"], relative=0.15)
+
+    def test_the_quantities_that_judge_are_those_of_the_vehicle_file(self):
+        kinds = {"points": ("displacement ", "acceleration "), "moments": ("bending moments ",),
+                 "forces": ("force ", "torque "), "reactions": ("reaction ",)}  # fmt: skip
+        for kind, names in kinds.items():
+            with self.subTest(kind):
+                report = self.select("terrain", *overrides(vehicle__modes__judge=f"['{kind}']"))
+                words = report["neglected_of"].split(" ", 1)
+                self.assertTrue(words[1].startswith(names), report["neglected_of"])
+
     def test_the_faster_the_more_modes(self):
         slow, fast = (self.select("terrain", *overrides(speed=speed)) for speed in (1.0, 7.5))
         self.assertLess(len(self.kept(slow)), len(self.kept(fast)))

@@ -95,6 +95,7 @@ std::string path_of(const std::string& key) {
 std::string section_of(const std::string& path, const std::string& type) {
   static const std::map<std::string, std::string> kSections{
       {"", "Vehicle"},
+      {"modes", "Quantities that judge"},
       {"bodies.*", "Bodies"},
       {"bodies.*.points.*", "Points of a superelement"},
       {"motions.*", "Motions"},

@@ -47,6 +47,28 @@ TEST_CASE("A vehicle file is read as it is written") {
   CHECK(cart.monitor[1].name == "arm.tip");
 }
 
+TEST_CASE("By default modes are judged by points and moments, else by what the file names") {
+  const dynamics::JudgedQuantities standard = read_cart(cart_text()).judged;
+  CHECK((standard.points && standard.moments));
+  CHECK((!standard.forces && !standard.reactions));
+  const auto with_judge = [](const std::string& list) {
+    return with_change(cart_text(), "[bodies.frame]", "[modes]\njudge = " + list + "\n[bodies.frame]");
+  };
+  const dynamics::JudgedQuantities chosen = read_cart(with_judge("[\"reactions\", \"moments\"]")).judged;
+  CHECK((chosen.reactions && chosen.moments));
+  CHECK((!chosen.points && !chosen.forces));
+
+  const auto error_of = [&](const std::string& list) {
+    return input_error_of([&] { read_cart(with_judge(list)); });
+  };
+  CHECK_THAT(error_of("[\"points\", \"moment\"]"),
+             Contains(": error: 'modes.judge.1' must be one of ") && Contains("\"points\"") &&
+                 Contains("\"reactions\"") && Contains("got \"moment\"") && Contains("did you mean"));
+  CHECK_THAT(error_of("[\"forces\", \"forces\"]"), Contains("'modes.judge.1' names \"forces\" twice"));
+  CHECK_THAT(error_of("[]"), Contains("'modes.judge' must name at least one of"));
+  CHECK_THAT(error_of("[]\njudges = 1"), Contains("unknown key 'modes.judges'"));
+}
+
 TEST_CASE("By default gravity is the standard one, and every body's origin is monitored") {
   std::string text = with_change(cart_text(), "gravity = [0.5, -9.0]\n", "");
   text = with_change(text, "monitor = [\"frame.seat\", \"arm.tip\"]\n", "");

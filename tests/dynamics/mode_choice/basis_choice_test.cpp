@@ -28,6 +28,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr int kNumModes = 6;
+constexpr dynamics::JudgedQuantities kAll{.points = true, .moments = true, .forces = true, .reactions = true};
 
 // A straight beam, its frame fixed to the ground, 1 m to each side where it has two. Clamped there, it has no
 // coordinates but its modes.
@@ -71,7 +72,7 @@ struct HeldBeam {
     for (int k = 0; k < kNumModes; ++k) {
       candidates.push_back({"beam", k + 1, frequency(k + 1), beam.superelement.cluster[k], 3 + k});
     }
-    return dynamics::choose_basis(vehicle, candidates, {tip},
+    return dynamics::choose_basis(vehicle, candidates, {.points = {tip}, .moments = {}}, kAll,
                                   {.road = nullptr, .speed = 0.0, .duration = duration}, tolerance);
   }
 };
@@ -213,8 +214,9 @@ TEST_CASE("Without other forcing, modes that bend under the weight are kept", "[
   const LinearVehicle vehicle(beam.model, q);
   std::vector<CandidateMode> candidates;
   for (int k = 0; k < kNumModes; ++k) candidates.push_back({"beam", k + 1, beam.frequency(k + 1), k, 3 + k});
-  const BasisChoice choice = dynamics::choose_basis(vehicle, candidates, {beam.tip},
-                                                    {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.05);
+  const BasisChoice choice =
+      dynamics::choose_basis(vehicle, candidates, {.points = {beam.tip}, .moments = {}}, kAll,
+                             {.road = nullptr, .speed = 0.0, .duration = 1.0}, 0.05);
   // The tip's sag by mode 1 alone, of the whole: φ₁ η₁ / Σ φ η.
   const Eigen::RowVectorXd tip = beam.model.markers[static_cast<std::size_t>(beam.tip)].Phi.row(1);
   const double whole = tip.dot(q.tail(kNumModes));
@@ -245,7 +247,8 @@ TEST_CASE("Modes measured in thinned lines have the shares of all lines", "[choi
                 {.before = 0.0, .after = 50.0, .start = 0.1, .end = 0.1 + 2.0 / beam.frequency(5)}));
   dynamics::number_model(beam.model);
   const LinearVehicle vehicle(beam.model, VectorXd::Zero(beam.model.num_coordinates));
-  const dynamics::WatchedQuantities watched = dynamics::make_watched_quantities(vehicle, {beam.tip});
+  const dynamics::WatchedQuantities watched =
+      dynamics::make_watched_quantities(vehicle, {.points = {beam.tip}, .moments = {}}, kAll);
   const dynamics::NeglectMeasure measure(vehicle, watched, {3, 4, 5, 6, 7, 8},
                                          {.road = nullptr, .speed = 0.0, .duration = 2.0}, 0.01);
   const std::vector<std::vector<int>> sets{{0}, {1}, {2}, {4}, {2, 1}, {0, 3, 4}};
