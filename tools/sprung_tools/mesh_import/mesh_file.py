@@ -4,6 +4,7 @@ import os
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
+from sprung_tools.mesh_import.aster_mesh import is_aster_mesh, read_aster_mesh
 from sprung_tools.mesh_import.line_mesh import LineMesh
 from sprung_tools.mesh_import.nastran_cards import is_nastran
 from sprung_tools.mesh_import.nastran_deck import read_nastran
@@ -21,6 +22,8 @@ def read_mesh(path: str) -> LineMesh:
         return DECKS[ending](path)
     if ending in MAYBE_NASTRAN and is_nastran(path):
         return read_nastran(path)
+    if ending == ".mail" and is_aster_mesh(path):
+        return read_aster_mesh(path)
     from sprung_tools.mesh_import.meshio_reader import read_with_meshio  # here because meshio takes long to load
 
     return read_with_meshio(path)
