@@ -15,6 +15,7 @@ import numpy as np
 from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 
 import sprung
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT as PROJECT
 from sprung_tools.programs.finding import find_programs
 
@@ -45,6 +46,21 @@ class Functions(ToolTestCase):
                          "summary/points/sprung.origin/acceleration_max", "tyres/tyre/static_load"):  # fmt: skip
                 self.assertEqual(results.measure(name), measures[name].value)
             self.assertEqual((results.converged, results.warnings), (True, []))
+
+    def test_a_quantity_is_an_array_of_xarray_with_units(self):
+        """By a stand-in that keeps what xarray.DataArray was given."""
+        with sprung.run(CAR, overrides={"duration": 0.1}) as results:
+            with mock.patch.dict(sys.modules, {"xarray": mock.Mock()}) as modules:
+                found = results.array("forces/suspension/force")
+                self.assertIs(found, modules["xarray"].DataArray.return_value)
+                (values, coordinates, dimensions), settings = modules["xarray"].DataArray.call_args
+            np.testing.assert_array_equal(values, results["forces/suspension/force"])
+            ((name, time, units),) = coordinates.values()
+            np.testing.assert_array_equal(time, results.time)
+            self.assertEqual((list(coordinates), name, dimensions, units), (["time"], "time", ["time"], {"units": "s"}))
+            self.assertEqual(settings, {"name": "forces/suspension/force", "attrs": {"units": "N"}})
+            with mock.patch.dict(sys.modules, {"xarray": None}), self.assertRaisesRegex(InputError, "python3-xarray"):
+                results.array("forces/suspension/force")
 
     def test_every_quantity_that_is_listed_can_be_read_and_all_histories_are_listed(self):
         with sprung.run(CAR, overrides={"duration": 0.1}) as results:

@@ -1,10 +1,11 @@
 """Results of a run and of a response: arrays by the names that the files give them (dynamics/output/results.md,
 dynamics/output/response.md), with units."""
 
+import importlib
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
@@ -88,6 +89,17 @@ class Results:
     def unit(self, quantity: str) -> str:
         """The unit of a quantity. InputError, as for its values, if there is no such quantity."""
         return self._file.series(quantity)[1]
+
+    def array(self, quantity: str) -> Any:
+        """A quantity as an xarray.DataArray over `time`, units as attributes. InputError where the package xarray is
+        not installed."""
+        try:
+            xarray = importlib.import_module("xarray")
+        except ImportError as error:
+            raise InputError("xarray: error: is not installed; the Debian package is python3-xarray") from error
+        values, unit = self._file.series(quantity)
+        time = ("time", self.time, {"units": "s"})
+        return xarray.DataArray(values, {"time": time}, ["time"], name=quantity, attrs={"units": unit})
 
     def names(self) -> list[str]:
         """The quantities of the file, each component for itself."""
