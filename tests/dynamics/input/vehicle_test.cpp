@@ -66,7 +66,7 @@ TEST_CASE("By default modes are judged by points and moments, else by what the f
                  Contains("\"reactions\"") && Contains("got \"moment\"") && Contains("did you mean"));
   CHECK_THAT(error_of("[\"forces\", \"forces\"]"), Contains("'modes.judge.1' names \"forces\" twice"));
   CHECK_THAT(error_of("[]"), Contains("'modes.judge' must name at least one of"));
-  CHECK_THAT(error_of("[]\njudges = 1"), Contains("unknown key 'modes.judges'"));
+  CHECK_THAT(error_of("[]\njudges = 1"), Contains("unknown key 'judges' in 'modes'"));
 }
 
 TEST_CASE("By default gravity is the standard one, and every body's origin is monitored") {
