@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <set>
 #include <utility>
 
 #include "dynamics/section_loads/vehicle_sections.h"
@@ -12,25 +11,31 @@ namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kEqualMoments = 1e-6;  // relative difference
+constexpr double kRounding = 1e-9;  // of the largest moment of any mode: that of a mode which does not bend
+
 // A place of a body where moments are watched.
 struct MomentPlace {
   std::size_t sections;  // of the body, among those of the vehicle
   Eigen::Index station;
 };
 
-// For each mode the station at which its bending moment is the largest.
+// For each mode that bends the body the stations at which its bending moment is the largest: all of them
+// where rounding would choose between equal ones.
 std::vector<Eigen::Index> choose_stations(const Body& body, const reduce::Superelement& superelement) {
-  std::vector<Eigen::Index> stations;
+  const Eigen::Index num_stations = superelement.resultants.rows() / 3;
+  const Eigen::MatrixXd moments =
+      superelement.resultants(Eigen::seqN(2, num_stations, 3), Eigen::all).cwiseAbs();
+  const double rounding = kRounding * moments.maxCoeff();
+  std::set<Eigen::Index> stations;
   for (const int number : body.mode_numbers) {
-    Eigen::Index largest = 0;
-    const auto moments =
-        superelement.resultants.col(number - 1)(Eigen::seqN(2, superelement.resultants.rows() / 3, 3));
-    moments.cwiseAbs().maxCoeff(&largest);
-    stations.push_back(largest);
+    const auto sizes = moments.col(number - 1);
+    const double largest = sizes.maxCoeff();
+    for (Eigen::Index station = 0; station < num_stations && largest > rounding; ++station) {
+      if (sizes[station] >= (1.0 - kEqualMoments) * largest) stations.insert(station);
+    }
   }
-  std::sort(stations.begin(), stations.end());
-  stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
-  return stations;
+  return {stations.begin(), stations.end()};
 }
 
 std::vector<MomentPlace> list_places(const VehicleSections& sections, const Model& model,

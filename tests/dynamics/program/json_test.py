@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The JSON of the commands is what dynamics/README.md, "JSON", says: no path is missing there, and none is only there."""
+"""The JSON of the commands is what dynamics/README.md, "JSON", says: no path is missing there, none only there."""
 
 import json
 import re
