@@ -10,12 +10,19 @@
 
 namespace sprung::reduce {
 
+/// What a residual vector is made from: K⁻¹r of a load at a frequency.
+struct ResidualSource {
+  Eigen::Index load = 0;
+  double omega_squared = 0.0;  ///< [rad²/s²]
+};
+
 /// Vectors that a body's elastic motion is reduced to, in ascending ω². They are those of the held frame, n
 /// values each, and normalised for the elastic motion of the free body (reduce/basis, eq. 3).
 struct FreeBodyBasis {
   EigenPairs vectors;             ///< m
   std::vector<std::string> kind;  ///< m (superelement/certificate.h)
   Certificate certificate;
+  std::vector<ResidualSource> residuals;  ///< of a free basis, in the order in which they joined
 };
 
 /// What a basis has to serve.

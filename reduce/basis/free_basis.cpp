@@ -16,12 +16,19 @@ namespace {
 constexpr double kTie = 1e-6;  // shares nearer than this count as equal: the first load is taken
 constexpr double kNegligibleMissing = 1e-10;  // share at rest below which a load adds no direction
 
+// Adds a vector, and says from what it was made.
+void add_vector(InterfaceResidual& residual, const ResidualSource& source,
+                std::vector<ResidualSource>& added) {
+  residual.add(residual.make_vector(source.load, source.omega_squared));
+  added.push_back(source);
+}
+
 // The static response to every load, in their order.
-void add_all(InterfaceResidual& residual) {
+void add_all(InterfaceResidual& residual, std::vector<ResidualSource>& added) {
   for (Eigen::Index load = 0; load < residual.num_loads(); ++load) {
     const double missing = residual.calc_errors(0.0, residual.calc_amplitudes(0.0))(load);
     if (missing > kNegligibleMissing * residual.static_flexibility()(load))
-      residual.add(residual.make_vector(load, 0.0));
+      add_vector(residual, {.load = load}, added);
   }
 }
 
@@ -34,7 +41,7 @@ Eigen::Index find_worst(const Eigen::VectorXd& shares) {
 }
 
 void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,
-                         Eigen::Index most) {
+                         Eigen::Index most, std::vector<ResidualSource>& added) {
   while (residual.num_loads() > 0) {
     const BandErrors errors = calc_band_errors(residual, highest, cutoff);
     const Eigen::VectorXd shares = errors.error.cwiseQuotient(
@@ -47,7 +54,7 @@ void add_until_certified(InterfaceResidual& residual, double highest, double cut
                       "tolerance {:.3g}: rounding keeps it from getting better; ask for a larger tolerance",
                       shares(worst), residual.num_vectors(), tolerance));
     }
-    residual.add(residual.make_vector(worst, errors.worst_omega_squared(worst)));
+    add_vector(residual, {.load = worst, .omega_squared = errors.worst_omega_squared(worst)}, added);
   }
 }
 
@@ -65,14 +72,15 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
                                        .rounding = request.rounding};
   InterfaceResidual residual(problem, factor, modes.pairs, request.loads);
   const Eigen::Index k = modes.pairs.omega_squared.size();
+  FreeBodyBasis basis;
   if (!std::isinf(modes.next_omega_squared)) {
-    if (request.all_residual) add_all(residual);
+    if (request.all_residual) add_all(residual, basis.residuals);
     const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
-    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k);
+    add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k,
+                        basis.residuals);
   }
   const EigenPairs ritz = residual.ritz();
   const Eigen::Index m = ritz.omega_squared.size();
-  FreeBodyBasis basis;
   basis.vectors = {.omega_squared = Eigen::VectorXd(k + m),
                    .vectors = Eigen::MatrixXd(problem.size(), k + m)};
   basis.vectors.omega_squared << modes.pairs.omega_squared, ritz.omega_squared;

@@ -21,6 +21,7 @@ class BandSearch {
     const Eigen::Index b = residual.num_loads();
     errors_.error = Eigen::VectorXd::Zero(b);
     errors_.worst_omega_squared = Eigen::VectorXd::Zero(b);
+    errors_.worst_part.resize(static_cast<std::size_t>(b));
     found_ = kNegligible * residual.static_flexibility();
   }
 
@@ -57,6 +58,7 @@ class BandSearch {
     for (Eigen::Index j = 0; j < bound.size(); ++j) {
       if (bound(j) <= errors_.error(j)) continue;
       errors_.error(j) = bound(j);
+      errors_.worst_part[static_cast<std::size_t>(j)] = part;
       errors_.worst_omega_squared(j) = last(j) >= first(j) ? part.end : part.begin;
     }
   }

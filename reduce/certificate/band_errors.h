@@ -16,6 +16,7 @@ struct BandPart {
 struct BandErrors {
   Eigen::VectorXd error;                ///< b, of each load's own freedom [m/N, rad/(N·m)]
   Eigen::VectorXd worst_omega_squared;  ///< b, where the bound is the largest
+  std::vector<BandPart> worst_part;     ///< b, on which the bound is the largest
   std::vector<BandPart> parts;          ///< that the bounds were made on
 };
 

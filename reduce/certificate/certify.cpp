@@ -104,7 +104,7 @@ Certificate calc_certificate(const InterfaceResidual& residual, const Certificat
   const Eigen::VectorXd& flexibility = residual.static_flexibility();
   Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(b);
   const bool bounded = cutoff > highest, misses = b > 0 && !std::isinf(cutoff);
-  BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .parts = {}};
+  BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .worst_part = {}, .parts = {}};
   if (misses) at_rest = residual.calc_errors(0.0, residual.calc_amplitudes(0.0));
   if (bounded && misses) band = calc_band_errors(residual, highest, cutoff);
   certificate.soft_loads.resize(0, b);

@@ -8,6 +8,7 @@
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/held_node.h"
 #include "reduce/sensitivity/body_modes.h"
+#include "reduce/sensitivity/certificate_rates.h"
 #include "tools/support/dense/eigenproblems.h"
 
 namespace sprung::reduce {
@@ -44,7 +45,8 @@ class SensitiveBody {
       : design_(design),
         matrices_(make_body_matrices(design)),
         free_(calc_body_modes(design, matrices_, true, num_modes)),
-        clamped_(calc_body_modes(design, matrices_, false, num_modes)) {
+        clamped_(calc_body_modes(design, matrices_, false, num_modes)),
+        certificate_(design, matrices_) {
     solve_static();
   }
 
@@ -55,7 +57,8 @@ class SensitiveBody {
             .clamped_hz = clamped_.calc_hz(),
             .mass = mass(0, 0),
             .inertia = mass(2, 2) - first.squaredNorm() / mass(0, 0),
-            .flexibility = static_.loads.cwiseProduct(static_.displacements).colwise().sum()};
+            .flexibility = static_.loads.cwiseProduct(static_.displacements).colwise().sum(),
+            .certificate = certificate_.shares()};
   }
 
   BodyQuantities calc_derivative(const fem::BeamModelRates& model_rates) const {
@@ -71,12 +74,14 @@ class SensitiveBody {
     const Eigen::Matrix3d mass_rate = matrices_.rigid.shapes.transpose() * momenta + half + half.transpose();
     const Eigen::Matrix3d& mass = matrices_.rigid.mass;
     const Eigen::Vector2d first = mass.block<2, 1>(0, 2), first_rate = mass_rate.block<2, 1>(0, 2);
+    const Eigen::VectorXd flexibility_rates = calc_flexibility_rates(rates, momenta, rigid_rates);
     return {.free_hz = calc_frequency_rates(free_, rates),
             .clamped_hz = calc_frequency_rates(clamped_, rates),
             .mass = mass_rate(0, 0),
             .inertia = mass_rate(2, 2) - 2.0 * first.dot(first_rate) / mass(0, 0) +
                        first.squaredNorm() * mass_rate(0, 0) / (mass(0, 0) * mass(0, 0)),
-            .flexibility = calc_flexibility_rates(rates, momenta, rigid_rates)};
+            .flexibility = flexibility_rates,
+            .certificate = calc_certificate_rates(rates, momenta, rigid_rates, flexibility_rates)};
   }
 
   ElementShares calc_shares() const {
@@ -119,9 +124,27 @@ class SensitiveBody {
     return -U.cwiseProduct(stiffness + 2.0 * inertia).colwise().sum();
   }
 
+  Eigen::VectorXd calc_certificate_rates(const fem::AssembledMatrices& rates, const Eigen::MatrixXd& momenta,
+                                         const Eigen::MatrixXd& rigid_rates,
+                                         const Eigen::VectorXd& flexibility_rates) const {
+    if (certificate_.shares().size() == 0) return {};
+    const Eigen::MatrixXd half = rigid_rates.transpose() * matrices_.rigid.momenta;
+    const Eigen::VectorXd flexibility = static_.loads.cwiseProduct(static_.displacements).colwise().sum();
+    const int node = design_.reference_node;
+    const Eigen::MatrixXd momenta_rate = momenta + matrices_.full.mass * rigid_rates;
+    return certificate_.calc_rates(
+        {.stiffness = remove_node(rates.stiffness, node),
+         .mass = remove_node(rates.mass, node),
+         .momenta = remove_node(momenta_rate, node),
+         .rigid_mass = matrices_.rigid.shapes.transpose() * momenta + half + half.transpose(),
+         .rigid_work = rigid_rates.transpose() * static_.loads},
+        (flexibility.array() > 0.0).select(flexibility_rates.cwiseQuotient(flexibility), 0.0));
+  }
+
   const Design& design_;
   BodyMatrices matrices_;
   BodyModes free_, clamped_;
+  CertificateRates certificate_;
   StaticResponse static_;
 };
 

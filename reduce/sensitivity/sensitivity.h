@@ -15,6 +15,9 @@ struct BodyQuantities {
   double mass = 0.0;            ///< [kg]
   double inertia = 0.0;         ///< about the centre of mass [kg·m²]
   Eigen::VectorXd flexibility;  ///< at rest, of each interface freedom (reduce/certificate) [m/N, rad/(N·m)]
+  /// The bound of each interface freedom over the band, of its flexibility; empty of a basis that is not
+  /// free.
+  Eigen::VectorXd certificate;
 };
 
 /// A parameter and the derivatives of the quantities by it.

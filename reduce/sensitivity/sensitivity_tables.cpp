@@ -65,19 +65,39 @@ std::vector<std::string> format_largest(const Design& design, const BodyQuantiti
           format_freedom(design, static_cast<std::size_t>(worst))};
 }
 
+// The largest share of the certificate, in % of it.
+std::string format_certificate(const BodyQuantities& value, const BodyQuantities& derivative, double step) {
+  if (value.certificate.size() == 0) return "";
+  Eigen::Index worst = 0;
+  const double largest = value.certificate.maxCoeff(&worst);
+  return format_effect(derivative.certificate(worst), largest, step);
+}
+
+std::string name_certificate(const Design& design, const BodyQuantities& value) {
+  if (value.certificate.size() == 0) return "certificate";
+  Eigen::Index worst = 0;
+  const double largest = value.certificate.maxCoeff(&worst);
+  return fmt::format("certificate {:.2g} % ({})", 100.0 * largest,
+                     format_freedom(design, static_cast<std::size_t>(worst)));
+}
+
 std::string format_others(const Design& design, const DesignSensitivity& sensitivity) {
   const BodyQuantities& value = sensitivity.value;
   TextTable table({"parameter", "value", "by", fmt::format("mass {:.6g} kg", value.mass),
-                   fmt::format("inertia {:.6g} kg·m²", value.inertia), "flexibility, most", "of"});
+                   fmt::format("inertia {:.6g} kg·m²", value.inertia), "flexibility, most", "of",
+                   name_certificate(design, value)});
   for (const ParameterSensitivity& one : sensitivity.parameters) {
     std::vector<std::string> row = begin_row(one.parameter);
     const double step = choose_step(one.parameter);
     row.push_back(format_effect(one.derivative.mass, value.mass, step));
     row.push_back(format_effect(one.derivative.inertia, value.inertia, step));
     for (std::string& cell : format_largest(design, value, one, step)) row.push_back(std::move(cell));
+    row.push_back(format_certificate(value, one.derivative, step));
     table.add_row(row);
   }
-  return "Mass, inertia about the centre of mass, static flexibility of the interface, change in %\n" +
+  return "Mass, inertia about the centre of mass, static flexibility of the interface, certificate, change "
+         "in "
+         "%\n" +
          table.str();
 }
 
@@ -90,7 +110,8 @@ Json make_quantities(const BodyQuantities& quantities) {
           {"clamped_frequency_hz", make_list(quantities.clamped_hz)},
           {"mass_kg", quantities.mass},
           {"inertia_kg_m2", quantities.inertia},
-          {"interface_flexibility", make_list(quantities.flexibility)}};
+          {"interface_flexibility", make_list(quantities.flexibility)},
+          {"certificate", make_list(quantities.certificate)}};
 }
 
 Json make_elements(const fem::BeamModel& model, const ElementShares& shares) {

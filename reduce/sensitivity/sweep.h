@@ -17,7 +17,7 @@ struct TrackedModes {
 };
 
 /// The modes that continue those given: pairs of the largest correlations, each mode once. Within a cluster,
-/// whose basis is arbitrary, it is rotated towards the modes given (reduce/sensitivity, eqs. 5, 6).
+/// whose basis is arbitrary, it is rotated towards the modes given (reduce/sensitivity, eqs. 9, 10).
 ///
 /// @param modes  at least as many   @param mass  3N×3N, of the changed body
 /// Checked by tests/reduce/sensitivity/sweep_test.cpp
@@ -42,7 +42,7 @@ struct SweepPoint {
 
 /// Frequencies, mass and inertia of a design while one of its numbers takes other values. Between two values
 /// a step is halved while a mode's correlation is below 0.9, at most six times. A preview has Ritz's
-/// frequencies, which are not below the true ones (reduce/sensitivity, eq. 7).
+/// frequencies, which are not below the true ones (reduce/sensitivity, eq. 11).
 ///
 /// @throws support::InputError if a value makes no design, or one with other nodes (at the key, with the
 /// value)

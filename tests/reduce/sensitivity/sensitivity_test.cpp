@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reduce/reduction/reduction.h"
 #include "reduce/sensitivity/sensitivity_tables.h"
 #include "tests/catch.h"
 #include "tests/reduce/sensitivity/two_cantilevers.h"
@@ -127,6 +128,44 @@ TEST_CASE("derivatives by every number of a design are the differences of bodies
     INFO(parameter.key);
     CHECK((found - expected).cwiseQuotient(value).cwiseAbs().maxCoeff() < 1e-8);
   }
+}
+
+// Expected: certificates of bodies made anew, as above. Their number of residual vectors stays the same, and
+// the parts of the band on which their bounds were made: else the values would jump.
+TEST_CASE("derivatives of the certificate are the differences of certificates made anew") {
+  const DesignSource source = write_design("frame.toml", kFrame);
+  const DesignSensitivity sensitivity = calc_all(source, 1);
+  const Superelement built = make_superelement(read_design(source));
+  const Eigen::VectorXd& share = sensitivity.value.certificate;
+  REQUIRE(share.size() == 4);
+  for (Eigen::Index j = 0; j < share.size(); ++j) {
+    CHECK(share(j) > 1e-4);
+    CHECK(share(j) == Approx(built.certificate->interface[static_cast<std::size_t>(j)].error).epsilon(1e-6));
+  }
+  for (const ParameterSensitivity& one : sensitivity.parameters) {
+    const DesignParameter& parameter = one.parameter;
+    const double scale = parameter.is_coordinate ? 1.0 : parameter.value;
+    const auto certificate = [&](double h) -> Eigen::VectorXd {
+      DesignSource changed = source;
+      changed.overrides.push_back(fmt::format("{}={:.17g}", parameter.key, parameter.value + h * scale));
+      const DesignSensitivity at = calc_sensitivity(read_design(changed), {}, 1);
+      return at.value.certificate;
+    };
+    const auto difference = [&](double h) -> Eigen::VectorXd {
+      return (certificate(h) - certificate(-h)) / (2.0 * h);
+    };
+    const Eigen::VectorXd expected = (4.0 * difference(2e-4) - difference(4e-4)) / 3.0;
+    INFO(parameter.key);
+    CHECK((scale * one.derivative.certificate - expected).cwiseQuotient(share).cwiseAbs().maxCoeff() < 1e-5);
+  }
+}
+
+// A clamped basis has free modes in its band, and so no bound.
+TEST_CASE("a basis that is not free has no derivative of its certificate") {
+  std::string text = kFrame;
+  text.replace(text.find("highest_frequency = 100.0"), 25, "basis = \"clamped\"");
+  text.replace(text.find("[modes]"), 7, "[modes]\ncount = 4");
+  CHECK(calc_all(write_design("clamped.toml", text), 1).value.certificate.size() == 0);
 }
 
 // Two equal cantilevers make pairs. Of a pair, the height of the first beam moves one frequency, in
