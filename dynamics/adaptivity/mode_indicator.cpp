@@ -51,8 +51,8 @@ ModeShare ModeIndicator::calc_share(std::size_t mode, const ModeAmplitude& ampli
 
 Eigen::Vector2d ModeIndicator::calc_missing_acceleration(std::size_t point) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (std::size_t j = 0; j < active_.size(); ++j)
-    if (!active_[j]) sum += accelerations_[j] * effective_[j].motion[point];
+  for (std::size_t j = 0; j < accelerations_.size(); ++j)
+    sum += accelerations_[j] * effective_[j].motion[point];
   return sum;
 }
 
@@ -97,7 +97,8 @@ void ModeIndicator::follow(std::size_t mode, double step) {
                                           std::abs(force) / stiffness)
                                : std::abs(one.place);
   accelerations_[mode] = force - 2.0 * decay * one.rate - stiffness * one.place;
-  const double acceleration = std::hypot(accelerations_[mode], std::sqrt(stiffness) * one.rate);
+  const double acceleration =
+      std::sqrt(accelerations_[mode] * accelerations_[mode] + stiffness * one.rate * one.rate);
   amplitudes_[mode] = {amplitude, acceleration};
   neglected_[mode] = calc_share(mode, amplitudes_[mode]);
 }

@@ -112,7 +112,7 @@ class ModeIndicator {
   UnbalancedForce unbalanced_;
   State state_;
   std::vector<Response> responses_;
-  std::vector<double> accelerations_;  // ξ̈ of each mode left out
+  std::vector<double> accelerations_;  // ξ̈ of each mode, 0 of active ones
   std::vector<ModeAmplitude> amplitudes_;
   std::vector<ModeShare> neglected_;
 };

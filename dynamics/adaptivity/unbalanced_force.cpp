@@ -7,9 +7,6 @@ UnbalancedForce::UnbalancedForce(const Model& full)
       acting_(full.bodies.size()),
       loads_(full.markers.size()),
       force_(Eigen::VectorXd::Zero(full.num_coordinates)) {
-  for (const Body& body : full.bodies) {
-    is_uncoupled_.push_back(body.stiffness.isDiagonal(0.0) && body.damping.isDiagonal(0.0));
-  }
   for (const int i : full.acting_markers) {
     const Marker& marker = full.markers[static_cast<std::size_t>(i)];
     if (marker.body != kGround && marker.Phi.cols() > 0)
@@ -36,13 +33,8 @@ void UnbalancedForce::update(const SystemTerms& run, const Eigen::VectorXd& lamb
       if (eta[k] == 0.0 && eta_dot[k] == 0.0 && eta_ddot[k] == 0.0) continue;  // most are held there
       // B is skew: −(ηᵀB)ᵀ = B η.
       const double spin = turning * eta[k] + 2.0 * rate * eta_dot[k];
-      r += rate * rate * eta[k] * body.M_tt.col(k) + spin * body.B.col(k) - eta_ddot[k] * body.M_ff.col(k);
-    }
-    if (is_uncoupled_[b]) {
-      r -= body.damping.diagonal().cwiseProduct(eta_dot) + body.stiffness.diagonal().cwiseProduct(eta);
-    } else {
-      r.noalias() -= body.damping * eta_dot;
-      r.noalias() -= body.stiffness * eta;
+      r += rate * rate * eta[k] * body.M_tt.col(k) + spin * body.B.col(k) - eta_ddot[k] * body.M_ff.col(k) -
+           eta_dot[k] * body.damping.col(k) - eta[k] * body.stiffness.col(k);
     }
     for (const int i : acting_[b]) {
       const Marker& marker = full_->markers[static_cast<std::size_t>(i)];

@@ -34,7 +34,6 @@ class UnbalancedForce {
   const Model* full_;
   std::vector<std::vector<int>> acting_;  // markers by body, of those with modes
   std::vector<Wrench> loads_;             // of each marker
-  std::vector<bool> is_uncoupled_;        // by body: neither stiffness nor damping couples its modes
   Eigen::VectorXd force_;
 };
 

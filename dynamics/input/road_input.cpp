@@ -101,8 +101,14 @@ std::unique_ptr<Road> make_road(const RoadDescription& description) {
                            .height = description.height});
 }
 
-std::string remark_on_road_end(const RoadDescription& description, const Road& road, double speed,
-                               double duration) {
+std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
+                           double duration) {
+  if (speed < 0.0 && road.num_segments() > 1) {
+    return fmt::format(
+        "{}:{}:{}: the vehicle drives against its heading, so that it does not meet the road, which begins "
+        "ahead of it",
+        description.location.path, description.location.line, description.location.column);
+  }
   const bool has_file = !description.file.empty();
   if ((!has_file && !description.random) || road.num_segments() < 2) return {};
   const double end = road.segment_end(road.num_segments() - 2);

@@ -45,10 +45,10 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
 /// Checked by tests/dynamics/input/road_input_test.cpp
 std::unique_ptr<Road> make_road(const RoadDescription& description);
 
-/// A text if the leading axle passes the last point of a measured or random road before the run ends, at the
-/// speed of the start; else "".
+/// A text if, at the speed of the start, the leading axle passes the last point of a measured or random road
+/// before the run ends, or the vehicle drives away from the road; else "".
 /// @param speed  along the heading [m/s]   @param duration  > 0 [s]
-std::string remark_on_road_end(const RoadDescription& description, const Road& road, double speed,
-                               double duration);
+std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
+                           double duration);
 
 }  // namespace sprung::dynamics

@@ -39,6 +39,14 @@ std::optional<Subject> find_subject(const std::string& history) {
   return Subject{static_cast<StoredGroup>(name - kStoredGroupNames.begin()), object};
 }
 
+// Whether a history of a point or a body follows from its accelerations, so that it is smooth.
+bool is_integrated(const std::string& history) {
+  constexpr std::array<std::string_view, 5> kEndings{"/position", "/velocity", "/deflection", "/amplitude",
+                                                     "/rate"};
+  return std::any_of(kEndings.begin(), kEndings.end(),
+                     [&](std::string_view ending) { return history.ends_with(ending); });
+}
+
 }  // namespace
 
 StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<HistorySize>& histories,
@@ -75,6 +83,7 @@ void StoragePlan::reduce(const OutputSettings& settings, const std::vector<Histo
     const bool wrenches = thin_out(settings, StoredGroup::kWrenches);
     if (joints || wrenches) accept("reactions of joints and loads of force elements " + interval);
   }
+  if (too_large() && thin_out_motion(settings)) accept("positions and velocities " + interval);
 }
 
 // Stores a group every kCoarseStep, unless the run file says how often. @return whether that changes anything
@@ -82,6 +91,17 @@ bool StoragePlan::thin_out(const OutputSettings& settings, StoredGroup group) {
   const long every = std::lround(kCoarseStep / conditions_.output_step);
   if (settings.of(group).every || every <= 1) return false;
   choice(group).every = every;
+  return true;
+}
+
+// Stores positions and velocities of points and bodies every kCoarseStep, unless the run file says how often.
+// @return whether that changes anything
+bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
+  const long every = std::lround(kCoarseStep / conditions_.output_step);
+  if (every <= 1) return false;
+  for (const StoredGroup group : {StoredGroup::kPoints, StoredGroup::kBodies}) {
+    if (!settings.of(group).every) choice(group).motion_every = every;
+  }
   return true;
 }
 
@@ -103,19 +123,20 @@ long StoragePlan::every(const std::string& history) const {
   const std::optional<Subject> subject = find_subject(history);
   if (!subject) return 1;
   const Choice& choice = choices_[static_cast<std::size_t>(subject->group)];
+  const long stored = choice.motion_every > 0 && is_integrated(history) ? choice.motion_every : choice.every;
   switch (choice.which) {
     case StorageRequest::Which::kNone:
       return 0;
     case StorageRequest::Which::kListed:
-      return choice.names.contains(subject->object) ? choice.every : 0;
+      return choice.names.contains(subject->object) ? stored : 0;
     case StorageRequest::Which::kReported: {
       const std::vector<std::string>& reported = conditions_.reported;
       const bool is_reported = std::find(reported.begin(), reported.end(), subject->object) != reported.end();
       const std::string body = body_of_point(subject->object);
-      return is_reported || conditions_.stiffened_bodies.contains(body) ? choice.every : 0;
+      return is_reported || conditions_.stiffened_bodies.contains(body) ? stored : 0;
     }
     default:
-      return choice.every;
+      return stored;
   }
 }
 

@@ -28,7 +28,8 @@ struct StorageConditions {
 /// Which histories of a run are stored, how often, and in which precision: what `[output]` asks for, and for
 /// the rest all that fits into `output.size`. What does not fit is reduced in this order, until it does:
 /// single precision, compressed; only the points in the summary, of which the others follow from the motion
-/// of bodies and modes; stress resultants every 10 ms; reactions and wrenches every 10 ms. Checked by
+/// of bodies and modes; stress resultants every 10 ms; reactions and wrenches every 10 ms; positions and
+/// velocities, which are smooth, every 10 ms. Checked by
 /// tests/dynamics/output/storage_plan_test.cpp
 class StoragePlan {
  public:
@@ -48,10 +49,12 @@ class StoragePlan {
     StorageRequest::Which which;
     std::set<std::string> names;
     long every;
+    long motion_every = 0;  // of positions and velocities, if not `every`
   };
   Choice& choice(StoredGroup group) { return choices_[static_cast<std::size_t>(group)]; }
   void reduce(const OutputSettings& settings, const std::vector<HistorySize>& histories);
   bool thin_out(const OutputSettings& settings, StoredGroup group);
+  bool thin_out_motion(const OutputSettings& settings);
   double estimate(const std::vector<HistorySize>& histories) const;
 
   StorageConditions conditions_;

@@ -193,7 +193,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.road = make_road(prepared.run);
   if (preparation == Preparation::kRun && !request.quiet) {
     const std::string remark =
-        remark_on_road_end(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
+        remark_on_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
     if (!remark.empty()) fmt::print(request.streams.err, "remark: {}\n", remark);
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.

@@ -63,11 +63,15 @@ void PartitionedOde::close_joints(double time, std::span<const double> y) {
   if (!evaluate_motion(time, y)) throw_not_closed(time);
 }
 
-State PartitionedOde::make_state(double time, std::span<const double> y) {
+void PartitionedOde::calc_accelerations(double time, std::span<const double> y) {
   close_joints(time, y);
   if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
     throw_not_closed(time);
   }
+}
+
+State PartitionedOde::make_state(double time, std::span<const double> y) {
+  calc_accelerations(time, y);
   return {.time = time,
           .q = equations_.q(),
           .v = equations_.v(),

@@ -34,6 +34,8 @@ class PartitionedOde final : public OdeSystem {
   /// Brings positions and velocities of `equations()` to y.
   /// @throws support::NumericalError if the constraints cannot be satisfied
   void close_joints(double time, std::span<const double> y);
+  /// Likewise accelerations and multipliers.
+  void calc_accelerations(double time, std::span<const double> y);
   /// The state that y stands for; all terms of `equations()` are evaluated there.
   /// @throws support::NumericalError if the constraints cannot be satisfied
   State make_state(double time, std::span<const double> y);

@@ -152,7 +152,7 @@ void PartitionedStepper::evaluate(double time, Level level) {
   if (level == Level::kMotion)
     ode_.close_joints(time, y_);
   else
-    ode_.make_state(time, y_);
+    ode_.calc_accelerations(time, y_);
   if (level == Level::kAllMarkers) ode_.equations().update_all_markers();
 }
 

@@ -223,21 +223,25 @@ TEST_CASE("A random road has one level, a band and waves in it") {
         std::string::npos);
 }
 
-TEST_CASE("A measured road that ends before the run is told, a bump is not") {
+TEST_CASE("A measured road that ends before the run, and a road left behind, are remarked on") {
   // From 2 m on, 3 m long: passed after 5 m/(2 m/s).
   const std::unique_ptr<dynamics::Road> road = make_table("0 0\n1 0.1\n3 0\n");
   const dynamics::RoadDescription table = read("shape = \"table\"\nstart = 2.0\nfile = \"field.txt\"");
-  CHECK(dynamics::remark_on_road_end(table, *road, 2.0, 10.0) ==
+  CHECK(dynamics::remark_on_road(table, *road, 2.0, 10.0) ==
         "run.toml:4:8: the road ends at 5 m, which the leading axle passes after 2.5 s of 10 s at the speed "
         "of the "
         "start; from there on it is level");
-  CHECK(dynamics::remark_on_road_end(table, *road, 2.0, 2.4).empty());
-  CHECK(dynamics::remark_on_road_end(table, *road, -2.0, 10.0).empty());
+  CHECK(dynamics::remark_on_road(table, *road, 2.0, 2.4).empty());
+  CHECK(dynamics::remark_on_road(table, *road, -2.0, 10.0) ==
+        "run.toml:1:1: the vehicle drives against its heading, so that it does not meet the road, which "
+        "begins ahead of it");
   const dynamics::RoadDescription random =
       read("shape = \"random\"\nstart = 1.0\nlength = 50.0\nclass = \"C\"");
-  CHECK_THAT(dynamics::remark_on_road_end(random, *dynamics::make_road(random), 10.0, 6.0),
+  CHECK_THAT(dynamics::remark_on_road(random, *dynamics::make_road(random), 10.0, 6.0),
              Contains("the road ends at 51 m, which the leading axle passes after 5.1 s of 6 s"));
   const dynamics::RoadDescription bump =
       read("shape = \"triangle\"\nstart = 1.0\nlength = 0.4\nheight = 0.2");
-  CHECK(dynamics::remark_on_road_end(bump, *dynamics::make_road(bump), 2.0, 10.0).empty());
+  CHECK(dynamics::remark_on_road(bump, *dynamics::make_road(bump), 2.0, 10.0).empty());
+  const dynamics::RoadDescription flat = read("shape = \"flat\"");
+  CHECK(dynamics::remark_on_road(flat, *dynamics::make_road(flat), -2.0, 10.0).empty());
 }

@@ -15,7 +15,8 @@ const std::vector<HistorySize> kHistories{
     {"/points/frame.seat/acceleration", 20},
     {"/points/frame.front/acceleration", 20},
     {"/points/blade.tip/acceleration", 20},
-    {"/bodies/frame/position", 20},
+    {"/bodies/frame/position", 10},
+    {"/bodies/frame/acceleration", 10},
     {"/bodies/frame/center_of_mass/position", 20},
     {"/joints/pivot/reaction", 20},
     {"/forces/tyre/force", 20},
@@ -72,18 +73,23 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   CHECK(plan.every("/recovery/frame/moment") == 10);
   CHECK(plan.every("/joints/pivot/reaction") == 1);
 
-  settings.size = 1.0;  // which cannot be reached
+  settings.size = 3.0;
   plan = make_plan(settings);
   CHECK(plan.every("/joints/pivot/reaction") == 10);
   CHECK(plan.every("/forces/tyre/on_wheel") == 10);
-  CHECK(plan.every("/forces/tyre/force") == 1);
   CHECK(plan.every("/bodies/frame/position") == 1);
-  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + (80 + 8) * kSingle, 1e-9));
+
+  settings.size = 1.0;  // which cannot be reached
+  plan = make_plan(settings);
+  CHECK(plan.every("/forces/tyre/force") == 1);
+  CHECK(plan.every("/bodies/frame/position") == 10);
+  CHECK(plan.every("/bodies/frame/acceleration") == 1);
+  CHECK(plan.every("/points/frame.seat/acceleration") == 1);
+  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + (70 + 1 + 8) * kSingle, 1e-9));
   CHECK(describe_storage(plan, settings) ==
-        "about 2.7 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
-        "single "
-        "precision; stress resultants every 10 ms; reactions of joints and loads of force elements every 10 "
-        "ms");
+        "about 2.5 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
+        "single precision; stress resultants every 10 ms; reactions of joints and loads of force elements "
+        "every 10 ms; positions and velocities every 10 ms");
 }
 
 TEST_CASE("What the run file asks for is stored, however large it is") {
@@ -91,12 +97,15 @@ TEST_CASE("What the run file asks for is stored, however large it is") {
   settings.size = 1.0;
   settings.is_single = false;
   settings.groups[static_cast<std::size_t>(StoredGroup::kPoints)].which = Which::kAll;
+  settings.groups[static_cast<std::size_t>(StoredGroup::kBodies)].every = 3;
   settings.groups[static_cast<std::size_t>(StoredGroup::kRecovery)].every = 5;
   settings.groups[static_cast<std::size_t>(StoredGroup::kForces)] = {
       .which = Which::kListed, .names = {"spring"}, .locations = {}, .every = {}};
   settings.groups[static_cast<std::size_t>(StoredGroup::kJoints)].which = Which::kNone;
   const StoragePlan plan = make_plan(settings);
   CHECK_FALSE(plan.is_single("/bodies/frame/position"));
+  CHECK(plan.every("/bodies/frame/position") == 3);
+  CHECK(plan.every("/bodies/frame/acceleration") == 3);
   CHECK(plan.every("/points/frame.front/acceleration") == 1);
   CHECK(plan.every("/recovery/frame/moment") == 5);
   CHECK(plan.every("/forces/tyre/force") == 0);

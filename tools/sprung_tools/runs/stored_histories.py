@@ -48,12 +48,17 @@ def list_coarse(results: ResultsFile) -> Iterator[str]:
     """The histories that are not stored at every output."""
     step = float(np.median(np.diff(results.time)))
     examples = {
-        "motion of bodies": ("bodies", "{}/position"), "joints": ("joints", "{}/reaction"),
-        "stress resultants": ("recovery", "{}/moment"), "motion of points": ("points", "{}/position"),
+        "motion of bodies": ("bodies", "{}/acceleration"), "joints": ("joints", "{}/reaction"),
+        "stress resultants": ("recovery", "{}/moment"), "motion of points": ("points", "{}/acceleration"),
     }  # fmt: skip
     for what, (group, pattern) in examples.items():
         every = {results.file.every(f"{group}/" + pattern.format(name)) for name in results.file.names(group)}
         yield from describe_steps(what, every, step)
+    for what in ("bodies", "points"):
+        motions = [[results.file.every(f"{what}/{name}/{one}") for one in ("position", "acceleration")]
+                   for name in results.file.names(what)]  # fmt: skip
+        coarser = {position for position, acceleration in motions if position != acceleration}
+        yield from describe_steps(f"positions and velocities of {what}", coarser, step)
     forces = results.file.names("forces")
     channels = {one.quantity for name in forces for one in list_force_channels(results, name)}
     yield from describe_steps("forces", {results.file.every(quantity) for quantity in channels}, step)
