@@ -138,6 +138,20 @@ class Tool(ToolTestCase):
             self.assertAlmostEqual(limit, sum(parts), delta=0.02)  # by two digits each
             self.assertGreaterEqual(float(row[8]), 0.0)  # scipy
 
+    def test_errors_over_tolerances_are_measured(self):
+        """At 1e-5 a run is better by far than at 1e-3, and costs more."""
+        process = self.run_tool(
+            "benchmark", "tolerances", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out"
+        )
+        self.assert_succeeds(process)
+        self.assertEqual((self.folder / "out/benchmark_tolerances.txt").read_text(encoding="utf-8"), process.stdout)
+        coarse, fine = (line.split() for line in process.stdout.splitlines()[3:])
+        self.assertEqual([coarse[:2], fine[0]], [["bump", "0.001"], "1e-05"])
+        for modes in (0, 1):
+            self.assertLess(float(fine[1 + modes]) * 1e-5, 0.1 * float(coarse[2 + modes]) * 1e-3)  # height
+            self.assertLess(float(fine[3 + modes]) * 1e-5, 0.1 * float(coarse[4 + modes]) * 1e-3)  # acceleration
+            self.assertGreater(int(fine[5 + modes]), int(coarse[6 + modes]))  # evaluations
+
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
         self.assert_succeeds(process)

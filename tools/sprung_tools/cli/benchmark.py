@@ -1,6 +1,7 @@
 """Measures the cost of evaluations and runs, against a plain dense program in the same session.
 
-With `reduce` it measures whole builds of large lattices instead: processor time and memory of stage one."""
+With `reduce` it measures whole builds of large lattices instead: processor time and memory of stage one. With
+`tolerances` it measures errors over the tolerance of a run, by the number of modes."""
 
 import argparse
 import os
@@ -12,6 +13,8 @@ from sprung_tools.benchmark.many_runs import check_many_runs, format_many_runs, 
 from sprung_tools.benchmark.programs import measure_evaluations, measure_growth, run_program
 from sprung_tools.benchmark.tables import format_evaluations, format_growth, format_runs
 from sprung_tools.benchmark.targets import check_targets, format_targets
+from sprung_tools.benchmark.tolerances import MODES as MODES_OF_TOLERANCES
+from sprung_tools.benchmark.tolerances import TOLERANCES, format_tolerances, measure_tolerances
 from sprung_tools.benchmark.whole_runs import LADDER, METHODS, Plan, measure_runs
 from sprung_tools.benchmark.work_precision import draw_work_precision, work_precision_csv
 from sprung_tools.files.project import ROOT
@@ -25,7 +28,7 @@ QUICK_DURATION = 1.2  # s
 
 def parse_arguments() -> argparse.Namespace:
     parser = make_parser(__doc__, "tools/benchmark --output-dir build/benchmark")
-    parser.add_argument("what", nargs="?", choices=("reduce",), help="stage one instead of stage two")
+    parser.add_argument("what", nargs="?", choices=("reduce", "tolerances"), help="something else")
     parser.add_argument(
         "--programs", metavar="FOLDER", type=Path, default=ROOT / "build/release", help="where the programs are built"
     )
@@ -64,21 +67,47 @@ def measure_reduction(arguments: argparse.Namespace) -> str:
     return text
 
 
+def build_truck(programs: Path, folder: Path) -> None:
+    """Builds the truck's superelements into a folder."""
+    run_program(
+        [programs / "reduce/sprung-reduce", "build", ROOT / "meshes/truck/chassis.toml",
+         ROOT / "meshes/truck/long_arm.toml", "--output-dir", folder]
+    )  # fmt: skip
+
+
+def measure_accuracy(arguments: argparse.Namespace) -> str:
+    """Measures errors over tolerances, and writes the table."""
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
+        build_truck(arguments.programs, folder)
+        found = measure_tolerances(
+            arguments.programs / "tests/benchmark/run_benchmark", folder, folder,
+            *(
+                (("bump",), (0, 2), (1e-3, 1e-5), QUICK_DURATION)
+                if arguments.quick
+                else (RUNS, MODES_OF_TOLERANCES, TOLERANCES, None)
+            ),
+        )  # fmt: skip
+    text = (
+        "Errors of the default method over its tolerance, by the number of modes: of the chassis height, m, and of its "
+        "acceleration, r.m.s. of r.m.s.\n" + format_tolerances(found)
+    )
+    write_whole(arguments.output_dir / "benchmark_tolerances.txt", text + "\n")
+    return text
+
+
 def main() -> int:
     arguments = parse_arguments()
-    if arguments.what == "reduce":
+    if arguments.what is not None:
         os.makedirs(arguments.output_dir, exist_ok=True)
-        print(measure_reduction(arguments))
+        print(measure_reduction(arguments) if arguments.what == "reduce" else measure_accuracy(arguments))
         return 0
     plan = make_plan(arguments)
     programs = arguments.programs / "tests/benchmark"
     os.makedirs(arguments.output_dir, exist_ok=True)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        run_program(
-            [arguments.programs / "reduce/sprung-reduce", "build", ROOT / "meshes/truck/chassis.toml",
-             ROOT / "meshes/truck/long_arm.toml", "--output-dir", folder]
-        )  # fmt: skip
+        build_truck(arguments.programs, folder)
         min_time = 0.001 if arguments.quick else 0.2
         times = measure_evaluations(programs / "evaluation_benchmark", plan.repetitions, min_time)
         sizes = (10, 20) if arguments.quick else (10, 100, 1000)

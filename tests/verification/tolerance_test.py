@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""What the tolerance of a run means: errors of the truck's runs over it, with any number of modes."""
+
+import os
+import unittest
+
+import numpy as np
+
+from verification_case import ROOT, VerificationCase
+
+TRUCK = ROOT / "dynamics/models/truck"
+LENGTH = 3.9  # m: the truck's length scale, from the chassis' frame to its farthest point
+
+
+class Tolerance(VerificationCase):
+    def run_truck(self, run, modes, tolerance):
+        """Height of the chassis and acceleration of the driver's seat by the default method."""
+        results = self.run_to_results(
+            TRUCK / f"{run}.toml", "--set", f"modes.chassis={modes}", "--set", "output.precision=double",
+            "--set", f"integrator.relative_tolerance={tolerance}",
+            superelements=os.environ["SPRUNG_TRUCK_SUPERELEMENTS"],
+        )  # fmt: skip
+        return results["bodies/chassis/position"][:, 1], results["points/chassis.seat/acceleration"][:, 1]
+
+    def test_height_and_acceleration_meet_it_with_any_number_of_modes(self):
+        """The height to the tolerance times the length scale. The acceleration, r.m.s. of r.m.s., to five times the
+        tolerance with a few modes and to 200 times with all: errors in stiff modes count by their frequencies."""
+        for run in ("bump", "terrain"):
+            for modes in (0, 2, 4, 36) if run == "bump" else (0, 36):
+                height, acceleration = self.run_truck(run, modes, 1e-7)
+                for tolerance in (1e-4, 1e-5):
+                    with self.subTest(run=run, modes=modes, tolerance=tolerance):
+                        found = self.run_truck(run, modes, tolerance)
+                        self.assert_close(found[0], height, absolute=LENGTH * tolerance)
+                        off = np.sqrt(np.mean((found[1] - acceleration) ** 2) / np.mean(acceleration**2))
+                        self.assertLess(off, (200.0 if modes == 36 else 5.0) * tolerance)
+
+
+if __name__ == "__main__":
+    unittest.main()
