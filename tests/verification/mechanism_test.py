@@ -104,6 +104,55 @@ class SliderCrank(VerificationCase):
         self.assertLess(results.summary["energy_closure"], 1e-6)
 
 
+class FlexibleRod(VerificationCase):
+    """The slider-crank with a flexible rod, whose body frame lies in its middle, away from both pins."""
+
+    DESIGN = """
+[materials.steel]
+youngs_modulus = 2.1e11
+density = 7850.0
+[sections.bar]
+material = "steel"
+shape = "rectangle"
+width = 0.012
+height = 0.02
+[points]
+big_end = [-0.1, 0.0]
+middle = [0.0, 0.0]
+small_end = [0.1, 0.0]
+[[lines]]
+through = ["big_end", "middle", "small_end"]
+section = "bar"
+elements = 8
+[reference]
+point = "middle"
+condition = "clamped"
+[modes]
+count = 48
+damping_ratio = 0.01
+"""
+
+    def test_it_runs_with_most_of_its_modes_at_a_small_tolerance(self):
+        """The joints were said to be open at t = 0. The other method has no partition."""
+        (self.folder / "rod.toml").write_text(self.DESIGN, encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "rod.toml", "--output-dir", "."], cwd=self.folder,
+                    check=True)  # fmt: skip
+        vehicle = (EXAMPLES / "slider_crank.toml").read_text(encoding="utf-8")
+        rigid = "mass = 0.4\ninertia = 1.5e-3\nposition = [0.15, 0.0]\n" \
+                "points = { big_end = [-0.1, 0.0], small_end = [0.1, 0.0] }\n"  # fmt: skip
+        self.assertIn(rigid, vehicle)
+        vehicle = vehicle.replace(rigid, 'superelement = "rod"\nposition = [0.15, 0.0]\n')
+        for modes in (36, 44):
+            found = []
+            for method, tolerance in (("exponential", 1e-8), ("generalized-alpha", 1e-8)):
+                with self.subTest(modes=modes, method=method):
+                    run = f'start = "as-given"\nduration = 0.01\noutput_step = 1e-4\n[modes]\nrod = {modes}\n' \
+                          f'[integrator]\nmethod = "{method}"\nrelative_tolerance = {tolerance}\n'  # fmt: skip
+                    results = self.run_to_results(self.write_model(vehicle, run), superelements=self.folder)
+                    found.append(results["bodies/piston/position"][:, 0])
+            self.assert_close(found[0], found[1], absolute=1e-9)
+
+
 class Chains(VerificationCase):
     def test_track_hangs_with_its_weight_on_two_pins(self):
         balance = self.program("equilibrium", EXAMPLES / "track_run.toml")
