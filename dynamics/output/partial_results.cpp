@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "dynamics/output/results_model.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/bytes.h"
@@ -11,6 +13,9 @@ namespace sprung::dynamics {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The first bytes of a packed state: its layout. Increase the number with every change of what is packed.
+constexpr std::uint64_t kStateLayout = 0x7370'7275'6e67'0002;  // "sprung", 2
 
 support::Hdf5Reader open_partial(const fs::path& results) {
   const fs::path partial = partial_name(results);
@@ -37,6 +42,7 @@ fs::path partial_name(const fs::path& results) {
 std::string pack_run_state(const Checkpoint& checkpoint, const ResultsExtent& extent,
                            const RunStatistics& statistics) {
   support::ByteWriter bytes;
+  bytes.transfer(kStateLayout);
   transfer_checkpoint(bytes, checkpoint);
   transfer_extent(bytes, extent);
   statistics.save(bytes);
@@ -84,6 +90,15 @@ std::optional<PartialResults::RunState> PartialResults::read_state(RunStatistics
   RunState state;
   try {
     support::ByteReader bytes(packed);
+    std::uint64_t layout = 0;
+    bytes.transfer(layout);
+    if (layout != kStateLayout) {
+      throw support::InputError(
+          {.path = file_.path().string()},
+          fmt::format("dataset '{}' was written by another version of the program, whose state this one does "
+                      "not read; run without --resume, or resume with that version",
+                      dataset));
+    }
     transfer_checkpoint(bytes, state.checkpoint);
     transfer_extent(bytes, state.extent);
     statistics.restore(bytes);

@@ -195,6 +195,22 @@ class ResumeTest(ProgramTestCase):
             file.attrs["program_version"] = np.bytes_("0.0.1")
         self.assert_refused(self.resume(), "cut.partial.h5: error: is of another run: the program's version has")
 
+    def test_the_state_of_a_program_with_another_layout_is_refused_and_stays(self):
+        # A program of the same version number that packed its state otherwise: without the number of the layout, as
+        # the first ones did, and with another one.
+        with h5py.File(self.partial) as file:
+            state = file["checkpoint"][()]
+        for other in (state[8:], np.append(state[:1] + 1, state[1:])):
+            with h5py.File(self.partial, "r+") as file:
+                del file["checkpoint"]
+                file["checkpoint"] = other
+            before = self.partial.read_bytes()
+            self.assert_refused(
+                self.resume(),
+                "cut.partial.h5: error: dataset '/checkpoint' was written by another version of the program, whose",
+            )
+            self.assertEqual(self.partial.read_bytes(), before)
+
     def test_a_damaged_partial_file_is_refused_and_stays(self):
         def shorten(file):
             state = file["checkpoint"][()]
