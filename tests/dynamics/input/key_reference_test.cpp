@@ -95,7 +95,6 @@ std::string path_of(const std::string& key) {
 std::string section_of(const std::string& path, const std::string& type) {
   static const std::map<std::string, std::string> kSections{
       {"", "Vehicle"},
-      {"modes", "Quantities that judge"},
       {"bodies.*", "Bodies"},
       {"bodies.*.points.*", "Points of a superelement"},
       {"motions.*", "Motions"},
@@ -167,7 +166,9 @@ void collect(const support::TomlTable& table, Found& found, const std::string& r
     collect(value, found, root_section);
   }
   const std::string path = path_of(table.key());
-  const std::string section = path.empty() ? root_section : section_of(path, type);
+  std::string section = path.empty() ? root_section : section_of(path, type);
+  // A run file's [modes] names superelements, not keys.
+  if (path == "modes" && root_section == "Vehicle") section = "Quantities that judge";
   if (section.empty()) return;
   found.asked[section].insert(asked.begin(), asked.end());
   found.used[section].merge(used);
