@@ -21,8 +21,8 @@ constexpr double kShortestStep = 1e-10;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
 constexpr double kProbe = 1e-5;             // of a step, for rates at a start
 
-constexpr double kOfFailed = 0.25;  // of a step whose iteration did not converge
-constexpr int kSuspicious = 5;      // such failures of one step, until a change point is suspected
+constexpr int kSuspicious =
+    5;  // failures of steps much longer than the last one, until a change point is suspected
 constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
 // The length of steps is kept where a better one would hardly be longer: equal steps give smoother
 // multipliers.
@@ -170,8 +170,8 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   has_step_ = false;
   bool has_pivot = passage_.pivot() < 1.0;
   if (has_pivot && pass_change_point_if_near(longest_step)) return end_passage();
-  double length, factor = 1.0, first_failed = 0.0;
-  int num_failures = 0;  // of the iteration
+  double length, factor = 1.0;
+  int num_failures = 0;  // of the iteration, of steps much longer than the last one
   while (true) {
     length = choose_length(longest_step);
     if (length < kShortestStep) {
@@ -181,14 +181,11 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
                                remark_on_radius(spectral_radius_));
     }
     if (!step_.solve(length) || !update_end_power()) {
-      if (++num_failures == 1) first_failed = length;
-      if (!has_pivot && (num_failures == kSuspicious || fixed_step_ > 0.0)) {
+      const bool is_far = length > kLargestFactor * step_.begin().step_before;
+      if (!has_pivot && (!is_far || fixed_step_ > 0.0 || ++num_failures == kSuspicious)) {
         has_pivot = true;
         if (pass_change_point_if_near(longest_step)) return end_passage();
-        if (passage_.pivot() < 1.0) {
-          next_length_ = first_failed;  // shorter steps were no better
-          continue;
-        }
+        if (passage_.pivot() < 1.0) continue;
       }
       if (fixed_step_ > 0.0) {  // it may end too near to a change point
         if (passage_.pivot() < 1.0 && pass_change_point(longest_step)) return end_passage();
@@ -197,7 +194,7 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
                                   "it out: a step of chosen length passes the change points of a mechanism") +
                           remark_on_radius(spectral_radius_));
       }
-      next_length_ = kOfFailed * length;
+      next_length_ = 0.25 * length;
       continue;
     }
     if (fixed_step_ > 0.0) break;

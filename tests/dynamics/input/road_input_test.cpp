@@ -233,7 +233,7 @@ TEST_CASE("A measured road that ends before the run, and a road left behind, are
         "start; from there on it is level");
   CHECK(dynamics::remark_on_road(table, *road, 2.0, 2.4).empty());
   CHECK(dynamics::remark_on_road(table, *road, -2.0, 10.0) ==
-        "run.toml:1:1: the vehicle drives against its heading, so that it does not meet the road, which "
+        "run.toml:2:9: the vehicle drives against its heading, so that it does not meet the road, which "
         "begins ahead of it");
   const dynamics::RoadDescription random =
       read("shape = \"random\"\nstart = 1.0\nlength = 50.0\nclass = \"C\"");

@@ -61,9 +61,10 @@ TEST_CASE("By default modes are judged by points and moments, else by what the f
   const auto error_of = [&](const std::string& list) {
     return input_error_of([&] { read_cart(with_judge(list)); });
   };
-  CHECK_THAT(error_of("[\"points\", \"moment\"]"),
-             Contains(": error: 'modes.judge.1' must be one of ") && Contains("\"points\"") &&
-                 Contains("\"reactions\"") && Contains("got a string \"moment\"") && Contains("did you mean"));
+  CHECK_THAT(error_of("[\"points\", \"moment\"]"), Contains(": error: 'modes.judge.1' must be one of ") &&
+                                                       Contains("\"points\"") && Contains("\"reactions\"") &&
+                                                       Contains("got a string \"moment\"") &&
+                                                       Contains("did you mean"));
   CHECK_THAT(error_of("[\"forces\", \"forces\"]"), Contains("'modes.judge.1' names \"forces\" twice"));
   CHECK_THAT(error_of("[]"), Contains("'modes.judge' must name at least one of"));
   CHECK_THAT(error_of("[]\njudges = 1"), Contains("unknown key 'judges' in 'modes'"));
