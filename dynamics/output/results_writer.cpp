@@ -72,15 +72,14 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
   for (const Body& body : header.model.bodies) {
     if (body.stiffening) conditions.stiffened_bodies.insert(body.name);
   }
-  std::vector<HistorySize> sizes;
-  for (const History& history : histories_.all()) sizes.push_back({history.name, history.row_size()});
-  storage_ = std::make_unique<StoragePlan>(header.run.output, sizes, std::move(conditions));
+  const std::vector<StoredHistory> all(histories_.all().begin(), histories_.all().end());
+  storage_ = std::make_unique<StoragePlan>(header.run.output, all, std::move(conditions));
   std::size_t row_size = 0;  // of all that is stored
   for (const History& history : histories_.all()) {
-    const long every = storage_->every(history.name);
+    const long every = storage_->every(history);
     if (every == 0) continue;
     stored_.push_back({.history = &history, .every = every});
-    row_size += history.row_size() * sizeof(double);
+    row_size += history.row_size * sizeof(double);
   }
   const std::size_t most_rows = kMostBuffered / row_size;
   for (Stored& stored : stored_) {
@@ -88,7 +87,7 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
     const History& history = *stored.history;
     stored.dataset = &file_.make_growing(
         history.name, history.columns, history.unit,
-        storage_->is_single(history.name) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
+        storage_->is_single(history) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
         std::min(stored.num_rows(static_cast<std::size_t>(num_outputs)), most_rows));
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});

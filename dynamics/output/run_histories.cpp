@@ -27,6 +27,7 @@ RunHistories::RunHistories(const Vehicle& vehicle, const Model& model, const Veh
   add_joints();
   add_forces();
   add_sections(sections);
+  begin({}, "");
   const auto add_energy = [this](const std::string& name, auto value) {
     add("/energy/" + name, 0, "J",
         [value](const Snapshot& now, std::span<double> row) { row[0] = value(now.energy); });
@@ -39,18 +40,31 @@ RunHistories::RunHistories(const Vehicle& vehicle, const Model& model, const Veh
   add_energy("input", [](const EnergyBook& book) { return book.input; });
 }
 
+// The histories that are added from now on belong to this object.
+void RunHistories::begin(std::optional<StoredGroup> group, const std::string& object) {
+  group_ = group;
+  object_ = object;
+}
+
 History& RunHistories::add(const std::string& name, std::size_t columns, const std::string& unit,
                            std::function<void(const Snapshot&, std::span<double>)> fill) {
-  histories_.push_back({.name = name, .columns = columns, .unit = unit, .fill = std::move(fill)});
+  const StoredHistory stored{
+      .name = name, .row_size = std::max<std::size_t>(columns, 1), .group = group_, .object = object_};
+  histories_.push_back({stored, columns, unit, std::move(fill)});
   return histories_.back();
+}
+
+void RunHistories::add_motion(const std::string& name, std::size_t columns, const std::string& unit,
+                              std::function<void(const Snapshot&, std::span<double>)> fill) {
+  add(name, columns, unit, std::move(fill)).kind = StoredHistory::Kind::kMotion;
 }
 
 void RunHistories::add_marker_motion(const std::string& group, std::size_t marker) {
   const std::size_t i = marker;
-  add(group + "/position", 2, "m",
-      [i](const Snapshot& now, std::span<double> row) { put(row, now.terms().markers()[i].r); });
-  add(group + "/velocity", 2, "m/s",
-      [i](const Snapshot& now, std::span<double> row) { put(row, now.terms().markers()[i].v); });
+  add_motion(group + "/position", 2, "m",
+             [i](const Snapshot& now, std::span<double> row) { put(row, now.terms().markers()[i].r); });
+  add_motion(group + "/velocity", 2, "m/s",
+             [i](const Snapshot& now, std::span<double> row) { put(row, now.terms().markers()[i].v); });
   add(group + "/acceleration", 2, "m/s^2",
       [i](const Snapshot& now, std::span<double> row) { put(row, now.calc_acceleration(i)); });
 }
@@ -62,11 +76,13 @@ void RunHistories::add_points() {
     const std::string group = "/points/" + marker.name;
     const Body& body = model_->bodies[static_cast<std::size_t>(marker.body)];
     const int first = body.first_coordinate, size = body.num_coordinates();
+    begin(StoredGroup::kPoints, marker.name);
     add_marker_motion(group, i);
     if (body.num_modes() == 0) continue;
-    add(group + "/deflection", 2, "m", [&marker, first, size](const Snapshot& now, std::span<double> row) {
-      put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
-    });
+    add_motion(group + "/deflection", 2, "m",
+               [&marker, first, size](const Snapshot& now, std::span<double> row) {
+                 put(row, calc_marker_deflection(marker, now.q.segment(first + 3, size - 3)));
+               });
   }
 }
 
@@ -75,21 +91,26 @@ void RunHistories::add_bodies() {
     const Body& body = model_->bodies[b];
     const std::string group = "/bodies/" + body.name;
     const int first = body.first_coordinate, n = body.num_modes();
-    add(group + "/position", 3, "m, m, rad",
-        [first](const Snapshot& now, std::span<double> row) { put(row, now.q.segment<3>(first)); });
-    add(group + "/velocity", 3, "m/s, m/s, rad/s",
-        [first](const Snapshot& now, std::span<double> row) { put(row, now.v.segment<3>(first)); });
+    begin(StoredGroup::kBodies, body.name);
+    add_motion(group + "/position", 3, "m, m, rad",
+               [first](const Snapshot& now, std::span<double> row) { put(row, now.q.segment<3>(first)); });
+    add_motion(group + "/velocity", 3, "m/s, m/s, rad/s",
+               [first](const Snapshot& now, std::span<double> row) { put(row, now.v.segment<3>(first)); });
     add(group + "/acceleration", 3, "m/s^2, m/s^2, rad/s^2",
         [first](const Snapshot& now, std::span<double> row) { put(row, now.v_dot.segment<3>(first)); });
     const auto center = std::find_if(points_.begin(), points_.end(), [b](const VehiclePoint& point) {
       return point.kind == VehiclePoint::Kind::kCenterOfMass && point.body == static_cast<int>(b);
     });
+    begin(StoredGroup::kPoints, body.name + ".center_of_mass");
     add_marker_motion(group + "/center_of_mass", static_cast<std::size_t>(center - points_.begin()));
     if (n == 0) continue;
+    begin(StoredGroup::kBodies, body.name);
     const auto columns = static_cast<std::size_t>(n);
-    add(group + "/modal/amplitude", columns, "kg^0.5 m",
+    add_motion(
+        group + "/modal/amplitude", columns, "kg^0.5 m",
         [first, n](const Snapshot& now, std::span<double> row) { put(row, now.q.segment(first + 3, n)); });
-    add(group + "/modal/rate", columns, "kg^0.5 m/s",
+    add_motion(
+        group + "/modal/rate", columns, "kg^0.5 m/s",
         [first, n](const Snapshot& now, std::span<double> row) { put(row, now.v.segment(first + 3, n)); });
     add(group + "/modal/acceleration", columns, "kg^0.5 m/s^2",
         [first, n](const Snapshot& now, std::span<double> row) {
@@ -100,7 +121,7 @@ void RunHistories::add_bodies() {
         const auto coordinate = static_cast<std::size_t>(first) + 3 + k;
         row[k] = now.modes && now.modes->options().changes && !now.modes->active()[coordinate] ? 0.0 : 1.0;
       }
-    });
+    }).kind = StoredHistory::Kind::kFlags;
   }
 }
 
@@ -109,6 +130,7 @@ void RunHistories::add_neglected(const Model& full) {
     if (body.num_modes() == 0) continue;
     const int first = body.first_coordinate + 3, last = first + body.num_modes() - 1;
     const std::vector<int> numbers = body.mode_numbers;
+    begin(StoredGroup::kBodies, body.name);
     add("/bodies/" + body.name + "/modal/neglected", 3, "1",
         [first, last, numbers](const Snapshot& now, std::span<double> row) {
           std::fill(row.begin(), row.end(), 0.0);
@@ -131,6 +153,7 @@ void RunHistories::add_joints() {
   for (std::size_t j = 0; j < model_->joints.size(); ++j) {
     const Joint& joint = *model_->joints[j];
     const int row_of_joint = model_->joint_rows[j];
+    begin(StoredGroup::kJoints, joint.name);
     // Reactions on the joint's points: −Gaᵀλ, −Gbᵀλ.
     for (const bool of_a : {true, false}) {
       const std::string dataset = "/joints/" + joint.name + (of_a ? "/reaction" : "/reaction_b");
@@ -172,6 +195,7 @@ void RunHistories::add_joint_coordinate(const Joint& joint, int row_of_joint) {
 void RunHistories::add_forces() {
   for (std::size_t f = 0; f < model_->forces.size(); ++f) {
     const ForceElement& force = *model_->forces[f];
+    begin(StoredGroup::kForces, force.name);
     const auto first = static_cast<std::size_t>(model_->force_branches[f]);
     const auto count = static_cast<std::size_t>(force.num_branches());
     // The first of an element's histories computes the values of all its channels.
@@ -196,6 +220,7 @@ void RunHistories::add_forces() {
 void RunHistories::add_states(std::size_t f) {
   const int count = model_->force_states[f + 1] - model_->force_states[f];
   if (count == 0) return;
+  begin(StoredGroup::kForces, model_->forces[f]->name);
   const int first = model_->force_states[f] - model_->num_states();  // from the end of the velocities
   add(fmt::format("/forces/{}/state", model_->forces[f]->name), static_cast<std::size_t>(count), "J^0.5",
       [first, count](const Snapshot& now, std::span<double> row) {
@@ -208,6 +233,7 @@ void RunHistories::add_wrenches(std::size_t f) {
   const std::vector<int> markers = force.markers();
   const std::vector<std::string> roles = force.describe().points;
   wrenches_.resize(model_->markers.size());
+  begin(StoredGroup::kWrenches, force.name);
   for (std::size_t p = 0; p < markers.size(); ++p) {
     const auto marker = static_cast<std::size_t>(markers[p]);
     // The first of an element's histories computes all its wrenches.
@@ -226,6 +252,7 @@ void RunHistories::add_wrenches(std::size_t f) {
 void RunHistories::add_sections(const VehicleSections& sections) {
   constexpr std::array<const char*, 3> kNames{"axial", "shear", "moment"}, kUnits{"N", "N", "N m"};
   for (const BodySections& body : sections.bodies()) {
+    begin(StoredGroup::kRecovery, body.name());
     const std::string group = "/recovery/" + body.name() + "/";
     const auto add_all = [&](const std::string& ending, const Eigen::Matrix3Xd& values) {
       for (Eigen::Index i = 0; i < 3; ++i) {

@@ -1,25 +1,24 @@
 #pragma once
 
-#include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dynamics/input/vehicle.h"
+#include "dynamics/output/storage_plan.h"
 #include "dynamics/section_loads/vehicle_sections.h"
 #include "dynamics/simulation/transient.h"
 
 namespace sprung::dynamics {
 
 /// A quantity of a run over time, with one row at each output.
-struct History {
-  std::string name;     ///< of its dataset (dynamics/output/results.md)
-  std::size_t columns;  ///< of the dataset; 0: it has one dimension
+struct History : StoredHistory {
+  std::size_t columns;  ///< of the dataset (dynamics/output/results.md); 0: it has one dimension
   std::string unit;
   std::function<void(const Snapshot&, std::span<double> row)> fill;  ///< computes the row of an output
   std::string role = {};                                             ///< of a channel, else empty
-  std::size_t row_size() const { return std::max<std::size_t>(columns, 1); }
 };
 
 /// Every quantity of a run over time that a results file can hold.
@@ -37,8 +36,11 @@ class RunHistories {
   const std::vector<History>& all() const { return histories_; }
 
  private:
+  void begin(std::optional<StoredGroup> group, const std::string& object);
   History& add(const std::string& name, std::size_t columns, const std::string& unit,
                std::function<void(const Snapshot&, std::span<double>)> fill);
+  void add_motion(const std::string& name, std::size_t columns, const std::string& unit,
+                  std::function<void(const Snapshot&, std::span<double>)> fill);
   void add_marker_motion(const std::string& group, std::size_t marker);
   void add_points();
   void add_bodies();
@@ -53,6 +55,8 @@ class RunHistories {
   const Model* model_;
   std::vector<VehiclePoint> points_;  // in the order of the model's markers
   std::vector<History> histories_;
+  std::optional<StoredGroup> group_;           // of the histories that are being added
+  std::string object_;                         // likewise
   std::vector<std::vector<double>> channels_;  // for each force element, of the present snapshot
   std::vector<Wrench> wrenches_;               // on all markers, by the present force element
 };

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sprung::dynamics {
 
@@ -16,40 +15,9 @@ constexpr double kBytesOfSingle = 2.9;  // compressed, measured on vehicles on r
 constexpr double kCoarseStep = 0.01;    // s
 constexpr double kMegabyte = 1e6;
 
-// The group that a history belongs to, and the point, body, joint or force that it is of.
-struct Subject {
-  StoredGroup group;
-  std::string object;
-};
-
-// None for histories that are always stored.
-std::optional<Subject> find_subject(const std::string& history) {
-  const std::size_t first = history.find('/', 1);
-  if (first == std::string::npos) return std::nullopt;
-  const std::size_t second = history.find('/', first + 1);
-  if (second == std::string::npos) return std::nullopt;
-  const std::string group = history.substr(1, first - 1);
-  const std::string object = history.substr(first + 1, second - first - 1);
-  const std::string rest = history.substr(second + 1);
-  if (group == "bodies" && rest.starts_with("center_of_mass/"))
-    return Subject{StoredGroup::kPoints, object + ".center_of_mass"};
-  if (group == "forces" && rest.starts_with("on_")) return Subject{StoredGroup::kWrenches, object};
-  const auto* const name = std::find(kStoredGroupNames.begin(), kStoredGroupNames.end(), group);
-  if (name == kStoredGroupNames.end()) return std::nullopt;
-  return Subject{static_cast<StoredGroup>(name - kStoredGroupNames.begin()), object};
-}
-
-// Whether a history of a point or a body follows from its accelerations, so that it is smooth.
-bool is_integrated(const std::string& history) {
-  constexpr std::array<std::string_view, 5> kEndings{"/position", "/velocity", "/deflection", "/amplitude",
-                                                     "/rate"};
-  return std::any_of(kEndings.begin(), kEndings.end(),
-                     [&](std::string_view ending) { return history.ends_with(ending); });
-}
-
 }  // namespace
 
-StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<HistorySize>& histories,
+StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<StoredHistory>& histories,
                          StorageConditions conditions)
     : conditions_(std::move(conditions)), is_single_(settings.is_single.value_or(false)) {
   for (std::size_t g = 0; g < choices_.size(); ++g) {
@@ -61,7 +29,7 @@ StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<Histo
   reduce(settings, histories);
 }
 
-void StoragePlan::reduce(const OutputSettings& settings, const std::vector<HistorySize>& histories) {
+void StoragePlan::reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories) {
   const auto too_large = [&] { return size_ > settings.size; };
   const auto accept = [&](std::string_view words) {
     const double before = size_;
@@ -105,34 +73,32 @@ bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
   return true;
 }
 
-double StoragePlan::estimate(const std::vector<HistorySize>& histories) const {
+double StoragePlan::estimate(const std::vector<StoredHistory>& histories) const {
   double bytes = 0.0;
-  for (const HistorySize& history : histories) {
-    const long rows_between = every(history.name);
-    // Flags that hardly ever change take nothing when they are compressed.
-    const bool is_constant = is_single(history.name) && history.name.ends_with("/modal/active");
-    if (rows_between == 0 || is_constant) continue;
+  for (const StoredHistory& history : histories) {
+    const long rows_between = every(history);
+    const bool takes_nothing = is_single(history) && history.kind == StoredHistory::Kind::kFlags;
+    if (rows_between == 0 || takes_nothing) continue;
     bytes += conditions_.num_outputs / static_cast<double>(rows_between) *
-             static_cast<double>(history.columns) *
-             (is_single(history.name) ? kBytesOfSingle : kBytesOfDouble);
+             static_cast<double>(history.row_size) * (is_single(history) ? kBytesOfSingle : kBytesOfDouble);
   }
   return bytes / kMegabyte;
 }
 
-long StoragePlan::every(const std::string& history) const {
-  const std::optional<Subject> subject = find_subject(history);
-  if (!subject) return 1;
-  const Choice& choice = choices_[static_cast<std::size_t>(subject->group)];
-  const long stored = choice.motion_every > 0 && is_integrated(history) ? choice.motion_every : choice.every;
+long StoragePlan::every(const StoredHistory& history) const {
+  if (!history.group) return 1;
+  const Choice& choice = choices_[static_cast<std::size_t>(*history.group)];
+  const bool is_motion = history.kind == StoredHistory::Kind::kMotion;
+  const long stored = is_motion && choice.motion_every > 0 ? choice.motion_every : choice.every;
   switch (choice.which) {
     case StorageRequest::Which::kNone:
       return 0;
     case StorageRequest::Which::kListed:
-      return choice.names.contains(subject->object) ? stored : 0;
+      return choice.names.contains(history.object) ? stored : 0;
     case StorageRequest::Which::kReported: {
       const std::vector<std::string>& reported = conditions_.reported;
-      const bool is_reported = std::find(reported.begin(), reported.end(), subject->object) != reported.end();
-      const std::string body = body_of_point(subject->object);
+      const bool is_reported = std::find(reported.begin(), reported.end(), history.object) != reported.end();
+      const std::string body = body_of_point(history.object);
       return is_reported || conditions_.stiffened_bodies.contains(body) ? stored : 0;
     }
     default:
@@ -140,8 +106,8 @@ long StoragePlan::every(const std::string& history) const {
   }
 }
 
-bool StoragePlan::is_single(const std::string& history) const {
-  return is_single_ && find_subject(history).has_value();
+bool StoragePlan::is_single(const StoredHistory& history) const {
+  return is_single_ && history.group.has_value();
 }
 
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings) {

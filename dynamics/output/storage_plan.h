@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,10 +11,18 @@
 
 namespace sprung::dynamics {
 
-/// A time history of the results file.
-struct HistorySize {
-  std::string name;  ///< of its dataset: "/points/chassis.seat/position"
-  std::size_t columns = 1;
+/// A time history of the results file, as far as the choice of what is stored asks.
+struct StoredHistory {
+  enum class Kind {
+    kOther,
+    kMotion,  ///< a position, a velocity or a deflection: it is smooth
+    kFlags,   ///< it hardly ever changes, so that it takes nothing when it is compressed
+  };
+  std::string name;                       ///< of its dataset: "/points/chassis.seat/position"
+  std::size_t row_size = 1;               ///< values at an output
+  std::optional<StoredGroup> group = {};  ///< none: it is always stored
+  std::string object = {};                ///< point, body, joint or force element that it belongs to
+  Kind kind = Kind::kOther;
 };
 
 /// What the choice of histories depends on, besides `[output]`.
@@ -33,13 +42,13 @@ struct StorageConditions {
 /// tests/dynamics/output/storage_plan_test.cpp
 class StoragePlan {
  public:
-  StoragePlan(const OutputSettings& settings, const std::vector<HistorySize>& histories,
+  StoragePlan(const OutputSettings& settings, const std::vector<StoredHistory>& histories,
               StorageConditions conditions);
 
   /// Outputs from one stored row of a history to the next; 0 if it is not stored.
-  long every(const std::string& history) const;
+  long every(const StoredHistory& history) const;
   /// Whether a history is stored in single precision. Time and energies are not.
-  bool is_single(const std::string& history) const;
+  bool is_single(const StoredHistory& history) const;
   double size() const { return size_; }  ///< estimate for all histories [MB]
   /// What was reduced to make it fit, in words.
   const std::vector<std::string>& reductions() const { return reductions_; }
@@ -52,10 +61,10 @@ class StoragePlan {
     long motion_every = 0;  // of positions and velocities, if not `every`
   };
   Choice& choice(StoredGroup group) { return choices_[static_cast<std::size_t>(group)]; }
-  void reduce(const OutputSettings& settings, const std::vector<HistorySize>& histories);
+  void reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories);
   bool thin_out(const OutputSettings& settings, StoredGroup group);
   bool thin_out_motion(const OutputSettings& settings);
-  double estimate(const std::vector<HistorySize>& histories) const;
+  double estimate(const std::vector<StoredHistory>& histories) const;
 
   StorageConditions conditions_;
   bool is_single_ = false;

@@ -1,5 +1,7 @@
 #include "dynamics/output/storage_plan.h"
 
+#include <algorithm>
+
 #include "tests/catch.h"
 
 using namespace sprung::dynamics;
@@ -10,20 +12,27 @@ namespace {
 using Which = StorageRequest::Which;
 
 // 10,001 outputs of 8 bytes: 0.08 MB for a column.
-const std::vector<HistorySize> kHistories{
+using enum StoredGroup;
+constexpr auto kMotion = StoredHistory::Kind::kMotion;
+const std::vector<StoredHistory> kHistories{
     {"/time", 1},
-    {"/points/frame.seat/acceleration", 20},
-    {"/points/frame.front/acceleration", 20},
-    {"/points/blade.tip/acceleration", 20},
-    {"/bodies/frame/position", 10},
-    {"/bodies/frame/acceleration", 10},
-    {"/bodies/frame/center_of_mass/position", 20},
-    {"/joints/pivot/reaction", 20},
-    {"/forces/tyre/force", 20},
-    {"/forces/tyre/on_wheel", 20},
-    {"/recovery/frame/moment", 40},
+    {"/points/frame.seat/acceleration", 20, kPoints, "frame.seat"},
+    {"/points/frame.front/acceleration", 20, kPoints, "frame.front"},
+    {"/points/blade.tip/acceleration", 20, kPoints, "blade.tip"},
+    {"/bodies/frame/position", 10, kBodies, "frame", kMotion},
+    {"/bodies/frame/acceleration", 10, kBodies, "frame"},
+    {"/bodies/frame/center_of_mass/position", 20, kPoints, "frame.center_of_mass", kMotion},
+    {"/joints/pivot/reaction", 20, kJoints, "pivot"},
+    {"/forces/tyre/force", 20, kForces, "tyre"},
+    {"/forces/tyre/on_wheel", 20, kWrenches, "tyre"},
+    {"/recovery/frame/moment", 40, kRecovery, "frame"},
     {"/energy/kinetic", 1},
 };
+
+const StoredHistory& history(const std::string& name) {
+  return *std::find_if(kHistories.begin(), kHistories.end(),
+                       [&](const StoredHistory& one) { return one.name == name; });
+}
 
 StoragePlan make_plan(const OutputSettings& settings) {
   return StoragePlan(settings, kHistories,
@@ -40,9 +49,9 @@ constexpr double kDouble = 0.080008, kSingle = 0.0290029;
 
 TEST_CASE("What fits into the size is stored at every output in double precision") {
   const StoragePlan plan = make_plan({});
-  for (const HistorySize& history : kHistories) {
-    CHECK(plan.every(history.name) == 1);
-    CHECK_FALSE(plan.is_single(history.name));
+  for (const StoredHistory& one : kHistories) {
+    CHECK(plan.every(one) == 1);
+    CHECK_FALSE(plan.is_single(one));
   }
   CHECK_THAT(plan.size(), WithinRel(202 * kDouble, 1e-9));
   CHECK(plan.reductions().empty());
@@ -53,38 +62,39 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   OutputSettings settings;
   settings.size = 15.0;  // without two of the points
   StoragePlan plan = make_plan(settings);
-  CHECK(plan.every("/points/frame.seat/acceleration") == 1);
-  CHECK(plan.every("/points/frame.front/acceleration") == 0);
-  CHECK(plan.every("/bodies/frame/center_of_mass/position") == 0);
-  CHECK(plan.every("/points/blade.tip/acceleration") == 1);  // it does not follow from the body's motion
-  CHECK_FALSE(plan.is_single("/points/frame.seat/acceleration"));
+  CHECK(plan.every(history("/points/frame.seat/acceleration")) == 1);
+  CHECK(plan.every(history("/points/frame.front/acceleration")) == 0);
+  CHECK(plan.every(history("/bodies/frame/center_of_mass/position")) == 0);
+  CHECK(plan.every(history("/points/blade.tip/acceleration")) ==
+        1);  // it does not follow from the body's motion
+  CHECK_FALSE(plan.is_single(history("/points/frame.seat/acceleration")));
   CHECK_THAT(plan.size(), WithinRel(162 * kDouble, 1e-9));
 
   settings.size = 5.0;
   plan = make_plan(settings);
-  CHECK(plan.is_single("/points/frame.seat/acceleration"));
-  CHECK_FALSE(plan.is_single("/time"));
-  CHECK_FALSE(plan.is_single("/energy/kinetic"));
-  CHECK(plan.every("/recovery/frame/moment") == 1);
+  CHECK(plan.is_single(history("/points/frame.seat/acceleration")));
+  CHECK_FALSE(plan.is_single(history("/time")));
+  CHECK_FALSE(plan.is_single(history("/energy/kinetic")));
+  CHECK(plan.every(history("/recovery/frame/moment")) == 1);
   CHECK_THAT(plan.size(), WithinRel(2 * kDouble + 160 * kSingle, 1e-9));
 
   settings.size = 4.0;
   plan = make_plan(settings);
-  CHECK(plan.every("/recovery/frame/moment") == 10);
-  CHECK(plan.every("/joints/pivot/reaction") == 1);
+  CHECK(plan.every(history("/recovery/frame/moment")) == 10);
+  CHECK(plan.every(history("/joints/pivot/reaction")) == 1);
 
   settings.size = 3.0;
   plan = make_plan(settings);
-  CHECK(plan.every("/joints/pivot/reaction") == 10);
-  CHECK(plan.every("/forces/tyre/on_wheel") == 10);
-  CHECK(plan.every("/bodies/frame/position") == 1);
+  CHECK(plan.every(history("/joints/pivot/reaction")) == 10);
+  CHECK(plan.every(history("/forces/tyre/on_wheel")) == 10);
+  CHECK(plan.every(history("/bodies/frame/position")) == 1);
 
   settings.size = 1.0;  // which cannot be reached
   plan = make_plan(settings);
-  CHECK(plan.every("/forces/tyre/force") == 1);
-  CHECK(plan.every("/bodies/frame/position") == 10);
-  CHECK(plan.every("/bodies/frame/acceleration") == 1);
-  CHECK(plan.every("/points/frame.seat/acceleration") == 1);
+  CHECK(plan.every(history("/forces/tyre/force")) == 1);
+  CHECK(plan.every(history("/bodies/frame/position")) == 10);
+  CHECK(plan.every(history("/bodies/frame/acceleration")) == 1);
+  CHECK(plan.every(history("/points/frame.seat/acceleration")) == 1);
   CHECK_THAT(plan.size(), WithinRel(2 * kDouble + (70 + 1 + 8) * kSingle, 1e-9));
   CHECK(describe_storage(plan, settings) ==
         "about 2.5 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
@@ -103,12 +113,12 @@ TEST_CASE("What the run file asks for is stored, however large it is") {
       .which = Which::kListed, .names = {"spring"}, .locations = {}, .every = {}};
   settings.groups[static_cast<std::size_t>(StoredGroup::kJoints)].which = Which::kNone;
   const StoragePlan plan = make_plan(settings);
-  CHECK_FALSE(plan.is_single("/bodies/frame/position"));
-  CHECK(plan.every("/bodies/frame/position") == 3);
-  CHECK(plan.every("/bodies/frame/acceleration") == 3);
-  CHECK(plan.every("/points/frame.front/acceleration") == 1);
-  CHECK(plan.every("/recovery/frame/moment") == 5);
-  CHECK(plan.every("/forces/tyre/force") == 0);
-  CHECK(plan.every("/forces/tyre/on_wheel") == 10);
-  CHECK(plan.every("/joints/pivot/reaction") == 0);
+  CHECK_FALSE(plan.is_single(history("/bodies/frame/position")));
+  CHECK(plan.every(history("/bodies/frame/position")) == 3);
+  CHECK(plan.every(history("/bodies/frame/acceleration")) == 3);
+  CHECK(plan.every(history("/points/frame.front/acceleration")) == 1);
+  CHECK(plan.every(history("/recovery/frame/moment")) == 5);
+  CHECK(plan.every(history("/forces/tyre/force")) == 0);
+  CHECK(plan.every(history("/forces/tyre/on_wheel")) == 10);
+  CHECK(plan.every(history("/joints/pivot/reaction")) == 0);
 }
