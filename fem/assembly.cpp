@@ -33,6 +33,25 @@ Eigen::SparseMatrix<double> make_matrix(int size, const Triplets& triplets) {
   return matrix;
 }
 
+// Eliminates the nodes that follow others. The product of three matrices is symmetric but for rounding.
+void eliminate_symmetric(const BeamModel& model, Eigen::SparseMatrix<double>& matrix) {
+  if (model.couplings.empty()) return;
+  const Eigen::SparseMatrix<double> product = eliminate_followers(model.couplings, matrix);
+  const Eigen::SparseMatrix<double> transposed = product.transpose();
+  matrix = 0.5 * (product + transposed);
+  matrix.makeCompressed();
+}
+
+// Springs at the freedoms that are eliminated, as stiff as the stiffest other one.
+void hold_followers(const BeamModel& model, Eigen::SparseMatrix<double>& stiffness) {
+  if (model.couplings.empty()) return;
+  const double largest = stiffness.diagonal().maxCoeff();
+  for (const Coupling& coupling : model.couplings) {
+    for (int i = 0; i < 3; ++i) stiffness.coeffRef(3 * coupling.node + i, 3 * coupling.node + i) = largest;
+  }
+  stiffness.makeCompressed();
+}
+
 }  // namespace
 
 AssembledMatrices assemble(const BeamModel& model) {
@@ -53,7 +72,12 @@ AssembledMatrices assemble(const BeamModel& model) {
     mass.emplace_back(3 * point.node + 2, 3 * point.node + 2, point.inertia);
   }
   const int num_dofs = 3 * model.mesh.num_nodes();
-  return {.stiffness = make_matrix(num_dofs, stiffness), .mass = make_matrix(num_dofs, mass)};
+  AssembledMatrices matrices{.stiffness = make_matrix(num_dofs, stiffness),
+                             .mass = make_matrix(num_dofs, mass)};
+  eliminate_symmetric(model, matrices.stiffness);
+  eliminate_symmetric(model, matrices.mass);
+  hold_followers(model, matrices.stiffness);
+  return matrices;
 }
 
 AssembledMatrices assemble_rates(const BeamModel& model, const BeamModelRates& rates) {

@@ -15,7 +15,9 @@ struct AssembledMatrices {
   Eigen::SparseMatrix<double> mass;       ///< 3N×3N, symmetric, with the point masses [kg, kg·m, kg·m²]
 };
 
-/// Adds up the element matrices and the point masses. Both results are exactly symmetric and compressed.
+/// Adds up the element matrices and the point masses. Both results are exactly symmetric and compressed. Of
+/// nodes that follow others nothing is left: no mass, and springs that nothing else touches, so that the size
+/// stays.
 ///
 /// @throws std::invalid_argument if the model is not consistent (check_beam_model)
 /// Checked by tests/fem/assembly_test.cpp

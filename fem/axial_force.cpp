@@ -37,6 +37,10 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
     const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
     const BeamElement element = make_element(model, e);
+    if (element.properties.bushing) {
+      forces.push_back({.constant = 0.0});
+      continue;
+    }
     const double length = calc_length(element);
     const Eigen::Vector2d t = (element.second - element.first) / length;
     const double stretch =
@@ -53,10 +57,11 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
 }
 
 Eigen::MatrixXd calc_axial_forces(const BeamModel& model, const Eigen::MatrixXd& displacements) {
-  Eigen::MatrixXd forces(model.mesh.num_elements(), displacements.cols());
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(model.mesh.num_elements(), displacements.cols());
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
     const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
     const BeamElement element = make_element(model, e);
+    if (element.properties.bushing) continue;
     const double length = calc_length(element);
     const Eigen::RowVector2d t = (element.second - element.first).transpose() / length;
     forces.row(e) =

@@ -87,6 +87,7 @@ Eigen::Matrix<double, 3, 6> calc_shape_functions(double length, const BeamProper
 Matrix6 calc_local_stiffness(double length, const BeamProperties& properties) {
   const double L = length;
   const double Phi = calc_shear_parameter(length, properties);
+  if (properties.bushing) return calc_bushing_stiffness(*properties.bushing, L);
   const double axial = properties.axial_rigidity / L;
   Matrix6 K = Matrix6::Zero();
   K(0, 0) = K(3, 3) = axial;

@@ -4,6 +4,7 @@
 
 #include "fem/beam_element.h"
 #include "fem/beam_properties.h"
+#include "fem/coupling.h"
 #include "fem/mesh.h"
 
 namespace sprung::fem {
@@ -20,6 +21,7 @@ struct BeamModel {
   Mesh mesh;
   std::vector<BeamProperties> sections;  ///< one for each of mesh.section_names
   std::vector<PointMass> point_masses;   ///< several on one node add up
+  std::vector<Coupling> couplings = {};  ///< nodes that follow others; no node follows one that follows
 };
 
 /// The element of that 0-based number with its positions and properties.

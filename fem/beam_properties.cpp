@@ -16,7 +16,7 @@ namespace {
 }  // namespace
 
 void check_beam_properties(const BeamProperties& properties, const char* function) {
-  const auto& [EA, EI, kGA, rho_A, rho_I, A, W] = properties;
+  const auto& [EA, EI, kGA, rho_A, rho_I, A, W, bushing] = properties;
   if (!(EA > 0.0) || std::isinf(EA)) reject(function, "axial_rigidity", EA, "a finite value > 0 N");
   if (!(EI > 0.0) || std::isinf(EI)) reject(function, "bending_rigidity", EI, "a finite value > 0 N·m²");
   if (!(kGA > 0.0)) reject(function, "shear_rigidity", kGA, "a value > 0 N or infinity");

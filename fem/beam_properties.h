@@ -1,6 +1,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
+
+#include "fem/bushing.h"
 
 namespace sprung::fem {
 
@@ -15,6 +18,8 @@ struct BeamProperties {
   // Only stresses need these.
   double area = 0.0;             ///< A ≥ 0 [m²]; 0: not known
   double section_modulus = 0.0;  ///< W ≥ 0 of the extreme fibre [m³]; 0: not known
+  /// In place of a beam: then nothing above counts, there is no mass, and no axial force that stiffens.
+  std::optional<Bushing> bushing = {};
 };
 
 /// @throws std::invalid_argument if a value is outside its range stated above (names function, member, value)

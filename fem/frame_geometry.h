@@ -28,6 +28,8 @@ struct FrameGeometry {
 
   std::vector<Point> points;
   std::vector<Line> lines;
+  /// Whether something else joins parts of the frame, so that its mesh may fall into several.
+  bool may_have_parts = false;
 };
 
 /// Checks a frame: there is a line; point and line names are unique; a line's points exist and differ; no two

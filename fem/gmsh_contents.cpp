@@ -140,7 +140,7 @@ void sort_by(Items& items, Key key) {
 
 }  // namespace
 
-Mesh make_mesh(GmshContents contents, const SourceLocation& where) {
+Mesh make_mesh(GmshContents contents, const SourceLocation& where, bool may_have_parts) {
   if (contents.lines.empty()) throw InputError(where, "the mesh has no line elements");
   sort_by(contents.nodes, [](const GmshContents::Node& node) { return node.id; });
   sort_by(contents.lines, [](const GmshContents::Line& line) { return line.id; });
@@ -151,7 +151,7 @@ Mesh make_mesh(GmshContents contents, const SourceLocation& where) {
   add_nodes(mesh, numbers, contents, where);
   add_elements(mesh, numbers, contents);
   add_named_nodes(mesh, numbers, contents, where);
-  check_mesh(mesh, where);
+  check_mesh(mesh, where, may_have_parts);
   return mesh;
 }
 

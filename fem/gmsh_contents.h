@@ -49,6 +49,6 @@ struct GmshContents {
 ///         constant; for a physical point of several points, or through which no line passes; for a node with
 ///         neither line nor point; and as check_mesh
 /// Checked by tests/fem/gmsh_contents_test.cpp
-Mesh make_mesh(GmshContents contents, const support::SourceLocation& where);
+Mesh make_mesh(GmshContents contents, const support::SourceLocation& where, bool may_have_parts = false);
 
 }  // namespace sprung::fem

@@ -235,7 +235,7 @@ Mesh mesh_lines(const FrameGeometry& geometry) {
     return get_contents();
   });
   divide_exactly(contents, geometry);
-  return make_mesh(std::move(contents), where);
+  return make_mesh(std::move(contents), where, geometry.may_have_parts);
 }
 
 Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits) {

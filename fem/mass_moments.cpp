@@ -137,10 +137,15 @@ MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& ori
   for (const PointMass& point : model.point_masses) {
     add_point_mass(sums, point, model.mesh.node_positions.col(point.node) - origin);
   }
-  moments.NxNx = make_matrix(num_dofs, sums.NxNx);
-  moments.NxNy = make_matrix(num_dofs, sums.NxNy);
-  moments.NyNy = make_matrix(num_dofs, sums.NyNy);
-  moments.rotary_NN = make_matrix(num_dofs, sums.rotary_NN);
+  for (const auto& [matrix, triplets] :
+       {std::pair(&moments.NxNx, &sums.NxNx), std::pair(&moments.NxNy, &sums.NxNy),
+        std::pair(&moments.NyNy, &sums.NyNy), std::pair(&moments.rotary_NN, &sums.rotary_NN)}) {
+    *matrix = eliminate_followers(model.couplings, make_matrix(num_dofs, *triplets));
+  }
+  for (Eigen::VectorXd* vector : {&moments.N_x, &moments.N_y, &moments.x_N_x, &moments.x_N_y, &moments.y_N_x,
+                                  &moments.y_N_y, &moments.rotary_N}) {
+    *vector = move_loads_to_leaders(model.couplings, *vector);
+  }
   return std::move(moments);
 }
 

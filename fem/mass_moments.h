@@ -37,7 +37,8 @@ struct MassMoments {
 };
 
 /// The moments of the elements, by Gauss quadrature that is exact for their shape functions, and of the point
-/// masses.
+/// masses. Where nodes follow others, the integrals with shape functions have zeros there, and the others'
+/// parts.
 ///
 /// @param origin  of the body frame, whose axes are the mesh's [m]
 /// @throws std::invalid_argument if the model is not consistent (check_beam_model) or origin not finite

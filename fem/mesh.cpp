@@ -92,25 +92,6 @@ int find_root(std::vector<int>& parent, int node) {
   return node;
 }
 
-void check_connected(const Mesh& mesh, const support::SourceLocation& where) {
-  std::vector<int> parent(mesh.node_ids.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  for (const Mesh::Element& element : mesh.elements) {
-    parent[static_cast<std::size_t>(find_root(parent, element.first))] = find_root(parent, element.second);
-  }
-  std::unordered_map<int, std::vector<int>> parts;
-  for (int node = 0; node < mesh.num_nodes(); ++node) parts[find_root(parent, node)].push_back(node);
-  if (parts.size() <= 1) return;
-  // Among equally small parts, the one that contains the last node.
-  const auto smaller = [](const auto& a, const auto& b) {
-    return std::pair(a.second.size(), b.second.back()) < std::pair(b.second.size(), a.second.back());
-  };
-  const auto smallest = std::min_element(parts.begin(), parts.end(), smaller);
-  throw support::InputError(
-      where, fmt::format("the frame falls into {} parts that no element joins; one of them has {}",
-                         parts.size(), describe_nodes(mesh, smallest->second)));
-}
-
 void check_used(const Mesh& mesh, const support::SourceLocation& where) {
   std::vector<bool> used(mesh.node_ids.size(), false);
   for (const Mesh::Element& element : mesh.elements) {
@@ -172,7 +153,29 @@ void check_mesh_indices(const Mesh& mesh, const char* function) {
   }
 }
 
-void check_mesh(const Mesh& mesh, const support::SourceLocation& where) {
+void check_connected(const Mesh& mesh, const std::vector<std::pair<int, int>>& links,
+                     const support::SourceLocation& where) {
+  std::vector<int> parent(mesh.node_ids.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Mesh::Element& element : mesh.elements) {
+    parent[static_cast<std::size_t>(find_root(parent, element.first))] = find_root(parent, element.second);
+  }
+  for (const auto& [first, second] : links)
+    parent[static_cast<std::size_t>(find_root(parent, first))] = find_root(parent, second);
+  std::unordered_map<int, std::vector<int>> parts;
+  for (int node = 0; node < mesh.num_nodes(); ++node) parts[find_root(parent, node)].push_back(node);
+  if (parts.size() <= 1) return;
+  // Among equally small parts, the one that contains the last node.
+  const auto smaller = [](const auto& a, const auto& b) {
+    return std::pair(a.second.size(), b.second.back()) < std::pair(b.second.size(), a.second.back());
+  };
+  const auto smallest = std::min_element(parts.begin(), parts.end(), smaller);
+  throw support::InputError(
+      where, fmt::format("the frame falls into {} parts that no element joins; one of them has {}",
+                         parts.size(), describe_nodes(mesh, smallest->second)));
+}
+
+void check_mesh(const Mesh& mesh, const support::SourceLocation& where, bool may_have_parts) {
   check_mesh_indices(mesh, "check_mesh");
   if (mesh.elements.empty()) throw support::InputError(where, "the mesh has no line elements");
   check_positions(mesh, where);
@@ -182,7 +185,7 @@ void check_mesh(const Mesh& mesh, const support::SourceLocation& where) {
   check_lengths(mesh, smallest, where);
   check_duplicates(mesh, where);
   check_coincident(mesh, smallest, where);
-  check_connected(mesh, where);
+  if (!may_have_parts) check_connected(mesh, {}, where);
 }
 
 double calc_extent(const Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/support/errors/input_error.h"
@@ -52,10 +53,16 @@ void check_mesh_indices(const Mesh& mesh, const char* function);
 /// than 1e-9 of the frame's extent, no two between the same nodes; every node belongs to an element; no two
 /// nodes are at the same position (nearer than 1e-9 of the extent); all elements are connected.
 /// @param where  source of the mesh, for the message
+/// @param may_have_parts  leaves out whether all elements are connected
 /// @throws support::InputError naming the nodes concerned (of the smallest part, if the frame is not
 /// connected)
 /// @throws std::invalid_argument as check_mesh_indices
 /// Checked by tests/fem/mesh_test.cpp
-void check_mesh(const Mesh& mesh, const support::SourceLocation& where);
+void check_mesh(const Mesh& mesh, const support::SourceLocation& where, bool may_have_parts = false);
+
+/// Checks that elements and `links`, which are pairs of nodes, connect all nodes.
+/// @throws support::InputError naming the nodes of the smallest part
+void check_connected(const Mesh& mesh, const std::vector<std::pair<int, int>>& links,
+                     const support::SourceLocation& where);
 
 }  // namespace sprung::fem

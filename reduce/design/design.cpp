@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "reduce/design/design_couplings.h"
+#include "reduce/design/design_foundations.h"
 #include "reduce/design/design_frame.h"
 #include "reduce/design/design_matrices.h"
 #include "reduce/design/design_sections.h"
@@ -48,11 +50,14 @@ InputFiles read_beams(const TomlTable& root, const std::filesystem::path& folder
   design.model.mesh = std::move(frame.mesh);
   for (const std::string& name : design.model.mesh.section_names)
     design.model.sections.push_back(sections.at(name));
+  read_couplings(root, design.model);
+  read_foundations(root, design.model);
   return {std::move(frame.input_names), std::move(frame.input_hashes)};
 }
 
 InputFiles read_matrices(const TomlTable& root, const std::filesystem::path& folder, Design& design) {
-  for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines", "springs"}) {
+  for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines", "springs",
+                          "rigid_offsets", "averages", "foundations"}) {
     if (const auto found = root.find(key))
       throw found->error("describes beams, and stands beside [matrices]; give either");
   }
@@ -74,11 +79,12 @@ void add_point_masses(const std::vector<fem::PointMass>& masses, MatrixBody& bod
   body.mass.makeCompressed();
 }
 
-int read_reference(const TomlTable& root, const fem::Mesh& mesh) {
+int read_reference(const TomlTable& root, const fem::BeamModel& model) {
   static const std::array<std::string, 1> kConditions{"clamped"};
   const TomlTable table = root.at("reference").table();
   expect_keys(table, {"point", "condition"});
-  const int node = find_named_node(mesh, table.at("point"));
+  const int node = find_named_node(model.mesh, table.at("point"));
+  expect_no_follower(model, node, table.at("point"), "take one of those as the reference");
   if (const auto condition = table.find("condition")) condition->one_of(kConditions);
   return node;
 }
@@ -131,6 +137,15 @@ void read_damping(const TomlTable& table, Design& design) {
     throw residual->error("belongs to the basis \"free\" alone, which has residual vectors");
   }
   design.residual_damping_ratio = residual->number(range);
+}
+
+// The basis "fixed-interface" holds the freedoms of the interface, and a point that follows others has none.
+void check_fixed_interface(const TomlTable& root, const Design& design) {
+  if (design.reduction.basis != BasisKind::kFixedInterface) return;
+  for (const InterfaceFreedom& one : design.reduction.interface) {
+    expect_no_follower(design.model, one.node, root.at("reduction").table().at("basis"),
+                       "name those in [interface], or take the basis \"free\"");
+  }
 }
 
 // The modes of the basis "clamped"; the others take what their band needs.
@@ -214,9 +229,9 @@ Design read_design(const DesignSource& source) {
   const std::filesystem::path& path = source.path;
   const support::TomlDocument document = read_document(source);
   const TomlTable root = document.root();
-  expect_keys(
-      root, {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points", "lines",
-             "springs", "mesh", "matrices", "point_masses", "reference", "modes", "interface", "reduction"});
+  expect_keys(root, {"name", "parameters", "theory", "rotary_inertia", "materials", "sections", "points",
+                     "lines", "springs", "rigid_offsets", "averages", "foundations", "mesh", "matrices",
+                     "point_masses", "reference", "modes", "interface", "reduction"});
   Design design;
   design.name = root.string_or("name", path.stem().string());
   if (design.name.empty()) throw root.at("name").error("is empty");
@@ -224,11 +239,12 @@ Design read_design(const DesignSource& source) {
                                                 : read_beams(root, path.parent_path(), design);
   read_point_masses(root, design.model);
   if (design.matrices) add_point_masses(design.model.point_masses, *design.matrices);
-  design.reference_node = read_reference(root, design.model.mesh);
+  design.reference_node = read_reference(root, design.model);
   const TomlTable modes = root.at("modes").table();
   expect_keys(modes,
               {"count", "highest_frequency", "all", "numbers", "damping_ratio", "residual_damping_ratio"});
   design.reduction = read_reduction(root, design.model.mesh, design.reference_node, has_wanted_modes(modes));
+  check_fixed_interface(root, design);
   read_wanted_modes(root, modes, design);
   read_damping(modes, design);
   const std::string text = read_source_text(source);

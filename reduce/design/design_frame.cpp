@@ -10,6 +10,7 @@
 
 #include "fem/gmsh_mesher.h"
 #include "reduce/design/design.h"
+#include "reduce/design/design_couplings.h"
 #include "reduce/design/known_keys.h"
 #include "reduce/design/sizes.h"
 #include "tools/support/files/read_text_file.h"
@@ -146,6 +147,30 @@ void name_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
                                             point.position.x(), point.position.y(), fault));
 }
 
+// A point that follows others may be a node of its own, which no line passes through.
+void add_follower_node(fem::Mesh& mesh, const fem::FrameGeometry::Point& point) {
+  const double tolerance = kSamePlace * fem::calc_extent(mesh);
+  Eigen::Index node = 0;
+  if ((mesh.node_positions.colwise() - point.position).colwise().norm().minCoeff(&node) > tolerance) {
+    node = mesh.node_positions.cols();
+    mesh.node_positions.conservativeResize(Eigen::NoChange, node + 1);
+    mesh.node_positions.col(node) = point.position;
+    mesh.node_ids.push_back(mesh.node_ids.back() + 1);
+  }
+  mesh.named_nodes.push_back({.name = point.name, .node = static_cast<int>(node)});
+}
+
+void name_points(const TomlTable& root, const Points& points, fem::Mesh& mesh) {
+  const std::set<std::string> followers = list_followers(root);
+  for (const fem::FrameGeometry::Point& point : points) {
+    if (followers.count(point.name) > 0) {
+      add_follower_node(mesh, point);
+    } else {
+      name_node(mesh, point);
+    }
+  }
+}
+
 // Gives each element of tapered lines its section. Elements stand line by line.
 void assign_tapered_sections(const TomlTable& root, fem::Mesh& mesh) {
   std::map<std::string, int> known;
@@ -177,6 +202,7 @@ DesignFrame read_lines(const TomlTable& root, const Points& points, const Sectio
   if (const auto springs = root.find("springs")) {
     for (const TomlValue& spring : springs->items()) read_spring_line(spring.table(), point_names, geometry);
   }
+  geometry.may_have_parts = root.has("rigid_offsets") || root.has("averages");
   if (geometry.lines.empty()) throw root.at("lines").error("is empty, expected at least one line");
   std::set<std::string> corners;
   for (const fem::FrameGeometry::Line& line : geometry.lines) corners.insert({line.from, line.to});
@@ -186,8 +212,17 @@ DesignFrame read_lines(const TomlTable& root, const Points& points, const Sectio
   }
   DesignFrame frame{.mesh = fem::mesh_lines(geometry), .input_names = {}, .input_hashes = {}};
   assign_tapered_sections(root, frame.mesh);
-  for (const fem::FrameGeometry::Point& point : other) name_node(frame.mesh, point);
+  name_points(root, other, frame.mesh);
   return frame;
+}
+
+// A spring between nodes of a mesh file.
+void add_spring_element(const TomlTable& spring, fem::Mesh& mesh) {
+  const TomlValue from = spring.at("from"), to = spring.at("to");
+  mesh.elements.push_back({.first = find_named_node(mesh, from),
+                           .second = find_named_node(mesh, to),
+                           .section = static_cast<int>(mesh.section_names.size())});
+  mesh.section_names.push_back(name_spring_section(from.string(), to.string()));
 }
 
 // Whether a text of gmsh's language has a statement that begins with this word: at the start of a line or
@@ -214,8 +249,8 @@ void check_self_contained(const std::filesystem::path& path) {
   }
 }
 
-DesignFrame read_mesh(const TomlValue& name, const Points& points, const std::filesystem::path& folder,
-                      const Sections& sections) {
+DesignFrame read_mesh(const TomlTable& root, const TomlValue& name, const Points& points,
+                      const std::filesystem::path& folder, const Sections& sections) {
   const std::filesystem::path path = folder / name.string();
   DesignFrame frame;
   frame.input_names = {name.string()};
@@ -235,7 +270,10 @@ DesignFrame read_mesh(const TomlValue& name, const Points& points, const std::fi
       throw InputError(point.where,
                        fmt::format("point '{}' is named in '{}' already", point.name, name.string()));
     }
-    name_node(frame.mesh, point);
+  }
+  name_points(root, points, frame.mesh);
+  if (const auto springs = root.find("springs")) {
+    for (const TomlValue& spring : springs->items()) add_spring_element(spring.table(), frame.mesh);
   }
   return frame;
 }
@@ -248,9 +286,7 @@ DesignFrame read_design_frame(const TomlTable& root, const std::filesystem::path
   const auto mesh = root.find("mesh");
   if (!mesh) return read_lines(root, points, sections);
   if (const auto lines = root.find("lines")) throw lines->error("stands beside 'mesh'; give either");
-  if (const auto springs = root.find("springs"))
-    throw springs->error("stands beside 'mesh', and needs [[lines]]");
-  return read_mesh(*mesh, points, folder, sections);
+  return read_mesh(root, *mesh, points, folder, sections);
 }
 
 void name_nodes(const TomlTable& root, fem::Mesh& mesh) {

@@ -225,6 +225,10 @@ void add_point_masses(const DesignVariation& variation, const TomlTable& root,
 std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design) {
   const TomlDocument document = read_document(source);
   const TomlTable root = document.root();
+  for (const char* key : {"rigid_offsets", "averages", "foundations"}) {
+    if (const auto found = root.find(key))
+      throw found->error("stands in a design whose derivatives are not computed; take 'sprung-reduce sweep'");
+  }
   const DesignVariation variation(source, design);
   std::vector<DesignParameter> parameters;
   add_numbers(variation, root, parameters);

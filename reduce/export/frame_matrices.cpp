@@ -31,6 +31,11 @@ std::vector<std::filesystem::path> write_frame_matrices(const Design& design, co
     throw support::InputError({.path = design.matrices->stiffness_path},
                               fmt::format("'{}' has no beams: its matrices are there already", design.name));
   }
+  if (!design.model.couplings.empty()) {
+    throw support::InputError({.path = design.name},
+                              "has points that follow others ([[rigid_offsets]], [[averages]]); they have no "
+                              "freedoms in the matrices of the whole frame");
+  }
   const fem::AssembledMatrices matrices = fem::assemble(design.model);
   const std::pair<const char*, std::string> files[] = {
       {"_stiffness.mtx", format_symmetric_matrix_market(matrices.stiffness, "stiffness, N/m, N, N·m")},

@@ -26,6 +26,11 @@ constexpr double kResidualTolerance = 1e-6;
 // The band of a clamped basis that names none: up to this mode's frequency, by the margin of free modes.
 constexpr Eigen::Index kBandMode = 20;
 
+// Displacements of all nodes, from vectors of the held frame.
+Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {
+  return fem::move_followers(design.model.couplings, insert_node(vectors, design.reference_node));
+}
+
 // Vectors of the held frame, in the canonical basis of their clusters.
 struct CanonicalVectors {
   Eigen::MatrixXd vectors;    // (3N−3)×n
@@ -76,7 +81,9 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
                        .tolerance = design.reduction.tolerance,
                        .all_residual = design.reduction.all_residual};
   const auto num_nodes = static_cast<int>(matrices.full.stiffness.rows() / 3);
-  request.loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, request.interface));
+  request.loads = balance_loads(
+      matrices.rigid,
+      fem::move_loads_to_leaders(design.model.couplings, make_interface_loads(num_nodes, request.interface)));
   return request;
 }
 
@@ -102,13 +109,13 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
   const ClampedModes modes = calc_clamped_modes(matrices.held, num_needed, options);
   const double rounding = estimate_rounding_error(matrices.held.stiffness, modes.pairs.vectors.col(0),
                                                   modes.pairs.omega_squared(0));
-  check_rounding(design, insert_node(modes.pairs.vectors.leftCols(1), design.reference_node), rounding,
+  check_rounding(design, make_shapes(design, modes.pairs.vectors.leftCols(1)), rounding,
                  calc_frequency_hz(modes.pairs.omega_squared(0)));
   const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
-  const CanonicalVectors canonical = make_canonical(
-      modes.pairs, modes.cluster, columns, insert_node(modes.pairs.vectors, design.reference_node), frame);
+  const CanonicalVectors canonical =
+      make_canonical(modes.pairs, modes.cluster, columns, make_shapes(design, modes.pairs.vectors), frame);
   BodyBasis basis;
-  basis.shapes = insert_node(canonical.vectors, design.reference_node);
+  basis.shapes = make_shapes(design, canonical.vectors);
   basis.cluster = modes.cluster(columns);
   basis.stiffness = canonical.stiffness;
   basis.kind.assign(columns.size(), kClampedVector);
@@ -133,7 +140,7 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
   const Eigen::VectorXd first = lowest.pairs.vectors.col(0);
   const double lowest_omega_squared = lowest.pairs.omega_squared(0);
   request.rounding = estimate_rounding_error(matrices.free.stiffness, first, lowest_omega_squared);
-  check_rounding(design, insert_node(Eigen::MatrixXd(first), design.reference_node), request.rounding,
+  check_rounding(design, make_shapes(design, first), request.rounding,
                  calc_frequency_hz(lowest_omega_squared));
   const bool is_free = design.reduction.basis == BasisKind::kFree;
   const FreeBodyBasis found =
@@ -144,10 +151,10 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
   basis.cluster = find_clusters(found.vectors.omega_squared);
   std::vector<int> columns(found.kind.size());
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = static_cast<int>(i);
-  const CanonicalVectors canonical = make_canonical(
-      found.vectors, basis.cluster, columns,
-      remove_momentum(matrices.rigid, insert_node(found.vectors.vectors, design.reference_node)), frame);
-  basis.shapes = insert_node(canonical.vectors, design.reference_node);
+  const CanonicalVectors canonical =
+      make_canonical(found.vectors, basis.cluster, columns,
+                     remove_momentum(matrices.rigid, make_shapes(design, found.vectors.vectors)), frame);
+  basis.shapes = make_shapes(design, canonical.vectors);
   basis.stiffness = canonical.stiffness;
   basis.kind = found.kind;
   basis.certificate = found.certificate;

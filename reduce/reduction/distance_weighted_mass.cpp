@@ -52,7 +52,7 @@ Eigen::SparseMatrix<double> calc_distance_weighted_mass(const fem::BeamModel& mo
   const Eigen::Index size = 3 * model.mesh.num_nodes();
   Eigen::SparseMatrix<double> result(size, size);
   result.setFromTriplets(triplets.begin(), triplets.end());
-  return result;
+  return fem::eliminate_followers(model.couplings, result);
 }
 
 }  // namespace sprung::reduce

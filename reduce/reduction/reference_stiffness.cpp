@@ -20,8 +20,8 @@ Eigen::MatrixXd calc_inertia_stiffness(const fem::BeamModel& model, int referenc
                                        const Eigen::MatrixXd& shapes,
                                        const fem::FrameAcceleration& acceleration) {
   const Eigen::MatrixXd load = fem::calc_inertia_load(moments, acceleration);
-  const Eigen::VectorXd displacement =
-      insert_node(factor.solve(remove_node(load, reference_node)), reference_node);
+  const Eigen::VectorXd displacement = fem::move_followers(
+      model.couplings, insert_node(factor.solve(remove_node(load, reference_node)), reference_node));
   const std::vector<fem::AxialForce> forces = fem::calc_axial_forces(
       model, displacement, acceleration, model.mesh.node_positions.col(reference_node));
   const Eigen::MatrixXd product = fem::assemble_geometric_stiffness(model, forces) * shapes;
@@ -81,8 +81,9 @@ Eigen::MatrixXd calc_point_forces(const fem::BeamModel& model, int reference_nod
       const auto point = static_cast<std::size_t>((begin + i) / 3);
       loads(3 * points[point].node + (begin + i) % 3, i) = 1.0;
     }
-    const Eigen::MatrixXd displacements =
-        insert_node(factor.solve(remove_node(loads, reference_node)), reference_node);
+    loads = fem::move_loads_to_leaders(model.couplings, std::move(loads));
+    const Eigen::MatrixXd displacements = fem::move_followers(
+        model.couplings, insert_node(factor.solve(remove_node(loads, reference_node)), reference_node));
     forces.middleCols(begin, width) = fem::calc_axial_forces(model, displacements);
   }
   return forces;

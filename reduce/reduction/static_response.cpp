@@ -25,7 +25,9 @@ class HeldFrame {
   };
   Response calc_response(const Eigen::MatrixXd& loads, const Eigen::MatrixXd& accelerations,
                          ElementMatrix element_matrix) const {
-    const Eigen::MatrixXd displacements = insert_node(factor_.solve(remove_node(loads, node_)), node_);
+    const Eigen::MatrixXd on_leaders = fem::move_loads_to_leaders(model_.couplings, loads);
+    const Eigen::MatrixXd displacements = fem::move_followers(
+        model_.couplings, insert_node(factor_.solve(remove_node(on_leaders, node_)), node_));
     Response response{.resultants = Eigen::MatrixXd(6 * model_.mesh.num_elements(), loads.cols()),
                       .deflections = Eigen::MatrixXd(3 * model_.mesh.named_nodes.size(), loads.cols())};
     for (int e = 0; e < model_.mesh.num_elements(); ++e) {
@@ -96,13 +98,16 @@ std::optional<StaticResponse> calc_static_response(const fem::BeamModel& model, 
   const HeldFrame frame(model, reference_node, held_stiffness);
   const Eigen::MatrixXd of_frame = make_frame_accelerations(model, reference_node, mass.rows());
   const Eigen::SparseMatrix<double> NxNy_transposed = moments.NxNy.transpose();
+  Eigen::MatrixXd of_inertia = -(mass * of_frame);
+  // No displacement of the leaders gives this field at the nodes that follow them.
+  if (!model.couplings.empty()) of_inertia.col(3) = moments.x_N_x + moments.y_N_y;
   StaticResponse response;
   const auto take = [&](HeldFrame::Response&& one, Eigen::MatrixXd UnitLoads::*loads) {
     response.resultants.*loads = std::move(one.resultants);
     response.deflections.*loads = std::move(one.deflections);
   };
   take(frame.calc_response(make_point_loads(model.mesh, mass.rows()), {}, nullptr), &UnitLoads::point_load);
-  take(frame.calc_response(-(mass * of_frame), of_frame, fem::calc_mass), &UnitLoads::acceleration);
+  take(frame.calc_response(of_inertia, of_frame, fem::calc_mass), &UnitLoads::acceleration);
   take(frame.calc_response(-(mass * shapes), shapes, fem::calc_mass), &UnitLoads::modal_acceleration);
   take(frame.calc_response((moments.NxNy - NxNy_transposed) * shapes, shapes, fem::calc_turned_mass),
        &UnitLoads::turned_acceleration);

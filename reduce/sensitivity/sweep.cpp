@@ -72,6 +72,10 @@ SweptBody preview_body(const SweepOptions& options, const SweptBody& first, doub
       .value = value, .num_nodes = design.model.mesh.num_nodes(), .matrices = {}, .free = {}, .clamped = {}};
   if (body.num_nodes != first.num_nodes) return body;  // refused by the caller
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
+  if (!design.model.couplings.empty()) {
+    throw support::InputError({.path = options.design.path.string()},
+                              "has points that follow others; leave out '--preview'");
+  }
   body.matrices.full = make_full_matrices(design);
   body.matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   if (!body.matrices.node_positions.isApprox(first.matrices.node_positions, kSamePlace)) {

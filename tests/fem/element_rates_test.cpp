@@ -33,7 +33,7 @@ Matrix6 calc_difference(const std::function<Matrix6(double)>& matrix) {
 TEST_CASE("Rates of an element's matrices are what their differences tend to") {
   for (const BeamProperties& properties : {test::make_thick_properties(), test::make_thin_properties()}) {
     const BeamElement element{.first = {0.3, -0.2}, .second = {0.9, 0.4}, .properties = properties};
-    const auto& [EA, EI, kGA, rho_A, rho_I, area, section_modulus] = properties;
+    const auto& [EA, EI, kGA, rho_A, rho_I, area, section_modulus, bushing] = properties;
     const bool has_shear = !std::isinf(kGA);
     for (const BeamElementRates& rates :
          {BeamElementRates{.first = {0.3, 0.1}, .second = {-0.2, 0.25}},
@@ -62,7 +62,7 @@ TEST_CASE("Rates of a frame's matrices add up those of its elements and point ma
   CHECK(moved.stiffness.norm() < 1e-12 * assemble(model).stiffness.norm());
   CHECK(Eigen::MatrixXd(moved.mass).diagonal().segment<3>(3).isApprox(Eigen::Vector3d(3.0, 3.0, 7.0), 1e-12));
   // All rigidities and masses in proportion: the matrices themselves.
-  const auto& [EA, EI, kGA, rho_A, rho_I, area, section_modulus] = model.sections[0];
+  const auto& [EA, EI, kGA, rho_A, rho_I, area, section_modulus, bushing] = model.sections[0];
   rates.node_positions.setZero();
   rates.sections[0] = {.axial_rigidity = EA,
                        .bending_rigidity = EI,
