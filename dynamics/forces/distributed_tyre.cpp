@@ -17,7 +17,7 @@ int count_cells(const Road& road, double radius) {
   double cell = radius / kCellsPerRadius;
   for (int k = 0; k < road.num_segments(); ++k) {
     const double inside = k == 0 ? road.segment_end(0) : road.segment_end(k - 1);
-    if (std::isfinite(inside)) cell = std::min(cell, road.resolution(k, inside));
+    if (std::isfinite(inside)) cell = std::min(cell, road.finest_resolution(k));
   }
   return static_cast<int>(std::min(kMostCells, std::ceil(2.0 * radius / cell)));
 }
@@ -100,7 +100,7 @@ double DistributedTyre::calc_longest_step(const Instant& instant) const {
   double resolution = std::numeric_limits<double>::infinity();
   const int first = profile.find_segment(s - parameters().radius, true);
   const int last = profile.find_segment(s + parameters().radius, true);
-  for (int k = first; k <= last; ++k) resolution = std::min(resolution, profile.resolution(k, s));
+  for (int k = first; k <= last; ++k) resolution = std::min(resolution, profile.finest_resolution(k));
   return calc_passing_time(instant, resolution);
 }
 

@@ -34,6 +34,10 @@ class Road {
   /// Length of the finest detail of the road near s [m]. An integrator should not travel much further in a
   /// step.
   virtual double resolution(int segment, double s) const = 0;
+  /// The least of it in a segment.
+  virtual double finest_resolution(int segment) const {
+    return resolution(segment, segment_end(segment == 0 ? 0 : segment - 1));
+  }
 
   /// The segment at s. At the end of a segment, it is the one that a wheel enters that rolls forward (or
   /// backward).

@@ -13,7 +13,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kVisible = 0.01;  // of the range of the four points around an interval
+constexpr double kVisible = 0.01;         // of the range of the four points around an interval
+constexpr double kEqualSpacing = 1.0001;  // greatest over least distance of points
 
 // Cubic between two points by heights z and slopes m at both ends, an interval h long; u = 0 … 1.
 struct Cubic {
@@ -68,7 +69,18 @@ TableRoad::TableRoad(double start, std::span<const double> s, std::span<const do
   }
   for (double& value : s_) value += start - s.front();
   spacing_ = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < s_.size(); ++i) spacing_ = std::min(spacing_, s_[i] - s_[i - 1]);
+  double widest = 0.0;
+  for (std::size_t i = 1; i < s_.size(); ++i) {
+    spacing_ = std::min(spacing_, s_[i] - s_[i - 1]);
+    widest = std::max(widest, s_[i] - s_[i - 1]);
+  }
+  ahead_ = behind_ = DetailLengths(spacing_);
+  if (widest > kEqualSpacing * spacing_) {
+    ahead_ = DetailLengths::between(s_);
+    std::vector<double> backwards(s_.rbegin(), s_.rend());
+    for (double& value : backwards) value = -value;
+    behind_ = DetailLengths::between(backwards);
+  }
   slope_ = calc_clamped_slopes(s_, height_);
   limit_slopes();
   integral_.assign(s_.size(), 0.0);
@@ -139,7 +151,12 @@ double TableRoad::integral(int segment, double s) const {
   return integral_[i] + cubic.integral((s - s_[i]) / cubic.h);
 }
 
-double TableRoad::resolution(int segment, double /*s*/) const {
+double TableRoad::resolution(int segment, double s) const {
+  if (segment != 1) return std::numeric_limits<double>::infinity();
+  return std::min(ahead_.calc_longest_step(s), behind_.calc_longest_step(-s));
+}
+
+double TableRoad::finest_resolution(int segment) const {
   return segment == 1 ? spacing_ : std::numeric_limits<double>::infinity();
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/functions/detail_lengths.h"
 #include "dynamics/road/road.h"
 
 namespace sprung::dynamics {
@@ -34,6 +35,7 @@ class TableRoad final : public Road {
   RoadSample sample(int segment, double s) const override;
   double integral(int segment, double s) const override;
   double resolution(int segment, double s) const override;
+  double finest_resolution(int segment) const override;
 
   /// Number of intervals in which the slopes were limited.
   std::size_t num_limited() const { return num_limited_; }
@@ -46,7 +48,8 @@ class TableRoad final : public Road {
   std::vector<double> s_, height_, slope_;  // at the points
   std::vector<double> integral_;            // from the first point to each
   std::size_t num_limited_ = 0;
-  double spacing_;  // the smallest
+  double spacing_;                // the smallest
+  DetailLengths ahead_, behind_;  // distances of points along s and along −s; where they are equal, spacing_
 };
 
 }  // namespace sprung::dynamics

@@ -47,11 +47,25 @@ TEST_CASE("A table road's slope is the derivative of its height", "[road]") {
   }
 }
 
-TEST_CASE("A table road's detail is its closest spacing", "[road]") {
-  const TableRoad road(3.0, kDistance, kHeight);
-  CHECK(road.resolution(1, 3.2) == Approx(0.3).epsilon(1e-12));
+TEST_CASE("A table road's detail is the distance of its points near a wheel, on either side", "[road]") {
+  const TableRoad road(3.0, kDistance, kHeight);                   // points at 3, 3.4, 4, 4.3 and 5 m
+  CHECK(road.resolution(1, 3.05) == Approx(0.38).epsilon(1e-12));  // 0.4 of the way to the closest points
+  CHECK(road.resolution(1, 3.2) == Approx(0.32).epsilon(1e-12));
+  CHECK(road.resolution(1, 4.1) == Approx(0.3).epsilon(1e-12));
+  CHECK(road.resolution(1, 4.9) == Approx(0.3).epsilon(1e-12));  // 0.4 of the way back is less
+  CHECK(road.finest_resolution(1) == Approx(0.3).epsilon(1e-12));
   CHECK(road.resolution(0, 1.0) == std::numeric_limits<double>::infinity());
   CHECK(road.resolution(2, 9.0) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("Two close points of a table road concern wheels near them only", "[road]") {
+  const std::vector<double> s{0.0, 5.0, 5.0 + 1e-6, 10.0, 30.0}, height{0.0, 0.0, 0.01, 0.01, 0.0};
+  const TableRoad road(1.0, s, height);
+  CHECK(road.resolution(1, 6.0) == Approx(1e-6).epsilon(1e-3));
+  CHECK(road.resolution(1, 5.0) == Approx(0.4).epsilon(1e-3));   // 1 m before them
+  CHECK(road.resolution(1, 9.0) == Approx(1.2).epsilon(1e-3));   // 3 m behind them
+  CHECK(road.resolution(1, 25.0) == Approx(5.6).epsilon(1e-3));  // 14 m behind the interval of 5 m
+  CHECK(road.finest_resolution(1) == Approx(1e-6).epsilon(1e-3));
 }
 
 TEST_CASE("A table that is no road is refused", "[road]") {
