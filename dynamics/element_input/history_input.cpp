@@ -16,6 +16,7 @@ constexpr double kShortestSpacing = 1e-9;  // s
 constexpr double kLargestValue = 1e15;     // in SI units, so that slopes and curvatures are finite
 constexpr double kRoundedTime = 1e-9;      // s
 constexpr double kCloseSamples = 0.1;      // of the mean distance
+constexpr double kWideSwing = 1.0;         // of the range of the samples
 
 struct Samples {
   std::vector<double> time, value;  // [s], in the channel's unit
@@ -148,6 +149,21 @@ TimeFunction replace_outside(const TimeFunction& f, const HistoryUse& use) {
   return TimeFunction::pieces(ends, std::array{outside(use.before, f), f, outside(use.after, f)});
 }
 
+// Between two samples a cubic that swings out is far out in the middle, too.
+double calc_swing(const TimeFunction& curve, const Samples& samples) {
+  const auto [least, greatest] = std::minmax_element(samples.value.begin(), samples.value.end());
+  double beyond = 0.0;
+  for (std::size_t i = 1; i < samples.time.size(); ++i) {
+    const double between = curve.value(0.5 * (samples.time[i - 1] + samples.time[i]));
+    beyond = std::max({beyond, *least - between, between - *greatest});
+  }
+  return *greatest > *least ? beyond / (*greatest - *least) : 0.0;
+}
+
+bool has_close_samples(const HistoryUse& history) {
+  return history.shortest_spacing < kCloseSamples * history.mean_spacing;
+}
+
 // The times of a run at which a history counts.
 struct Need {
   Need(const HistoryUse& history, double run_end)
@@ -203,6 +219,7 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   const bool is_smooth = history.interpolation == kInterpolations[1];
   const TimeFunction f = is_smooth ? TimeFunction::spline(samples.time, samples.value)
                                    : TimeFunction::lines(samples.time, samples.value);
+  if (is_smooth && has_close_samples(history)) history.swing = calc_swing(f, samples);
   used_.push_back(history);
   return replace_outside(f, history);
 }
@@ -248,12 +265,18 @@ std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histor
           "{}'{}' ends at {:.9g} s, {} at {:.9g} s; from then on {}", locate(history), history.key,
           history.to, need.to < to ? "its piece" : "the run", need.to, describe(history.after, "last")));
     }
-    if (history.interpolation == "smooth" &&
-        history.shortest_spacing < kCloseSamples * history.mean_spacing) {
+    if (history.interpolation == "smooth" && has_close_samples(history)) {
       remarks.push_back(
           fmt::format("{}'{}' has samples {:.3g} s apart, where the mean is {:.3g} s: steps near them are no "
                       "longer",
                       locate(history), history.key, history.shortest_spacing, history.mean_spacing));
+    }
+    if (history.swing > kWideSwing) {
+      remarks.push_back(
+          fmt::format("{}'{}' swings out beyond its samples by {:.3g} times their range, between samples "
+                      "that are further apart than those beside them; a smooth curve needs samples "
+                      "whose distances change little by little",
+                      locate(history), history.key, history.swing));
     }
   }
   return remarks;

@@ -38,6 +38,7 @@ struct HistoryUse {
   double needed_from = 0.0;     ///< it counts from this time of the run on [s]
   double needed_to = std::numeric_limits<double>::infinity();  ///< until this one [s]
   double shortest_spacing = 0.0, mean_spacing = 0.0;           ///< of the samples [s]
+  double swing = 0.0;         ///< of a smooth curve beyond the range of the samples, as a share of that range
   std::string before, after;  ///< what holds outside: "hold" or a number; "" if nothing does
 };
 
@@ -73,8 +74,8 @@ class HistoryFiles {
 /// @throws support::InputError at the first one that does not
 void check_histories(std::span<const HistoryUse> histories, double to);
 
-/// A text for each history that a run exceeds, and for each smooth one with samples much closer than the
-/// others, which shorten all steps.
+/// A text for each history that a run exceeds, for each smooth one with samples much closer than the others,
+/// which shorten steps, and for each smooth one that swings far beyond its samples.
 std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histories, double to);
 
 }  // namespace sprung::dynamics

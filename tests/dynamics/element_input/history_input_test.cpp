@@ -172,6 +172,21 @@ TEST_CASE("Samples of a smooth history that are much closer than the others are 
         "are no longer");
 }
 
+TEST_CASE("A smooth history that swings far beyond its samples is told") {
+  // A jump by 1 within 1e-6 s. The spline through points 0, 1 and 2 with the slope s at the close ones passes
+  // the middle of the second interval at 1 + s (1 s)/8 or so: far beyond 1.
+  const std::string content = "t,z\n0,0\n1,0\n1.000001,1\n2,1\n";
+  const auto remarks_on = [&](const std::string& interpolation) {
+    const std::string keys = "channel = \"z\", interpolation = \"" + interpolation + "\"";
+    return dynamics::list_history_remarks(Reading(content, keys).files.used(), 2.0);
+  };
+  CHECK(remarks_on("linear").empty());
+  const std::vector<std::string> remarks = remarks_on("smooth");
+  REQUIRE(remarks.size() == 2);
+  CHECK_THAT(remarks[1], Contains("v.toml:1:17: 'f.history' swings out beyond its samples by ") &&
+                             Contains("e+05 times their range"));
+}
+
 TEST_CASE("What has been read is known by file, channel and content") {
   const Reading reading(kFile, "channel = \"rear\", scale = 3.0");
   REQUIRE(reading.files.used().size() == 1);
