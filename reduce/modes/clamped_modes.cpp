@@ -34,8 +34,7 @@ EigenPairs solve_all(const ModalProblem& problem) {
         kMaxDenseSize, problem.size()));
   }
   return solve_dense(problem.stiffness,
-                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())),
-                     problem.num_massless);
+                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())));
 }
 
 // A frequency squared between two modes: in the middle of the gap, but beyond everything that would belong to

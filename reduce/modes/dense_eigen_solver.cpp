@@ -1,16 +1,15 @@
 #include "reduce/modes/dense_eigen_solver.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
 
-#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
 namespace {
-
-constexpr double kSmallestMass = 1e-12;  // of a mass matrix scaled to unit diagonal
 
 Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, const char* name) {
   Eigen::LLT<Eigen::MatrixXd> factors(matrix);
@@ -23,37 +22,27 @@ Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, const char* na
   return factors;
 }
 
-// With a mass of rank r, M = G Gᵀ of n×r. With W v = σ u the solution is φ = K⁻¹ G v / σ².
-EigenPairs solve_semidefinite(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
-                              Eigen::Index rank) {
-  Eigen::VectorXd scale = mass.diagonal().cwiseSqrt();
-  scale = (scale.array() > 0.0).select(scale, 1.0);
-  const auto pairs =
-      support::solve_symmetric(scale.cwiseInverse().asDiagonal() * mass * scale.cwiseInverse().asDiagonal());
-  if (!pairs || !(pairs->values(pairs->values.size() - rank) > kSmallestMass)) {
-    throw support::NumericalError("modes: more freedoms have no mass than the mass matrix has zero rows");
-  }
-  const Eigen::MatrixXd G =
-      scale.asDiagonal() * pairs->vectors.rightCols(rank) * pairs->values.tail(rank).cwiseSqrt().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> L = factor(stiffness, "stiffness");
-  const support::SingularPairs singular = support::calc_right_singular_pairs(L.matrixL().solve(G));
-  EigenPairs result;
-  result.omega_squared = singular.values.cwiseAbs2().cwiseInverse();
-  result.vectors = L.solve(G * singular.vectors) * result.omega_squared.asDiagonal();
-  return result;
+// Freedoms without mass first.
+Eigen::VectorXi order_by_mass(const Eigen::MatrixXd& mass) {
+  Eigen::VectorXi order =
+      Eigen::VectorXi::LinSpaced(static_cast<int>(mass.rows()), 0, static_cast<int>(mass.rows()) - 1);
+  std::stable_partition(order.begin(), order.end(), [&](int i) { return mass(i, i) == 0.0; });
+  return order;
 }
 
 }  // namespace
 
-EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
-                       Eigen::Index num_massless) {
-  if (num_massless > 0) return solve_semidefinite(stiffness, mass, mass.rows() - num_massless);
-  const Eigen::LLT<Eigen::MatrixXd> L = factor(stiffness, "stiffness");
-  const Eigen::LLT<Eigen::MatrixXd> G = factor(mass, "mass");
-  const Eigen::MatrixXd lower = G.matrixL();
-  const Eigen::MatrixXd W = L.matrixL().solve(lower);
+EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  const Eigen::VectorXi order = order_by_mass(mass);
+  const Eigen::Index num_massless = (mass.diagonal().array() == 0.0).count();
+  const Eigen::Index num_modes = mass.rows() - num_massless;
+  const Eigen::VectorXi massive = order.tail(num_modes);
+  const Eigen::LLT<Eigen::MatrixXd> of_stiffness = factor(stiffness(order, order), "stiffness");
+  const Eigen::LLT<Eigen::MatrixXd> of_mass = factor(mass(massive, massive), "mass");
+  const Eigen::MatrixXd L = of_stiffness.matrixL(), G = of_mass.matrixL();
+  const auto L_massive = L.bottomRightCorner(num_modes, num_modes).triangularView<Eigen::Lower>();
   // Singular values descend, so that frequencies ascend.
-  const support::SingularPairs singular = support::calc_right_singular_pairs(W);
+  const support::SingularPairs singular = support::calc_right_singular_pairs(L_massive.solve(G));
   const Eigen::VectorXd& sigma = singular.values;
   if (!sigma.allFinite() || !(sigma.minCoeff() > 0.0)) {
     throw support::NumericalError(
@@ -61,7 +50,16 @@ EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& 
   }
   EigenPairs pairs;
   pairs.omega_squared = sigma.cwiseAbs2().cwiseInverse();
-  pairs.vectors = G.matrixU().solve(singular.vectors);
+  Eigen::MatrixXd ordered(mass.rows(), num_modes);
+  ordered.bottomRows(num_modes) = of_mass.matrixU().solve(singular.vectors);
+  ordered.topRows(num_massless) =
+      -L.bottomLeftCorner(num_modes, num_massless).transpose() * ordered.bottomRows(num_modes);
+  L.topLeftCorner(num_massless, num_massless)
+      .triangularView<Eigen::Lower>()
+      .transpose()
+      .solveInPlace(ordered.topRows(num_massless));
+  pairs.vectors.resize(mass.rows(), num_modes);
+  pairs.vectors(order, Eigen::all) = ordered;
   return pairs;
 }
 
