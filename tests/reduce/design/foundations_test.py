@@ -54,7 +54,11 @@ from = "left"
 to = "right"
 part = "part"
 normal_stiffness = {stiffness}
-{tangential}[reference]
+{tangential}[[point_masses]]
+point = "part"
+mass = 100.0
+inertia = 50.0
+[reference]
 point = "part"
 {CLAMPED}"""
 
