@@ -34,7 +34,8 @@ EigenPairs solve_all(const ModalProblem& problem) {
         kMaxDenseSize, problem.size()));
   }
   return solve_dense(problem.stiffness,
-                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())));
+                     problem.times_mass(Eigen::MatrixXd::Identity(problem.size(), problem.size())),
+                     problem.num_massless);
 }
 
 // A frequency squared between two modes: in the middle of the gap, but beyond everything that would belong to

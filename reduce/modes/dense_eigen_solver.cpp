@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <string>
 
+#include "tools/support/dense/eigenproblems.h"
 #include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
 namespace {
+
+constexpr double kSmallestMass = 1e-12;  // of a mass matrix scaled to unit diagonal
 
 Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, const char* name) {
   Eigen::LLT<Eigen::MatrixXd> factors(matrix);
@@ -22,6 +25,27 @@ Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, const char* na
   return factors;
 }
 
+// With a mass of rank r whatever its rows are, M = G Gᵀ of n×r. With W v = σ u the solution is φ = K⁻¹ G v /
+// σ².
+EigenPairs solve_semidefinite(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                              Eigen::Index rank) {
+  Eigen::VectorXd scale = mass.diagonal().cwiseSqrt();
+  scale = (scale.array() > 0.0).select(scale, 1.0);
+  const auto pairs =
+      support::solve_symmetric(scale.cwiseInverse().asDiagonal() * mass * scale.cwiseInverse().asDiagonal());
+  if (!pairs || !(pairs->values(pairs->values.size() - rank) > kSmallestMass)) {
+    throw support::NumericalError("modes: more motions have no mass than the mass matrix has zero rows");
+  }
+  const Eigen::MatrixXd G =
+      scale.asDiagonal() * pairs->vectors.rightCols(rank) * pairs->values.tail(rank).cwiseSqrt().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> L = factor(stiffness, "stiffness");
+  const support::SingularPairs singular = support::calc_right_singular_pairs(L.matrixL().solve(G));
+  EigenPairs result;
+  result.omega_squared = singular.values.cwiseAbs2().cwiseInverse();
+  result.vectors = L.solve(G * singular.vectors) * result.omega_squared.asDiagonal();
+  return result;
+}
+
 // Freedoms without mass first.
 Eigen::VectorXi order_by_mass(const Eigen::MatrixXd& mass) {
   Eigen::VectorXi order =
@@ -32,9 +56,11 @@ Eigen::VectorXi order_by_mass(const Eigen::MatrixXd& mass) {
 
 }  // namespace
 
-EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-  const Eigen::VectorXi order = order_by_mass(mass);
+EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass,
+                       Eigen::Index num_missing) {
   const Eigen::Index num_massless = (mass.diagonal().array() == 0.0).count();
+  if (num_missing > num_massless) return solve_semidefinite(stiffness, mass, mass.rows() - num_missing);
+  const Eigen::VectorXi order = order_by_mass(mass);
   const Eigen::Index num_modes = mass.rows() - num_massless;
   const Eigen::VectorXi massive = order.tail(num_modes);
   const Eigen::LLT<Eigen::MatrixXd> of_stiffness = factor(stiffness(order, order), "stiffness");
