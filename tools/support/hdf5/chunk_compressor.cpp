@@ -1,6 +1,6 @@
 #include "tools/support/hdf5/chunk_compressor.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <cstring>
 
@@ -12,20 +12,12 @@ namespace sprung::support {
 namespace {
 
 constexpr int kFastest = 1;  // level of deflate: higher ones gain some hundredths in histories
-constexpr int kMemoryLevel = 8;
 constexpr std::size_t kSize = sizeof(float);
 
 }  // namespace
 
-struct ChunkCompressor::Stream {
-  z_stream z{};
-  bool is_ready = false;
-};
-
-ChunkCompressor::ChunkCompressor() : stream_(std::make_unique<Stream>()) {}
-
-ChunkCompressor::~ChunkCompressor() {
-  if (stream_->is_ready) deflateEnd(&stream_->z);
+void ChunkCompressor::Free::operator()(libdeflate_compressor* compressor) const {
+  libdeflate_free_compressor(compressor);
 }
 
 std::vector<std::uint8_t> ChunkCompressor::append_checksum(std::span<const float> values) {
@@ -41,25 +33,16 @@ std::vector<std::uint8_t> ChunkCompressor::append_checksum(std::span<const float
 }
 
 std::vector<std::uint8_t> ChunkCompressor::compress(std::span<const std::uint8_t> chunk) {
-  z_stream& z = stream_->z;
-  if (!stream_->is_ready) {
-    const int status = deflateInit2(&z, kFastest, Z_DEFLATED, MAX_WBITS, kMemoryLevel, Z_DEFAULT_STRATEGY);
-    if (status != Z_OK) throw hdf5::Failure("there is no memory to compress it");
-    stream_->is_ready = true;
-  }
+  if (!compressor_) compressor_.reset(libdeflate_alloc_compressor(kFastest));
+  if (!compressor_) throw hdf5::Failure("there is no memory to compress it");
   const std::size_t count = chunk.size() / kSize;
   shuffled_.resize(chunk.size());
   for (std::size_t byte = 0; byte < kSize; ++byte) {
     for (std::size_t i = 0; i < count; ++i) shuffled_[byte * count + i] = chunk[i * kSize + byte];
   }
-  deflateReset(&z);
-  std::vector<std::uint8_t> packed(deflateBound(&z, shuffled_.size()));
-  z.next_in = shuffled_.data();
-  z.avail_in = static_cast<uInt>(shuffled_.size());
-  z.next_out = packed.data();
-  z.avail_out = static_cast<uInt>(packed.size());
-  deflate(&z, Z_FINISH);  // cannot fail: there is room for the result
-  packed.resize(z.total_out);
+  std::vector<std::uint8_t> packed(libdeflate_zlib_compress_bound(compressor_.get(), shuffled_.size()));
+  packed.resize(libdeflate_zlib_compress(compressor_.get(), shuffled_.data(), shuffled_.size(), packed.data(),
+                                         packed.size()));
   return packed;
 }
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+struct libdeflate_compressor;
+
 namespace sprung::support {
 
 /// Packs chunks of numbers of single precision as HDF5's filters "fletcher32", "shuffle" and "deflate" do,
@@ -14,11 +16,6 @@ namespace sprung::support {
 /// ones and so on, and these are compressed. Neighbours in a history have the same leading bytes.
 class ChunkCompressor {
  public:
-  ChunkCompressor();
-  ~ChunkCompressor();
-  ChunkCompressor(const ChunkCompressor&) = delete;
-  ChunkCompressor& operator=(const ChunkCompressor&) = delete;
-
   /// @param values  of a chunk, an even number of them
   /// @return the chunk without "shuffle" and "deflate", of one size for all chunks of a shape
   static std::vector<std::uint8_t> append_checksum(std::span<const float> values);
@@ -27,8 +24,10 @@ class ChunkCompressor {
   std::vector<std::uint8_t> compress(std::span<const std::uint8_t> chunk);
 
  private:
-  struct Stream;
-  std::unique_ptr<Stream> stream_;
+  struct Free {
+    void operator()(libdeflate_compressor* compressor) const;
+  };
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;  // made with the first chunk
   std::vector<std::uint8_t> shuffled_;
 };
 
