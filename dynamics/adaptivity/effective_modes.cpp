@@ -73,7 +73,7 @@ void EffectiveModes::update(const std::vector<bool>& is_active) {
   const Eigen::VectorXd damping = x.cwiseProduct(C * x).colwise().sum();
   const Eigen::VectorXd stiffness = x.cwiseProduct(K * x).colwise().sum();
   std::vector<Eigen::MatrixXd> reach;
-  for (std::size_t i = 0; i < motion_->num_points(); ++i) reach.push_back(motion_->reduced_motion(i) * x);
+  for (std::size_t i = 0; i < motion_->num_points(); ++i) reach.emplace_back(motion_->reduced_motion(i) * x);
   for (std::size_t j = 0; j < modes_.size(); ++j) {
     const double deflection = modes_[j].deflection;
     if (own_[j] < 0) {

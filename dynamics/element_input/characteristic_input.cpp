@@ -31,7 +31,7 @@ PiecewisePolynomial read_polynomial(const support::TomlValue& value, const LawUn
 
 PiecewisePolynomial read_spring_table(const support::TomlValue& value, const LawUnits& units) {
   const PointList points = read_point_list(value, support::any(units.deflection), support::any(units.force));
-  const PiecewisePolynomial law = PiecewisePolynomial::through_points(points.x, points.y);
+  PiecewisePolynomial law = PiecewisePolynomial::through_points(points.x, points.y);
   // The slopes on either side of 0; the first and the last piece have no end.
   const double step = 1e-9 * (points.x.back() - points.x.front());
   const double softest = std::min(law.slope(-step), law.slope(step));

@@ -28,11 +28,10 @@ TimeFunction read_function(const support::TomlValue& value, std::string_view uni
                            const FunctionContext& context);
 
 TimeFunction read_harmonic(const support::TomlTable& table, std::string_view unit) {
-  const TimeFunction f =
-      TimeFunction::harmonic({.mean = table.number_or("mean", 0.0, support::any(unit)),
-                              .amplitude = table.number("amplitude", support::any(unit)),
-                              .frequency_hz = table.number("frequency", support::positive("Hz")),
-                              .phase = table.number_or("phase", 0.0, support::any("rad"))});
+  TimeFunction f = TimeFunction::harmonic({.mean = table.number_or("mean", 0.0, support::any(unit)),
+                                           .amplitude = table.number("amplitude", support::any(unit)),
+                                           .frequency_hz = table.number("frequency", support::positive("Hz")),
+                                           .phase = table.number_or("phase", 0.0, support::any("rad"))});
   table.reject_unknown_keys();
   return f;
 }

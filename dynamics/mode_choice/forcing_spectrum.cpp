@@ -173,9 +173,9 @@ ForcingSpectrum calc_forcing_spectrum(const LinearVehicle& vehicle, const KnownF
     std::vector<double> samples = sample(change, forcing.duration, spectrum.period, std::max(n, fine));
     smooth_jumps(timed.find_jumps(one), forcing.duration, spectrum.period, samples);
     if (std::all_of(samples.begin(), samples.end(), [](double value) { return value == 0.0; })) continue;
-    gains.push_back(
+    gains.emplace_back(
         calc_marker_jacobian(vehicle.equations().terms(), one.marker).row(one.component).transpose());
-    applied.push_back(transform(samples, m).transpose());
+    applied.emplace_back(transform(samples, m).transpose());
     spectrum.loads.push_back(3 * one.marker + one.component);
   }
   const auto u = static_cast<Eigen::Index>(gains.size());

@@ -18,7 +18,7 @@ ThinnedLines thin_lines(const Eigen::MatrixXcd& amplitudes, double spacing) {
     const Eigen::Index end = k + 1 < thinned.size() ? (thinned.lines[k] + thinned.lines[k + 1]) / 2 + 1 : m;
     const auto some = amplitudes.middleCols(begin, end - begin);
     thinned.ends.push_back(end);
-    thinned.powers.push_back(some * some.adjoint());
+    thinned.powers.emplace_back(some * some.adjoint());
     begin = end;
   }
   return thinned;

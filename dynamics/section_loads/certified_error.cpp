@@ -118,11 +118,11 @@ void CertifiedError::add_block(Eigen::Index length, double& missing, Eigen::Vect
   const auto is_zero = [&](Eigen::Index column) {
     return (samples_.col(column).head(length).array() == 0.0).all();
   };
-  const Eigen::ArrayXd frequency =
-      Eigen::ArrayXd::LinSpaced(length / 2 + 1, 0.0, static_cast<double>(length / 2)) /
-      (static_cast<double>(length) * step_);
+  const Eigen::Index last = length / 2;  // highest line of the spectrum
+  const Eigen::ArrayXd frequency = Eigen::ArrayXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)) /
+                                   (static_cast<double>(length) * step_);
   const Eigen::ArrayXd is_inside = (frequency <= highest_hz_).cast<double>();
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(length / 2 + 1);
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(last + 1);
   for (Eigen::Index j = 0; j < weights_.size(); ++j) {
     if (!is_zero(j)) sum += weights_[j] * transform(j).sqrt();
   }

@@ -14,11 +14,11 @@ namespace sprung::dynamics {
 
 /// What the basis of a superelement misses at most of an acceleration in a run.
 struct CertifiedShare {
-  std::string point;     ///< "chassis.front_spring"; empty: no bound, or no run yet
-  int direction = 0;     ///< 0: x, 1: y of the body
-  double missing = 0.0;  ///< bound, up to the end of the band, over the r.m.s. acceleration of the point
-  double above = 0.0;    ///< share of this r.m.s. above the band, about which nothing is proved
-  std::string uncovered = "";  ///< a point with loads that are not in the interface, "" for none
+  std::string point;      ///< "chassis.front_spring"; empty: no bound, or no run yet
+  int direction = 0;      ///< 0: x, 1: y of the body
+  double missing = 0.0;   ///< bound, up to the end of the band, over the r.m.s. acceleration of the point
+  double above = 0.0;     ///< share of this r.m.s. above the band, about which nothing is proved
+  std::string uncovered;  ///< a point with loads that are not in the interface, "" for none
 };
 
 /// Holds the interface loads of a run, by frequency, against the certificate of a body's superelement

@@ -44,7 +44,7 @@ std::vector<TomlValue> read_corners(const TomlTable& table) {
   const auto from = table.find("from"), to = table.find("to");
   if (!through) return {table.at("from"), table.at("to")};
   if (from || to) throw table.error("has 'through' beside 'from' or 'to'; give either");
-  const std::vector<TomlValue> corners = through->items();
+  std::vector<TomlValue> corners = through->items();
   if (corners.size() < 2)
     throw through->error(fmt::format("names {} points, expected at least 2", corners.size()));
   return corners;

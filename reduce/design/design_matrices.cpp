@@ -67,7 +67,7 @@ class FileReader {
     }
   }
   std::filesystem::path open(const TomlValue& name) {
-    const std::filesystem::path path = folder_ / name.string();
+    std::filesystem::path path = folder_ / name.string();
     if (std::find(names.begin(), names.end(), name.string()) == names.end()) {
       names.push_back(name.string());
       hashes.push_back(calc_file_hash(path));
@@ -115,7 +115,7 @@ PlanarAxes read_axes(const TomlTable& table) {
   if (!axes) return {};
   const std::vector<TomlValue> items = axes->items();
   if (items.size() != 2) throw axes->error(fmt::format("has {} axes, expected 2", items.size()));
-  const PlanarAxes read{.first = read_axis(items[0]), .second = read_axis(items[1])};
+  PlanarAxes read{.first = read_axis(items[0]), .second = read_axis(items[1])};
   if (std::abs(read.first.dot(read.second)) > 0.5) throw axes->error("names one axis twice, expected two");
   return read;
 }

@@ -103,7 +103,7 @@ std::vector<Eigen::MatrixXd> find_point_stiffness(const Superelement& s, int nod
     if (s.points[point].node != node) continue;
     std::vector<Eigen::MatrixXd> found;
     for (const Eigen::MatrixXd& K : stiffening.matrices().point_loads[point])
-      found.push_back(-stiffening.expand(K));
+      found.emplace_back(-stiffening.expand(K));
     return found;
   }
   return {};

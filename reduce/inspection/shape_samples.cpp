@@ -92,8 +92,8 @@ Rows sample_nodes(const Superelement& body, const Superelement& other) {
     const std::optional<Eigen::MatrixXd> of_other = find_shapes(other, body.node_positions.col(node));
     if (!of_other) continue;
     const double weight = std::sqrt(weights(node));
-    rows.of_nodes.push_back(weight * body.shapes.middleRows(3 * node, 2));
-    rows.of_other.push_back(weight * *of_other);
+    rows.of_nodes.emplace_back(weight * body.shapes.middleRows(3 * node, 2));
+    rows.of_other.emplace_back(weight * *of_other);
   }
   rows.share = static_cast<double>(rows.of_nodes.size()) / body.num_nodes();
   return rows;

@@ -101,7 +101,7 @@ class CholmodFactor final : public SparseFactor {
     if (solved == nullptr) {
       throw support::NumericalError("factors of the stiffness matrix: the memory does not suffice");
     }
-    const Eigen::MatrixXd solution =
+    Eigen::MatrixXd solution =
         Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solved->x), x.rows(), x.cols());
     cholmod_free_dense(&solved, common_.get());
     return solution;

@@ -92,7 +92,7 @@ FieldValue read_field(const Hdf5Reader& file, const SuperelementField& field, Fi
   }
   const auto [num_matrices, rows, columns] = calc_matrices(field, found);
   for (std::int64_t i = 0; i < num_matrices; ++i) {
-    value.reals.push_back(
+    value.reals.emplace_back(
         Eigen::Map<const support::RowMatrix>(numbers.data() + i * rows * columns, rows, columns));
   }
   return value;
@@ -104,7 +104,7 @@ std::string write_superelement(const Superelement& superelement, const std::file
   if (const std::optional<SuperelementFault> fault = find_fault(superelement)) {
     throw std::invalid_argument(fmt::format("write_superelement: '{}' {}", fault->dataset, fault->message));
   }
-  const std::string hash = calc_content_hash(superelement);
+  std::string hash = calc_content_hash(superelement);
   const std::int64_t version = find_version(superelement);
   support::Hdf5Writer file(path);
   file.attribute("/", "format", kSuperelementFormat);
