@@ -200,7 +200,11 @@ class Controls(PageTestCase):
 
         def use(page):
             heading, *rows = self.save(page, f"{chart}-csv", f"{chart}.csv").decode().splitlines()
-            numbers = np.array([[float(cell or "nan") for cell in row.split(",")] for row in rows])
+            rows = list(csv.reader(rows))
+            if chart == "loads-diagram":
+                self.check_loads(page, next(csv.reader([heading])), rows)
+                return
+            numbers = np.array([[float(cell or "nan") for cell in row] for row in rows])
             self.assertEqual(numbers.shape[1], len(next(csv.reader([heading]))))
             self.assertGreater(numbers.shape[0], 20)
             self.assertTrue(np.all(np.diff(numbers[:, 0]) >= 0.0))
@@ -210,6 +214,21 @@ class Controls(PageTestCase):
                 self.assertRegex(heading, r'^"time, s","rigid, \S+","2 modes, \S+"$')
 
         return use
+
+    def check_loads(self, page, heading, rows):
+        """All quantities that are drawn: the line between the envelope's sides, which reach the extremes."""
+        time = page.evaluate("document.getElementById('clock').textContent")
+        self.assertEqual(heading, ["quantity", "x in the body frame, m", f"at {time}", "lowest", "highest"])
+        quantities = page.evaluate("loads.shown.quantities.map((one) => [one.name, one.unit, one.extremes[0].value])")
+        self.assertEqual([name for name, _, _ in quantities],
+                         ["bending moment", "shear force", "stress, +y side", "stress, −y side"])  # fmt: skip
+        for name, unit, highest in quantities:
+            numbers = np.array([row[1:] for row in rows if row[0] == f"{name}, {unit}"], dtype=float)
+            self.assertGreater(len(numbers), 20)
+            _, now, low, high = numbers.T
+            room = 1e-6 * np.max(np.abs(numbers))  # of single precision
+            self.assertTrue(np.all((low <= now + room) & (now <= high + room)))
+            self.assertAlmostEqual(np.max(high) / highest, 1.0, places=6)
 
     def save_png(self, button):
         """A picture that is not of one colour, as wide as what is saved."""
@@ -282,7 +301,12 @@ class Controls(PageTestCase):
         self.assertIn("chassis.seat", page.evaluate("document.querySelector('#bands-chart .plot').ariaLabel"))
 
     def use_load_body(self, page):
+        options = page.evaluate("[...document.getElementById('load-body').options].map((one) => one.textContent)")
+        bodies = ("chassis", "front_long_arm", "rear_long_arm")
+        self.assertEqual(options, [f"{body}, {run}" for run in ("rigid", "2 modes") for body in bodies])
         self.choose(page, "load-body", "0")
+        self.assertEqual(page.evaluate("loads.shown.label"), "chassis, rigid")
+        self.choose(page, "load-body", "3")
         self.assertEqual(page.evaluate("loads.shown.label"), "chassis, 2 modes")
         page.call("Input.dispatchMouseEvent", type="mouseMoved", **dict(zip("xy", page.find("#load-1"))))
         page.settle()

@@ -49,6 +49,33 @@ class ReportPage(PageTestCase):
             around, inside = page.box(f".scroll:has(#{table})"), page.box(f"#{table} thead th:last-child")
             self.assertLessEqual(inside[0] + inside[2], around[0] + around[2] + 0.5, table)
 
+    def test_names_of_two_frames_with_their_modes_hide_no_number_on_the_telephone(self):
+        label = "tractor_frame 17 modes, trailer_frame 17 modes"
+        self.report("long.html", f"{label}=2 modes.h5", "--superelements", ".")
+        page = self.open("long.html", size="phone")
+        self.assertEqual(page.picture(PICTURES / "long_names.png").shape[1], SIZES["phone"][0])
+        for table in ("summary-table", "ride-table", "load-table", "fact-table"):
+            around, inside = page.box(f".scroll:has(#{table})"), page.box(f"#{table} thead th:last-child")
+            self.assertLessEqual(inside[0] + inside[2], around[0] + around[2] + 0.5, table)
+        outside = page.evaluate(
+            "[...document.querySelectorAll('select, button, .legend .entry')].filter((one) =>"
+            "one.getBoundingClientRect().right > one.closest('section').getBoundingClientRect().right)"
+            ".map((one) => one.id || one.textContent)"
+        )
+        self.assertEqual(outside, [])
+
+    def test_the_summary_and_the_loads_have_the_same_largest_moment_also_of_a_rigid_chassis(self):
+        page = self.open()
+        for run, label in enumerate(("rigid", "2 modes")):
+            with self.subTest(label):
+                named = f"loads.all.find((one) => one.label === 'chassis, {label}').quantities[0].extremes"
+                extremes = page.evaluate(f"{named}.map((one) => one.value)")
+                with open_results(str(self.folder / f"{label}.h5")) as results:
+                    moment = results.file.numbers("recovery/chassis/moment_from_loads")[0]
+                np.testing.assert_allclose(extremes, [np.max(moment), np.min(moment)], rtol=1e-9)
+                largest = page.evaluate(f"statisticOf({run}, 'chassis', 'largest bending moment along it')")
+                self.assertAlmostEqual(largest / np.max(np.abs(moment)), 1.0, places=9)
+
     def test_every_diagram_shows_both_runs(self):
         page = self.open()
         places = page.evaluate(
@@ -180,6 +207,8 @@ class ReportPage(PageTestCase):
                 self.drive(f"examples/{name}_run.toml", name)
                 self.report(f"{name}.html", f"{name}.h5")
                 page = self.open(f"{name}.html")
+                links = page.evaluate("[...document.querySelectorAll('nav a:not([hidden])')].map((one) => one.hash)")
+                self.assertEqual({"#modes", "#checks", "#loads"} & set(links), set())  # nothing is flexible here
                 last = page.evaluate("sprungReport.clock.last")
                 pictures = []
                 for share in (0.0, 0.4):

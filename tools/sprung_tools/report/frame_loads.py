@@ -11,11 +11,10 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode
-from sprung_tools.runs.section_stress import SIDES, calc_section_stress, find_gap, list_sources
+from sprung_tools.runs.section_stress import ENDINGS, SIDES, calc_section_stress, find_gap, list_sources
 from sprung_tools.runs.stations import place_stations
 
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
-FROM_LOADS = "_from_loads"  # ending of the datasets
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
 
 
@@ -25,14 +24,15 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
     packed = []
     for body in bodies:
         where = f"recovery/{body.name}"
-        if not (results.file.shape(f"{where}/moment") or (0, 0))[1]:
+        sources = [one for one in list_sources(results, body.name) if has_stations(results, f"{where}/moment{ENDINGS[one]}")]
+        if not sources:
             continue
         stations, _ = read_numbers(results.file, f"{where}/station")
         order, along, name = place_stations(stations)
-        read = [read_numbers(results.file, f"{where}/{dataset}") for dataset, _ in QUANTITIES]
-        from_modes = [values for values, _ in read]
-        if has_loads := results.has(f"{where}/{QUANTITIES[0][0]}{FROM_LOADS}"):
-            read = [read_numbers(results.file, f"{where}/{dataset}{FROM_LOADS}") for dataset, _ in QUANTITIES]
+        read, *other = [
+            [read_numbers(results.file, f"{where}/{dataset}{ENDINGS[source]}") for dataset, _ in QUANTITIES]
+            for source in sources
+        ]
         stresses = list_stresses(results, body.name)
         shown = [*(values for values, _ in read), *(values for _, values, _ in stresses)]
         samples = np.unique(np.concatenate([even, *(find_extremes(values)[:, 0] for values in shown)]))
@@ -43,13 +43,18 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
         quantities += [
             pack_quantity(values, places, results.time, samples, label, "Pa") for label, values, places in stresses
         ]
-        if has_loads:
-            for quantity, (values, _), modal in zip(quantities, read, from_modes):
+        for from_modes in other:
+            for quantity, (values, _), (modal, _) in zip(quantities, read, from_modes):
                 quantity["difference"] = pack_difference(values[:, order], modal[:, order], along, results.time)
         packed.append({
             "body": body.name, "axis": name, "t": encode(results.time[samples]), "quantities": quantities,
         })  # fmt: skip
     return packed
+
+
+def has_stations(results: ResultsFile, dataset: str) -> bool:
+    """Whether loads [n×stations] have stations: those of the modes of a body without any have none."""
+    return (results.file.shape(dataset) or (0, 0))[1] > 0
 
 
 def pack_quantity(values: Floats, along: Floats, time: Floats, samples: Integers, label: str, unit: str) -> Packed:
@@ -80,7 +85,7 @@ def list_stresses(results: ResultsFile, body: str) -> list[tuple[str, Floats, Fl
     else:
         names, columns = list(SIDES), [np.full(every.size, column) for column in (0, 1)]
     return [
-        (f"stress, {name} side", section.stress[:, every, column], section.along)
+        (f"stress, {name.replace('-', '−')} side", section.stress[:, every, column], section.along)
         for name, column in zip(names, columns)
     ]
 

@@ -21,9 +21,10 @@ from sprung_tools.model.resolved_model import ROOT, read_elements
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.runs.labelled_runs import Shown
+from sprung_tools.runs.section_stress import ENDINGS, list_sources
 from sprung_tools.signals.spectra import calc_power_spectrum
 
-MOST_MODES = 12  # modes of a body whose amplitudes are drawn: the largest ones
+MOST_MODES = 8  # modes of a body whose amplitudes are drawn: the largest ones, as many as the page has colours
 SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart
 HIGHEST_FREQUENCY = 200.0  # Hz drawn
 
@@ -109,15 +110,14 @@ def find_most_bent(results: ResultsFile, body: DrawnBody) -> list[str]:
 
 
 def calc_moment_envelope(results: ResultsFile, body: DrawnBody) -> list[Channel]:
-    """The largest bending moment along a body at each time, and the largest axial force."""
+    """The largest bending moment along a body at each time, and the largest axial force: from the loads on the body
+    where the file has them, else from its modes."""
     channels = []
-    for what, name in (("moment", "largest bending moment along it"), ("axial", "largest axial force along it")):
-        dataset = f"recovery/{body.name}/{what}"
-        if not results.has(dataset):
-            continue
-        values, unit = read_numbers(results.file, dataset)
-        if values.size > 0:
-            channels.append(Channel("Deflection", f"{body.name}, {name}", np.max(np.abs(values), axis=1), unit))
+    for source in list_sources(results, body.name)[:1]:
+        for what, name in (("moment", "largest bending moment along it"), ("axial", "largest axial force along it")):
+            values, unit = read_numbers(results.file, f"recovery/{body.name}/{what}{ENDINGS[source]}")
+            if values.size > 0:
+                channels.append(Channel("Deflection", f"{body.name}, {name}", np.max(np.abs(values), axis=1), unit))
     return channels
 
 

@@ -62,7 +62,7 @@ function makeFigure(parent, name, tall) {
   const cursor = element("div", {class: "cursor"});
   const figure = element("figure", {class: "chart"}, head, element("div", {class: "plot-box"}, plot, cursor));
   parent.append(figure);
-  const chart = {name, figure, head, legend, plot, cursor, graph: null, unit: ""};
+  const chart = {name, figure, head, legend, plot, cursor, graph: null, unit: "", named: () => chart.graph.getLabels().length - 1};
   head.append(makeSaveButtons(name, () => writeGraphCsv(chart), () => drawGraphPicture(chart)));
   return chart;
 }

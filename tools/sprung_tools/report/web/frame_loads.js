@@ -145,11 +145,11 @@ function fillExtremes(found) {
 }
 
 function writeLoadsCsv() {
-  const quantities = loads.shown.quantities, rows = [];
-  const now = quantities.map((one) => loadAt(loads.shown, one, clock.time));
-  const [first] = quantities;
-  first.s.forEach((s, k) => rows.push([s, now[0][k], first.low[k], first.high[k]]));
-  return writeCsv([loads.shown.axis, ...["", "lowest ", "highest "].map((what) => `${what}${first.name}, ${first.unit}`)], rows);
+  const rows = loads.shown.quantities.flatMap((one) => {
+    const now = loadAt(loads.shown, one, clock.time);
+    return Array.from(one.s, (s, k) => [`${one.name}, ${one.unit}`, s, now[k], one.low[k], one.high[k]]);
+  });
+  return writeCsv(["quantity", loads.shown.axis, `at ${clock.time.toFixed(3)} s`, "lowest", "highest"], rows);
 }
 
 function makeLoads() {

@@ -27,10 +27,9 @@ function drawActive(found) {
 function makeModeAmplitudes() {
   const options = data.runs.flatMap((run, index) =>
     run.modes.map((found, place) => ({value: `${index} ${place}`, label: `${found.body}, ${run.label}`})));
-  if (!options.length) {
-    byId("modes-body").replaceChildren(element("p", {}, "All bodies are rigid in these runs."));
-    return;
-  }
+  byId("modes").hidden = !options.length && !warningsOf("modes").length;
+  byId("modes-body").hidden = !options.length;
+  if (!options.length) return;
   const select = byId("mode-body");
   fillSelect(select, options);
   const chart = makeFigure(byId("mode-chart"), "mode-amplitudes", false);

@@ -18,6 +18,8 @@ function fillHead() {
   byId("animation-heading").textContent = data.runs.some((run) => run.vehicle.wheels.length) ? "On the road" : "Motion";
   byId("tyre-note").hidden = !data.runs.some((run) => run.vehicle.wheels.length);
   byId("joint-note").hidden = !data.runs.some((run) => run.modes.length);
+  byId("line-note").hidden = !data.runs.some((run) => run.vehicleModes.table.length);
+  byId("state").hidden = byId("tyre-note").hidden;
 }
 
 const errors = [];

@@ -75,6 +75,7 @@ function makeBands() {
     const peak = Math.max(...columns.flat());
     removeGraph(chart);
     chart.unit = "m/s²";
+    chart.named = () => labels.length - exposures.length;
     chart.plot.setAttribute("aria-label", `Vertical acceleration of ${select.value} by third-octave bands, ${labels.join(" and ")}`);
     chart.graph = new Dygraph(chart.plot, centres.map((f, k) => [f, ...columns.map((column) => column[k])]), {
       ...commonOptions(chart.legend, "m/s²"), labels: ["frequency, Hz", ...labels], colors: colours, xlabel: "band, Hz", ylabel: "r.m.s., m/s²", series,
@@ -83,7 +84,7 @@ function makeBands() {
       axes: {
         x: {logscale: true, valueFormatter: (value) => `${format(value)} Hz`, ticker: markDecades([1, 2, 5], formatTick)},
         y: {logscale: true, axisLabelWidth: 54, ticker: markDecades([1], formatTick), valueFormatter: (value) => format(value),
-          valueRange: [0.01, 2 * peak]},
+          valueRange: [0.006, 2 * peak]},  // below the lowest mark, whose number would meet those of the other axis
       },
     });
   };
@@ -102,7 +103,8 @@ function nameBoundaries(graph, exposures) {
   context.font = "11px system-ui, sans-serif";
   context.textBaseline = "middle";
   for (const exposure of exposures) {
-    drawPlate(context, exposure, placeFrequency(graph, centres[at]), graph.toDomYCoord(curves[exposure][at]), style("--soft"));
+    const x = Math.min(placeFrequency(graph, centres[at]), graph.getArea().x + graph.getArea().w - context.measureText(exposure).width);
+    drawPlate(context, exposure, x, graph.toDomYCoord(curves[exposure][at]), style("--soft"));
   }
   context.restore();
 }

@@ -12,9 +12,10 @@ function saveFile(name, blob) {
 
 const quote = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
 
-/** Rows of numbers with a heading line. A value that is not there is an empty cell. */
+/** Rows of numbers and texts with a heading line. A value that is not there is an empty cell. */
+const writeCell = (value) => (value === null ? "" : typeof value === "string" ? quote(value) : Number(value.toPrecision(9)));
 const writeCsv = (headings, rows) =>
-  [headings.map(quote), ...rows.map((row) => row.map((value) => (value === null ? "" : Number(value.toPrecision(9)))))]
+  [headings.map(quote), ...rows.map((row) => row.map(writeCell))]
     .map((row) => row.join(",")).join("\n") + "\n";
 
 function writeGraphCsv(chart) {
@@ -24,7 +25,8 @@ function writeGraphCsv(chart) {
 
 /** A diagram with its axes' texts and its legend on the card's colour, as a canvas. */
 function drawGraphPicture(chart) {
-  const area = chart.plot.getBoundingClientRect(), top = 24, ratio = window.devicePixelRatio || 1;
+  const area = chart.plot.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
+  const entries = placeLegend(chart, area.width), top = 24 + entries[entries.length - 1].y - LEGEND_TOP;
   const picture = element("canvas", {width: Math.round(area.width * ratio), height: Math.round((area.height + top) * ratio)});
   const context = picture.getContext("2d");
   context.scale(ratio, ratio);
@@ -44,15 +46,31 @@ function drawGraphPicture(chart) {
     context.restore();
   }
   context.textAlign = "left";
-  let x = 60;
-  chart.graph.getLabels().slice(1).forEach((label, k) => {
+  entries.forEach(({label, x, y}, k) => {
     context.fillStyle = chart.graph.getColors()[k];
-    context.fillRect(x, 10, 24, 4);
+    context.fillRect(x, y - 2, 24, 4);
     context.fillStyle = style("--ink");
-    context.fillText(label, x + 30, 12);
-    x += 46 + context.measureText(label).width;
+    context.fillText(label, x + 30, y);
   });
   return picture;
+}
+
+const LEGEND_LEFT = 60, LEGEND_TOP = 12, LEGEND_LINE = 18;  // px
+
+/** Where the names of a diagram's series stand above its picture, in as many lines as they need: [{label, x, y}]. */
+function placeLegend(chart, width) {
+  const context = element("canvas").getContext("2d");
+  context.font = "12px system-ui, sans-serif";
+  let x = LEGEND_LEFT, y = LEGEND_TOP;
+  return chart.graph.getLabels().slice(1, 1 + chart.named()).map((label) => {
+    const length = 46 + context.measureText(label).width;
+    if (x > LEGEND_LEFT && x + length > width) {
+      x = LEGEND_LEFT;
+      y += LEGEND_LINE;
+    }
+    x += length;
+    return {label, x: x - length, y};
+  });
 }
 
 /** Two small buttons. csv: gives the text; picture: gives a canvas. */

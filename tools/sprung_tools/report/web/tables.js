@@ -82,7 +82,7 @@ function fillFrequencies(table) {
     for (const run of data.runs) {
       const found = run.vehicleModes.table[mode];
       row.append(element("td", {class: "number"}, found ? format(found.f) : ""),
-        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {class: "who"}, found ? found.who : ""));
+        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {class: "who"}, found ? found.who.replaceAll(" %", "\u00a0%") : ""));
     }
     body.append(row);
   }
@@ -91,7 +91,7 @@ function fillFrequencies(table) {
 
 function fillChecks(place) {
   place.replaceChildren();
-  if (!data.superelements.length) place.append(element("p", {}, "No body of these runs comes from a superelement."));
+  byId("checks").hidden = !data.superelements.length;
   for (const found of data.superelements) {
     place.append(element("h3", {}, found.name), element("p", {class: "note"}, `Content hash `, element("code", {}, found.hash),
       `, used by ${found.runs.join(", ")}.`));
