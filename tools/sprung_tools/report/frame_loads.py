@@ -24,7 +24,8 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
     packed = []
     for body in bodies:
         where = f"recovery/{body.name}"
-        sources = [one for one in list_sources(results, body.name) if has_stations(results, f"{where}/moment{ENDINGS[one]}")]
+        sources = list_sources(results, body.name)
+        sources = [one for one in sources if has_stations(results, f"{where}/moment{ENDINGS[one]}")]
         if not sources:
             continue
         stations, _ = read_numbers(results.file, f"{where}/station")
