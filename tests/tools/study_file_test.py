@@ -139,11 +139,23 @@ class Errors(StudyCase):
             (HEAD + '[sampling]\nmethod = "list"\n' + SPEED + RANGE + "number = 2\n", "8:1",
              "has 2 values, the first"),
             (HEAD + "[random_road]\nseeds = 1\n" + SPEED, "4:1", "unknown key 'seeds'"),
+            (HEAD + SPEED.replace("5.0", "nan"), "5:1", r"got \[1.0, 2.0, nan\], expected finite numbers"),
+            (HEAD + SPEED.replace("5.0", "{ a = [inf] }"), "5:1", "expected finite numbers"),
+            (HEAD + '[random_road]\nclass = "C"\nlength = 9.0\n' + SPEED, "3:1",
+             "'spacing' is missing in 'random_road', expected a number in m"),
+            (HEAD + "[random_road]\nspacing = 0.1\nlength = 9.0\n" + SPEED, "3:1",
+             "needs one of 'class', 'rms', 'density', got none"),
             (HEAD + SPEED.replace("speed", "random_road.seed"), "4:8", r"'random_road.seed' needs a table"),
             (design, "5:8", r"'design.fram.x' is no key of a design \(designs: frame\)"),
         ):  # fmt: skip
             with self.subTest(said), self.assertRaisesRegex(InputError, rf"study\.toml:{where}: error: .*{said}"):
                 self.read(text)
+
+    def test_a_random_road_may_have_what_it_needs_from_parameters_and_from_what_is_set(self):
+        for text in ('set.random_road.spacing = 0.1\n', 'set = { "random_road.spacing" = 0.1 }\n'):
+            study = self.read(HEAD + text + "[random_road]\nlength = 9.0\n"
+                              + SPEED.replace("speed", "random_road.rms"))  # fmt: skip
+            self.assertEqual(study.random_road, {"length": 9.0})
 
     def test_lists_for_several_keys_have_a_value_for_each(self):
         with self.assertRaisesRegex(InputError, "study.toml:6:1: error: .*expected lists of 2 values"):

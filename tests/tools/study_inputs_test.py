@@ -91,6 +91,16 @@ class RandomRoads(StudyCase):
         self.assertEqual([row["error"] for row in self.read_table()],
                          ["", "random_road: error: 'class', got 'Z', expected A to H"])  # fmt: skip
 
+    def test_roads_that_cannot_be_made_for_one_reason_are_rows_of_their_own(self):
+        self.write_study(
+            'measures = ["program/steps"]\nset.duration = 0.2\n'
+            '[random_road]\nclass = "Z"\nlength = 20.0\nspacing = 0.05\n'
+            '[[parameters]]\nkey = "random_road.seed"\nvalues = [1, 2]\n'
+        )
+        process = self.study()
+        self.assertIn("2 runs: 2 made, 0 kept from before, 2 failed", process.stdout)
+        self.assertEqual(len({row["hash"] for row in self.read_table()}), 2)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -48,6 +48,7 @@ class Planner:
         changed = flatten_settings(self.study.overrides)
         for parameter, value in zip(self.study.parameters, point):
             changed |= parameter.settings(value)
+        all_changes = json.dumps(changed, default=str, sort_keys=True)
         road_changes = take_prefix(changed, ROAD) if self.study.random_road else {}
         variants: dict[str, Variant] = {}
         road, road_hash, problem = None, "", ""
@@ -57,7 +58,7 @@ class Planner:
             if self.study.random_road:
                 road, road_hash = self._make_road(self.study.random_road | road_changes)
         except InputError as error:
-            problem = str(error)
+            problem, road_hash = str(error), all_changes  # a row of its own
         return Draft(changed, variants, road, road_hash, problem)
 
     def finish(self, draft: Draft, failures: Mapping[Path, str]) -> Task:

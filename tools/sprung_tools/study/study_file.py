@@ -135,6 +135,13 @@ def is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
+def is_finite(value: Any) -> bool:
+    """Whether all numbers in a value, a list or a table are finite."""
+    if isinstance(value, (dict, list)):
+        return all(map(is_finite, value.values() if isinstance(value, dict) else value))
+    return not isinstance(value, float) or math.isfinite(value)
+
+
 def read_study(path: str | Path) -> Study:
     """Reads a study file. InputError `path:line:column: error: …` for everything wrong in it."""
     file = TomlFile(path)
@@ -158,6 +165,8 @@ def read_study(path: str | Path) -> Study:
     study = Study(file, run, root.choice("command", COMMANDS, "run"), superelements, designs, overrides, measures,
                   sampling, road, parameters)  # fmt: skip
     check_keys(study)
+    if road:
+        check_road(study)
     return study
 
 
@@ -235,6 +244,8 @@ def read_parameter(reader: Reader, sampling: Sampling) -> Parameter:
                 raise reader.file.fail((*reader.place, key), f"'{key}' has no effect beside 'values'")
         values = reader.take("values", lambda one: isinstance(one, list) and bool(one), "a list of one value or more")
         for value in values:
+            if not is_finite(value):
+                raise reader.fail("values", "finite numbers")
             if len(keys) > 1 and isinstance(value, list) and len(value) != len(keys):
                 raise reader.fail("values", f"lists of {len(keys)} values, one for each of 'keys'")
         return Parameter(name, keys, tuple(values), 0.0, 0.0, LINEAR, crossed, reader.place)
@@ -263,6 +274,20 @@ def place_between(low: float, high: float, spacing: str, share: float) -> float:
     if spacing == LOGARITHMIC:
         return low * math.exp(share * math.log(high / low))
     return low + share * (high - low)
+
+
+def check_road(study: Study) -> None:
+    """Throws InputError where neither the table of the random road, nor a parameter, nor 'set' has what it needs."""
+    given = {key.removeprefix(ROAD) for one in study.parameters for key in one.keys if key.startswith(ROAD)}
+    given |= {key.removeprefix(ROAD) for key in study.overrides if key.startswith(ROAD)}
+    given |= set(study.random_road) | set(study.overrides.get(ROAD.removesuffix("."), {}))
+    for key in ("length", "spacing"):
+        if key not in given:
+            raise study.file.fail(("random_road",), f"'{key}' is missing in 'random_road', expected a number in m")
+    levels = [key for key in ("class", "rms", "density") if key in given]
+    if len(levels) != 1:
+        found = " and ".join(levels) or "none"
+        raise study.file.fail(("random_road",), f"'random_road' needs one of 'class', 'rms', 'density', got {found}")
 
 
 def check_keys(study: Study) -> None:
