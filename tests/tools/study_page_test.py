@@ -164,12 +164,38 @@ class StudyPage(unittest.TestCase):
         self.choose(page, "parallel-colour", "height")
         self.assertGreater(np.max(np.abs(page.picture(selector="#parallel-plot") - before)), 0.2)
 
-    def test_failures_are_listed_with_their_errors(self):
+    def test_failures_are_listed_once_with_all_runs_that_have_them(self):
         page = self.open()
         rows = page.evaluate("[...document.querySelectorAll('#failure-table tr')].map((one) => one.textContent)")
-        errors = [row for row in rows if "</script>" in row]
-        self.assertEqual(len(errors), 6)
-        self.assertTrue(all(row.endswith(self.rows[int(row.partition("error")[0]) - 1]["error"]) for row in errors))
+        (error,) = (row for row in rows if "</script>" in row)
+        runs, _, text = error.partition("error")
+        failed = [number for number, row in enumerate(self.rows, start=1) if row["error"]]
+        self.assertEqual(runs, ", ".join(map(str, failed)))
+        self.assertEqual({self.rows[number - 1]["error"] for number in failed}, {text})
+        self.assertEqual(page.evaluate("nameRuns([...Array(10).keys()])"), "1, 2, 3, 4, 5, 6, 7, 8 … (10 runs)")
+
+    def test_numbers_stand_beside_their_own_unit(self):
+        page = self.open()
+        self.choose(page, "best-measure", "tyres/tyre/dynamic_load_rms")
+        heading = page.evaluate("document.querySelector('#best-table thead').textContent")
+        self.assertIn("tyres/tyre/dynamic_load_rms, N", heading)
+        shown = page.evaluate("document.querySelector('#best-table tbody tr td:nth-child(5)').textContent")
+        self.assertAlmostEqual(float(shown) / min(self.column("tyres/tyre/dynamic_load_rms")), 1.0, places=4)
+        units = page.evaluate("['N', 'N m', 'Pa', 'rad', 'm', 'm/s^1.75'].map((unit) => titleOf({name: 'a', unit}))")
+        self.assertEqual(units, ["a, N", "a, N m", "a, Pa", "a, rad", "a, m", "a, m/s¹·⁷⁵"])
+
+    def test_the_scatter_says_what_its_colours_mean(self):
+        page = self.open()
+        page.evaluate(
+            "(() => { window.drawn = []; const real = CanvasRenderingContext2D.prototype.fillText;"
+            "CanvasRenderingContext2D.prototype.fillText = function (text, x, y) { drawn.push(text);"
+            "real.call(this, text, x, y); }; })()"
+        )
+        self.choose(page, "scatter-colour", "tyres/tyre/dynamic_load_rms")
+        column = self.column("tyres/tyre/dynamic_load_rms")
+        drawn = page.evaluate("drawn")
+        for text in (f"tyres/tyre/dynamic_load_rms, N: {min(column):.5g}", f"{max(column):.5g}"):
+            self.assertIn(text, drawn)
 
     def test_links_lead_to_their_sections(self):
         page = self.open()

@@ -19,13 +19,16 @@ const PALETTE = [["#111111", "#f2f2f2"], ["#0072b2", "#56b4e9"], ["#d98600", "#f
 const colourOf = (index) => PALETTE[index % PALETTE.length][dark.matches ? 1 : 0];
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
+/** A unit as it is printed. */
+const printUnit = (unit) => unit.replace("^1.75", "¹·⁷⁵").replace("^2", "²").replace("^3", "³");
+
 /** A unit as it is printed, and the factor of its numbers that makes their size readable. */
 function readable(unit, peak) {
   if (unit === "m" && peak < 1) return {unit: "mm", factor: 1e3};
   if (["N", "N m", "J"].includes(unit) && peak >= 1e3) return {unit: `k${unit}`, factor: 1e-3};
   if (unit === "Pa") return {unit: "MPa", factor: 1e-6};
   if (unit === "rad") return {unit: "°", factor: 180 / Math.PI};
-  return {unit: unit.replace("^1.75", "¹·⁷⁵").replace("^2", "²").replace("^3", "³"), factor: 1};
+  return {unit: printUnit(unit), factor: 1};
 }
 
 /** Four digits; powers of ten only where they are needed. */

@@ -1,7 +1,7 @@
 "use strict";
 // The best runs by a measure, and the runs that failed or were warned of.
 
-const MOST_BEST = 12, MOST_FAILURES = 50;
+const MOST_BEST = 12, MOST_FAILURES = 20, MOST_NAMED = 8;
 
 function findBest(measure, order) {
   return runsWith(measure).sort((a, b) => order * (measure.numbers[a] - measure.numbers[b])).slice(0, MOST_BEST);
@@ -22,12 +22,20 @@ function fillBest() {
   byId("best-table").replaceChildren(element("thead", {}, head), element("tbody", {}, ...rows));
 }
 
+/** The numbers of runs, the first ones where there are many. */
+const nameRuns = (runs) => runs.slice(0, MOST_NAMED).map((run) => run + 1).join(", ") + (runs.length > MOST_NAMED ? ` … (${runs.length} runs)` : "");
+
+/** What runs say, each text once with all runs that say it; errors first. */
 function fillFailures() {
-  const told = data.rows.map((row, run) => ({run, text: row.texts.map((one) => data.texts[one]).join("; "), bad: row.isError}))
-    .filter((one) => one.text)
-    .sort((a, b) => b.bad - a.bad || a.run - b.run);
+  const found = new Map();
+  data.rows.forEach((row, run) => {
+    const text = row.texts.map((one) => data.texts[one]).join("; "), key = `${row.isError} ${text}`;
+    if (text && !found.has(key)) found.set(key, {runs: [], text, bad: row.isError});
+    if (text) found.get(key).runs.push(run);
+  });
+  const told = [...found.values()].sort((a, b) => b.bad - a.bad || a.runs[0] - b.runs[0]);
   byId("failures").hidden = !told.length;
-  const rows = told.slice(0, MOST_FAILURES).map(({run, text, bad}) => element("tr", {}, element("th", {scope: "row"}, String(run + 1)),
+  const rows = told.slice(0, MOST_FAILURES).map(({runs, text, bad}) => element("tr", {}, element("th", {scope: "row"}, nameRuns(runs)),
     element("td", {class: bad ? "bad" : ""}, bad ? "error" : "warning"), element("td", {class: "text"}, text)));
   if (told.length > MOST_FAILURES) rows.push(element("tr", {}, element("td", {colspan: "3"}, `and ${told.length - MOST_FAILURES} more, in table.csv`)));
   byId("failure-table").replaceChildren(element("tbody", {}, ...rows));

@@ -12,7 +12,8 @@ const columns = [...data.parameters, ...data.measures].map((one, index) => {
 }).filter((one) => Number.isFinite(one.low));
 const parameterColumns = columns.filter((one) => one.isParameter), measureColumns = columns.filter((one) => !one.isParameter);
 const columnOf = (select) => columns.find((one) => one.index === Number(select.value));
-const titleOf = (column) => (column.unit && column.unit !== "1" ? `${column.name}, ${readable(column.unit, Infinity).unit}` : column.name);
+/** The name and the unit of the numbers, which are shown as the table has them. */
+const titleOf = (column) => (column.unit && column.unit !== "1" ? `${column.name}, ${printUnit(column.unit)}` : column.name);
 const showNumber = (value) => String(Number(value.toPrecision(5))).replaceAll("-", "−");
 const showValue = (column, run) =>
   column.numbers[run] === null ? "–" : column.categories ? column.categories[column.numbers[run]] :
@@ -62,9 +63,9 @@ const optionsOf = (some) => some.map((one) => ({value: one.index, label: one.nam
 /** Runs that have a number in each of some columns. */
 const runsWith = (...some) => data.rows.map((_, run) => run).filter((run) => some.every((one) => one.numbers[run] !== null));
 
-/** A frame with marks and titles of both axes. Returns the area inside. */
-function drawAxes(context, width, height, across, up) {
-  const area = {left: 70, top: 14, right: width - 14, bottom: height - 46};
+/** A frame with marks and titles of both axes, so far below the top of the canvas. Returns the area inside. */
+function drawAxes(context, width, height, across, up, top = 14) {
+  const area = {left: 70, top, right: width - 14, bottom: height - 46};
   context.font = "12px system-ui, sans-serif";
   context.strokeStyle = style("--grid");
   context.fillStyle = style("--soft");
@@ -91,6 +92,26 @@ function drawAxes(context, width, height, across, up) {
   context.fillText(shorten(context, up.title, area.bottom - area.top), 0, 0);
   context.restore();
   return area;
+}
+
+const SCALE_HEIGHT = 34, SCALE_WIDTH = 120;  // px
+
+/** What the colours mean, at the top right of a canvas. */
+function drawScale(context, width, column) {
+  const ends = column.categories ? [column.categories[0], column.categories[column.categories.length - 1]] : [column.low, column.high].map(showNumber);
+  context.font = "12px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  const right = width - 14 - context.measureText(ends[1]).width, left = right - SCALE_WIDTH - 12, y = 14;
+  const gradient = context.createLinearGradient(left, 0, left + SCALE_WIDTH, 0);
+  for (let k = 0; k <= 8; ++k) gradient.addColorStop(k / 8, colourAt(k / 8));
+  context.fillStyle = gradient;
+  context.fillRect(left, y - 4, SCALE_WIDTH, 8);
+  context.fillStyle = style("--soft");
+  context.fillText(ends[1], right - 6, y);
+  context.textAlign = "right";
+  const room = left - 20, title = shorten(context, titleOf(column), Math.max(room - context.measureText(ends[0]).width - 12, 0));
+  context.fillText(`${title}: ${ends[0]}`, left - 6, y);
 }
 
 function strokeLine(context, x1, y1, x2, y2) {

@@ -34,7 +34,7 @@ function drawParallel() {
     strokeLine(context, xs[k], top, xs[k], bottom);
     context.fillStyle = style("--ink");
     context.textAlign = "center";
-    const title = shorten(context, titleOf(one), Math.max(2 * step - 16, 120)), half = 0.5 * context.measureText(title).width;
+    const title = shorten(context, titleOf(one), Math.max(1.5 * step - 16, 120)), half = 0.5 * context.measureText(title).width;
     context.fillText(title, Math.min(Math.max(xs[k], half + 2), width - half - 2), k % 2 ? 14 : 30);
     context.textAlign = "left";
     for (const {value, text} of marksOf(one, 5)) drawPlate(context, text, xs[k] + 5, yOf(one, value));

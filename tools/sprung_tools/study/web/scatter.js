@@ -7,7 +7,8 @@ function drawScatter() {
   const [x, y, colour] = ["scatter-x", "scatter-y", "scatter-colour"].map((name) => columnOf(byId(name)));
   if (!x || !y) return;
   const canvas = byId("scatter-plot"), {context, width, height} = prepareCanvas(canvas, 380);
-  const area = drawAxes(context, width, height, axisOf(x), axisOf(y));
+  const area = drawAxes(context, width, height, axisOf(x), axisOf(y), colour ? SCALE_HEIGHT : undefined);
+  if (colour) drawScale(context, width, colour);
   const runs = runsWith(x, y), radius = runs.length > 1000 ? 2 : 4;
   scatter.places = runs.map((run) => [run, area.left + placeOn(x, x.numbers[run]) * (area.right - area.left),
     area.bottom - placeOn(y, y.numbers[run]) * (area.bottom - area.top)]);
