@@ -14,7 +14,7 @@ A fault of a file, or a name that it does not hold, is an InputError whose text 
 
 import os
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -66,6 +66,7 @@ class ResultsFile:
         self.file = file
         self.path: str = file.filename
         self._motions: dict[str, BodyMotion] = {}  # of bodies, from which those of points were computed
+        self.kept: dict[str, Any] = {}  # what readers have made of groups of the file, by their names
         if file.attribute("", "complete", int, 0) != 1:
             raise InputError(
                 f"{self.path}: error: the run that wrote this file did not finish (complete = 0); "

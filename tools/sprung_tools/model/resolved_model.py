@@ -119,7 +119,9 @@ def read_points(results: ResultsFile, body: str) -> dict[str, Point]:
 
 def read_elements(results: ResultsFile, group: str) -> dict[str, Element]:
     """Reads the `joints` or the `forces` by their names. The prescribed motions are among the joints."""
-    elements: dict[str, Element] = {}
+    elements: dict[str, Element] = results.kept.get(group, {})
+    if elements:
+        return elements
     for name in results.names(find_group(results, group)):
         attributes = read_attributes(results, f"{group}/{name}")
         where = f"{ROOT}/{group}/{name}"
@@ -134,6 +136,7 @@ def read_elements(results: ResultsFile, group: str) -> dict[str, Element]:
         )
         check_element(results, where, element)
         elements[name] = element
+    results.kept[group] = elements
     return elements
 
 

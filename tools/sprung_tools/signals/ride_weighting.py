@@ -17,6 +17,7 @@ The Fourier transform of the samples is multiplied by the formula itself. A digi
 towards half the sampling frequency.
 """
 
+import functools
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -72,14 +73,30 @@ def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting 
             f"a sample every {1e3 * step:g} ms is too few: {weighting.name} goes to {HIGHEST:g} Hz and needs one "
             f"every {1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms"
         )
-    return apply_response(acceleration, step, lambda frequency: calc_weighting(weighting, frequency))
+    size = find_padded_size(acceleration.size, step)
+    return multiply_transform(acceleration, size, keep_weighting(weighting, size, step))
+
+
+@functools.lru_cache(maxsize=2 * len((WK, WD, WE)))
+def keep_weighting(weighting: Weighting, size: int, step: float) -> ComplexNumbers:
+    """The response at the frequencies of a transform, kept for the next signal of that size."""
+    return calc_weighting(weighting, np.fft.rfftfreq(size, step))
 
 
 def apply_response(values: Floats, step: float, response: Response) -> Floats:
     """What a linear filter at rest makes of a signal [n]."""
-    size = find_fast_size(values.size + int(np.ceil(SETTLING / step)))
-    transform = np.fft.rfft(values, size) * response(np.fft.rfftfreq(size, step))
-    return np.fft.irfft(transform, size)[: values.size]
+    size = find_padded_size(values.size, step)
+    return multiply_transform(values, size, response(np.fft.rfftfreq(size, step)))
+
+
+def multiply_transform(values: Floats, size: int, response: ComplexNumbers) -> Floats:
+    """A signal [n] whose transform of some size has been multiplied by a response."""
+    return np.fft.irfft(np.fft.rfft(values, size) * response, size)[: values.size]
+
+
+def find_padded_size(count: int, step: float) -> int:
+    """The size of the transform of so many samples with the time after them in which a filter settles."""
+    return find_fast_size(count + int(np.ceil(SETTLING / step)))
 
 
 def find_fast_size(least: int) -> int:
