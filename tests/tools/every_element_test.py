@@ -1,11 +1,18 @@
-"""Every kind of joint and of force element in a results file: ride and report accept them, and the moments in a frame
-that is taken as rigid contain the loads of all of them. Needs sprung-dynamics and the truck's superelements."""
+"""A vehicle with every key that the reference of input files has, and so every kind of joint, force element, law and
+function: it has an equilibrium and modes, runs and resumes; ride and report accept its results, and the moments in a
+frame that is taken as rigid contain the loads of all elements. Needs sprung-dynamics and the truck's superelements."""
 
 import os
+import re
 import shutil
+import signal
+import subprocess
+import time
+import tomllib
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
@@ -15,7 +22,37 @@ from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superel
 
 PROGRAM, SUPERELEMENTS = os.environ["SPRUNG_DYNAMICS"], os.environ["SPRUNG_SUPERELEMENTS"]
 JOINTS = {"revolute", "translational", "fixed", "distance", "pin-in-slot", "motion"}
-FORCES = {"spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing"}
+FORCES = {
+    "spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing", "leaf-spring", "air-spring",
+}  # fmt: skip
+DATA = ROOT / "tests/tools/data"
+ATTEMPTS = 20  # on a busy machine a run may be at its end before the signal
+
+
+def read_reference():
+    """The keys of a vehicle file, and the types of joints and of force elements, from dynamics/models/README.md."""
+    text = (ROOT / "dynamics/models/README.md").read_text(encoding="utf-8")
+    part = text.partition("\n## Vehicle file\n")[2].partition("\n## Run file\n")[0]
+    tables = re.findall(r"^\| key \|.*\n\|[-| ]*\n((?:\|.*\n)+)", part, re.MULTILINE)
+    cells = [row.split(" |")[0] for table in tables for row in table.splitlines()]
+    keys = {key for cell in cells for key in re.findall(r"`(\w+)`", cell)}
+    return keys, set(re.findall(r"^### (?:Joints|Forces): ([a-z-]+)$", part, re.MULTILINE)) - keys
+
+
+def list_keys(value):
+    """The keys of a document and of all tables in it."""
+    if isinstance(value, dict):
+        return set(value).union(*map(list_keys, value.values()))
+    return set().union(*map(list_keys, value)) if isinstance(value, list) else set()
+
+
+def read_datasets(path):
+    """Every dataset of an HDF5 file, as bytes, without what was measured by a clock."""
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.update({name: np.asarray(item[()]).tobytes()})
+                        if isinstance(item, h5py.Dataset) else None)  # fmt: skip
+    return found
 
 
 class EveryElement(ToolTestCase):
@@ -23,7 +60,8 @@ class EveryElement(ToolTestCase):
     def setUpClass(cls):
         """Runs with the frame rigid, and with all of its modes."""
         cls.made = make_class_folder(cls)
-        shutil.copy(ROOT / "tests/tools/data/every_element.toml", cls.made / "vehicle.toml")
+        shutil.copy(DATA / "every_element.toml", cls.made / "vehicle.toml")
+        shutil.copy(DATA / "every_element_drive.csv", cls.made)
         (cls.made / "run.toml").write_text('vehicle = "vehicle.toml"\nduration = 0.5\n', encoding="utf-8")
         for name, modes in (("rigid", "0"), ("flexible", '"all"')):
             run_program([PROGRAM, "run", "run.toml", "--superelements", SUPERELEMENTS, "--quiet", "-o", f"{name}.h5",
@@ -38,6 +76,38 @@ class EveryElement(ToolTestCase):
         results = open_results(self.folder / name)
         self.addCleanup(results.file.close)
         return results
+
+    def test_the_vehicle_has_every_key_of_the_reference(self):
+        vehicle = tomllib.loads((DATA / "every_element.toml").read_text(encoding="utf-8"))
+        keys, types = read_reference()
+        self.assertGreater(min(len(keys), 10 * len(types)), 80)
+        self.assertEqual(keys - list_keys(vehicle), set())
+        self.assertEqual(types - {one["type"] for group in ("joints", "forces") for one in vehicle[group]}, set())
+
+    def test_it_has_an_equilibrium_and_modes(self):
+        for command, expected in (("equilibrium", "cab_air: gauge pressure"), ("modes", "46 freedoms")):
+            process = run_program([PROGRAM, command, "run.toml", "--superelements", SUPERELEMENTS,
+                                   "--set", 'modes.frame="all"'], cwd=self.made)  # fmt: skip
+            self.assert_succeeds(process)
+            self.assertIn(expected, process.stdout)
+
+    def test_a_killed_run_resumes_with_the_results_of_an_uninterrupted_one(self):
+        command = [PROGRAM, "run", "run.toml", "--superelements", SUPERELEMENTS, "--quiet", "--set", "modes.frame=0",
+                   "--set", "duration=9", "--set", "output_step=1e-4", "-o"]  # fmt: skip
+        run_program([*command, "whole.h5"], cwd=self.made, check=True)
+        partial = self.made / "cut.partial.h5"
+        for _ in range(ATTEMPTS):
+            with subprocess.Popen([*command, "cut.h5"], cwd=self.made, stdin=subprocess.DEVNULL) as process:
+                while process.poll() is None and not partial.exists():
+                    time.sleep(0.001)
+                process.kill()
+            if partial.exists():
+                break
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        run_program([*command, "cut.h5", "--resume"], cwd=self.made, check=True)
+        whole, found = read_datasets(self.made / "whole.h5"), read_datasets(self.made / "cut.h5")
+        self.assertEqual(sorted(whole), sorted(found))
+        self.assertEqual([name for name in whole if whole[name] != found[name]], [])
 
     def test_ride_and_report_accept_all_of_them(self):
         results = self.open("rigid.h5")

@@ -15,7 +15,8 @@ from sprung_tools.files.results_file import ResultsFile
 
 ROOT = "model/resolved"
 GROUND = "ground"
-# The roles of the points that an element has which is drawn as that, and its parameters that are numbers.
+# The roles of the first points of an element that is drawn as that, and its parameters that are numbers. A coupled air
+# spring has the points of its partner besides.
 POINTS_OF = {"wheel": ("wheel",), "spring": ("a", "b"), "rod": ("a", "b"), "pin": ("a", "b")}
 NUMBERS_OF = {"wheel": ("radius",)}
 STOPS = {"compression_stop", "rebound_stop"}  # parameters that an element may have; they are numbers
@@ -155,7 +156,7 @@ def check_point(results: ResultsFile, where: str, point: Point) -> None:
 def check_element(results: ResultsFile, where: str, element: Element) -> None:
     """Throws InputError if an element lacks what its drawing needs: its points, the radius of a wheel."""
     expected = POINTS_OF.get(element.drawing, tuple(element.points))
-    if tuple(element.points) != expected:
+    if tuple(element.points)[: len(expected)] != expected:
         roles = ", ".join(element.points) or "no points"
         raise InputError(
             f"{results.path}: error: '{where}' has the point roles {roles}, expected {', '.join(expected)}"

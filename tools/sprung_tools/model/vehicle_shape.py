@@ -124,24 +124,24 @@ def read_wheels(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[Wheel
     wheels = []
     for force in read_elements(results, "forces").values():
         if force.drawing == "wheel":
-            (centre,) = force.points.values()
-            body, node = find_point(centre, bodies, {}) or (None, None)
+            body, node = find_point(force.points["wheel"], bodies, {}) or (None, None)
             if isinstance(body, str) and isinstance(node, int):
                 wheels.append(Wheel(force.name, body, node, force.parameters["radius"]))
     return wheels
 
 
 def read_links(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[Link]:
-    """Reads what is drawn between two points: springs, rods and joints."""
+    """Reads what is drawn between two points: springs, rods and joints. Coupled springs have two pairs of points."""
     ground = read_points(results, GROUND)
     links = []
     for group in ("forces", "joints"):
         for element in read_elements(results, group).values():
             if element.drawing not in LINKS:
                 continue
-            first, second = (find_point(point, bodies, ground) for point in element.points.values())
-            if first is not None and second is not None:
-                links.append(Link(element.name, LINKS[element.drawing], (first, second)))
+            ends = [find_point(point, bodies, ground) for point in element.points.values()]
+            for first, second in zip(ends[::2], ends[1::2]):
+                if first is not None and second is not None:
+                    links.append(Link(element.name, LINKS[element.drawing], (first, second)))
     return links
 
 
