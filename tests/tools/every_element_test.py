@@ -23,7 +23,8 @@ from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superel
 PROGRAM, SUPERELEMENTS = os.environ["SPRUNG_DYNAMICS"], os.environ["SPRUNG_SUPERELEMENTS"]
 JOINTS = {"revolute", "translational", "fixed", "distance", "pin-in-slot", "motion"}
 FORCES = {
-    "spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing", "leaf-spring", "air-spring",
+    "spring-damper", "rotational-spring-damper", "applied", "tyre", "hydraulic-stop", "bushing", "leaf-spring",
+    "air-spring",
 }  # fmt: skip
 DATA = ROOT / "tests/tools/data"
 ATTEMPTS = 20  # on a busy machine a run may be at its end before the signal

@@ -43,9 +43,11 @@ def read_elements(path: str | Path) -> Elements:
         found = Elements(str(data["name"]), frequency, ends, effect)
     except OSError as error:
         raise InputError(f"{path}: error: cannot be read ({error.strerror})") from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(f"{path}: error: is not what sprung-reduce sensitivity --json prints") from error
-    if found.effect.shape != (len(elements), len(frequency)) or found.ends.shape != (len(elements), 2, 2):
+    is_finite = all(np.all(np.isfinite(values)) for values in (found.frequency, found.ends, found.effect))
+    shapes = found.frequency.shape, found.effect.shape, found.ends.shape
+    if not is_finite or shapes != ((frequency.size,), (len(elements), frequency.size), (len(elements), 2, 2)):
         raise InputError(f"{path}: error: is not what sprung-reduce sensitivity --json prints")
     return found
 

@@ -13,6 +13,7 @@ References: ISO 8608:2016, Mechanical vibration — Road surface profiles — Re
 """
 
 import random
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -194,11 +195,14 @@ def format_profile(recipe: Recipe, profile: Profile, command: str) -> str:
 def read_profile(path: str | Path) -> tuple[Floats, Floats]:
     """Reads distance [n] and height [n] of a road file with equal spacing. InputError if it cannot be used."""
     try:
-        table = np.loadtxt(path, ndmin=2)
+        with warnings.catch_warnings(action="ignore"):  # of an empty file, which is an error below
+            table = np.loadtxt(path, ndmin=2)
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: error: not a table of distances and heights ({error})") from error
     if table.shape[0] < 3 or table.shape[1] != 2:
         raise InputError(f"{path}: error: expected 3 rows or more of a distance and a height, got {table.shape}")
+    if not np.all(np.isfinite(table)):
+        raise InputError(f"{path}: error: a distance or a height is not finite")
     steps = np.diff(table[:, 0])
     if not np.allclose(steps, steps[0], rtol=1e-4, atol=0.0):
         raise InputError(f"{path}: error: the distances are not equally spaced")

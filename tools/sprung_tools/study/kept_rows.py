@@ -6,6 +6,7 @@ are there, also after its file has changed, and makes the runs that are missing.
 
 import fcntl
 import json
+import math
 import os
 from pathlib import Path
 from typing import IO, NamedTuple
@@ -77,11 +78,24 @@ def keep_row(path: Path, row: Row) -> None:
 
 
 def parse_row(line: str) -> Row | None:
-    """A row from its line; None for a line that was cut off, whose run is then made again."""
+    """A row from its line; None for a line that was cut off or holds something else, whose run is then made again."""
     try:
         values = json.loads(line)
         values["warnings"] = tuple(values["warnings"])
         values["measures"] = {name: Measure(*one) for name, one in values["measures"].items()}
-        return Row(**values)
-    except (ValueError, KeyError, TypeError, AttributeError):
+        row = Row(**values)
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
+    return row if has_its_types(row) else None
+
+
+def has_its_types(row: Row) -> bool:
+    """Whether the values that were read for a row are of the types of one."""
+    numbers = (row.seconds, *(one.value for one in row.measures.values() if one.value is not None))
+    texts = (row.hash, row.error, *row.warnings, *(one.unit for one in row.measures.values()))
+    return (
+        type(row.exit_code) is int
+        and type(row.converged) is bool
+        and all(type(one) in (int, float) and math.isfinite(one) for one in numbers)
+        and all(isinstance(one, str) for one in texts)
+    )
