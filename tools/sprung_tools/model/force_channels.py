@@ -27,13 +27,18 @@ def list_force_channels(results: ResultsFile, force: str) -> list[ForceChannel]:
     """All channels of a force element that have a role, in the order of ROLES. InputError for a file of version 1,
     which has no roles."""
     find_group(results)
+    if f"forces/{force}" in results.kept:
+        channels: list[ForceChannel] = results.kept[f"forces/{force}"]
+        return channels
     found = []
     for name in results.names(f"forces/{force}"):
         quantity = f"forces/{force}/{name}"
         role = read_text(results.file, quantity, "role", "")
         if results.file.has_dataset(quantity) and role in ROLES:
             found.append(ForceChannel(quantity, name, role, read_text(results.file, quantity, "unit", "")))
-    return sorted(found, key=lambda channel: (ROLES.index(channel.role), channel.name))
+    found.sort(key=lambda channel: (ROLES.index(channel.role), channel.name))
+    results.kept[f"forces/{force}"] = found
+    return found
 
 
 def find_force_channel(results: ResultsFile, force: str, role: str) -> str | None:
