@@ -44,6 +44,18 @@ class Reading(ToolTestCase):
             ):
                 np.testing.assert_allclose(results.series(quantity)[0], 0.02 + self.heave, atol=1e-15)
 
+    def test_a_motion_that_is_not_stored_is_told_with_the_key_that_chooses_it(self):
+        path = write_results(self.folder / "less.h5")
+        with h5py.File(path, "a") as file:
+            file.require_group("model/resolved/bodies/chassis")
+            del file["bodies/chassis/acceleration"]  # the modes and the centre of mass stay
+        with open_results(path) as results:
+            said = "'bodies/chassis/acceleration' is not stored; 'bodies' in .output.store. of the run file chooses"
+            with self.assertRaisesRegex(InputError, said):
+                results.series("bodies/chassis/acceleration.y")
+            with self.assertRaisesRegex(InputError, "no quantity 'bodies/chassis/speed.y'"):
+                results.series("bodies/chassis/speed.y")
+
     def test_modes_are_columns_by_number(self):
         self.assertEqual(self.results.num_modes("chassis"), 2)
         np.testing.assert_allclose(

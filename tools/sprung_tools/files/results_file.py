@@ -31,6 +31,7 @@ from sprung_tools.files.point_motion import (
 from sprung_tools.files.stored_file import StoredFile
 
 COMPONENTS = ("x", "y", "angle")
+MOTION = ("position", "velocity", "acceleration")  # histories of each body
 
 
 class Quantity(NamedTuple):
@@ -184,7 +185,9 @@ class ResultsFile:
     def _no_such(self, quantity: str, dataset: str) -> InputError:
         group, name, *_ = (*dataset.split("/"), "")
         owner = "bodies" if group == "recovery" else group
-        if self.file.has_group(f"model/resolved/{owner}/{name}") and not self.file.names(f"{group}/{name}"):
+        is_motion = group == "bodies" and dataset.removeprefix(f"{group}/{name}/") in MOTION
+        is_left_out = is_motion or not self.file.names(f"{group}/{name}")
+        if self.file.has_group(f"model/resolved/{owner}/{name}") and is_left_out:
             return self.file.fail(self.file.describe_missing(dataset))
         folder = dataset
         while folder and not self.file.has_group(folder):
