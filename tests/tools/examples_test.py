@@ -29,7 +29,7 @@ WRITTEN = {
     "study": ("quarter_car_study/table.csv", "quarter_car_study/table.h5", "quarter_car_study/study.html"),
 }  # fmt: skip
 SCRIPTS = ("setup", "build", "test")
-CALLED = {"setup": [], "build": ["cmake", "cmake"], "test": ["cmake", "cmake", "ctest"]}
+BUILT, TESTED = ["cmake", "cmake"], ["cmake", "cmake", "ctest"]
 
 
 def read_examples(text):
@@ -128,7 +128,12 @@ class BashTools(Examples):
                     process = run_program(words, cwd=self.folder, env=environment)
                     self.assertEqual((process.returncode, process.stderr), (0, ""))
                     calls = log.read_text(encoding="utf-8").splitlines()
-                    self.assertEqual([call.split()[0] for call in calls], CALLED[tool])
+                    expected = {"setup": [], "build": BUILT, "test": TESTED}[tool]
+                    if words == ["tools/test"]:  # the debug build first
+                        expected = TESTED + TESTED
+                        self.assertIn("--preset debug", calls[0])
+                        self.assertIn("-R ^(fem_test|dynamics_measured_test)$", calls[2])
+                    self.assertEqual([call.split()[0] for call in calls], expected)
                     if tool != "setup":
                         given = [word for word in words[1:] if word != "--sanitize"]
                         self.assertTrue(calls[-1].endswith(" ".join(given)), calls[-1])
