@@ -10,8 +10,9 @@ import h5py
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from hypothesis.configuration import set_hypothesis_home_dir
 from synthetic_results import write_results
-from tool_test_case import ToolTestCase
+from tool_test_case import ToolTestCase, make_class_folder
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
@@ -73,6 +74,10 @@ SENSITIVITY_PATHS = (
 
 
 class RandomFiles(ToolTestCase):
+    @classmethod
+    def setUpClass(cls):
+        set_hypothesis_home_dir(make_class_folder(cls))  # its tables of letters are not left where the tests run
+
     def write(self, name, content):
         path = self.folder / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
