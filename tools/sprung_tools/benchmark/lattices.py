@@ -1,23 +1,22 @@
-"""Whole builds of large lattices: what stage one takes of processor time and memory."""
+"""Whole builds of large lattices: what stage one takes of processor time and memory, and what others take of it."""
 
 import json
 import os
+import shutil
 import subprocess
-import time
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
-from scipy.io import mmread
-from scipy.sparse.linalg import eigsh
-
+from sprung_tools.benchmark.calculix_lattice import make_deck
 from sprung_tools.files.whole_file import write_whole
 
 SPACING = 0.5  # m between crossings
 NUM_MODES = 20
 COLUMNS = 3 * NUM_MODES  # solutions that as many modes need at least
 MOST_SCIPY = 400_000  # freedoms; beyond, its factors need more memory than whole builds
+MOST_CALCULIX = 40_000  # likewise; at 100 000 version 2.20 stops for want of memory on a machine with 8 GB
 DESIGN = """mesh = "lattice.msh"
 [materials.steel]
 youngs_modulus = 2.1e11
@@ -53,6 +52,13 @@ class Lattice(NamedTuple):
         return (self.cells // 2) * (self.cells + 1) + self.cells // 2 + 1
 
 
+class Cost(NamedTuple):
+    """What a process took."""
+
+    seconds: float  # of processor time, system included
+    megabytes: float  # at most in use
+
+
 class Limit(NamedTuple):
     """Processor times that no build can do without [s]: analysis and factors of the stiffness, solutions in blocks for
     COLUMNS right-hand sides, and one count of the modes."""
@@ -60,6 +66,7 @@ class Limit(NamedTuple):
     factor: float
     solutions: float
     counting: float
+    megabytes: float  # at most in use
 
     @property
     def total(self) -> float:
@@ -68,14 +75,14 @@ class Limit(NamedTuple):
 
 class BuildCost(NamedTuple):
     lattice: Lattice
-    seconds: float  # of processor time, system included
-    megabytes: float  # at most in use
+    build: Cost
     outcome: str  # what the program said
     limit: Limit
-    scipy: float | None  # processor time of scipy's shift-invert Lanczos for NUM_MODES clamped modes, from its matrices
+    scipy: Cost | None  # shift-invert Lanczos for NUM_MODES clamped modes
+    calculix: Cost | None  # a whole run of ccx for as many modes
 
 
-LATTICES = (Lattice(49, 1000), Lattice(182, 8), Lattice(316, 8), Lattice(577, 8))
+LATTICES = (Lattice(49, 1000), Lattice(100, 8), Lattice(182, 8), Lattice(316, 8), Lattice(577, 8))
 QUICK_LATTICES = (Lattice(20, 4), Lattice(8, 2))
 
 
@@ -104,57 +111,81 @@ def choose_band(lattice: Lattice) -> float:
     return 1950.0 / lattice.cells
 
 
+def run_measured(command: Sequence[str | Path], folder: Path) -> tuple[str, Cost]:
+    """Runs a program in a folder. Returns what it printed, and what it took."""
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert process.stdout is not None
+    text = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    process.stdout.close()
+    return text, Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0)
+
+
 def measure_limit(program: str | Path, lattice: Lattice, folder: Path) -> Limit:
     """Measures the steps of a lattice in a folder by tests/benchmark/factor_benchmark."""
     command = [program, "lattice.toml", "--columns", f"{COLUMNS}", "--count-below", f"{1.5 * choose_band(lattice):.6g}"]
-    said = json.loads(subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE).stdout)
-    return Limit(said["factor"], said["solutions"], said["count"])
+    text, cost = run_measured(command, folder)
+    said = json.loads(text)
+    return Limit(said["factor"], said["solutions"], said["count"], cost.megabytes)
 
 
-def measure_scipy(program: str | Path, lattice: Lattice, folder: Path) -> float:
-    """The processor time of scipy's Lanczos iteration on K⁻¹M for the lattice in a folder, held at its reference, once
-    its matrices are read [s]."""
+def measure_scipy(program: str | Path, lattice: Lattice, folder: Path) -> Cost:
+    """Runs scipy on the matrices that sprung-reduce writes. The time is without reading them, the memory is that of the
+    whole process."""
     prefix = folder / "frame"
     command = [program, "matrices", "lattice.toml", "-o", prefix]
     subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    stiffness, mass = (mmread(f"{prefix}_{name}.mtx").tocsc() for name in ("stiffness", "mass"))
-    free = np.setdiff1d(np.arange(stiffness.shape[0]), 3 * (lattice.middle - 1) + np.arange(3))
-    stiffness, mass = (matrix[free][:, free] for matrix in (stiffness, mass))
-    start = time.process_time()
-    eigsh(stiffness, k=min(NUM_MODES, free.size - 1), M=mass, sigma=0.0)
-    return time.process_time() - start
+    module = "sprung_tools.benchmark.scipy_lattice"
+    command = [sys.executable, "-m", module, prefix, f"{lattice.middle}", f"{NUM_MODES}"]
+    text, cost = run_measured(command, Path(__file__).resolve().parents[2])
+    return Cost(float(text), cost.megabytes)
+
+
+def measure_calculix(program: str, lattice: Lattice, folder: Path) -> Cost | None:
+    """A whole run of CalculiX; None if it does not reach its end."""
+    deck = make_deck(lattice.cells, SPACING, lattice.middle, NUM_MODES)
+    write_whole(folder / "lattice.inp", deck.encode())
+    text, cost = run_measured([program, "lattice"], folder)
+    return cost if "Job finished" in text else None
 
 
 def measure_build(programs: Path, lattice: Lattice, folder: Path) -> BuildCost:
-    """Builds a lattice in a process of its own, and measures that; beside it its limit, and scipy. programs: the build
-    folder."""
+    """Builds a lattice in a process of its own, and measures that; beside it its limit, scipy, and CalculiX where it is
+    installed. programs: the build folder."""
     program = programs / "reduce/sprung-reduce"
     os.makedirs(folder, exist_ok=True)
     write_whole(folder / "lattice.msh", make_mesh(lattice).encode())
     write_whole(folder / "lattice.toml", DESIGN.format(highest=choose_band(lattice)).encode())
-    process = subprocess.Popen(
-        [program, "build", "lattice.toml", "--force", "-o", "."], cwd=folder,
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-    )  # fmt: skip
-    assert process.stdout is not None
-    text = process.stdout.read()
-    usage = os.wait4(process.pid, 0)[2]
-    process.stdout.close()
+    text, build = run_measured([program, "build", "lattice.toml", "--force", "-o", "."], folder)
     said = [line for line in text.splitlines() if ": building" not in line]
     outcome = said[0].split(": ", 1)[-1] if said else ""
     limit = measure_limit(programs / "tests/benchmark/factor_benchmark", lattice, folder)
     scipy = measure_scipy(program, lattice, folder) if lattice.freedoms <= MOST_SCIPY else None
-    return BuildCost(lattice, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0, outcome, limit, scipy)
+    ccx = shutil.which("ccx") if lattice.freedoms <= MOST_CALCULIX else None
+    calculix = measure_calculix(ccx, lattice, folder) if ccx else None
+    return BuildCost(lattice, build, outcome, limit, scipy, calculix)
+
+
+def format_cost(cost: Cost | None) -> str:
+    """Seconds and megabytes of another program."""
+    return f"  {'–':>8}  {'–':>6}" if cost is None else f"  {cost.seconds:>8.2f}  {cost.megabytes:>6.0f}"
 
 
 def format_builds(costs: Sequence[BuildCost]) -> str:
-    """A table of builds, one line each."""
-    names = ("limit s", "factor", "solve", "count", "scipy s")
-    heading = f"{'freedoms':>9}  {'points':>6}  {'CPU s':>8}  {'memory MB':>9}"
-    rows = [heading + "".join(f"  {name:>8}" for name in names) + "  outcome"]
+    """A table of builds, one line each. Without CalculiX its column is left out, and a line says so."""
+    has_calculix = shutil.which("ccx") is not None
+    names = ("limit s", "factor", "solve", "count")
+    heading = f"{'freedoms':>9}  {'points':>6}  {'CPU s':>8}  {'MB':>6}" + "".join(f"  {name:>8}" for name in names)
+    heading += f"  {'MB':>6}  {'scipy s':>8}  {'MB':>6}" + f"  {'ccx s':>8}  {'MB':>6}" * has_calculix
+    rows = [heading + "  outcome"]
     for cost in costs:
-        size = f"{cost.lattice.freedoms:>9}  {cost.lattice.points:>6}"
-        times = [cost.limit.total, *cost.limit, cost.scipy]
-        cells = "".join(f"  {'–' if one is None else f'{one:.2f}':>8}" for one in times)
-        rows.append(f"{size}  {cost.seconds:>8.2f}  {cost.megabytes:>9.0f}{cells}  {cost.outcome}")
+        limit = cost.limit
+        cells = f"{cost.lattice.freedoms:>9}  {cost.lattice.points:>6}  {cost.build.seconds:>8.2f}"
+        cells += f"  {cost.build.megabytes:>6.0f}"
+        cells += "".join(f"  {one:>8.2f}" for one in (limit.total, limit.factor, limit.solutions, limit.counting))
+        cells += f"  {limit.megabytes:>6.0f}" + format_cost(cost.scipy)
+        rows.append(cells + (format_cost(cost.calculix) if has_calculix else "") + f"  {cost.outcome}")
+    if not has_calculix:
+        rows.append("no column of CalculiX: ccx (Debian: calculix-ccx) is not in PATH")
     return "\n".join(rows)
