@@ -22,4 +22,7 @@ TEST_CASE("a name's hint is the nearest candidate, or nothing where none is near
   CHECK(nearest_name_hint("interia", candidates) == " (did you mean 'inertia'?)");
   CHECK(nearest_name_hint("colour", candidates).empty());
   CHECK(nearest_name_hint("mass", {}).empty());
+  const std::vector<std::string> classes = {"A", "B", "C"};
+  CHECK(nearest_name_hint("Z", classes).empty());  // no letter in common
+  CHECK(nearest_name_hint("c", classes) == " (did you mean 'C'?)");
 }

@@ -16,6 +16,14 @@ std::string format_message(const SourceLocation& where, std::string_view message
   return fmt::format("{}:{}:{}: error: {}", where.path, where.line, where.column, message);
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& letter : lower) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return lower;
+}
+
 // Levenshtein distance; a letter changed, added or left out costs 1.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -41,8 +49,8 @@ std::string find_nearest_name(std::string_view name, std::span<const std::string
   std::string nearest;
   std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(name, candidate);
-    if (distance < best) {
+    const std::size_t distance = edit_distance(lower_case(name), lower_case(candidate));
+    if (distance < std::min(best, candidate.size())) {  // with one letter of it at least
       best = distance;
       nearest = candidate;
     }
