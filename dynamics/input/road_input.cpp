@@ -101,23 +101,28 @@ std::unique_ptr<Road> make_road(const RoadDescription& description) {
                            .height = description.height});
 }
 
-std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
-                           double duration) {
+std::string describe_missed_road(const RoadDescription& description, const Road& road, double speed,
+                                 double duration) {
   if (speed < 0.0 && road.num_segments() > 1) {
-    return fmt::format(
-        "{}:{}:{}: the vehicle drives against its heading, so that it does not meet the road, which begins "
-        "ahead of it",
-        description.location.path, description.location.line, description.location.column);
+    return "the vehicle drives against its heading, so that it does not meet the road, which begins ahead of "
+           "it";
   }
-  const bool has_file = !description.file.empty();
-  if ((!has_file && !description.random) || road.num_segments() < 2) return {};
+  if ((description.file.empty() && !description.random) || road.num_segments() < 2) return {};
   const double end = road.segment_end(road.num_segments() - 2);
   if (!(speed * duration > end)) return {};
-  const support::SourceLocation& at = has_file ? description.file_location : description.location;
   return fmt::format(
-      "{}:{}:{}: the road ends at {:.6g} m, which the leading axle passes after {:.6g} s of {:.6g} s at the "
-      "speed of the start; from there on it is level",
-      at.path, at.line, at.column, end, end / speed, duration);
+      "the road ends at {:.6g} m, which the leading axle passes after {:.6g} s of {:.6g} s at the speed of "
+      "the start; from there on it is level",
+      end, end / speed, duration);
+}
+
+std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
+                           double duration) {
+  const std::string text = describe_missed_road(description, road, speed, duration);
+  if (text.empty()) return {};
+  const support::SourceLocation& at =
+      description.file.empty() || speed < 0.0 ? description.location : description.file_location;
+  return fmt::format("{}:{}:{}: {}", at.path, at.line, at.column, text);
 }
 
 }  // namespace sprung::dynamics

@@ -48,6 +48,10 @@ std::unique_ptr<Road> make_road(const RoadDescription& description);
 /// A text if, at the speed of the start, the leading axle passes the last point of a measured or random road
 /// before the run ends, or the vehicle drives away from the road; else "".
 /// @param speed  along the heading [m/s]   @param duration  > 0 [s]
+/// Checked by tests/dynamics/input/road_input_test.cpp
+std::string describe_missed_road(const RoadDescription& description, const Road& road, double speed,
+                                 double duration);
+/// The same with the place of the road in the run file.
 std::string remark_on_road(const RoadDescription& description, const Road& road, double speed,
                            double duration);
 

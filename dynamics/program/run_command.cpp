@@ -6,6 +6,7 @@
 #include <ctime>
 #include <limits>
 
+#include "dynamics/input/road_input.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/choice_report.h"
 #include "dynamics/output/partial_results.h"
@@ -69,6 +70,14 @@ void print_of_computation(std::FILE* err, const std::vector<RunWarning>& warning
   for (const RunWarning& warning : warnings) {
     if (is_of_computation(warning)) fmt::print(err, "warning: {}\n", warning.text);
   }
+}
+
+// Where the statistics contain what was driven beside the road or behind its end.
+void warn_of_missed_road(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
+  const Run& run = prepared.run;
+  std::string text = describe_missed_road(run.road, *prepared.road, run.speed, run.statistics_to);
+  if (text.empty()) return;
+  warnings.push_back({"summary", {std::string(kComputation)}, std::move(text)});
 }
 
 // CPU time of the program so far [s].
@@ -201,7 +210,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     return support::kGood;
   }
   if (!output.json && !request.quiet) print_description(streams.out, prepared);
-  const std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
+  std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
+  warn_of_missed_road(prepared, model_warnings);
   print_of_computation(streams.err, model_warnings);
 
   TransientOptions options = make_options(run, prepared.model);
