@@ -90,17 +90,20 @@ bool is_balanced(const RunStatistics& statistics) {
   return statistics.energy_closure() <= kAlarmingClosure;
 }
 
+std::string describe_far_movement(const Model& model, const AssemblyReport& assembly) {
+  if (!(assembly.largest_movement > model.length_scale)) return {};
+  return fmt::format(
+      "to close the joints, {} was moved by {:.3g} m, farther than any point is from its body's origin "
+      "({:.3g} m): check the positions of the bodies and the points of the joints",
+      assembly.moved_marker, assembly.largest_movement, model.length_scale);
+}
+
 std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly) {
   std::vector<RunWarning> warnings;
   const auto warn = [&](std::string text) {
     warnings.push_back({kSummary, {std::string(kComputation)}, std::move(text)});
   };
-  if (assembly.largest_movement > model.length_scale) {
-    warn(fmt::format(
-        "to close the joints, {} was moved by {:.3g} m, farther than any point is from its body's "
-        "origin ({:.3g} m): check the positions of the bodies and the points of the joints",
-        assembly.moved_marker, assembly.largest_movement, model.length_scale));
-  }
+  if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) warn(std::move(moved));
   if (model.length_scale < kSmallestScale) {
     warn(
         fmt::format("no point is farther than {:.1e} m from its body's origin; the dead band of switching "

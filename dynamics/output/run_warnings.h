@@ -27,6 +27,8 @@ bool is_of_computation(const RunWarning& warning);
 /// Whether the energy balance closes well enough to trust the run.
 bool is_balanced(const RunStatistics& statistics);
 
+/// Says which point the assembly has moved farther than the vehicle's bodies are large; "" if there is none.
+std::string describe_far_movement(const Model& model, const AssemblyReport& assembly);
 /// The warnings that need no run: of sizes, and of bodies that the assembly moved far.
 std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly);
 /// The warnings about a run that has come to its end, the gravest first, without those of the model.

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "dynamics/input/unit_remarks.h"
+#include "dynamics/output/run_warnings.h"
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/program/massless_check.h"
 #include "dynamics/program/start_state.h"
 #include "dynamics/road/flat_road.h"
+#include "tools/support/errors/numerical_error.h"
 #include "tools/support/terminal/progress_bar.h"
 
 namespace sprung::dynamics {
@@ -146,6 +148,14 @@ void find_free_lengths(const Flexibility& flexibility, const ModeSelection& mode
   });
 }
 
+// The vehicle on level ground.
+Model make_balance_model(const Flexibility& flexibility, const PreparedRun& prepared) {
+  return make_model(prepared.vehicle, prepared.available,
+                    {prepared.level_road.get(), prepared.vehicle.direction, 0.0}, flexibility.damping,
+                    prepared.run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld,
+                    flexibility.stiffened);
+}
+
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
 Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation,
@@ -153,9 +163,7 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   const Run& run = prepared.run;
   const Vehicle& vehicle = prepared.vehicle;
   find_free_lengths(flexibility, prepared.available, prepared);
-  prepared.balance_model = make_model(
-      vehicle, prepared.available, {prepared.level_road.get(), vehicle.direction, 0.0}, flexibility.damping,
-      run.start == Run::Start::kSteady ? MotionUse::kMoving : MotionUse::kHeld, flexibility.stiffened);
+  prepared.balance_model = make_balance_model(flexibility, prepared);
   Eigen::VectorXd q = make_start_positions(prepared.balance_model, vehicle);
   prepared.assembly = assemble_positions(prepared.balance_model, q);
   check_massless_bodies(vehicle, prepared.balance_model, q);
@@ -169,6 +177,20 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
       find_equilibrium(prepared.balance_model, q, show, find_motion(run, prepared.balance_model, q));
   check_steady(run, prepared.balance_model, *prepared.equilibrium);
   return prepared.equilibrium->q;
+}
+
+// The same; where there is no balance, the error tells of a body that the assembly has moved far.
+Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparation preparation,
+                                        const RunRequest& request, PreparedRun& prepared) {
+  try {
+    return find_balance(flexibility, preparation, request, prepared);
+  } catch (const support::NumericalError& error) {
+    const Model model = make_balance_model(flexibility, prepared);
+    Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
+    const std::string moved = describe_far_movement(model, assemble_positions(model, q));
+    if (moved.empty()) throw;
+    throw support::NumericalError(fmt::format("{}; {}", error.what(), moved));
+  }
 }
 
 }  // namespace
@@ -201,7 +223,7 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   const Flexibility flexibility = choose_modes(prepared);
   if (preparation == Preparation::kChoice) return prepared;
 
-  const Eigen::VectorXd q = find_balance(flexibility, preparation, request, prepared);
+  const Eigen::VectorXd q = find_balance_or_explain(flexibility, preparation, request, prepared);
   SystemTerms terms(prepared.balance_model);
   terms.update_positions(0.0, q);
   prepared.placed_road = {prepared.road.get(), vehicle.direction,

@@ -5,7 +5,7 @@ import json
 import sys
 import unittest
 
-from dynamics_test_case import ROOT, DynamicsTestCase, run_program
+from dynamics_test_case import PROGRAM, ROOT, DynamicsTestCase, run_program
 
 sys.path.insert(0, str(ROOT / "tools"))
 
@@ -59,6 +59,31 @@ class Warnings(DynamicsTestCase):
         text = f"warning: chassis 2 modes: {printed['warnings'][0]['text']}"
         self.assertEqual(ride.stdout.count(text), 1)
         self.assertLess(ride.stdout.index(text), ride.stdout.index("point "))
+
+    def test_a_road_that_is_missed_is_warned_of_where_it_concerns_the_statistics(self):
+        # A class C road of 1 m, passed at 3 m/s after 1/3 s.
+        road = 'road={ shape = "random", start = 0.0, length = 1.0, class = "C" }'
+        ends = "the road ends at 1 m, which the leading axle passes after 0.333333 s of 0.5 s"
+        code, said, printed = self.run_to_json("duration=0.5", road, "statistics.to=0.5")
+        self.assertEqual(code, 0)
+        (warning,) = (one for one in printed["warnings"] if one["of"] == ["computation"])
+        self.assertTrue(warning["text"].startswith(ends), warning)
+        self.assertIn(warning["text"], [one["text"] for one in self.read_warnings()])
+        self.assertIn(f"warning: {ends}", said)
+        for settings, expected in (((road, "statistics.to=0.3"), ""), (("speed=-3.0",), "drives against its heading")):
+            _, said, printed = self.run_to_json("duration=0.5", *settings)
+            texts = [one["text"] for one in printed["warnings"] if one["of"] == ["computation"]]
+            self.assertEqual(len(texts), 1 if expected else 0, texts)
+            self.assertIn(expected, "".join(texts))
+
+    def test_a_balance_that_is_not_found_tells_of_a_point_that_was_moved_far(self):
+        run = ROOT / "dynamics/models/templates/half_car_run.toml"
+        for verb in ("run", "equilibrium"):
+            far = ("--set", "vehicle.bodies.body.position=[3000.0, 0.9]")
+            process = run_program([PROGRAM, verb, run, "--quiet", *far], cwd=self.folder)
+            self.assertEqual(process.returncode, 3, process.stderr)
+            self.assertRegex(process.stderr, "error: no static equilibrium after .*; to close the joints, "
+                             r"body\.\w+ was moved by \S+ m, farther than any point is from its body's")  # fmt: skip
 
     def test_wall_time_and_the_times_of_program_and_integration_are_told_apart(self):
         _, _, printed = self.run_to_json("duration=0.2")
