@@ -46,8 +46,14 @@ TransientOptions make_options(const Run& run, const Model& model) {
   return options;
 }
 
-[[noreturn]] void throw_interrupted(double time, ResultsWriter* writer) {
+// Closing a file of many bodies takes seconds, so the signal is answered before.
+[[noreturn]] void throw_interrupted(double time, const RunStatistics& statistics,
+                                    const TransientStatistics& transient, ResultsWriter* writer,
+                                    std::FILE* err) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
+  fmt::print(err, "interrupted; completing {}\n", writer->partial().string());
+  std::fflush(err);
+  writer->write_summary(statistics, transient);
   throw support::Interrupted(
       fmt::format("at t = {:.6g} s; partial results: {}; to continue, run again with --resume", time,
                   writer->abandon().string()));
@@ -144,7 +150,7 @@ void print_resumption(std::FILE* out, const std::optional<Checkpoint>& checkpoin
 // that is interrupted or fails leaves a file with the results up to there.
 TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& options, const WrittenRun& run,
                               support::ProgressBar& progress, VehicleSections& sections,
-                              RunStatistics& statistics, RunTimes& times) {
+                              RunStatistics& statistics, RunTimes& times, std::FILE* err) {
   const double start_time = prepared.start.time;
   double time_reached = run.checkpoint ? run.checkpoint->state.time : start_time;
   ResultsWriter* writer = run.writer.get();
@@ -188,8 +194,7 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
   times.wall = wall_time() - start;
   times.integration = (cpu_time() - cpu_before) * (1.0 - storing / times.wall);
   if (transient.completed) return transient;
-  if (writer) writer->write_summary(statistics, transient);
-  throw_interrupted(time_reached, writer);
+  throw_interrupted(time_reached, statistics, transient, writer, err);
 }
 
 }  // namespace
@@ -233,7 +238,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
                                 streams.err);
   RunTimes times;
   const TransientStatistics transient =
-      integrate(prepared, options, written, progress, sections, statistics, times);
+      integrate(prepared, options, written, progress, sections, statistics, times, streams.err);
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings =
       list_run_warnings(prepared.model, statistics, transient, prepared.vehicle.judged, adaptivity);

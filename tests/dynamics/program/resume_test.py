@@ -116,6 +116,7 @@ class ResumeTest(ProgramTestCase):
         self.partial.unlink()
         code, errors = stop_after_checkpoint(self.folder, signal.SIGTERM)
         self.assertEqual(code, 130)
+        self.assertTrue(errors.startswith("interrupted; completing cut.partial.h5\n"), errors)
         self.assertIn("partial results: cut.partial.h5; to continue, run again with --resume", errors)
         self.assert_resumes(self.resume())
 
