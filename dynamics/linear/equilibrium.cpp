@@ -20,6 +20,7 @@ constexpr int kMaxNewtonIterations = 200;
 constexpr double kRoundingStep = 1e-10;    // steps below this that stop decreasing are rounding
 constexpr double kWorstRounding = 1e-5;    // largest rounding of a step that is accepted
 constexpr double kRoundingMargin = 4.0;    // the estimate of rounding is correct to a factor of a few
+constexpr double kStiffestHz = 1e7;        // no vehicle has a faster mode: its stiffness or mass is mistaken
 constexpr double kPushedStiffness = 1e-9;  // for a direction with force and no stiffness, of the largest one
 constexpr double kNeutralForce = 1e-7;     // acceleration along a neutral direction, natural sizes/s²
 constexpr double kLargestStep = 0.05;      // natural sizes per iteration, at first
@@ -125,6 +126,15 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
 [[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
                                        const ModalForce& modal, double last_step) {
   const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
+  Eigen::Index stiffest = 0;
+  const double fastest =
+      std::sqrt(modal.modes.omega_squared.cwiseAbs().maxCoeff(&stiffest)) / (2.0 * std::numbers::pi);
+  if (fastest > kStiffestHz) {
+    throw support::NumericalError(fmt::format(
+        "no static equilibrium: a stiffness is too large for the mass that it holds, {:.3g} Hz ({}), and its "
+        "rounding hides the other forces; make it smaller, or put a joint in its place",
+        fastest, describe(model, system.directions * modal.modes.vectors.col(stiffest)).description));
+  }
   if (!modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "

@@ -8,6 +8,7 @@
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
+#include "dynamics/program/massless_check.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
 
@@ -128,6 +129,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
   Model model = make_balance(vehicle);
   Eigen::VectorXd q = make_start_positions(model, vehicle);
   assemble_positions(model, q);
+  check_massless_bodies(vehicle, model, q);
   const Eigen::VectorXd targets = find_targets(vehicle, springs, springs.calc_lengths(model, q));
   Eigen::VectorXd free_lengths = targets, lengths, error, step;
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(springs.size(), springs.size());  // of the inverse Jacobian
