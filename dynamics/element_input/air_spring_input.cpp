@@ -94,7 +94,7 @@ void read_air_spring(const support::TomlTable& table, ForceDescription& force, H
   force.points = {read_point(table.at("a")), read_point(table.at("b"))};
   force.along_line = true;
   AirSpring::Parameters p;
-  p.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  p.multiplicity = table.number_or("multiplicity", 1.0, kMultiplicity);
   p.design_height = table.number("design_height", support::positive("m"));
   p.volume = table.number("volume", support::positive("m³"));
   p.effective_area = read_area(table.at("effective_area"));

@@ -9,6 +9,7 @@
 
 #include "dynamics/element_input/air_spring_input.h"
 #include "dynamics/element_input/characteristic_input.h"
+#include "dynamics/element_input/input_values.h"
 #include "dynamics/element_input/suspension_input.h"
 #include "dynamics/element_input/time_function_input.h"
 #include "dynamics/forces/distributed_tyre.h"
@@ -45,7 +46,7 @@ void read_spring_with_stops(const support::TomlTable& table, const LawUnits& uni
 // Reads spring, stops and damper, of which there must be at least one.
 template <typename Parameters>
 void read_laws(const support::TomlTable& table, const LawUnits& units, Parameters& parameters) {
-  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, kMultiplicity);
   read_spring_with_stops(table, units, parameters);
   const std::optional<support::TomlTable> damper = table.find_table("damper");
   if (damper) parameters.damper = read_damper(*damper, units);
@@ -119,7 +120,7 @@ void read_applied(const support::TomlTable& table, ForceDescription& force, Hist
 Tyre::Parameters read_tyre_laws(const support::TomlTable& table) {
   Tyre::Parameters parameters;
   parameters.radius = table.number("radius", support::positive("m"));
-  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, kMultiplicity);
   parameters.damping = table.number_or("damping", 0.0, support::non_negative("N·s/m"));
   parameters.one_sided = table.boolean_or("one_sided", true);
   const support::TomlTable spring = table.at("spring").table();

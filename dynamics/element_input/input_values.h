@@ -28,6 +28,9 @@ PointList read_point_list(const support::TomlValue& value, const support::Quanti
 std::string_view find_only_key(const support::TomlTable& table, std::span<const std::string_view> keys,
                                std::string_view expected);
 
+/// How many equal elements act side by side.
+inline constexpr support::Quantity kMultiplicity{.unit = "", .above = 0.0, .at_most = 1e6};
+
 /// Two numbers [x, y] of one unit.
 Eigen::Vector2d read_vector(const support::TomlValue& value, std::string_view unit);
 /// A direction [x, y], not [0, 0], scaled to length 1.

@@ -113,7 +113,7 @@ void read_bushing(const support::TomlTable& table, ForceDescription& force, Hist
   if (const std::optional<support::TomlValue> position = table.find("free_position"))
     parameters.free_position = read_vector(*position, "m");
   parameters.free_angle = table.number_or("free_angle", 0.0, support::any("rad"));
-  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, kMultiplicity);
   constexpr std::array<std::string_view, 3> kKeys{"x", "y", "rotation"};
   bool has_direction = false;
   for (std::size_t k = 0; k < kKeys.size(); ++k) {
@@ -133,7 +133,7 @@ void read_leaf_spring(const support::TomlTable& table, ForceDescription& force, 
   force.along_line = true;
   LeafSpring::Parameters parameters;
   parameters.free_length = read_free_length(table, force);
-  parameters.multiplicity = table.number_or("multiplicity", 1.0, support::positive(""));
+  parameters.multiplicity = table.number_or("multiplicity", 1.0, kMultiplicity);
   parameters.spring = read_spring(table.at("spring").table());
   parameters.presliding_deflection = table.number("presliding_deflection", support::positive("m"));
   parameters.friction = read_friction(table.at("friction").table(), parameters.presliding_deflection);

@@ -149,7 +149,7 @@ std::vector<std::string> list_automatic_bodies(const ModeRequests& requests) {
 }
 
 DampingRequests read_modal_damping(const support::TomlTable& table) {
-  const support::Quantity ratio = support::non_negative("");
+  const support::Quantity ratio{.unit = "", .at_least = 0.0, .at_most = 1e6};
   DampingRequests requests;
   for (const auto& [body, value] : table.entries()) {
     const std::vector<double> ratios =

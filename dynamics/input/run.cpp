@@ -12,7 +12,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kMostOutputs = 1e7;
+constexpr double kMostOutputs = 1e7, kMostSteps = 1e9;
 const std::array<std::string, 3> kStarts{"equilibrium", "steady", "as-given"};  // as Run::Start
 
 void read_times(const support::TomlTable& root, Run& run) {
@@ -52,7 +52,8 @@ void read_statistics(const support::TomlTable& root, Run& run) {
   }
 }
 
-IntegratorSettings read_integrator(const support::TomlTable& table) {
+IntegratorSettings read_integrator(const support::TomlTable& table, double duration) {
+  const support::Quantity step{.unit = "s", .at_least = duration / kMostSteps};
   static const std::vector<std::string> kNames(kMethodNames.begin(), kMethodNames.end());
   IntegratorSettings settings;
   if (const std::optional<support::TomlValue> method = table.find("method")) {
@@ -64,8 +65,8 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   settings.options.relative_tolerance =
       table.number_or("relative_tolerance", settings.options.relative_tolerance,
                       {.unit = "", .at_least = 1e-13, .at_most = 1e-1});
-  if (const std::optional<support::TomlValue> step = table.find("largest_step")) {
-    settings.largest_step = step->number(support::positive("s"));
+  if (const std::optional<support::TomlValue> largest = table.find("largest_step")) {
+    settings.largest_step = largest->number(step);
   }
   const std::optional<support::TomlValue> radius = table.find("spectral_radius");
   const std::optional<support::TomlValue> fixed_step = table.find("fixed_step");
@@ -77,7 +78,7 @@ IntegratorSettings read_integrator(const support::TomlTable& table) {
   if (radius)
     settings.options.generalized_alpha.spectral_radius =
         radius->number({.unit = "", .at_least = 0.0, .at_most = 1.0});
-  if (fixed_step) settings.options.generalized_alpha.fixed_step = fixed_step->number(support::positive("s"));
+  if (fixed_step) settings.options.generalized_alpha.fixed_step = fixed_step->number(step);
   table.reject_unknown_keys();
   return settings;
 }
@@ -211,7 +212,8 @@ Run read_run(const support::TomlDocument& document) {
   if (const auto table = root.find_table("modal_damping")) run.modal_damping = read_modal_damping(*table);
   if (const auto table = root.find_table("stiffening")) run.stiffening = read_stiffening(*table);
   if (const auto table = root.find_table("road")) run.road = read_road(*table, folder);
-  if (const auto table = root.find_table("integrator")) run.integrator = read_integrator(*table);
+  if (const auto table = root.find_table("integrator"))
+    run.integrator = read_integrator(*table, run.duration);
   if (const auto table = root.find_table("adaptivity")) run.adaptivity = read_adaptivity(*table);
   if (const auto table = root.find_table("initial")) run.initial = read_initial(*table);
   if (const auto table = root.find_table("joint_rates")) run.joint_rates = read_joint_rates(*table);

@@ -195,12 +195,12 @@ TEST_CASE("Settings of the integrator out of range are refused") {
   CHECK(error_of("relative_tolerance = 1e-8", "relative_tolerance = 0.5") ==
         "runs/first.toml:25:22: error: 'integrator.relative_tolerance' must be ≥ 1e-13 and ≤ 0.1, got 0.5");
   CHECK(error_of("largest_step = 0.01", "largest_step = 0.0") ==
-        "runs/first.toml:26:16: error: 'integrator.largest_step' must be > 0 s, got 0");
+        "runs/first.toml:26:16: error: 'integrator.largest_step' must be ≥ 5e-09 s, got 0");
   const std::string alpha = "method = \"generalized-alpha\"\n";
   CHECK(error_of("method = \"bdf\"\n", alpha + "spectral_radius = 1.1\n") ==
         "runs/first.toml:25:19: error: 'integrator.spectral_radius' must be ≥ 0 and ≤ 1, got 1.1");
   CHECK(error_of("method = \"bdf\"\n", alpha + "fixed_step = 0\n") ==
-        "runs/first.toml:25:14: error: 'integrator.fixed_step' must be > 0 s, got 0");
+        "runs/first.toml:25:14: error: 'integrator.fixed_step' must be ≥ 5e-09 s, got 0");
   CHECK(error_of("largest_step = 0.01", "fixed_step = 0.01") ==
         "runs/first.toml:26:14: error: 'integrator.fixed_step' has a meaning with method = "
         "\"generalized-alpha\" only");

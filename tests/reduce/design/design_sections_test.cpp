@@ -93,16 +93,16 @@ TEST_CASE("mass per length replaces that of the density, and the shear coefficie
 }
 
 TEST_CASE("sizes that no structure has are refused where they stand") {
-  CHECK_THAT(fault("area = 1e200\nsecond_moment = 1.0"),
-             Contains("d.toml:6:8: error: 'sections.s.area' must be 1e-24 … 1e+24 m², got 1e+200"));
-  CHECK_THAT(fault("area = 1.0\nsecond_moment = 1e-300"),
+  CHECK_THAT(fault("area = 1e25\nsecond_moment = 1.0"),
+             Contains("d.toml:6:8: error: 'sections.s.area' must be 1e-24 … 1e+24 m², got 1e+25"));
+  CHECK_THAT(fault("area = 1.0\nsecond_moment = 1e-49"),
              Contains("'sections.s.second_moment' must be 1e-48"));
-  CHECK_THAT(fault("shape = \"rectangle\"\nwidth = 1e160\nheight = 0.1"),
+  CHECK_THAT(fault("shape = \"rectangle\"\nwidth = 1e10\nheight = 0.1"),
              Contains("'sections.s.width' must be"));
-  CHECK_THAT(fault("area = 1.0\nsecond_moment = 1.0", "youngs_modulus = 1e308\ndensity = 1.0"),
-             Contains("'materials.steel.youngs_modulus' must be 1e-06 … 1e+18 Pa, got 1e+308"));
-  // 1 - (1 - 2·10⁻¹²/10¹²)⁴ is nothing in doubles
-  CHECK_THAT(fault("shape = \"tube\"\nouter_diameter = 1e12\nwall = 1e-12"),
+  CHECK_THAT(fault("area = 1.0\nsecond_moment = 1.0", "youngs_modulus = 1e19\ndensity = 1.0"),
+             Contains("'materials.steel.youngs_modulus' must be 1e-06 … 1e+18 Pa, got 1e+19"));
+  // 1 - (1 - 2·10⁻¹²/10⁹)⁴ is nothing in doubles
+  CHECK_THAT(fault("shape = \"tube\"\nouter_diameter = 1e9\nwall = 1e-12"),
              Contains("rounding leaves nothing of walls as thin as these"));
 }
 

@@ -75,6 +75,20 @@ TEST_CASE("a number out of range is refused with the range and its unit") {
   CHECK(number_error("2", {.unit = "m", .above = 0.0, .at_most = 1.0}) == "must be > 0 and ≤ 1 m, got 2");
 }
 
+TEST_CASE("a number whose products with others would overflow is refused, whatever its range") {
+  CHECK(number_error("1e300", any("N/m")) == "must be ≤ 1e+30 N/m, got 1e+300");
+  CHECK(number_error("-1e31", any("")) == "must be ≥ -1e+30, got -1e+31");
+  CHECK(number_error("1e-300", positive("kg")) == "must be ≥ 1e-50 kg, got 1e-300");
+  for (const std::string unit : {"m", "rad", "s", "Hz", "m/s", "rad/s"}) {
+    CHECK(number_error("2e9", positive(unit)) == "must be ≤ 1e+09 " + unit + ", got 2e+09");
+    CHECK(number_error("-2000000000", any(unit)) == "must be ≥ -1e+09 " + unit + ", got -2e+09");
+  }
+  const TomlDocument document = TomlDocument::parse("large = -1e30\nfar = 1e9\nsmall = 1e-300\n", "v.toml");
+  CHECK(document.root().number("large", any("N")) == -1e30);
+  CHECK(document.root().number("far", positive("m")) == 1e9);
+  CHECK(document.root().number("small", non_negative("kg")) == 1e-300);
+}
+
 TEST_CASE("a value that is no number is refused with the unit and its type") {
   CHECK(number_error("\"heavy\"", positive("kg")) == "must be a number [kg], got a string \"heavy\"");
   CHECK(number_error("true", positive("")) == "must be a number, got a boolean true");

@@ -15,7 +15,7 @@
 
 namespace sprung::support {
 
-/// The range that a number from a file must lie in; NaN and infinity never do.
+/// The range that a number must lie in. NaN, infinity and what toml_value.cpp calls too large never do.
 struct Quantity {
   std::string_view unit;                ///< for the message, "" for a pure number
   std::optional<double> above = {};     ///< value > above

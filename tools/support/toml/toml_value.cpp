@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,19 @@ bool is_in_range(const Quantity& quantity, double value) {
          (!quantity.at_least || value >= *quantity.at_least) &&
          (!quantity.at_most || value <= *quantity.at_most);
 }
+
+// The largest magnitude of a value. Within it products of several values and their squares stay finite, and
+// rounding of times and places is below a micrometre or a microsecond.
+double find_limit(std::string_view unit) {
+  constexpr double kMost = 1e30, kMostOfTimesAndPlaces = 1e9;
+  constexpr std::array<std::string_view, 6> kTimesAndPlaces{"m", "rad", "s", "Hz", "m/s", "rad/s"};
+  const bool is_short =
+      std::find(kTimesAndPlaces.begin(), kTimesAndPlaces.end(), unit) != kTimesAndPlaces.end();
+  return is_short ? kMostOfTimesAndPlaces : kMost;
+}
+
+// The smallest value of a quantity that must be positive: its inverse and the square of that stay finite.
+constexpr double kLeastPositive = 1e-50;
 
 std::string format_integer_range(std::int64_t minimum, std::int64_t maximum) {
   const bool bounded_below = minimum != std::numeric_limits<std::int64_t>::min();
@@ -81,6 +95,13 @@ double TomlValue::number(const Quantity& quantity) const {
   }
   if (!is_in_range(quantity, value)) {
     throw error(fmt::format("must be {}, got {}", format_range(quantity), format_number(value)));
+  }
+  Quantity limits{.unit = quantity.unit};
+  const double limit = find_limit(quantity.unit);
+  if (std::abs(value) > limit) (value > 0.0 ? limits.at_most : limits.at_least) = std::copysign(limit, value);
+  if (quantity.above == 0.0 && value < kLeastPositive) limits.at_least = kLeastPositive;
+  if (!is_in_range(limits, value)) {
+    throw error(fmt::format("must be {}, got {}", format_range(limits), format_number(value)));
   }
   return value;
 }
