@@ -215,6 +215,36 @@ class Program(ReduceTestCase):
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"'{bad}' is not of the form key.path=FROM:TO:STEPS", result.stderr)
 
+    def test_modes_of_a_body_of_millimetres_and_grams_are_followed_as_those_of_one_of_metres(self):
+        # All lengths times s: frequencies times 1/s, masses times s³, the same correlations.
+        def make_design(s):
+            sections = "".join(f'[sections.{name}]\nmaterial = "steel"\nshape = "rectangle"\nwidth = {0.05 * s!r}\n'
+                               f"height = {height * s!r}\n" for name, height in (("a", 0.03), ("b", 0.04)))
+            points = "".join(f"{name} = [{x * s!r}, {y * s!r}]\n"
+                             for name, x, y in (("o", 0.0, 0.0), ("p", 2.0, 0.0), ("q", 0.0, 1.7), ("r", 1.5, -0.8)))
+            lines = "".join(f'[[lines]]\nfrom = "o"\nto = "{end}"\nsection = "{name}"\nelements = 8\n'
+                            for end, name in (("p", "a"), ("q", "b"), ("r", "b")))
+            return ('[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850.0\n' + sections + "[points]\n" + points
+                    + lines + f'[[point_masses]]\npoint = "p"\nmass = {3.0 * s**3!r}\ninertia = {0.1 * s**5!r}\n'
+                    '[reference]\npoint = "o"\n[modes]\ncount = 4\ndamping_ratio = 0.01\n')
+        for flag in ((), ("--preview",)):
+            of_scale = []
+            for s in (1.0, 1e-3):
+                (self.folder / "body.toml").write_text(make_design(s))
+                vary = f"sections.a.height={0.03 * s!r}:{0.06 * s!r}:6"
+                result = self.run_program("sweep", "body.toml", "--vary", vary, "--modes", "5", "--json", *flag)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                of_scale.append(json.loads(result.stdout)["points"])
+            for large, small in zip(*of_scale):
+                self.assertAlmostEqual(small["mass_kg"] * 1e9 / large["mass_kg"], 1.0, places=9)
+                for kind in ("free", "clamped"):
+                    for i in range(5):
+                        frequencies = [point[kind]["frequency_hz"][i] for point in (large, small)]
+                        self.assertAlmostEqual(frequencies[1] * 1e-3 / frequencies[0], 1.0, places=7)
+                        correlations = [point[kind]["correlation"][i] for point in (large, small)]
+                        self.assertAlmostEqual(*correlations, places=6)
+                        self.assertGreater(correlations[1], 0.9)
+
     def test_a_preview_of_a_sweep_is_right_for_small_changes_without_solving_them(self):
         # Expected: the modes solved for each value. Those in a space of shapes are not below them.
         sweep = ("sweep", "ladder_frame.toml", "--vary", "sections.post.height=0.08:0.084:1", "--modes", "6")
