@@ -141,7 +141,7 @@ void check_expected(const TomlTable& table, const MatrixBody& body) {
 DesignMatrices read_design_matrices(const TomlTable& root, const std::filesystem::path& folder) {
   const TomlTable table = root.at("matrices").table();
   expect_keys(table, {"format", "stiffness", "mass", "stiffness_name", "mass_name", "freedoms", "nodes",
-                      "axes", "length_unit", "mass_unit", "expected"});
+                      "axes", "length_unit", "mass_unit", "expected", "reduced"});
   const PlanarAxes axes = read_axes(table);
   const support::Quantity length{.unit = "m", .above = 0.0, .at_most = kLengths.largest};
   const support::Quantity mass{.unit = "kg", .above = 0.0, .at_most = kLargestMass};
@@ -151,6 +151,7 @@ DesignMatrices read_design_matrices(const TomlTable& root, const std::filesystem
   DesignMatrices read{.body = make_matrix_body(reader.read(), axes, units),
                       .input_names = std::move(reader.names),
                       .input_hashes = std::move(reader.hashes)};
+  if (const auto reduced = table.find("reduced")) read.body.is_reduced |= reduced->boolean();
   for (const std::string& remark : check_matrix_body(read.body)) read.body.remarks.push_back(remark);
   check_expected(table, read.body);
   return read;

@@ -31,12 +31,13 @@ bool is_data(const TextLines& lines) {
 Freedom read_abaqus_freedom(const TextLines& lines, const TextField& node, const TextField& direction) {
   const std::int64_t id =
       lines.integer(node, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int32_t>::max());
-  if (id <= 0) {
-    throw lines.error(node, fmt::format("node {} is internal to Abaqus (of a hybrid or connector element); "
-                                        "only freedoms of nodes are read",
-                                        id));
-  }
-  return {id, static_cast<int>(lines.integer(direction, 1, 6))};
+  const auto number = static_cast<int>(lines.integer(direction, 1, 6));
+  if (id > 0) return {id, number};
+  if (number == 1) return {id, 0};
+  throw lines.error(node,
+                    fmt::format("node {} is internal to Abaqus and has the direction {}; of internal nodes "
+                                "only the amplitudes of modes are read, which have the direction 1",
+                                id, number));
 }
 
 }  // namespace

@@ -73,11 +73,26 @@ void require_one_part(const MatrixBody& body) {
   }
 }
 
+// How large the entries of the stiffness are. What couples a modal freedom with others is zero but for
+// rounding, and its size is that of the two diagonals.
+Eigen::SparseMatrix<double> calc_entry_sizes(const MatrixBody& body) {
+  Eigen::SparseMatrix<double> sizes = body.stiffness.cwiseAbs();
+  const Eigen::VectorXd diagonal = body.stiffness.diagonal();
+  const Eigen::Index first_modal = 3 * (body.num_nodes() + body.num_pairs);
+  for (Eigen::Index column = 0; column < sizes.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(sizes, column); entry; ++entry) {
+      if (std::max(entry.row(), column) >= first_modal)
+        entry.valueRef() = std::sqrt(diagonal(entry.row()) * diagonal(column));
+    }
+  }
+  return sizes;
+}
+
 // Motions along x, along y, and rotation.
 void require_no_rigid_force(const MatrixBody& body) {
   constexpr const char* kMotions[] = {"displacement along x", "displacement along y", "rotation"};
   const LinearMotions motions = make_linear_motions(body, calc_middle(body));
-  const Eigen::SparseMatrix<double> sizes = body.stiffness.cwiseAbs();
+  const Eigen::SparseMatrix<double> sizes = calc_entry_sizes(body);
   const Eigen::VectorXd shapes[] = {motions.along_x, motions.along_y, motions.rotation};
   for (int motion = 0; motion < 3; ++motion) {
     const Eigen::VectorXd force = (body.stiffness * shapes[motion]).cwiseAbs();
@@ -143,16 +158,19 @@ void require_mass_of_a_body(const MatrixBody& body) {
                                  "them by {:.3g} kg); a body has one mass",
                                  mass, along_y, Mx.dot(motions.along_y)));
   }
+  if (body.is_reduced) return;
   const double extent =
       (body.node_positions.rowwise().maxCoeff() - body.node_positions.rowwise().minCoeff()).norm();
   const double by_rotation = My.dot(motions.rotation), by_places = Mx.dot(motions.places);
   const double y_by_rotation = -Mx.dot(motions.rotation), y_by_places = My.dot(motions.places);
   if (std::max(std::abs(by_rotation - by_places), std::abs(y_by_rotation - y_by_places)) >
       kMassTolerance * mass * extent) {
-    throw InputError(where,
-                     fmt::format("mass and places of the nodes do not fit together: the first moments are "
-                                 "({:.6g}, {:.6g}) by rotation and ({:.6g}, {:.6g}) kg·m by displacement",
-                                 by_rotation, y_by_rotation, by_places, y_by_places));
+    throw InputError(
+        where,
+        fmt::format("mass and places of the nodes do not fit together: the first moments are "
+                    "({:.6g}, {:.6g}) by rotation and ({:.6g}, {:.6g}) kg·m by displacement; matrices of a "
+                    "condensed body need 'reduced = true'",
+                    by_rotation, y_by_rotation, by_places, y_by_places));
   }
 }
 

@@ -7,8 +7,9 @@
 namespace sprung::reduce {
 
 std::string describe(const Freedom& freedom) {
+  if (freedom.is_modal()) return fmt::format("modal freedom {}", freedom.node);
   constexpr std::array<const char*, 7> kNames{
-      "freedom 0", "x", "y", "z", "rotation about x", "rotation about y", "rotation about z"};
+      "", "x", "y", "z", "rotation about x", "rotation about y", "rotation about z"};
   return fmt::format("{} of node {}", kNames[static_cast<std::size_t>(freedom.direction)], freedom.node);
 }
 

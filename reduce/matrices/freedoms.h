@@ -9,14 +9,16 @@
 namespace sprung::reduce {
 
 /// A row of a matrix: a direction of a node. 1, 2, 3 are the displacements along x, y, z, and 4, 5, 6 the
-/// rotations about them.
+/// rotations about them. Direction 0 is a modal freedom: the amplitude of a shape of a body that was reduced
+/// elsewhere, which has no place; `node` is its number then.
 struct Freedom {
   std::int64_t node = 0;
   int direction = 1;
+  bool is_modal() const { return direction == 0; }
   auto operator<=>(const Freedom&) const = default;
 };
 
-/// "x of node 12", "rotation about z of node 12".
+/// "x of node 12", "rotation about z of node 12", "modal freedom 101".
 std::string describe(const Freedom& freedom);
 
 /// The rows of a matrix, in their order.

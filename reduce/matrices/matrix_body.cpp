@@ -9,6 +9,7 @@
 #include <set>
 
 #include "reduce/matrices/follower_rotation.h"
+#include "reduce/matrices/modal_freedoms.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
@@ -41,7 +42,9 @@ Frame make_frame(const PlanarAxes& axes) {
 // Rows of the table of nodes that have freedoms.
 std::vector<int> find_used_nodes(const MatrixSystem& system) {
   std::set<std::int64_t> ids;
-  for (int row = 0; row < system.freedoms.size(); ++row) ids.insert(system.freedoms[row].node);
+  for (int row = 0; row < system.freedoms.size(); ++row) {
+    if (!system.freedoms[row].is_modal()) ids.insert(system.freedoms[row].node);
+  }
   std::vector<int> used;
   for (const std::int64_t id : ids) {
     const auto found = std::lower_bound(system.nodes.ids.begin(), system.nodes.ids.end(), id);
@@ -112,6 +115,8 @@ class NodePairs {
 struct Motions {
   Eigen::SparseMatrix<double> symmetric, antisymmetric;
   std::vector<bool> is_given;  // of the symmetric ones
+  int num_pairs = 0;
+  std::vector<std::int64_t> modal_ids;  // of the symmetric ones
 };
 
 class MotionMaker {
@@ -132,12 +137,12 @@ class MotionMaker {
       }
       if (is_pair) ++num_pairs;
     }
-    const int size = 3 * (num_nodes + num_pairs);
     Motions motions;
-    motions.symmetric.resize(system_.freedoms.size(), size);
-    motions.symmetric.setFromTriplets(symmetric_.begin(), symmetric_.end());
-    motions.antisymmetric.resize(system_.freedoms.size(), num_antisymmetric_);
-    motions.antisymmetric.setFromTriplets(antisymmetric_.begin(), antisymmetric_.end());
+    int size = 3 * (num_nodes + num_pairs);
+    fill(size, motions);
+    add_modal(size, motions);
+    if (!motions.modal_ids.empty()) fill(size, motions);
+    motions.num_pairs = num_pairs;
     motions.is_given.assign(static_cast<std::size_t>(size), false);
     for (const Eigen::Triplet<double>& one : symmetric_)
       motions.is_given[static_cast<std::size_t>(one.col())] = true;
@@ -145,6 +150,22 @@ class MotionMaker {
   }
 
  private:
+  void fill(int size, Motions& motions) const {
+    motions.symmetric.resize(system_.freedoms.size(), size);
+    motions.symmetric.setFromTriplets(symmetric_.begin(), symmetric_.end());
+    motions.antisymmetric.resize(system_.freedoms.size(), num_antisymmetric_);
+    motions.antisymmetric.setFromTriplets(antisymmetric_.begin(), antisymmetric_.end());
+  }
+  // Modal freedoms behind the others, up to a multiple of 3.
+  void add_modal(int& size, Motions& motions) {
+    const ModalFreedoms modal = divide_modal_freedoms(system_, motions.symmetric, motions.antisymmetric);
+    for (const int row : modal.symmetric) {
+      symmetric_.emplace_back(row, size + static_cast<int>(motions.modal_ids.size()), 1.0);
+      motions.modal_ids.push_back(system_.freedoms[row].node);
+    }
+    for (const int row : modal.antisymmetric) antisymmetric_.emplace_back(row, num_antisymmetric_++, 1.0);
+    size += 3 * ((static_cast<int>(motions.modal_ids.size()) + 2) / 3);
+  }
   // A displacement along an axis of the plane's frame, or a rotation about it. `is_even`: mirrored nodes have
   // the same, so that it is a symmetric motion on the plane.
   void add(const PlaneNode& node, int axis, bool is_rotation, bool is_even, int even_column, int odd_column) {
@@ -244,6 +265,12 @@ void require_displacements(const MatrixBody& body) {
 
 std::string describe_freedom(const MatrixBody& body, Eigen::Index freedom) {
   const Eigen::Index node = freedom / 3;
+  const Eigen::Index first_modal = 3 * (body.num_nodes() + body.num_pairs);
+  if (freedom >= first_modal) {
+    const auto index = static_cast<std::size_t>(freedom - first_modal);
+    return index < body.modal_ids.size() ? fmt::format("modal freedom {}", body.modal_ids[index])
+                                         : std::string("a freedom without meaning");
+  }
   if (node >= body.num_nodes()) {
     constexpr const char* kAcross[] = {"the motion across the plane", "the rotation about x",
                                        "the rotation about y"};
@@ -265,6 +292,9 @@ MatrixBody make_matrix_body(const MatrixSystem& system, const PlanarAxes& axes, 
                   .stiffness = {},
                   .mass = {},
                   .is_given = motions.is_given,
+                  .num_pairs = motions.num_pairs,
+                  .modal_ids = motions.modal_ids,
+                  .is_reduced = !motions.modal_ids.empty(),
                   .stiffness_path = system.stiffness_path,
                   .mass_path = system.mass_path,
                   .remarks = {}};
@@ -275,10 +305,10 @@ MatrixBody make_matrix_body(const MatrixSystem& system, const PlanarAxes& axes, 
   }
   require_displacements(body);
   Eigen::VectorXd scale = Eigen::VectorXd::Constant(motions.symmetric.cols(), 1.0 / units.length);
-  const Eigen::Index num_in_plane = 3 * body.num_nodes();
+  const Eigen::Index num_in_plane = 3 * body.num_nodes(), first_modal = num_in_plane + 3 * body.num_pairs;
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
     const bool is_rotation = i < num_in_plane ? i % 3 == 2 : i % 3 != 0;
-    if (is_rotation) scale(i) = 1.0;
+    if (is_rotation || i >= first_modal) scale(i) = 1.0;
   }
   const double energy = units.mass * units.length * units.length;
   body.stiffness = project(motions, system.stiffness, scale, energy);

@@ -11,15 +11,21 @@ namespace sprung::reduce {
 
 /// A body in the plane, given by matrices in place of beams. Freedoms 3n, 3n+1, 3n+2 are node n's x and y
 /// displacement and rotation, as those of fem::assemble. After those of the N nodes stand those of A mirrored
-/// pairs: the motion of one node of a pair across the plane, and its rotations about x and about y.
+/// pairs: the motion of one node of a pair across the plane, and its rotations about x and about y. Last
+/// stand the Q modal freedoms of a body that was reduced elsewhere, and freedoms without meaning up to a
+/// multiple of 3: the size is n = 3 (N + A + ⌈Q/3⌉).
 struct MatrixBody {
   std::vector<std::int64_t> node_ids;           ///< N, ascending
   Eigen::Matrix2Xd node_positions;              ///< 2×N [m]
-  Eigen::SparseMatrix<double> stiffness, mass;  ///< 3(N+A)×3(N+A) [N/m, N, N·m; kg, kg·m, kg·m²]
+  Eigen::SparseMatrix<double> stiffness, mass;  ///< n×n [N/m, N, N·m; kg, kg·m, kg·m²]
   /// Whether the files have a freedom. A rotation that they do not have follows the nodes around it; a
-  /// freedom across the plane that they do not have is held by a spring that nothing else touches. Neither
-  /// has mass.
+  /// freedom across the plane that they do not have is held by a spring that nothing else touches, and so are
+  /// those without meaning. None of these has mass.
   std::vector<bool> is_given;
+  int num_pairs = 0;                    ///< A
+  std::vector<std::int64_t> modal_ids;  ///< Q, the numbers of the modal freedoms in the file
+  /// The body was reduced elsewhere: its nodes move with a part of its motions alone, rigid ones included.
+  bool is_reduced = false;
   std::string stiffness_path, mass_path;  ///< for messages
   std::vector<std::string> remarks;       ///< on what the user should know
 

@@ -11,9 +11,10 @@ namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-enum class Direction { kX, kY, kRotation, kAcross };
+enum class Direction { kX, kY, kModal, kRotation, kAcross };
 
 Direction direction_of(const MatrixBody& body, Eigen::Index freedom) {
+  if (freedom >= 3 * (body.num_nodes() + body.num_pairs)) return Direction::kModal;
   if (freedom >= 3 * body.num_nodes()) return Direction::kAcross;
   return freedom % 3 == 0 ? Direction::kX : freedom % 3 == 1 ? Direction::kY : Direction::kRotation;
 }
@@ -40,7 +41,7 @@ std::vector<bool> find_separate(const MatrixBody& body) {
   std::vector<bool> separate(static_cast<std::size_t>(body.mass.cols()), false);
   for (Eigen::Index column = 0; column < body.mass.outerSize(); ++column) {
     const Direction direction = direction_of(body, column);
-    bool coupled = direction == Direction::kX || direction == Direction::kY;
+    bool coupled = direction < Direction::kRotation;
     for (SparseMatrix::InnerIterator entry(body.mass, column); entry && direction == Direction::kRotation;
          ++entry)
       coupled = coupled || direction_of(body, entry.row()) < Direction::kRotation;
@@ -101,7 +102,10 @@ fem::MassMoments calc_mass_moments(const MatrixBody& body, const Eigen::Vector2d
 
   fem::MassMoments moments;
   moments.mass = motions.along_x.dot(of_x);
-  moments.first_moment = {motions.along_x.dot(of_places), motions.along_y.dot(of_places)};
+  // Of a body that was reduced elsewhere, the nodes tell rigid motions exactly, and the stretch does not.
+  moments.first_moment = body.is_reduced
+                             ? Eigen::Vector2d(of_y.dot(motions.rotation), -of_x.dot(motions.rotation))
+                             : Eigen::Vector2d(of_x.dot(motions.places), of_y.dot(motions.places));
   moments.xx = x_x.dot(of_places);
   moments.yy = motions.places.dot(of_places) - moments.xx;
   moments.xy = x_y.dot(of_places);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <map>
 #include <set>
 
 namespace sprung::reduce {
@@ -149,11 +150,14 @@ class DmigReader {
 
   int read_freedom(const TextField& node, const TextField& direction) {
     const std::int64_t id = lines_.integer(node, 1, std::numeric_limits<std::int32_t>::max());
-    if (direction.text.empty() || direction.text == "0") {
-      throw lines_.error(direction,
-                         fmt::format("{} is a scalar point; only freedoms of grid points are read", id));
+    const auto number = direction.text.empty() ? 0 : static_cast<int>(lines_.integer(direction, 0, 6));
+    const bool is_scalar = number == 0;
+    if (is_scalar_.emplace(id, is_scalar).first->second != is_scalar) {
+      throw lines_.error(direction, fmt::format("{} is a scalar point here, and a grid point elsewhere: "
+                                                "one of its freedoms has a direction, and one has none",
+                                                id));
     }
-    return freedoms_.get({id, static_cast<int>(lines_.integer(direction, 1, 6))});
+    return freedoms_.get({id, number});
   }
 
   void require_matrix() const {
@@ -169,6 +173,7 @@ class DmigReader {
   FreedomList& freedoms_;
   MatrixEntries entries_;
   std::set<std::string> names_;
+  std::map<std::int64_t, bool> is_scalar_;  // of each point so far
   bool has_header_ = false, is_column_ = false;
   int column_ = 0;
 };

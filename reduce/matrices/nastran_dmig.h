@@ -13,8 +13,8 @@ namespace sprung::reduce {
 /// @param name      of the matrix; "" for the only one of the file
 /// @param freedoms  gets the freedoms that the file names
 /// @throws support::InputError at the place of the fault: no matrix of that name, several without a name, a
-///         complex or rectangular matrix, entries before its header, scalar points (direction 0), other
-///         entries than DMIG
+///         complex or rectangular matrix, entries before its header, a point that is both a grid point and a
+///         scalar point (direction 0 or none, a modal freedom), other entries than DMIG
 /// Source: [NX Nastran 2014], "DMIG" — checked by tests/reduce/matrices/matrices_test.py
 MatrixEntries read_nastran_dmig(const std::filesystem::path& path, const std::string& name,
                                 FreedomList& freedoms);

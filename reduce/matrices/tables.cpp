@@ -42,12 +42,14 @@ std::vector<TextField> read_row(const TextLines& lines, std::size_t num_cells) {
 }
 
 int read_direction(const TextLines& lines, const TextField& cell) {
-  constexpr std::array<std::string_view, 6> kWords{"x", "y", "z", "rx", "ry", "rz"};
+  constexpr std::array<std::string_view, 7> kWords{"q", "x", "y", "z", "rx", "ry", "rz"};
   const auto* const word = std::find(kWords.begin(), kWords.end(), cell.text);
-  if (word != kWords.end()) return static_cast<int>(word - kWords.begin()) + 1;
+  if (word != kWords.end()) return static_cast<int>(word - kWords.begin());
   if (cell.text.size() == 1 && cell.text[0] >= '1' && cell.text[0] <= '6') return cell.text[0] - '0';
-  throw lines.error(cell,
-                    fmt::format("'{}' is no direction, expected 1 … 6 or x, y, z, rx, ry, rz", cell.text));
+  throw lines.error(
+      cell, fmt::format("'{}' is no direction, expected 1 … 6 or x, y, z, rx, ry, rz, or q of a modal "
+                        "freedom",
+                        cell.text));
 }
 
 void add_freedom(const TextLines& lines, const TextField& where, const Freedom& freedom,

@@ -16,7 +16,7 @@ struct NodeTable {
 };
 
 /// Reads a table of freedoms: CSV with the heading `node,direction`, one row for each row of the matrices, in
-/// their order. A direction is 1 … 6, or x, y, z, rx, ry, rz.
+/// their order. A direction is 1 … 6, or x, y, z, rx, ry, rz, or q of a modal freedom.
 /// @throws support::InputError at the place of the fault; a freedom that stands there twice is one
 /// Checked by tests/reduce/matrices/matrix_errors_test.py
 FreedomList read_freedom_table(const std::filesystem::path& path);

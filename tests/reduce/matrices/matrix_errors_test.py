@@ -93,7 +93,7 @@ class MatrixErrorsTest(ReduceTestCase):
     def test_tables(self):
         self.assert_errors("f.csv", [
             ("node,direction", "node,dof", "f.csv:1: error: the heading is 'node,dof', expected 'node,direction'"),
-            ("\n2,1", "\n2,7", "f.csv:5:3: error: '7' is no direction, expected 1 … 6 or x, y, z, rx, ry, rz"),
+            ("\n2,1", "\n2,7", "f.csv:5:3: error: '7' is no direction, expected 1 … 6 or x, y, z, rx, ry, rz, or q"),
             ("\n2,1", "\n1,1", "f.csv:5:1: error: x of node 1 stands in the table twice"),
             ("\n2,1", "\n2,1,0", "f.csv:5: error: has 3 cells, expected 2"),
             ("\n2,1", "\n0,1", "f.csv:5:1: error: '0' is no whole number of 1 … 2147483647"),
@@ -111,7 +111,8 @@ class MatrixErrorsTest(ReduceTestCase):
         self.assert_errors("k.mtx", [
             ("*MATRIX INPUT", "*MATRIX ASSEMBLE",
              "k.mtx:2: error: '*MATRIX ASSEMBLE, NAME=K, TYPE=SYMMETRIC' is no part"),
-            ("\n1,1, 1,1, 1.0", "\n-1,1, 1,1, 1.0", "k.mtx:3:1: error: node -1 is internal to Abaqus"),
+            ("\n1,1, 1,1, 1.0", "\n-1,2, 1,1, 1.0",
+             "k.mtx:3:1: error: node -1 is internal to Abaqus and has the direction 2; of internal nodes only"),
             ("\n1,1, 1,1, 1.0", "\n1,8, 1,1, 1.0", "k.mtx:3:3: error: '8' is no whole number of 1 … 6"),
             ("1.000000000000000e+05", "1.0e+36",
              "k.mtx:3:11: error: the entry is 1e+36, which stands for a freedom that"),
@@ -144,7 +145,7 @@ class MatrixErrorsTest(ReduceTestCase):
             ("DMIG*   KAAX", "GRID*   KAAX",
              "k.mtx:3: error: 'GRID' is no part of a matrix, expected DMIG entries alone"),
             ("               1               1\n", "               1               0\n",
-             "k.mtx:3:56: error: 1 is a scalar point; only freedoms of grid points are read"),
+             "k.mtx:4:40: error: 1 is a scalar point here, and a grid point elsewhere"),
             ("1.000000000D+05", "1.0000000X0D+05", "error: '1.0000000X0D+05' is no number"),
         ])
         files.write_dmig(self.folder / "k.mtx", {"KAAX": self.stiffness, "MAAX": self.mass}, FREEDOMS)
@@ -268,10 +269,20 @@ class MatrixErrorsTest(ReduceTestCase):
         self.assert_error("k.mtx: error: the body is not symmetric about the plane: the motion in it (y of node 2) and "
                           "the motion out of it (z of node 2) are coupled")
 
+    def test_a_sweep_names_the_same_places(self):
+        sweep = ("sweep", "body.toml", "--vary", "matrices.mass_unit=1.0:2.0:2", "--modes", "3")
+        self.assertEqual(self.run_program(*sweep).returncode, 0)
+        self.change("k.mtx", "\n1 1 100000.0", "\n1 1 1e6x")
+        for flag in ((), ("--preview",)):
+            result = self.run_program(*sweep, *flag)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("k.mtx:4:5: error: '1e6x' is no number of a double's range", result.stderr)
+
     def test_programs_that_need_beams_say_so(self):
         result = self.run_program("sensitivity", "body.toml")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("body.toml: error: gives the body by matrices; sensitivities are those of beams", result.stderr)
+        self.assertIn("body.toml: error: gives the body by matrices; sensitivities are those of beams",
+                      result.stderr)
         result = self.run_program("matrices", "body.toml", "-o", "out")
         self.assertEqual(result.returncode, 2)
         self.assertIn("'body' has no beams", result.stderr)
