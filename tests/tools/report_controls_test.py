@@ -249,7 +249,8 @@ class Controls(PageTestCase):
         page.wait_until("!document.getElementById('scene-file').hidden")
         data = self.save(page, "scene-file", "animation.webm")
         self.assertEqual(data[:4], b"\x1a\x45\xdf\xa3")
-        self.assertGreater(len(data), 10000)
+        self.assertIn(b"\x1f\x43\xb6\x75", data)  # a cluster, which holds frames; how many depends on the machine
+        self.assertGreater(len(data), 2000)
         self.assertEqual(page.evaluate("[clock.time, player.playing]"), [5, False])
         self.assertEqual(page.evaluate("document.getElementById('scene-webm').disabled"), False)
         self.choose(page, "speed", "1")
