@@ -158,7 +158,7 @@ def measure_build(programs: Path, lattice: Lattice, folder: Path) -> BuildCost:
     write_whole(folder / "lattice.msh", make_mesh(lattice).encode())
     write_whole(folder / "lattice.toml", DESIGN.format(highest=choose_band(lattice)).encode())
     text, build = run_measured([program, "build", "lattice.toml", "--force", "-o", "."], folder)
-    said = [line for line in text.splitlines() if ": building" not in line]
+    said = [line for line in text.splitlines() if ": building" not in line and ": remark" not in line]
     outcome = said[0].split(": ", 1)[-1] if said else ""
     limit = measure_limit(programs / "tests/benchmark/factor_benchmark", lattice, folder)
     scipy = measure_scipy(program, lattice, folder) if lattice.freedoms <= MOST_SCIPY else None
