@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sprung::reduce {
@@ -15,28 +16,54 @@ double calc_radius(const Superelement& s) {
   return s.node_positions.colwise().norm().maxCoeff();
 }
 
-// Place on an element, ξ from 0 to 1.
+// Place on an element, ξ from 0 to 1; of a body without elements a node.
 struct Place {
   Eigen::Index element = 0;
   double xi = 0.0;
 };
 
-std::optional<Place> find_place(const Superelement& s, const Eigen::Vector2d& position) {
-  Place best;
-  double nearest = kOnBody * calc_radius(s);
-  bool found = false;
-  for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
-    const Eigen::Vector2d first = s.node_positions.col(s.elements(0, e));
-    const Eigen::Vector2d along = s.node_positions.col(s.elements(1, e)) - first;
-    const double xi = std::clamp((position - first).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    const double distance = (first + xi * along - position).norm();
-    if (distance > nearest) continue;
-    nearest = distance;
-    best = {.element = e, .xi = xi};
-    found = true;
+// The elements of a body, or the nodes of one without elements, in the order of their least x: those at a
+// place stand next to each other.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const Superelement& s) : body_(s), tolerance_(kOnBody * calc_radius(s)) {
+    const Eigen::Index num_items = s.elements.cols() > 0 ? s.elements.cols() : s.num_nodes();
+    for (Eigen::Index item = 0; item < num_items; ++item) {
+      const double first = s.node_positions(0, node(item, 0)), second = s.node_positions(0, node(item, 1));
+      items_.emplace_back(std::min(first, second), item);
+      extent_ = std::max(extent_, std::abs(second - first));
+    }
+    std::sort(items_.begin(), items_.end());
   }
-  return found ? std::optional<Place>(best) : std::nullopt;
-}
+
+  // The nearest one within the tolerance; of equally near ones the last.
+  std::optional<Place> find(const Eigen::Vector2d& position) const {
+    std::optional<Place> best;
+    double nearest = tolerance_;
+    const std::pair<double, Eigen::Index> least(position.x() - extent_ - tolerance_, 0);
+    for (auto item = std::lower_bound(items_.begin(), items_.end(), least);
+         item != items_.end() && item->first <= position.x() + tolerance_; ++item) {
+      const Eigen::Vector2d first = body_.node_positions.col(node(item->second, 0));
+      const Eigen::Vector2d along = body_.node_positions.col(node(item->second, 1)) - first;
+      const double length_squared = along.squaredNorm(), share = (position - first).dot(along);
+      const double xi = length_squared > 0.0 ? std::clamp(share / length_squared, 0.0, 1.0) : 0.0;
+      const double distance = (first + xi * along - position).norm();
+      if (distance > nearest || (best && distance == nearest && item->second < best->element)) continue;
+      nearest = distance;
+      best = {.element = item->second, .xi = xi};
+    }
+    return best;
+  }
+
+ private:
+  int node(Eigen::Index item, int end) const {
+    return body_.elements.cols() > 0 ? body_.elements(end, item) : static_cast<int>(item);
+  }
+
+  const Superelement& body_;
+  double tolerance_ = 0.0, extent_ = 0.0;  // of the longest element along x
+  std::vector<std::pair<double, Eigen::Index>> items_;
+};
 
 // 2×n: axial linear, bending by the Hermite cubic of end displacements and rotations.
 Eigen::MatrixXd interpolate(const Superelement& s, const Place& place) {
@@ -54,16 +81,10 @@ Eigen::MatrixXd interpolate(const Superelement& s, const Place& place) {
   return tangent * u + normal * w;
 }
 
-// The displacements of a body at a place: along its elements or, of a body without elements, at its nodes.
-std::optional<Eigen::MatrixXd> find_shapes(const Superelement& s, const Eigen::Vector2d& position) {
-  if (s.elements.cols() > 0) {
-    const std::optional<Place> place = find_place(s, position);
-    return place ? std::optional<Eigen::MatrixXd>(interpolate(s, *place)) : std::nullopt;
-  }
-  Eigen::Index node = 0;
-  const double distance = (s.node_positions.colwise() - position).colwise().norm().minCoeff(&node);
-  if (distance > kOnBody * calc_radius(s)) return {};
-  return Eigen::MatrixXd(s.shapes.middleRows(3 * node, 2));
+// 2×n: along the elements of a body or, without elements, at its nodes.
+Eigen::MatrixXd calc_displacements(const Superelement& s, const Place& place) {
+  if (s.elements.cols() > 0) return interpolate(s, place);
+  return s.shapes.middleRows(3 * place.element, 2);
 }
 
 // Half the length of the elements at each node; 1 of a body without elements.
@@ -88,12 +109,13 @@ struct Rows {
 Rows sample_nodes(const Superelement& body, const Superelement& other) {
   Rows rows;
   const Eigen::VectorXd weights = calc_weights(body);
+  const PlaceFinder finder(other);
   for (Eigen::Index node = 0; node < body.num_nodes(); ++node) {
-    const std::optional<Eigen::MatrixXd> of_other = find_shapes(other, body.node_positions.col(node));
-    if (!of_other) continue;
+    const std::optional<Place> place = finder.find(body.node_positions.col(node));
+    if (!place) continue;
     const double weight = std::sqrt(weights(node));
     rows.of_nodes.emplace_back(weight * body.shapes.middleRows(3 * node, 2));
-    rows.of_other.emplace_back(weight * *of_other);
+    rows.of_other.emplace_back(weight * calc_displacements(other, *place));
   }
   rows.share = static_cast<double>(rows.of_nodes.size()) / body.num_nodes();
   return rows;
