@@ -140,7 +140,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
                                                                      *matrices.factor, moments, basis.shapes);
   s.certificate = basis.certificate;
   if (std::optional<StaticResponse> response = calc_static_response(
-          model, design.reference_node, matrices.held.stiffness, matrices.full.mass, moments, basis.shapes)) {
+          model, design.reference_node, *matrices.factor, matrices.full.mass, moments, basis.shapes)) {
     // Symmetric by reciprocity, but for rounding.
     Eigen::MatrixXd& flexibility = response->deflections.point_load;
     flexibility = (0.5 * (flexibility + flexibility.transpose())).eval();

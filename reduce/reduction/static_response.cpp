@@ -4,7 +4,6 @@
 
 #include "fem/spread_loads.h"
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/stiffness_factor.h"
 
 namespace sprung::reduce {
 
@@ -15,8 +14,8 @@ using ElementMatrix = fem::Matrix6 (*)(const fem::BeamElement&);
 
 class HeldFrame {
  public:
-  HeldFrame(const fem::BeamModel& model, int node, const Eigen::SparseMatrix<double>& held_stiffness)
-      : model_(model), node_(node), factor_(held_stiffness) {}
+  HeldFrame(const fem::BeamModel& model, int node, const StiffnessFactor& factor)
+      : model_(model), node_(node), factor_(factor) {}
 
   // Responses to loads at the nodes, 3N×k. The part of them that is spread over the elements is the inertia
   // under `accelerations` of the nodes, 3N×k; nullptr: there is none.
@@ -55,7 +54,7 @@ class HeldFrame {
 
   const fem::BeamModel& model_;
   int node_;
-  StiffnessFactor factor_;
+  const StiffnessFactor& factor_;
 };
 
 // Accelerations of the nodes at unit accelerations of the frame: along x, along y, angular, and that towards
@@ -86,7 +85,7 @@ Eigen::MatrixXd make_point_loads(const fem::Mesh& mesh, Eigen::Index num_rows) {
 }  // namespace
 
 std::optional<StaticResponse> calc_static_response(const fem::BeamModel& model, int reference_node,
-                                                   const Eigen::SparseMatrix<double>& held_stiffness,
+                                                   const StiffnessFactor& factor,
                                                    const Eigen::SparseMatrix<double>& mass,
                                                    const fem::MassMoments& moments,
                                                    const Eigen::MatrixXd& shapes) {
@@ -95,7 +94,7 @@ std::optional<StaticResponse> calc_static_response(const fem::BeamModel& model, 
   const bool has_beams = model.mesh.num_elements() > 0;
   if (has_beams && (6 * model.mesh.num_elements() + 3 * num_points) * num_loads > kMostResponseValues)
     return {};
-  const HeldFrame frame(model, reference_node, held_stiffness);
+  const HeldFrame frame(model, reference_node, factor);
   const Eigen::MatrixXd of_frame = make_frame_accelerations(model, reference_node, mass.rows());
   const Eigen::SparseMatrix<double> NxNy_transposed = moments.NxNy.transpose();
   Eigen::MatrixXd of_inertia = -(mass * of_frame);

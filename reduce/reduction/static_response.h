@@ -4,6 +4,7 @@
 
 #include "fem/beam_model.h"
 #include "fem/mass_moments.h"
+#include "reduce/modes/stiffness_factor.h"
 #include "reduce/superelement/superelement.h"
 
 namespace sprung::reduce {
@@ -22,15 +23,14 @@ struct StaticResponse {
 /// @param reference_node  0-based; the body frame's origin
 /// A body from matrices has no elements, hence no resultants, and its deflections in any number.
 ///
-/// @param held_stiffness  K without the reference node's freedoms
-/// @param mass            M of all freedoms, 3N×3N
-/// @param moments         about the reference node
-/// @param shapes          3N×n
+/// @param factor   of K without the reference node's freedoms
+/// @param mass     M of all freedoms, 3N×3N
+/// @param moments  about the reference node
+/// @param shapes   3N×n
 /// @return none for a body whose responses would have more values than kMostResponseValues
-/// @throws support::NumericalError if the held stiffness is singular to rounding
 /// Checked by tests/reduce/reduction/static_response_test.cpp
 std::optional<StaticResponse> calc_static_response(const fem::BeamModel& model, int reference_node,
-                                                   const Eigen::SparseMatrix<double>& held_stiffness,
+                                                   const StiffnessFactor& factor,
                                                    const Eigen::SparseMatrix<double>& mass,
                                                    const fem::MassMoments& moments,
                                                    const Eigen::MatrixXd& shapes);
