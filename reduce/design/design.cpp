@@ -24,6 +24,8 @@ namespace {
 using support::TomlTable;
 using support::TomlValue;
 
+constexpr double kHiddenNode = 1e-6;  // of the body's extent
+
 void read_point_masses(const TomlTable& root, fem::BeamModel& model) {
   const auto array = root.find("point_masses");
   if (!array) return;
@@ -55,6 +57,20 @@ InputFiles read_beams(const TomlTable& root, const std::filesystem::path& folder
   return {std::move(frame.input_names), std::move(frame.input_hashes)};
 }
 
+// The nodes of a body in space may lie behind each other in the plane, and a name is that of one of them.
+void remark_hidden_nodes(const fem::Mesh& mesh, std::vector<std::string>& remarks) {
+  const double tolerance = kHiddenNode * fem::calc_extent(mesh);
+  for (const fem::Mesh::NamedNode& point : mesh.named_nodes) {
+    const Eigen::Vector2d place = mesh.node_positions.col(point.node);
+    const Eigen::Index num_there =
+        ((mesh.node_positions.colwise() - place).colwise().norm().array() <= tolerance).count();
+    if (num_there == 1) continue;
+    remarks.push_back(fmt::format("point '{}' is node {}, and {} other node{} at its place in the plane",
+                                  point.name, mesh.node_ids[static_cast<std::size_t>(point.node)],
+                                  num_there - 1, num_there == 2 ? " lies" : "s lie"));
+  }
+}
+
 InputFiles read_matrices(const TomlTable& root, const std::filesystem::path& folder, Design& design) {
   for (const char* key : {"theory", "rotary_inertia", "materials", "sections", "lines", "springs",
                           "rigid_offsets", "averages", "foundations"}) {
@@ -65,6 +81,7 @@ InputFiles read_matrices(const TomlTable& root, const std::filesystem::path& fol
   design.model.mesh.node_ids = read.body.node_ids;
   design.model.mesh.node_positions = read.body.node_positions;
   name_nodes(root, design.model.mesh);
+  remark_hidden_nodes(design.model.mesh, read.body.remarks);
   design.matrices = std::move(read.body);
   return {std::move(read.input_names), std::move(read.input_hashes)};
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "fem/gmsh_mesher.h"
 #include "reduce/design/design.h"
@@ -44,12 +45,12 @@ class FileReader {
     } else if (format_ == MatrixFormat::kMatrixMarket || table_.has("freedoms")) {
       system.freedoms = read_freedom_table(open(table_.at("freedoms")));
     }
-    const MatrixEntries stiffness = read_entries("stiffness", system.freedoms);
-    const MatrixEntries mass = read_entries("mass", system.freedoms);
+    MatrixEntries stiffness = read_entries("stiffness", system.freedoms);
+    MatrixEntries mass = read_entries("mass", system.freedoms);
     system.stiffness_path = stiffness.path;
     system.mass_path = mass.path;
-    system.stiffness = make_symmetric_matrix(stiffness, system.freedoms);
-    system.mass = make_symmetric_matrix(mass, system.freedoms);
+    system.stiffness = make_symmetric_matrix(std::move(stiffness), system.freedoms);
+    system.mass = make_symmetric_matrix(std::move(mass), system.freedoms);
     system.nodes = read_nodes();
     return system;
   }

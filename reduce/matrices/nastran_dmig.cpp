@@ -153,9 +153,9 @@ class DmigReader {
     const auto number = direction.text.empty() ? 0 : static_cast<int>(lines_.integer(direction, 0, 6));
     const bool is_scalar = number == 0;
     if (is_scalar_.emplace(id, is_scalar).first->second != is_scalar) {
-      throw lines_.error(direction, fmt::format("{} is a scalar point here, and a grid point elsewhere: "
-                                                "one of its freedoms has a direction, and one has none",
-                                                id));
+      throw lines_.error(direction,
+                         fmt::format("{} is a {} point here, and a {} point in a line before", id,
+                                     is_scalar ? "scalar" : "grid", is_scalar ? "grid" : "scalar"));
     }
     return freedoms_.get({id, number});
   }

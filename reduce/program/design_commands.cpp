@@ -52,11 +52,10 @@ SweepOptions read_sweep(const SweepCommand& command) {
 }  // namespace
 
 int run_sensitivity(const SensitivityOptions& options) {
+  const support::TomlDocument document = read_document(options.design);
+  if (const auto matrices = document.root().find("matrices"))
+    throw matrices->error("gives the body; sensitivities are those of beams");
   const Design design = read_design(options.design);
-  if (design.matrices) {
-    throw support::InputError({.path = options.design.path.string()},
-                              "gives the body by matrices; sensitivities are those of beams");
-  }
   const DesignSensitivity sensitivity =
       calc_sensitivity(design, list_parameters(options.design, design), options.num_modes);
   fmt::print("{}", options.json ? format_sensitivity_json(design, sensitivity)

@@ -25,7 +25,6 @@ constexpr int kPreviewModes = 4;        // times the modes followed, of which a 
 // A body for one value, with its modes.
 struct SweptBody {
   double value = 0.0;
-  Eigen::Index num_nodes = 0;
   BodyMatrices matrices;
   BodyModes free, clamped;
 };
@@ -34,11 +33,7 @@ SweptBody make_body(const SweepOptions& options, double value) {
   DesignSource source = options.design;
   source.overrides.push_back(fmt::format("{}={:.17g}", options.key, value));
   const Design design = read_design(source);
-  SweptBody body{.value = value,
-                 .num_nodes = design.model.mesh.num_nodes(),
-                 .matrices = make_body_matrices(design),
-                 .free = {},
-                 .clamped = {}};
+  SweptBody body{.value = value, .matrices = make_body_matrices(design), .free = {}, .clamped = {}};
   const int computed = (options.is_preview ? kPreviewModes : 1) * options.num_modes + kGuards;
   body.free = calc_body_modes(design, body.matrices, true, computed);
   body.clamped = calc_body_modes(design, body.matrices, false, computed);
@@ -68,15 +63,14 @@ SweptBody preview_body(const SweepOptions& options, const SweptBody& first, doub
   DesignSource source = options.design;
   source.overrides.push_back(fmt::format("{}={:.17g}", options.key, value));
   const Design design = read_design(source);
-  SweptBody body{
-      .value = value, .num_nodes = design.model.mesh.num_nodes(), .matrices = {}, .free = {}, .clamped = {}};
-  if (body.num_nodes != first.num_nodes) return body;  // refused by the caller
+  SweptBody body{.value = value, .matrices = {}, .free = {}, .clamped = {}};
+  body.matrices.full = make_full_matrices(design);
+  if (body.matrices.full.mass.rows() != first.free.shapes.rows()) return body;  // refused by the caller
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   if (!design.model.couplings.empty()) {
     throw support::InputError({.path = options.design.path.string()},
                               "has points that follow others; leave out '--preview'");
   }
-  body.matrices.full = make_full_matrices(design);
   body.matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   if (!body.matrices.node_positions.isApprox(first.matrices.node_positions, kSamePlace)) {
     throw support::InputError({.path = options.design.path.string()},
@@ -114,7 +108,7 @@ SweepPoint make_point(const SweptBody& body, TrackedModes free, TrackedModes cla
 SweepPoint continue_to(const SweepOptions& options, const SweptBody& first, const SweepPoint& from,
                        double value, int halvings) {
   const SweptBody body = options.is_preview ? preview_body(options, first, value) : make_body(options, value);
-  if (3 * body.num_nodes != from.free.shapes.rows()) {
+  if (body.matrices.full.mass.rows() != from.free.shapes.rows()) {
     throw support::InputError({.path = options.design.path.string()},
                               fmt::format("'{}' = {:.6g} gives the frame another number of nodes, so that "
                                           "its modes cannot be followed",

@@ -145,7 +145,7 @@ class MatrixErrorsTest(ReduceTestCase):
             ("DMIG*   KAAX", "GRID*   KAAX",
              "k.mtx:3: error: 'GRID' is no part of a matrix, expected DMIG entries alone"),
             ("               1               1\n", "               1               0\n",
-             "k.mtx:4:40: error: 1 is a scalar point here, and a grid point elsewhere"),
+             "k.mtx:4:40: error: 1 is a grid point here, and a scalar point in a line before"),
             ("1.000000000D+05", "1.0000000X0D+05", "error: '1.0000000X0D+05' is no number"),
         ])
         files.write_dmig(self.folder / "k.mtx", {"KAAX": self.stiffness, "MAAX": self.mass}, FREEDOMS)
@@ -281,7 +281,7 @@ class MatrixErrorsTest(ReduceTestCase):
     def test_programs_that_need_beams_say_so(self):
         result = self.run_program("sensitivity", "body.toml")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("body.toml: error: gives the body by matrices; sensitivities are those of beams",
+        self.assertIn("body.toml:3:1: error: 'matrices' gives the body; sensitivities are those of beams",
                       result.stderr)
         result = self.run_program("matrices", "body.toml", "-o", "out")
         self.assertEqual(result.returncode, 2)

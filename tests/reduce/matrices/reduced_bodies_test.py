@@ -3,6 +3,7 @@
 Usage: reduced_bodies_test.py PROGRAM SOURCE_DIR [unittest arguments]
 """
 
+import json
 import sys
 from pathlib import Path
 
@@ -218,6 +219,14 @@ class ReducedBodiesTest(ReduceTestCase):
         with h5py.File(self.folder / "out/body.h5") as file:
             found = file["modes/frequency"][()]
         np.testing.assert_allclose(found, calc_hz(K[np.ix_(held, held)], M[np.ix_(held, held)]), rtol=1e-9)
+        # A body with more freedoms than those of its nodes is followed, too.
+        for flag in ((), ("--preview",)):
+            sweep = ("sweep", "body.toml", "--vary", "matrices.mass_unit=1.0:4.0:1", "--modes", "3", "--json", *flag)
+            result = self.run_program(*sweep)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            light, heavy = (point["clamped"]["frequency_hz"] for point in json.loads(result.stdout)["points"])
+            # The unit of mass scales K and M alike.
+            np.testing.assert_allclose(heavy, light, rtol=1e-9)
 
     # What is refused.
 
@@ -234,7 +243,7 @@ class ReducedBodiesTest(ReduceTestCase):
         line = 1 + next(i for i, one in enumerate(lines) if one.startswith(f"*       {13:16d}{1:16d}"))
         first = 1 + next(i for i, one in enumerate(lines) if f"{101:16d}{0:16d}" in one)
         self.assertLess(first, line)
-        self.assert_refused(f"p.pch:{line}:40: error: 13 is a scalar point here, and a grid point elsewhere")
+        self.assert_refused(f"p.pch:{line}:40: error: 13 is a grid point here, and a scalar point in a line before")
 
     def test_modal_freedoms_that_hold_the_body_or_lack_stiffness(self):
         self.write_reduced(2, "matrix-market")
