@@ -92,7 +92,7 @@ TEST_CASE("A bushing has laws in at least one direction") {
   CHECK(error_of(bushing("rotation = { relaxation = { stiffness = 5.0, time = 0.0 } }")) ==
         "f.toml:6:53: error: 'forces.b.rotation.relaxation.time' must be > 0 s, got 0");
   CHECK(error_of(bushing("x = { damper = { coefficient = 1.0 } }\nmultiplicity = 0")) ==
-        "f.toml:7:16: error: 'forces.b.multiplicity' must be > 0 and ≤ 1e+06, got 0");
+        "f.toml:7:16: error: 'forces.b.multiplicity' must be > 0 and ≤ 1000000, got 0");
 }
 
 TEST_CASE(

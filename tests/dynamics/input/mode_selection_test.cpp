@@ -96,7 +96,7 @@ TEST_CASE("Damping ratios that fit no mode are refused") {
         "run.toml:2:9: error: 'modal_damping.frame' must be one ratio, or one for each of the 3 available "
         "modes; got 2");
   CHECK(input_error_of([&] { damp("frame = -0.1", three); }) ==
-        "run.toml:2:9: error: 'modal_damping.frame' must be ≥ 0 and ≤ 1e+06, got -0.1");
+        "run.toml:2:9: error: 'modal_damping.frame' must be ≥ 0 and ≤ 1000000, got -0.1");
   CHECK(
       input_error_of([&] { damp("arm = 0.1", three); }) ==
       "run.toml:2:7: error: 'modal_damping.arm' is about the modes of body 'arm', which has no superelement");

@@ -140,7 +140,7 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
   CHECK(error_of_cart("free_length = 5.5", "free_length = 0.0") ==
         "cart.toml:36:15: error: 'forces.rope.free_length' must be > 0 m, got 0");
   CHECK(error_of_cart("multiplicity = 3", "multiplicity = 0") ==
-        "cart.toml:35:16: error: 'forces.rope.multiplicity' must be > 0 and ≤ 1e+06, got 0");
+        "cart.toml:35:16: error: 'forces.rope.multiplicity' must be > 0 and ≤ 1000000, got 0");
 }
 
 TEST_CASE("A body is either a superelement or mass and inertia") {

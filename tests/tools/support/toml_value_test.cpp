@@ -80,8 +80,8 @@ TEST_CASE("a number whose products with others would overflow is refused, whatev
   CHECK(number_error("-1e31", any("")) == "must be ≥ -1e+30, got -1e+31");
   CHECK(number_error("1e-300", positive("kg")) == "must be ≥ 1e-50 kg, got 1e-300");
   for (const std::string unit : {"m", "rad", "s", "Hz", "m/s", "rad/s"}) {
-    CHECK(number_error("2e9", positive(unit)) == "must be ≤ 1e+09 " + unit + ", got 2e+09");
-    CHECK(number_error("-2000000000", any(unit)) == "must be ≥ -1e+09 " + unit + ", got -2e+09");
+    CHECK(number_error("2e9", positive(unit)) == "must be ≤ 1000000000 " + unit + ", got 2000000000");
+    CHECK(number_error("-2000000000", any(unit)) == "must be ≥ -1000000000 " + unit + ", got -2000000000");
   }
   const TomlDocument document = TomlDocument::parse("large = -1e30\nfar = 1e9\nsmall = 1e-300\n", "v.toml");
   CHECK(document.root().number("large", any("N")) == -1e30);
