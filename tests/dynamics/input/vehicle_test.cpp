@@ -126,7 +126,7 @@ TEST_CASE("Numbers that no body can have are refused with their unit") {
         "cart.toml:15:11: error: 'bodies.arm.inertia' must be ≥ 0 kg·m², got -0.1");
   // Outside of the allowed range, or too far from the other body's 5 kg.
   CHECK(error_of_cart("mass = 4.0", "mass = 1e308") ==
-        "cart.toml:14:8: error: 'bodies.arm.mass' must be ≥ 1e-30 and ≤ 1e+30 kg, got 1e+308");
+        "cart.toml:14:8: error: 'bodies.arm.mass' must be ≤ 1e+30 kg, got 1e+308");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 1e-320") ==
         "cart.toml:15:11: error: 'bodies.arm.inertia' must be ≥ 1e-30 and ≤ 1e+30 kg·m², got 1e-320");
   CHECK(error_of_cart("inertia = 0.7", "inertia = 7e19") ==
