@@ -144,7 +144,7 @@ class MutatedModels(ToolTestCase):
 
     def test_a_vehicle_with_another_value(self):
         run = {"vehicle": "every_element.toml", "duration": 0.01, "speed": 5.0, "modes": {"frame": 2}}
-        # Not run: a stiff enough damper takes hours of steps, with progress shown.
+        # Not run: with a damper of 1e9 N·s/m and more the steps become short and the run long.
         self.try_places(self.vehicle, lambda vehicle: self.run_model(vehicle, run, "modes"))
 
     def test_a_run_with_another_value(self):
