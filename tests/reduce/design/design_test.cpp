@@ -306,7 +306,8 @@ TEST_CASE("faults between a design and its gmsh file are named") {
   testing::write_text("bar.geo", "IncludedLength = 1; // Include nothing\n" + std::string(kGeo));
   CHECK_NOTHROW(read(kMeshDesign));
   std::filesystem::remove("bar.geo");
-  CHECK_THAT(message_of<InputError>([] { read(kMeshDesign); }), Contains("bar.geo: error: cannot be read"));
+  CHECK_THAT(message_of<InputError>([] { read(kMeshDesign); }),
+             Contains("portal.toml:1:8: error: 'mesh' must name a file, found none at 'bar.geo'"));
 }
 
 TEST_CASE("a mesh so fine that rounding errors dominate the lowest mode is refused with the number") {
