@@ -42,7 +42,7 @@ class LeftOut(VerificationCase):
             (self.folder / f"{name}.toml").write_text(design, encoding="utf-8")
             build = [os.environ["SPRUNG_REDUCE"], "build", f"{name}.toml", "--output-dir", "."]
             run_program(build, cwd=self.folder, check=True)
-        road = ["--iso-class", "C", "--length", "480", "--spacing", "0.05", "--ease", "5", "--seed", "7"]
+        road = ["--iso-class", "C", "--length", "500", "--spacing", "0.05", "--ease", "5", "--seed", "7"]
         run_program([ROOT / "tools/make_road.py", "-o", self.folder / "road.txt", *road], check=True)
         run = f"""
             vehicle = "{ROOT}/dynamics/models/templates/semitrailer.toml"
