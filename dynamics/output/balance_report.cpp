@@ -5,7 +5,6 @@
 #include "dynamics/output/section_report.h"
 #include "dynamics/section_loads/body_remarks.h"
 #include "dynamics/system/system_terms.h"
-#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
@@ -95,7 +94,7 @@ std::string format_equilibrium(const BalanceReport& report) {
   return text + format_remarks(list_missing_parts(*report.sections, report.vehicle.judged));
 }
 
-std::string format_equilibrium_json(const BalanceReport& report) {
+Json make_equilibrium_json(const BalanceReport& report) {
   Json bodies = Json::object(), forces = Json::object();
   for (const Body& body : report.model.bodies) {
     const Eigen::Vector3d position = report.equilibrium.q.segment<3>(body.first_coordinate);
@@ -109,14 +108,13 @@ std::string format_equilibrium_json(const BalanceReport& report) {
       channels[report.model.forces[f]->channels()[c].name] = values[c];
     forces[report.model.forces[f]->name] = std::move(channels);
   }
-  return support::format_json(
-      {{"bodies", bodies},
-       {"forces", forces},
-       {"sections", report.sections ? make_sections_json(*report.sections) : Json::object()},
-       {"neutral", neutral_descriptions(report.equilibrium)},
-       {"stable", report.equilibrium.stable},
-       {"iterations", report.equilibrium.iterations},
-       {"last_step", report.equilibrium.last_step}});
+  return {{"bodies", bodies},
+          {"forces", forces},
+          {"sections", report.sections ? make_sections_json(*report.sections) : Json::object()},
+          {"neutral", neutral_descriptions(report.equilibrium)},
+          {"stable", report.equilibrium.stable},
+          {"iterations", report.equilibrium.iterations},
+          {"last_step", report.equilibrium.last_step}};
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
@@ -163,8 +161,8 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
                      table.str());
 }
 
-std::string format_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
-                              const FrequencyBracket* bracket) {
+Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+                     const FrequencyBracket* bracket) {
   Json list = Json::array();
   for (const VehicleMode& mode : modes) {
     list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
@@ -177,7 +175,7 @@ std::string format_modes_json(const std::vector<VehicleMode>& modes, const Secti
                                 mode.undamped_frequency_hz};
     }
   }
-  return support::format_json({{"modes", list}, {"sections", make_sections_json(sections)}});
+  return {{"modes", list}, {"sections", make_sections_json(sections)}};
 }
 
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/section_loads/section_statistics.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -34,7 +35,7 @@ struct FrequencyBracket {
 /// tables, with a warning where the modes miss too much of the moments.
 std::string format_equilibrium(const BalanceReport& report);
 /// Positions, values and neutral directions as one JSON object, SI units.
-std::string format_equilibrium_json(const BalanceReport& report);
+support::Json make_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes.
 /// @param sections   at the equilibrium: a warning follows where the modes miss too much of the moments
@@ -42,7 +43,7 @@ std::string format_equilibrium_json(const BalanceReport& report);
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
                          const SectionStatistics& sections, bool is_steady = false);
 /// @param bracket  null: none
-std::string format_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+support::Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
                               const FrequencyBracket* bracket = nullptr);
 std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);
 

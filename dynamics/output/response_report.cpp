@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
@@ -53,7 +52,7 @@ std::string format_response(const ResponseResult& result) {
   return fmt::format("{}\n{}", text, table.str());
 }
 
-std::string format_response_json(const ResponseResult& result) {
+Json make_response_json(const ResponseResult& result) {
   Json outputs = Json::object();
   for (std::size_t i = 0; i < result.names.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -69,7 +68,7 @@ std::string format_response_json(const ResponseResult& result) {
   Json report{{"speed", result.run.speed}, {"remarks", result.remarks}, {"frequency", result.frequency_hz}};
   if (result.has_road()) report["road_rms"] = result.road_rms;
   report["outputs"] = std::move(outputs);
-  return support::format_json(report);
+  return report;
 }
 
 }  // namespace sprung::dynamics

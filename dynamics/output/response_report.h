@@ -3,12 +3,13 @@
 #include <string>
 
 #include "dynamics/output/response_result.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
 /// The main outputs as a text table: vertical motion of the points, forces and deflections of force elements.
 std::string format_response(const ResponseResult& result);
 /// All outputs as one JSON object, SI units.
-std::string format_response_json(const ResponseResult& result);
+support::Json make_response_json(const ResponseResult& result);
 
 }  // namespace sprung::dynamics

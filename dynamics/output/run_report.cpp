@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "dynamics/output/section_report.h"
-#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
@@ -150,7 +149,7 @@ std::string format_summary(const RunSummary& summary) {
                      points.str(), format_sections(summary.statistics.sections()), run.str(), warnings);
 }
 
-std::string format_summary_json(const Model& model, const RunSummary& summary) {
+Json make_summary_json(const Model& model, const RunSummary& summary) {
   Json modes = Json::object();
   if (summary.adaptivity) {
     const WorstNeglect& worst = summary.transient.worst_neglect;
@@ -187,25 +186,25 @@ std::string format_summary_json(const Model& model, const RunSummary& summary) {
   for (const RunWarning& warning : summary.warnings) {
     warnings.push_back({{"concerns", warning.concerns}, {"of", warning.of}, {"text", warning.text}});
   }
-  return support::format_json({{"freedoms", model.num_mechanical_freedoms()},
-                               {"points", points},
-                               {"bending", bending},
-                               {"sections", make_sections_json(summary.statistics.sections())},
-                               {"certified", describe_certified(summary.statistics.certified())},
-                               {"constraint_violation", summary.statistics.constraint_violation()},
-                               {"velocity_violation", transient.stepper.velocity_violation},
-                               {"energy_closure", summary.statistics.energy_closure()},
-                               {"steps", transient.stepper.integrator.steps},
-                               {"evaluations", transient.stepper.evaluations},
-                               {"output_evaluations", transient.output_evaluations},
-                               {"switches", transient.switches},
-                               {"modes", modes},
-                               {"repartitions", transient.stepper.repartitions},
-                               {"warnings", warnings},
-                               {"elapsed", summary.times.wall},
-                               {"cpu_time", summary.times.cpu},
-                               {"integration_cpu_time", summary.times.integration},
-                               {"real_time_factor", summary.duration / summary.times.wall}});
+  return {{"freedoms", model.num_mechanical_freedoms()},
+          {"points", points},
+          {"bending", bending},
+          {"sections", make_sections_json(summary.statistics.sections())},
+          {"certified", describe_certified(summary.statistics.certified())},
+          {"constraint_violation", summary.statistics.constraint_violation()},
+          {"velocity_violation", transient.stepper.velocity_violation},
+          {"energy_closure", summary.statistics.energy_closure()},
+          {"steps", transient.stepper.integrator.steps},
+          {"evaluations", transient.stepper.evaluations},
+          {"output_evaluations", transient.output_evaluations},
+          {"switches", transient.switches},
+          {"modes", modes},
+          {"repartitions", transient.stepper.repartitions},
+          {"warnings", warnings},
+          {"elapsed", summary.times.wall},
+          {"cpu_time", summary.times.cpu},
+          {"integration_cpu_time", summary.times.integration},
+          {"real_time_factor", summary.duration / summary.times.wall}};
 }
 
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/output/run_warnings.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -38,6 +39,6 @@ struct RunSummary {
 /// The summary as text tables, with the warnings that do not concern the computation as a whole.
 std::string format_summary(const RunSummary& summary);
 /// The summary as one JSON object, SI units.
-std::string format_summary_json(const Model& model, const RunSummary& summary);
+support::Json make_summary_json(const Model& model, const RunSummary& summary);
 
 }  // namespace sprung::dynamics

@@ -6,6 +6,7 @@
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
 #include "dynamics/program/commands.h"
+#include "dynamics/program/model_report.h"
 #include "dynamics/section_loads/resting_sections.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/terminal/program.h"
@@ -40,7 +41,7 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              make_start_positions(model, prepared.vehicle),
                              &section_loads};
   fmt::print(request.streams.out, "{}",
-             json ? format_equilibrium_json(report)
+             json ? format_report_json(request, make_equilibrium_json(report))
                   : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
@@ -54,8 +55,9 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared);
   if (output.json) {
-    fmt::print(request.streams.out, "{}",
-               format_modes_json(modes, section_loads, bracket ? &*bracket : nullptr));
+    fmt::print(
+        request.streams.out, "{}",
+        format_report_json(request, make_modes_json(modes, section_loads, bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
   fmt::print(

@@ -6,7 +6,6 @@
 #include "dynamics/output/balance_report.h"
 #include "dynamics/output/choice_report.h"
 #include "dynamics/output/run_report.h"
-#include "tools/support/terminal/json.h"
 #include "tools/support/terminal/text_table.h"
 
 namespace sprung::dynamics {
@@ -102,6 +101,12 @@ std::string format_model_json(const PreparedRun& prepared) {
     report["equilibrium"] = places;
   }
   return support::format_json(report);
+}
+
+std::string format_report_json(const RunRequest& request, const Json& report) {
+  Json printed{{"file", request.run_file.string()}, {"set", request.overrides}};
+  printed.update(report);
+  return support::format_json(printed);
 }
 
 }  // namespace sprung::dynamics

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "dynamics/program/prepared_run.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -11,5 +12,8 @@ namespace sprung::dynamics {
 std::string format_model(const PreparedRun& prepared);
 /// The model as one JSON object, SI units.
 std::string format_model_json(const PreparedRun& prepared);
+
+/// What a command prints with --json: the run file, what --set has changed, and the members of its report.
+std::string format_report_json(const RunRequest& request, const support::Json& report);
 
 }  // namespace sprung::dynamics

@@ -9,6 +9,7 @@
 #include "dynamics/output/response_report.h"
 #include "dynamics/output/response_writer.h"
 #include "dynamics/program/commands.h"
+#include "dynamics/program/model_report.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/program.h"
@@ -172,7 +173,8 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   if (!states.empty()) result.remarks.push_back(states);
 
   if (!output.results.empty()) write_response(output.results, result);
-  fmt::print(request.streams.out, "{}", output.json ? format_response_json(result) : format_response(result));
+  fmt::print(request.streams.out, "{}",
+             output.json ? format_report_json(request, make_response_json(result)) : format_response(result));
   if (!output.results.empty() && !output.json)
     fmt::print(request.streams.out, "Response: {}\n", output.results.string());
   return support::kGood;

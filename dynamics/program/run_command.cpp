@@ -249,7 +249,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const RunSummary summary{statistics, transient,  run.duration - prepared.start.time,
                            times,      adaptivity, warnings};
   fmt::print(streams.out, "{}",
-             output.json ? format_summary_json(prepared.model, summary) : format_summary(summary));
+             output.json ? format_report_json(request, make_summary_json(prepared.model, summary))
+                         : format_summary(summary));
   if (written.writer && !output.json) fmt::print(streams.out, "Results: {}\n", output.results.string());
   return is_balanced(statistics) ? support::kGood : support::kCheckFailed;
 }

@@ -135,7 +135,7 @@ class FrameLoads(ToolTestCase):
         with open_results(self.folder / "a.h5") as results:
             (packed,) = pack_frame_loads(results, read_bodies(results), 7)
         *_, above, below = packed["quantities"]
-        self.assertEqual([one["name"] for one in (below, above)], ["stress, -y side", "stress, +y side"])
+        self.assertEqual([one["name"] for one in (below, above)], ["stress, −y side", "stress, +y side"])
         # N/A ± M/W: the element runs towards -x, so that its left, the side of the lower sign, is below.
         np.testing.assert_allclose(decode(below["s"]), [0.0, 2.0])
         np.testing.assert_allclose(decode(below["high"]) * 1e-6, [130.0, 30.0], rtol=1e-6)
