@@ -39,6 +39,14 @@ class OdeSystem {
   /// Small motion about (time, y), for integrators that treat it separately. It need not be exact.
   /// @return false where it cannot be found
   virtual bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) = 0;
+  /// Freedoms that deform bodies, ascending, for the same integrators.
+  virtual std::vector<int> elastic_freedoms() const { return {}; }
+  /// Columns of the mass matrix of small motion about (time, y), one for each freedom asked for.
+  /// @return false where they cannot be found
+  virtual bool calc_mass_columns(double /*time*/, std::span<const double> /*y*/,
+                                 const std::vector<int>& /*freedoms*/, Eigen::MatrixXd& /*columns*/) {
+    return false;
+  }
   /// Changes whenever the meaning of the coordinates in y changes.
   virtual int coordinate_version() const { return 0; }
 };

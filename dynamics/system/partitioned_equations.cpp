@@ -26,8 +26,8 @@ PartitionedEquations::PartitionedEquations(const Model& model)
       full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  accepted_q_ = accepted_v_ = trial_q_ = trial_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
-  residual_ = correction_ = Eigen::VectorXd::Zero(num_constraints_);
+  accepted_q_ = accepted_v_ = trial_q_ = trial_v_ = momentum_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  residual_ = correction_ = column_ = dependent_column_ = Eigen::VectorXd::Zero(num_constraints_);
   step_.resize(static_cast<std::size_t>(num_freedoms_));
 }
 
@@ -177,18 +177,22 @@ PartitionedEquations::Outcome PartitionedEquations::update_accelerations(std::sp
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_directions() const {
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(model_->num_coordinates, num_freedoms_);
-  Eigen::VectorXd r(num_constraints_), x(num_constraints_);
+  Eigen::MatrixXd directions;
+  calc_directions(directions);
+  return directions;
+}
+
+void PartitionedEquations::calc_directions(Eigen::MatrixXd& directions) const {
+  directions.setZero(model_->num_coordinates, num_freedoms_);
   for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    dependents_.get_independent_column(k, r);
-    dependents_.solve(r, x);
+    dependents_.get_independent_column(k, column_);
+    dependents_.solve(column_, dependent_column_);
     const auto column = static_cast<Eigen::Index>(k);
     directions(partition_.independent[k], column) = 1.0;
     for (std::size_t d = 0; d < partition_.dependent.size(); ++d) {
-      directions(partition_.dependent[d], column) = -x[static_cast<Eigen::Index>(d)];
+      directions(partition_.dependent[d], column) = -dependent_column_[static_cast<Eigen::Index>(d)];
     }
   }
-  return directions;
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& directions) const {
@@ -201,6 +205,20 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
   const auto states = directions.bottomRows(model_->num_states());
   if (states.rows() > 0) reduced += states.transpose() * states;
   return reduced;
+}
+
+void PartitionedEquations::calc_mass_columns(const Eigen::MatrixXd& directions,
+                                             const std::vector<int>& freedoms,
+                                             Eigen::MatrixXd& columns) const {
+  columns.resize(num_freedoms_, static_cast<Eigen::Index>(freedoms.size()));
+  for (std::size_t k = 0; k < freedoms.size(); ++k) {
+    momentum_ = directions.col(freedoms[k]);
+    for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+      const Eigen::Index first = model_->bodies[b].first_coordinate, n = model_->bodies[b].num_coordinates();
+      momentum_.segment(first, n).noalias() = terms().mass(b) * directions.col(freedoms[k]).segment(first, n);
+    }
+    columns.col(static_cast<Eigen::Index>(k)).noalias() = directions.transpose() * momentum_;
+  }
 }
 
 Eigen::VectorXd PartitionedEquations::calc_reduced_force(const Eigen::MatrixXd& directions) const {

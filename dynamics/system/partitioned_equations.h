@@ -81,8 +81,14 @@ class PartitionedEquations {
 
   /// D = ∂v/∂v_i, nq×f, what the constraints leave free, at the positions evaluated last.
   Eigen::MatrixXd calc_directions() const;
-  /// Dᵀ M D, f×f, after update_accelerations.
+  void calc_directions(Eigen::MatrixXd& directions) const;
+  /// Mass matrices at the positions evaluated last; update_accelerations does so, too.
+  void update_mass() { mutable_terms().update_mass(); }
+  /// Dᵀ M D, f×f, after update_mass.
   Eigen::MatrixXd calc_reduced_mass(const Eigen::MatrixXd& directions) const;
+  /// Columns of it. @param freedoms  c of them   @param[out] columns  f×c
+  void calc_mass_columns(const Eigen::MatrixXd& directions, const std::vector<int>& freedoms,
+                         Eigen::MatrixXd& columns) const;
   /// Accelerations that additional forces would cause, see ConstrainedEquations.
   void calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x) { full_.calc_response(force, x); }
   /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
@@ -114,9 +120,11 @@ class PartitionedEquations {
   double accepted_time_ = 0.0;
   Eigen::VectorXd accepted_q_, accepted_v_;  // nq
   // Work space.
-  Eigen::VectorXd trial_q_, trial_v_;      // nq
-  Eigen::VectorXd residual_, correction_;  // m
-  std::vector<double> step_;               // of the independents, f
+  Eigen::VectorXd trial_q_, trial_v_;                  // nq
+  Eigen::VectorXd residual_, correction_;              // m
+  mutable Eigen::VectorXd column_, dependent_column_;  // m
+  mutable Eigen::VectorXd momentum_;                   // nq
+  std::vector<double> step_;                           // of the independents, f
 };
 
 }  // namespace sprung::dynamics

@@ -49,7 +49,7 @@ enum class Past {
   kSmooth,    ///< the last step ended where this one starts
 };
 
-/// Predicts the drive of a step, for the first sweep of its iteration (integration/exponential, eq. 6).
+/// Predicts the drive of a step, for the first sweep of its iteration (integration/exponential, eq. 7).
 class DrivePrediction {
  public:
   DrivePrediction() = default;

@@ -33,6 +33,8 @@ constexpr double kFailuresBeforeLinearising = 2.5, kFailureMemory = 0.8;
 constexpr double kSlowContraction = 0.4, kSlowness = 0.75;
 constexpr double kForetold = 10.0, kSurprise = 1.35;
 
+constexpr double kFastVibration = 4.0;  // rad in a step
+
 // Step control: the truncation within a step is of order 5.
 constexpr double kSafety = 0.75, kOrder = 5.0, kLeastFactor = 0.2, kLargestFactor = 1.8;
 constexpr double kMemory =
@@ -66,6 +68,7 @@ ExponentialIntegrator::ExponentialIntegrator(OdeSystem& system, double relative_
   y_dot_ = stage_y_ = error_sizes_ = between_y_ = y_;
   end_ = again_ = change_ = drive_at_ = truncated_ = at_switch_ = between_motion_ = now_.motion;
   stages_.fill(now_.motion);
+  past_motions_ = past_drives_ = Eigen::MatrixXd::Zero(now_.motion.u.size(), 2 + kNumNodes);
   between_ = LobattoPropagator(system.num_freedoms());
   propagators_.fill(between_);
 }
@@ -89,7 +92,8 @@ void ExponentialIntegrator::linearise() {
     small_motion_ = {Eigen::MatrixXd::Identity(f, f), Eigen::MatrixXd::Zero(f, f),
                      Eigen::MatrixXd::Zero(f, f)};
   }
-  coordinates_.update(small_motion_, y_);
+  coordinates_.update(small_motion_, system_.elastic_freedoms(), y_);
+  mass_columns_.resize(system_.num_freedoms(), std::ssize(coordinates_.shear().others()));
   switches_.forget_propagators();
   propagator_length_ = 0.0;
   version_ = system_.coordinate_version();
@@ -106,6 +110,28 @@ void ExponentialIntegrator::begin() {
     throw_stopped(time_, "no accelerations can be found there: the position may be a singular one");
   switches_.start_from(0);
   has_begun_ = true;
+}
+
+// Slower vibration is a polynomial over a step, to the accuracy of the drive.
+bool ExponentialIntegrator::has_fast_vibration() const {
+  return coordinates_.shear().is_useful() && coordinates_.highest_frequency() * now_.length > kFastVibration;
+}
+
+// Takes the shear of the pairs to the present inertia, with all that the next step uses of the last one.
+void ExponentialIntegrator::follow_inertia() {
+  if (!system_.calc_mass_columns(time_, y(), coordinates_.shear().others(), mass_columns_)) return;
+  if (!coordinates_.follow(mass_columns_)) return;
+  past_motions_.col(0) = now_.motion.u;
+  past_drives_.col(0) = now_.drive.pairs.col(0);
+  past_drives_.col(1) = last_.quartic.u;
+  past_motions_.col(2) = last_.motion.u;
+  for (int i = 1; i < kNumNodes; ++i) past_motions_.col(2 + i) = stages_[static_cast<std::size_t>(i)].u;
+  past_drives_.rightCols(kNumNodes) = last_.drive.pairs;
+  coordinates_.convert(past_motions_, past_drives_);
+  now_.motion.u = past_motions_.col(0);
+  now_.drive.pairs.col(0) = past_drives_.col(0);
+  last_.quartic.u = past_drives_.col(1);
+  last_.drive.pairs = past_drives_.rightCols(kNumNodes);
 }
 
 // The drive at stage_y_, the state of `motion`.
@@ -200,6 +226,7 @@ Integrator::StepResult ExponentialIntegrator::step(double longest_step) {
   coordinates_.set_allowed_error(tolerance_, error_sizes_);
   if (wants_linearisation_) linearise();
   if (!has_begun_) begin();
+  if (has_fast_vibration()) follow_inertia();
 
   double factor = 1.0;
   while (true) {

@@ -16,7 +16,7 @@ namespace sprung::dynamics {
 /// step through its values at the four Lobatto points, found by iteration. So the length of a step follows
 /// the excitation of stiff modes, not their period. Order 6 at the ends of steps, 4 within. No step needs
 /// those before it: after a switch the step stays as long as it was. Source: variation of constants;
-/// [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–6).
+/// [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–7).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -37,6 +37,8 @@ class ExponentialIntegrator final : public Integrator {
 
   void linearise();
   void begin();
+  bool has_fast_vibration() const;
+  void follow_inertia();
   double choose_length(double longest_step) const;
   bool evaluate(double time, const PairedMotion& motion, int node);
   void estimate_quartic();
@@ -83,6 +85,7 @@ class ExponentialIntegrator final : public Integrator {
   PairedMotion again_, change_;        // of a sweep: the motion at its second node anew, what has changed
   PairedMotion drive_at_, truncated_;  // a drive within a step; the effect of the quartic
   PairedMotion at_switch_;
+  Eigen::MatrixXd mass_columns_, past_motions_, past_drives_;  // for the shear of the pairs
   mutable LobattoPropagator between_;
   mutable PairedMotion between_motion_;
   mutable Vector between_y_;

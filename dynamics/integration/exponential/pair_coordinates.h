@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/integration/exponential/collocation_step.h"
+#include "dynamics/integration/exponential/inertial_shear.h"
 #include "dynamics/integration/exponential/vibration_basis.h"
 
 namespace sprung::dynamics {
@@ -17,14 +18,23 @@ class PairCoordinates {
   PairCoordinates(Eigen::Index num_freedoms, Eigen::Index size);
 
   /// Takes the pairs of another small motion. From now on positions count from those in y, since the pairs of
-  /// large positions would have few digits.
-  void update(const SmallMotion& motion, const Eigen::VectorXd& y);
+  /// large positions would have few digits. @param elastic  freedoms that deform bodies
+  void update(const SmallMotion& motion, const std::vector<int>& elastic, const Eigen::VectorXd& y);
+  /// What makes the pairs follow the inertia of the freedoms that deform no body.
+  const InertialShear& shear() const { return shear_; }
+  /// The highest angular frequency of the pairs [rad/s].
+  double highest_frequency() const { return highest_frequency_; }
+  /// See InertialShear.
+  bool follow(const Eigen::MatrixXd& mass_columns) { return shear_.follow(mass_columns); }
+  /// Brings motions from before the last `follow`, and the drive at each, to the same ones after it.
+  /// @param[in,out] motions, drives  2f×n
+  void convert(Eigen::MatrixXd& motions, Eigen::MatrixXd& drives);
   const PairBlocks& blocks() const { return basis_.blocks; }
 
   void to_pairs(const Eigen::VectorXd& y, PairedMotion& motion);
   void to_state(const PairedMotion& motion, Eigen::VectorXd& y) const;
   /// The drive at a node of a step: the part of the derivatives ẏ that the pairs do not explain.
-  void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node) const;
+  void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node);
 
   /// The error allowed in each component of y is `tolerance` times its entry of `sizes`, > 0.
   void set_allowed_error(double tolerance, const Eigen::VectorXd& sizes) {
@@ -41,10 +51,12 @@ class PairCoordinates {
  private:
   Eigen::Index f_ = 0;
   VibrationBasis basis_;
+  InertialShear shear_;
   Eigen::VectorXd origin_;           // f positions
   Eigen::VectorXd inverse_allowed_;  // of y
   Eigen::VectorXd pair_sizes_;       // 2f: what one of each pair adds to calc_norm
   Eigen::VectorXd work_;             // of y
+  double highest_frequency_ = 0.0;
 };
 
 }  // namespace sprung::dynamics

@@ -26,6 +26,7 @@ Eigen::MatrixXd apply_modal_stiffness(const Model& model, const Eigen::MatrixXd&
 PartitionedOde::PartitionedOde(const Model& model)
     : model_(&model), equations_(model), piece_(model), scales_(model) {
   y_.resize(static_cast<std::size_t>(size()));
+  directions_.resize(model.num_coordinates, num_freedoms());
 }
 
 void PartitionedOde::set_state(const State& state, double dissipated, double input) {
@@ -115,9 +116,9 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
   const std::vector<int>& independent = equations_.partition().independent;
   std::vector<double> moved(y.begin(), y.end()), y_dot(y.size());
   if (!calc_derivative(time, moved, y_dot)) return false;
-  const Eigen::MatrixXd directions = equations_.calc_directions();
+  equations_.calc_directions(directions_);
   const Eigen::VectorXd q = equations_.q();
-  motion.mass = equations_.calc_reduced_mass(directions);
+  motion.mass = equations_.calc_reduced_mass(directions_);
   const Eigen::VectorXd base = Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f);
   Eigen::MatrixXd gradient(f, 2 * f);
   Eigen::VectorXd response;
@@ -132,10 +133,30 @@ bool PartitionedOde::calc_small_motion(double time, std::span<const double> y, S
     gradient.col(k) =
         (Eigen::Map<const Eigen::VectorXd>(y_dot.data() + f, f) - base + response(independent)) / shift;
   }
-  motion.stiffness = directions.transpose() * apply_modal_stiffness(*model_, directions) -
+  motion.stiffness = directions_.transpose() * apply_modal_stiffness(*model_, directions_) -
                      motion.mass * gradient.leftCols(f);
   motion.damping = -motion.mass * gradient.rightCols(f);
   hold_states(motion);
+  return true;
+}
+
+std::vector<int> PartitionedOde::elastic_freedoms() const {
+  const std::vector<int>& independent = equations_.partition().independent;
+  std::vector<int> elastic;
+  for (std::size_t k = 0; k < independent.size(); ++k) {
+    const bool is_mechanical = independent[k] < model_->first_state();
+    if (is_mechanical && model_->body_coordinate(independent[k]).local >= 3)
+      elastic.push_back(static_cast<int>(k));
+  }
+  return elastic;
+}
+
+bool PartitionedOde::calc_mass_columns(double time, std::span<const double> y,
+                                       const std::vector<int>& freedoms, Eigen::MatrixXd& columns) {
+  if (!evaluate_motion(time, y)) return false;
+  equations_.update_mass();
+  equations_.calc_directions(directions_);
+  equations_.calc_mass_columns(directions_, freedoms, columns);
   return true;
 }
 

@@ -58,6 +58,9 @@ class PartitionedOde final : public OdeSystem {
   int size() const override { return 2 * equations_.num_freedoms() + 2; }
   int num_freedoms() const override { return equations_.num_freedoms(); }
   bool calc_small_motion(double time, std::span<const double> y, SmallMotion& motion) override;
+  std::vector<int> elastic_freedoms() const override;
+  bool calc_mass_columns(double time, std::span<const double> y, const std::vector<int>& freedoms,
+                         Eigen::MatrixXd& columns) override;
   int coordinate_version() const override { return coordinate_version_; }
   bool calc_derivative(double time, std::span<const double> y, std::span<double> y_dot) override;
   int num_switches() const override { return piece_.num_switches(); }
@@ -78,6 +81,7 @@ class PartitionedOde final : public OdeSystem {
   int coordinate_version_ = 0;
   std::optional<KnownMotion> known_;
   std::vector<double> natural_sizes_;  // of the independents
+  Eigen::MatrixXd directions_;         // work space
 };
 
 }  // namespace sprung::dynamics

@@ -53,10 +53,13 @@ Eigen::MatrixXd LuFactors::solve(const Eigen::MatrixXd& b) const {
 
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd factor = A, x = b;
-  const int failure = LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', lapack::rows(A), lapack::cols(x), factor.data(),
-                                    lapack::stride(A), x.data(), lapack::stride(x));
-  if (failure != 0) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!solve_positive_definite_in_place(factor, x)) x.setConstant(std::numeric_limits<double>::quiet_NaN());
   return x;
+}
+
+bool solve_positive_definite_in_place(Eigen::MatrixXd& A, Eigen::MatrixXd& x) {
+  return LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', lapack::rows(A), lapack::cols(x), A.data(), lapack::stride(A),
+                       x.data(), lapack::stride(x)) == 0;
 }
 
 bool is_positive_definite(const Eigen::MatrixXd& A) {

@@ -24,6 +24,10 @@ LuFactors factorise_lu(const Eigen::MatrixXd& A);
 ///           result is NaN
 /// @param b  n×k
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
+/// The same, taking no memory. @param[in,out] A  becomes its factor   @param[in,out] x  b, becomes the
+/// solution
+/// @return false where A is not positive definite: x is of no use
+bool solve_positive_definite_in_place(Eigen::MatrixXd& A, Eigen::MatrixXd& x);
 /// Whether the Cholesky factorisation of a symmetric matrix succeeds.
 bool is_positive_definite(const Eigen::MatrixXd& A);
 
