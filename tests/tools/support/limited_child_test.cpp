@@ -43,13 +43,15 @@ TEST_CASE("Each bad end of a child process is told and harms nothing") {
           return {};
         }) == "library crashed (Segmentation fault)");
   CHECK(failure_of([]() -> std::string { ::_exit(0); }) == "library ended without a word");
-  CHECK(failure_of(
-            []() -> std::string {
-              for (volatile unsigned i = 0; true;) i = i + 1;
-            },
-            {.processor_seconds = 1}) ==
-        "library was stopped, after 1 s of processor time or for want of memory");
-  CHECK(::waitpid(-1, nullptr, WNOHANG) < 0);  // no child is left to wait for
+  const std::string endless = failure_of(
+      []() -> std::string {
+        for (volatile unsigned i = 0; true;) i = i + 1;
+      },
+      {.processor_seconds = 1});
+  INFO(endless);
+  CHECK((endless == "library was stopped, after 1 s of processor time or for want of memory" ||
+         endless == "library came to no end within 10 s"));  // where others take the processors
+  CHECK(::waitpid(-1, nullptr, WNOHANG) < 0);                // no child is left to wait for
   CHECK(errno == ECHILD);
 }
 
