@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,8 +14,10 @@ namespace sprung::reduce {
 
 namespace {
 
-constexpr double kTie = 1e-6;  // shares nearer than this count as equal: the first load is taken
-constexpr double kNegligibleMissing = 1e-10;  // share at rest below which a load adds no direction
+constexpr double kTie = 1e-6;           // shares nearer than this count as equal: the first load is taken
+constexpr Eigen::Index kFewLoads = 60;  // up to which residual vectors are chosen one by one
+constexpr double kSmallestStaticShare = 1e-3;  // below which vectors chosen together depend on each other
+constexpr double kNegligibleMissing = 1e-10;   // share at rest below which a load adds no direction
 
 // Adds a vector, and says from what it was made.
 void add_vector(InterfaceResidual& residual, const ResidualSource& source,
@@ -38,6 +41,33 @@ Eigen::Index find_worst(const Eigen::VectorXd& shares) {
   Eigen::Index worst = 0;
   while (shares(worst) < (1.0 - kTie) * largest) ++worst;
   return worst;
+}
+
+// Static responses, chosen together as they would be one by one: the worst load at rest joins until no share
+// is above the tolerance. What the responses chosen leave of the others is a Cholesky factorisation of the
+// loads' work with pivoting.
+void add_static(InterfaceResidual& residual, double tolerance, std::vector<ResidualSource>& added) {
+  const Eigen::MatrixXd work = residual.calc_load_work();
+  const Eigen::VectorXd allowed =
+      tolerance * residual.static_flexibility().cwiseMax(std::numeric_limits<double>::min());
+  Eigen::VectorXd missing = work.diagonal();
+  Eigen::MatrixXd factor(work.rows(), work.cols());
+  std::vector<Eigen::Index> chosen;
+  while (true) {
+    const Eigen::Index worst = find_worst(missing.cwiseQuotient(allowed));
+    if (missing(worst) <= allowed(worst)) break;
+    const auto k = static_cast<Eigen::Index>(chosen.size());
+    factor.col(k) = (work.col(worst) - factor.leftCols(k) * factor.row(worst).head(k).transpose()) /
+                    std::sqrt(missing(worst));
+    missing -= factor.col(k).cwiseAbs2();
+    missing(worst) = 0.0;
+    chosen.push_back(worst);
+    added.push_back({.load = worst});
+  }
+  Eigen::MatrixXd vectors(residual.size(), std::ssize(chosen));
+  for (Eigen::Index k = 0; k < vectors.cols(); ++k)
+    vectors.col(k) = residual.make_vector(chosen[static_cast<std::size_t>(k)], 0.0);
+  if (!chosen.empty()) residual.add(vectors);
 }
 
 void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,
@@ -76,6 +106,8 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
   if (!std::isinf(modes.next_omega_squared)) {
     if (request.all_residual) add_all(residual, basis.residuals);
     const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
+    if (residual.num_loads() > kFewLoads && residual.num_vectors() == 0)
+      add_static(residual, std::max(request.tolerance, kSmallestStaticShare), basis.residuals);
     add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k,
                         basis.residuals);
   }

@@ -105,16 +105,12 @@ Eigen::MatrixXd InterfaceResidual::calc_amplitudes(double s) const {
 
 // r = B_X − (K − sM)Uy, of which K⁻¹r = Z − Uy + sTy.
 Eigen::VectorXd InterfaceResidual::calc_errors(double s, const Eigen::MatrixXd& y) const {
-  Eigen::VectorXd errors = load_work_;
-  for (Eigen::Index j = 0; j < errors.size() && num_vectors() > 0; ++j) {
-    const Eigen::VectorXd amplitudes = y.col(j);
-    const double linear = (s * ritz_BT_.row(j) - ritz_BU_.row(j)).dot(amplitudes.transpose());
-    const double square =
-        amplitudes.dot((omega_squared_.array() - 2.0 * s).matrix().cwiseProduct(amplitudes)) +
-        s * s * amplitudes.dot(ritz_TMU_ * amplitudes);
-    errors(j) += 2.0 * linear + square;
-  }
-  return errors.cwiseMax(0.0);
+  if (num_vectors() == 0) return load_work_.cwiseMax(0.0);
+  Eigen::MatrixXd products = s * s * (ritz_TMU_ * y);
+  products += (omega_squared_.array() - 2.0 * s).matrix().asDiagonal() * y;
+  products += 2.0 * (s * ritz_BT_ - ritz_BU_).transpose();
+  const Eigen::VectorXd changes = products.cwiseProduct(y).colwise().sum();
+  return (load_work_ + changes).cwiseMax(0.0);
 }
 
 Eigen::VectorXd InterfaceResidual::calc_damped_errors(double s, double loss_factor) const {

@@ -21,6 +21,7 @@ class InterfaceResidual {
   InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor, const EigenPairs& exact,
                     const Eigen::MatrixXd& loads);
 
+  Eigen::Index size() const { return vectors_.rows(); }
   Eigen::Index num_loads() const { return static_flexibility_.size(); }
   Eigen::Index num_vectors() const { return vectors_.cols(); }
 
@@ -35,7 +36,8 @@ class InterfaceResidual {
   /// m×b
   Eigen::MatrixXd calc_amplitudes(double s) const;
 
-  /// D of each load for given amplitudes. @param amplitudes  m×b   @return b, ≥ 0
+  /// D of each load for given amplitudes, at the expense of m²b operations. @param amplitudes  m×b   @return
+  /// b, ≥ 0
   Eigen::VectorXd calc_errors(double s, const Eigen::MatrixXd& amplitudes) const;
   /// Work of each load's share that no exact mode takes on the displacements of each at rest. @return b×b
   Eigen::MatrixXd calc_load_work() const;

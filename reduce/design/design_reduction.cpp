@@ -18,6 +18,8 @@ using support::TomlTable;
 using support::TomlValue;
 
 constexpr double kSmallestTolerance = 1e-6;  // well above rounding, 1e-8
+// Of a basis for interface loads. With more, the matrices of its vectors fill the memory.
+constexpr std::size_t kMostInterfaceFreedoms = 1000;
 
 // 0-based freedoms of "x", "y", "r" (or "ψ"), in any order.
 std::vector<int> read_freedoms(const TomlValue& value) {
@@ -117,6 +119,12 @@ Reduction read_reduction(const TomlTable& root, const fem::Mesh& mesh, int refer
     throw table->error(
         "asks for a basis for interface loads, but no point except the reference has a name; name points, "
         "or the reference itself in [interface]");
+  }
+  if (reduction.interface.size() > kMostInterfaceFreedoms) {
+    throw table->error(fmt::format(
+        "asks for a basis for {} freedoms of named points, expected at most {}, for each takes about one "
+        "vector; name the points that take loads in [interface]",
+        reduction.interface.size(), kMostInterfaceFreedoms));
   }
   return reduction;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
@@ -68,6 +69,36 @@ TEST_CASE("a smaller tolerance takes more vectors, and reaches it") {
     CHECK(body.certificate->largest_error() <= tolerance);
     CHECK(body.num_modes() >= before);
     before = body.num_modes();
+  }
+}
+
+// Expected: the full model's flexibility. A tolerance below the share that is chosen together ends one by
+// one.
+TEST_CASE("with many loads the tolerance is reached with at most a vector for each") {
+  for (const double tolerance : {0.03, 1e-4}) {
+    Design design = testing::make_random_design(3, tolerance);
+    std::vector<int> nodes(22);
+    std::iota(nodes.begin(), nodes.end(), 0);
+    design.model.mesh.named_nodes.clear();
+    design.reduction.interface = testing::make_interface(design.model, nodes);
+    const auto b = static_cast<int>(design.reduction.interface.size());
+    REQUIRE(b == 66);
+    const Superelement body = make_superelement(design);
+    CHECK(count_kind(body, kResidualVector) <= b);
+    CHECK(body.certificate->largest_error() <= tolerance);
+    const FreeBodyTruth truth(design.model);
+    for (const double frequency : {0.0, 0.7, 1.0}) {
+      const double s = std::pow(2.0 * std::numbers::pi * frequency * *design.reduction.highest_hz, 2);
+      if (testing::is_resonance(truth, s)) continue;
+      const Eigen::VectorXd missing =
+          (truth.calc_flexibility(s, design.reduction.interface).real() - testing::calc_flexibility(body, s))
+              .diagonal()
+              .cwiseAbs();
+      for (int j = 0; j < b; ++j) {
+        const InterfaceError& one = body.certificate->interface[static_cast<std::size_t>(j)];
+        CHECK(missing(j) <= (one.error + 1e-8) * one.static_flexibility);
+      }
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 #include "reduce/design/design_reduction.h"
 
+#include <fmt/format.h>
+
 #include "reduce/design/design.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
@@ -103,6 +105,25 @@ TEST_CASE("what [interface], [reduction] and [modes] cannot say is located") {
   CHECK_THAT(fault(kDamping), Contains("expected one, or a table [reduction] beside it"));
   CHECK_THAT(fault(kCounted + "residual_damping_ratio = 0.02\n"),
              Contains("'modes.residual_damping_ratio' belongs to the basis \"free\" alone"));
+}
+
+TEST_CASE("a basis for more interface loads than a file can hold is refused at once") {
+  std::string points, through = "\"p0\"";
+  for (int i = 0; i <= 334; ++i) points += fmt::format("p{} = [{}.0, 0.0]\n", i, i);
+  for (int i = 1; i <= 334; ++i) through += fmt::format(", \"p{}\"", i);
+  const auto message = [&](const std::string& rest) {
+    testing::write_text("long.toml",
+                        kFrame.substr(0, kFrame.find("[points]")) + "[points]\n" + points +
+                            "[[lines]]\nthrough = [" + through +
+                            "]\nsection = \"tube\"\nelements = 1\n[reference]\npoint = \"p0\"\n" + rest);
+    return message_of<InputError>([] { read_design("long.toml"); });
+  };
+  CHECK_THAT(
+      message(kFree),
+      Contains(
+          "error: 'reduction' asks for a basis for 1002 freedoms of named points, expected at most 1000"));
+  CHECK(message(kFree + "[interface]\np334 = \"xyr\"\n") == "nothing was thrown");
+  CHECK(message(kCounted) == "nothing was thrown");
 }
 
 TEST_CASE("residual vectors have the ratio of their own key, or that of the free modes") {
