@@ -7,7 +7,7 @@ from markdown_tables import find_differences
 
 # The report states these.
 RELATIVE = 0.01
-RELATIVE_EVALUATIONS = 0.10
+RELATIVE_EVALUATIONS = 0.15
 # Of how often modes joined and left, how many took part, and how often a run with such modes was evaluated: share, or
 # units.
 RELATIVE_CHANGES, CHANGES = 0.25, 3.0

@@ -2,8 +2,10 @@
 the C++ sources.
 
 A checker that is not installed fails the test. The sources are formatted by clang-format 14, the version of Debian 12.
-Other versions format some lines differently, so the check is skipped with them."""
+Other versions format some lines differently, so the check is skipped with them. Mypy is skipped with numpy 2, whose
+types are others."""
 
+import importlib.metadata
 import importlib.util
 import os
 import re
@@ -72,6 +74,8 @@ class Style(unittest.TestCase):
         self.check(command, [ROOT / "tests"])
 
     def test_mypy_finds_nothing_in_the_tools(self):
+        if int(importlib.metadata.version("numpy").split(".")[0]) > 1:
+            self.skipTest("the tools are typed for numpy 1")
         command = self.require_module("mypy", "mypy")
         cache = os.environ.get("SPRUNG_MYPY_CACHE", os.devnull)
         options = ["--config-file", TOOLS / "pyproject.toml", "--cache-dir", cache, "--no-error-summary"]
