@@ -13,6 +13,7 @@ import base64
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -21,6 +22,8 @@ from pathlib import Path
 import matplotlib.image
 
 LOCAL = ("file:", "data:", "blob:")  # addresses without a network
+# Of dygraphs 2.2: what a logarithmic axis with a floor, or a zoom, leaves out.
+BEYOND_RANGE = re.compile(r"\d+ points out of [XY] bounds")
 NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 FLAGS = (
     "--headless=new", "--remote-debugging-pipe", "--no-first-run", "--disable-gpu", "--disable-dev-shm-usage",
@@ -283,7 +286,9 @@ class Page:
             if method == "Runtime.exceptionThrown":
                 found.append(what["exceptionDetails"].get("exception", {}).get("description", "exception"))
             elif method == "Runtime.consoleAPICalled" and what["type"] in ("error", "warning", "assert"):
-                found.append(" ".join(str(one.get("value", one.get("description"))) for one in what["args"]))
+                text = " ".join(str(one.get("value", one.get("description"))) for one in what["args"])
+                if not BEYOND_RANGE.match(text):
+                    found.append(text)
             elif method == "Log.entryAdded" and what["entry"]["level"] in ("error", "warning"):
                 found.append(what["entry"]["text"])
             elif method == "Network.requestWillBeSent" and not what["request"]["url"].startswith(LOCAL):
