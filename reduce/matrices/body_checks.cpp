@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "reduce/matrices/linear_motions.h"
@@ -18,6 +19,7 @@ using support::InputError;
 constexpr std::size_t kMostListed = 6;  // freedoms in a message
 // Of what the entries of a row would add up to if none cancelled. Files of eight columns have six digits.
 constexpr double kRigidForce = 2e-5;
+constexpr double kRounding = 1e-9;       // of what a coupling may be beside a diagonal of zero
 constexpr double kMassTolerance = 1e-5;  // of the mass, and of mass times the body's extent
 
 std::string list_freedoms(const MatrixBody& body, const std::vector<Eigen::Index>& freedoms) {
@@ -117,6 +119,23 @@ void require_no_rigid_force(const MatrixBody& body) {
   }
 }
 
+// Where a row has mass, its diagonal is the largest part of it.
+void require_no_lone_coupling(const MatrixBody& body) {
+  const Eigen::VectorXd diagonal = body.mass.diagonal();
+  for (Eigen::Index column = 0; column < body.mass.outerSize(); ++column) {
+    if (diagonal(column) != 0.0) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(body.mass, column); entry; ++entry) {
+      if (std::abs(entry.value()) <= kRounding * diagonal(entry.row())) continue;
+      throw InputError(
+          {.path = body.mass_path},
+          fmt::format("the mass couples {} with {} by {:.6g}, but {} itself has none: the matrix "
+                      "is not positive definite; a part of the file may be missing",
+                      describe_freedom(body, column), describe_freedom(body, entry.row()), entry.value(),
+                      describe_freedom(body, column)));
+    }
+  }
+}
+
 // @return freedoms without mass
 std::vector<Eigen::Index> require_definite_mass(const MatrixBody& body) {
   const Eigen::VectorXd diagonal = body.mass.diagonal();
@@ -131,6 +150,7 @@ std::vector<Eigen::Index> require_definite_mass(const MatrixBody& body) {
     throw InputError({.path = body.mass_path},
                      fmt::format("the mass is negative at {}", list_freedoms(body, negative)));
   }
+  require_no_lone_coupling(body);
   Eigen::SparseMatrix<double> mass(diagonal.size(), diagonal.size());
   mass.setFromTriplets(filled.begin(), filled.end());
   mass += body.mass;
@@ -187,6 +207,16 @@ std::vector<std::string> check_matrix_body(const MatrixBody& body) {
   if (without.empty()) return {};
   return {fmt::format("{} freedom{} no mass: {}", without.size(), without.size() == 1 ? " has" : "s have",
                       list_freedoms(body, without))};
+}
+
+double calc_ground_frequency_hz(const MatrixBody& body) {
+  const LinearMotions motions = make_linear_motions(body, calc_middle(body));
+  double omega_squared = 0.0;
+  for (const Eigen::VectorXd& motion : {motions.along_x, motions.along_y, motions.rotation}) {
+    omega_squared =
+        std::max(omega_squared, motion.dot(body.stiffness * motion) / motion.dot(body.mass * motion));
+  }
+  return std::sqrt(omega_squared) / (2.0 * std::numbers::pi);
 }
 
 void check_expected_mass(const MatrixBody& body, const ExpectedMass& expected) {

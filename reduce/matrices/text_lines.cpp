@@ -50,6 +50,9 @@ bool TextLines::next() {
   rest_ = end == rest_.npos ? std::string_view{} : rest_.substr(end + 1);
   if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
   ++number_;
+  if (end == line_.npos)
+    throw error(
+        "the file ends within a line, so it may have been cut off; expected a line end after the last line");
   return true;
 }
 

@@ -23,6 +23,7 @@ class TextLines {
   explicit TextLines(const std::filesystem::path& path);
 
   /// Goes on to the next line. @return false at the end of the file
+  /// @throws support::InputError where the last line has no end: its last number may lack digits
   bool next();
   std::string_view line() const { return line_; }
   int number() const { return number_; }  ///< 1-based

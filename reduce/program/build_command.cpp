@@ -8,6 +8,7 @@
 #include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_tables.h"
+#include "reduce/matrices/body_checks.h"
 #include "reduce/program/commands.h"
 #include "reduce/program/previous_file.h"
 #include "reduce/reduction/reduction.h"
@@ -22,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using support::InputError;
+
+constexpr double kGroundShare = 1e-2;  // of the lowest frequency
 
 // Progress goes to stdout line by line, so that a pipe sees it too.
 void report(const BuildOptions& options, const std::string& text) {
@@ -58,15 +61,35 @@ void make_folder(const fs::path& folder) {
                                error ? error.message() : "it is no folder"));
 }
 
+std::string describe_mass(const Superelement& s) {
+  const Eigen::Vector2d centre = s.inertia.first_moment / s.inertia.mass;
+  return fmt::format(
+      "mass {:.6g} kg, moment of inertia {:.6g} kg·m² about its centre, which is ({:.4g}, {:.4g}) m "
+      "from the reference",
+      s.inertia.mass, s.inertia.second_moment - s.inertia.mass * centre.squaredNorm(), centre.x(),
+      centre.y());
+}
+
 std::string describe(const Superelement& s) {
   if (s.elements.cols() == 0) {
     return fmt::format(
-        "{} nodes, {} freedoms, {}; matrices do not tell section loads, axial shares and geometric "
+        "{} nodes, {} freedoms, {}; {}; matrices do not tell section loads, axial shares and geometric "
         "stiffness, so that the file has none",
-        s.num_nodes(), s.num_elastic_dofs, format_basis(s));
+        s.num_nodes(), s.num_elastic_dofs, format_basis(s), describe_mass(s));
   }
   return fmt::format("{} elements, {} freedoms, {}{}", s.elements.cols(), s.num_elastic_dofs, format_basis(s),
                      s.section_loads ? "" : ", too large for section loads from the loads");
+}
+
+// Matrices of a free body that something soft holds, or "".
+std::string remark_on_ground(const Design& design, const Superelement& s) {
+  if (!design.matrices) return {};
+  const double ground = calc_ground_frequency_hz(*design.matrices);
+  if (!(ground > kGroundShare * s.frequency_hz(0))) return {};
+  return fmt::format(
+      "the stiffness resists rigid motion, as springs to the ground do on which the body would "
+      "vibrate at {:.3g} Hz; what it is reduced to is free",
+      ground);
 }
 
 // Why the file is to be made, "" if it is up to date.
@@ -101,6 +124,8 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   write_superelement(made, output);
   const Superelement written = read_superelement(output);
   report(options, fmt::format("{}: {}", output.string(), describe(written)));
+  if (const std::string remark = remark_on_ground(read, written); !remark.empty())
+    report(options, fmt::format("{}: remark: {}", design.string(), remark));
   const std::string certificate = format_certificate_line(written);
   if (!certificate.empty()) report(options, fmt::format("{}: {}", output.string(), certificate));
   if (previous.superelement && !options.quiet) {

@@ -17,6 +17,7 @@
 #include "reduce/reduction/distance_weighted_mass.h"
 #include "reduce/reduction/mechanism.h"
 #include "reduce/reduction/superelement_checks.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
@@ -137,6 +138,8 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
       modes.cluster.size() > 0
           ? modes
           : calc_modes_below(matrices.free, 1.01 * calc_frequency_hz(modes.next_omega_squared), options);
+  if (lowest.pairs.vectors.cols() == 0)
+    throw support::NumericalError("no elastic mode of the free body was found, though the count has one");
   const Eigen::VectorXd first = lowest.pairs.vectors.col(0);
   const double lowest_omega_squared = lowest.pairs.omega_squared(0);
   request.rounding = estimate_rounding_error(matrices.free.stiffness, first, lowest_omega_squared);

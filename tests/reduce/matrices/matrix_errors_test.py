@@ -76,7 +76,7 @@ class MatrixErrorsTest(ReduceTestCase):
             ("\n4 1 -100000.0", "\n1 1 5.0", "k.mtx:5:5: error: the entry (x of node 1; x of node 1) stands in line 4"),
         ])
         text = (self.folder / "k.mtx").read_text()
-        (self.folder / "k.mtx").write_text(text[: text.rindex("\n9 9")])
+        (self.folder / "k.mtx").write_text(text[: text.rindex("\n9 9") + 1])
         self.assert_error("k.mtx:23: error: ends after 20 of 21 entries")
         (self.folder / "k.mtx").write_text(text + "9 9 1.0\n")
         self.assert_error("k.mtx:25: error: stands after the last of 21 entries")
@@ -226,7 +226,24 @@ class MatrixErrorsTest(ReduceTestCase):
                     with self.subTest(f"{name} {cut} {kept}"):
                         (self.folder / cut).write_text("".join(lines[:kept]))
                         self.assert_error("error: ")
+                # A number that has lost its last digits is still a number.
+                for lost in (1, 2, 4):
+                    with self.subTest(f"{name} {cut} without its last {lost} characters"):
+                        (self.folder / cut).write_text("".join(lines)[:-lost])
+                        self.assert_error(f"{cut}:{len(lines)}: error: the file ends within a line")
                 (self.folder / cut).write_text("".join(lines))
+
+    def test_a_soft_spring_to_the_ground(self):
+        # It moves the body of 840 kg along y as ω² = k/m does.
+        spring = 1e-5 * self.stiffness[4, 4]
+        changed = self.stiffness.copy()
+        changed[4, 4] += spring
+        self.write_stiffness(changed)
+        said = self.build("body.toml").stdout
+        self.assertIn(f"would vibrate at {np.sqrt(spring / 840.0) / (2.0 * np.pi):.3g} Hz", said)
+        self.assertIn("; mass 840 kg, ", said)
+        self.write_stiffness(self.stiffness)
+        self.assertNotIn("vibrate", self.build("body.toml", "--force").stdout)
 
     def test_a_freedom_that_is_missing(self):
         keep = [i for i in range(9) if i != 4]
@@ -244,6 +261,11 @@ class MatrixErrorsTest(ReduceTestCase):
         changed[1, 4] = changed[4, 1] = 1000.0
         self.write_mass(changed)
         self.assert_error("m.mtx: error: the mass matrix is not positive definite")
+        changed = self.mass.copy()
+        changed[8, 8] = 0.0
+        self.write_mass(changed)
+        self.assert_error("m.mtx: error: the mass couples the rotation of node 3 with y of node 2",
+                          "but the rotation of node 3 itself has none")
         changed = self.mass.copy()
         changed[0, 0] += 1.0
         self.write_mass(changed)
