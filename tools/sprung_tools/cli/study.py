@@ -12,17 +12,19 @@ import argparse
 import sys
 from pathlib import Path
 
+import numpy as np
+
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.programs.calls import CHECK_FAILED
 from sprung_tools.programs.finding import find_programs
 from sprung_tools.programs.process_pool import count_processors
 from sprung_tools.study.effects import Effect, calc_effects
-from sprung_tools.study.execution import Finished, Options, run_study
+from sprung_tools.study.execution import Finished, Options, find_missing, run_study
 from sprung_tools.study.page import make_study_page
 from sprung_tools.study.sampling import is_balanced, make_points
 from sprung_tools.study.study_file import Study, read_study
-from sprung_tools.study.table import find_missing, format_csv, make_hdf5, make_measure_columns
+from sprung_tools.study.table import format_csv, make_hdf5, make_measure_columns
 from sprung_tools.study.workflow import SNAKEFILE, format_snakefile, parse_part
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
@@ -130,7 +132,8 @@ def main() -> int:
     print(summarise(finished))
     for line in format_errors(finished):
         print(line, file=sys.stderr)
-    for name in find_missing(finished, columns):
+    there = {one.measure for one in columns if not np.all(np.isnan(one.values))}
+    for name in find_missing(study.measures, there):
         print(f"warning: no run has the measure {name}", file=sys.stderr)
     if effects:
         print(f"\n{format_effects(effects)}\n")

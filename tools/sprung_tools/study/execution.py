@@ -1,7 +1,7 @@
 """Making the runs of a study on all processors, and keeping each row as its run ends."""
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -123,6 +123,7 @@ def make_runs(
     """Makes the runs. An interrupted run leaves no row."""
     waiting: set[Future[Row]] = set()
     failures = 0
+    has_good = any(not row.has_failed for row in kept.rows.values())
     left = iter(tasks)
     try:
         while True:
@@ -138,10 +139,19 @@ def make_runs(
                     raise KeyboardInterrupt
                 kept.rows[row.hash] = row
                 failures += row.has_failed
+                if not (row.has_failed or has_good):
+                    has_good = True
+                    for name in find_missing(setting.measures, row.measures):
+                        progress.tell(f"warning: the first run has no measure {name}; the others are made all the same")
                 progress.step(note=f", {failures} failed" if failures else "")
     except BrokenProcessPool as error:
         what = "a process of the study was ended from outside; started again, the study goes on"
         raise InputError(f"{kept.path}: error: {what}") from error
+
+
+def find_missing(wanted: Iterable[str], there: Container[str]) -> list[str]:
+    """The measures without a wildcard that are wanted and not there."""
+    return [name for name in wanted if "*" not in name and name not in there]
 
 
 @contextmanager

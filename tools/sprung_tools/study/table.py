@@ -45,12 +45,6 @@ def make_measure_columns(finished: Finished) -> list[Column]:
     return columns
 
 
-def find_missing(finished: Finished, columns: list[Column]) -> list[str]:
-    """The measures without a wildcard that the study asks for and no run has."""
-    there = {one.measure for one in columns if not np.all(np.isnan(one.values))}
-    return [name for name in finished.study.measures if "*" not in name and name not in there]
-
-
 def format_cell(value: Any) -> str:
     """A value of a parameter as a cell: texts without quotes."""
     return value if isinstance(value, str) else format_value(value)

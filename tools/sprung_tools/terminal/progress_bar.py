@@ -27,6 +27,11 @@ class Progress:
             self.stream.write("\r\x1b[K")
             self.stream.flush()
 
+    def tell(self, text: str) -> None:
+        """A line above the bar."""
+        self.stream.write(f"\r\x1b[K{text}\n" if self.on_terminal else f"{text}\n")
+        self.stream.flush()
+
     def step(self, count: int = 1, note: str = "") -> None:
         """Records that `count` more parts are done. note: follows the time left."""
         self.done += count
