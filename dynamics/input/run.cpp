@@ -189,6 +189,11 @@ Run read_run(const support::TomlDocument& document) {
   const std::filesystem::path folder = std::filesystem::path(document.name()).parent_path();
   Run run;
   run.text = document.text();
+  if (!root.find("vehicle")) {
+    if (const auto bodies = root.find("bodies"))
+      throw bodies->error(
+          "belongs to a vehicle file, expected a run file: it names the vehicle file by 'vehicle'");
+  }
   run.vehicle_path = folder / root.string("vehicle");
   run.vehicle_location = root.at("vehicle").location();
   run.speed = root.number_or("speed", 0.0, support::any("m/s"));

@@ -146,6 +146,8 @@ TEST_CASE("Available modes of a missing body are refused, also without adaptivit
 
 TEST_CASE("Keys of a run that are missing, unknown or of the wrong type are refused") {
   CHECK(error_of("vehicle = \"cart.toml\"\n", "") == "runs/first.toml: error: missing key 'vehicle'");
+  CHECK(error_of("vehicle = \"cart.toml\"\n", "[bodies.cart]\nmass = 1.0\n")
+            .find("error: 'bodies' belongs to a vehicle file, expected a run file") != std::string::npos);
   CHECK(error_of("duration = 5.0\n", "") == "runs/first.toml: error: missing key 'duration'");
   CHECK(error_of("[modes]", "[adaptivity.available]\nframe = \"auto\"\n[modes]") ==
         "runs/first.toml:8:9: error: 'adaptivity.available.frame' must be a number of modes, a list of "
