@@ -28,11 +28,11 @@ class Reading(ToolTestCase):
         text = f"GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n{BAR}"
         mesh = self.read(text)
         self.assertEqual(len(mesh.lines), 1)
-        self.assertIn("no ENDDATA ends the deck, as in punch files: is the file whole?", mesh.left_behind)
+        self.assertIn("no ENDDATA ends the deck, as in punch files: is the file whole?", mesh.doubts)
         (self.folder / "a.pch").write_text(text, encoding="utf-8")
         process = self.run_tool("convert_mesh", "a.pch", "a.msh")
         self.assertEqual(process.returncode, 0, process.stderr)
-        self.assertIn("no ENDDATA", process.stdout)
+        self.assertIn("\nRemark: no ENDDATA ends the deck", process.stdout)
 
     def test_an_included_file_takes_its_place(self):
         (self.folder / "nodes.bdf").write_text("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n", encoding="utf-8")

@@ -98,6 +98,6 @@ def main() -> int:
     design = format_design(mesh, frame, arguments.plane, units, os.path.basename(arguments.output))
     print_report(mesh, frame, arguments.plane, arguments.output)
     write_design(design, arguments.output.removesuffix(".msh") + ".toml")
-    for doubt in find_doubts(mesh, frame, units):
+    for doubt in (*mesh.doubts, *find_doubts(mesh, frame, units)):
         print(f"Remark: {doubt}")
     return 0

@@ -26,6 +26,7 @@ class LineMesh:
     node_sets: dict[str, Integers] = field(default_factory=dict)
     section_sets: tuple[str, ...] = ()  # names of the element sets to which the source gives sections
     left_behind: list[str] = field(default_factory=list)  # what the source holds and the mesh does not, a text each
+    doubts: list[str] = field(default_factory=list)  # whether the source is what it should be, a text each
     sections: list[Section] = field(default_factory=list)
     section_of: Integers = field(default_factory=lambda: np.zeros(0, dtype=int))  # [E] places in sections, -1: none
     heights: Floats = field(default_factory=lambda: np.zeros((0, 3)))  # [E×3] along the section's height; NaN: unknown

@@ -36,9 +36,10 @@ def read_nastran(path: str) -> LineMesh:
         deck.read(card)
     if found.before:
         deck.left_behind.append(f"executive and case control ({len(found.before)} lines)")
+    mesh = deck.make_mesh()
     if not found.has_end:
-        deck.left_behind.append("no ENDDATA ends the deck, as in punch files: is the file whole?")
-    return deck.make_mesh()
+        mesh.doubts.append("no ENDDATA ends the deck, as in punch files: is the file whole?")
+    return mesh
 
 
 class Deck:
