@@ -5,10 +5,11 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <algorithm>
 #include <optional>
-#include <random>
 #include <stdexcept>
 
+#include "reduce/modes/block_lanczos.h"
 #include "reduce/modes/dense_eigen_solver.h"
+#include "reduce/modes/random_vectors.h"
 #include "reduce/modes/stiffness_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -59,14 +60,6 @@ class MassProduct {
   const ModalProblem* problem_;
 };
 
-// Uniform on −½ … ½, the same on every machine.
-Eigen::VectorXd make_random_vector(Eigen::Index size, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  Eigen::VectorXd vector(size);
-  for (double& value : vector) value = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
-  return vector;
-}
-
 // ω² of the lowest mode, roughly: two steps of inverse iteration.
 double estimate_lowest(const StiffnessFactor& factor, const ModalProblem& problem,
                        const Eigen::VectorXd& start) {
@@ -100,6 +93,7 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
   std::optional<StiffnessFactor> own;
   if (problem.factor == nullptr) own.emplace(problem.stiffness);
   const StiffnessFactor& factor = own ? *own : *problem.factor;
+  if (n > kMostSimplicial) return polish(factor, problem, solve_by_blocks(problem, factor, num_pairs, seed));
   const Eigen::VectorXd start = make_random_vector(n, seed);
   const double scale = estimate_lowest(factor, problem, start);
   InverseStiffness inverse(factor, n, scale);

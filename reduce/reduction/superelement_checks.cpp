@@ -86,19 +86,24 @@ CheckResult check_damping(const Superelement& s) {
   return {.name = "damping against ratios", .value = error.cwiseAbs().maxCoeff(), .tolerance = 1e-12};
 }
 
-// d, B and what rotary inertia must leave to M_ff and c. Scales: 1 for n×n, √J₀ for rows.
+// d, B and what rotary inertia must leave to M_ff and c. Scales: M_ff for n×n, which is 1 of clamped modes
+// and large where the reference node is soft; √J₀ times its root for rows.
 CheckResult check_components(const InertiaInvariants& inertia) {
+  const Eigen::VectorXd scale = inertia.M_ff.diagonal().cwiseMax(1.0).cwiseSqrt().cwiseInverse();
   const double row_scale = std::sqrt(inertia.second_moment);
   const Eigen::RowVectorXd d_error = inertia.d - inertia.x_phi_x - inertia.y_phi_y;
   const Eigen::MatrixXd B_error = inertia.B - inertia.phi_x_phi_y + inertia.phi_x_phi_y.transpose();
-  const Eigen::MatrixXd rotary = inertia.M_ff - inertia.phi_x_phi_x - inertia.phi_y_phi_y;
-  const Eigen::RowVectorXd rotary_c = (inertia.c - inertia.x_phi_y + inertia.y_phi_x) / row_scale;
+  const Eigen::MatrixXd rotary =
+      scale.asDiagonal() * (inertia.M_ff - inertia.phi_x_phi_x - inertia.phi_y_phi_y) * scale.asDiagonal();
+  const Eigen::RowVectorXd rotary_c =
+      (inertia.c - inertia.x_phi_y + inertia.y_phi_x) * scale.asDiagonal() / row_scale;
   const double indefinite = -support::calc_symmetric_eigenvalues(rotary).minCoeff();
   // Schwarz: (∫ρI ψ)² ≤ ∫ρI ∫ρI ψ², and the first integral is a part of J₀.
   const double too_large = (rotary_c.cwiseAbs2().transpose() - rotary.diagonal()).maxCoeff();
+  const double of_d = (d_error * scale.asDiagonal()).cwiseAbs().maxCoeff() / row_scale;
+  const double of_B = (scale.asDiagonal() * B_error * scale.asDiagonal()).cwiseAbs().maxCoeff();
   return {.name = "inertia against its components",
-          .value = std::max({d_error.cwiseAbs().maxCoeff() / row_scale, B_error.cwiseAbs().maxCoeff(),
-                             indefinite, too_large, 0.0}),
+          .value = std::max({of_d, of_B, indefinite, too_large, 0.0}),
           .tolerance = 1e-10};
 }
 
