@@ -11,6 +11,7 @@
 #include "reduce/design/known_keys.h"
 #include "reduce/design/sizes.h"
 #include "reduce/matrices/abaqus_matrix.h"
+#include "reduce/matrices/abaqus_substructure.h"
 #include "reduce/matrices/body_checks.h"
 #include "reduce/matrices/calculix_matrix.h"
 #include "reduce/matrices/matrix_market.h"
@@ -55,6 +56,7 @@ class FileReader {
     return system;
   }
   std::vector<std::string> names, hashes;
+  bool is_substructure = false;  // the files say that the body is a condensed one
 
  private:
   void reject_keys() const {
@@ -81,6 +83,11 @@ class FileReader {
       case MatrixFormat::kMatrixMarket:
         return read_matrix_market(path, freedoms);
       case MatrixFormat::kAbaqus:
+        if (is_abaqus_substructure(path)) {
+          is_substructure = true;
+          return read_abaqus_substructure(path, key == "mass" ? "MASS" : "STIFFNESS", freedoms,
+                                          table_.has("freedoms"));
+        }
         return read_abaqus_matrix(path, freedoms, table_.has("freedoms"));
       case MatrixFormat::kCalculix:
         return read_calculix_matrix(path, freedoms);
@@ -152,6 +159,7 @@ DesignMatrices read_design_matrices(const TomlTable& root, const std::filesystem
   DesignMatrices read{.body = make_matrix_body(reader.read(), axes, units),
                       .input_names = std::move(reader.names),
                       .input_hashes = std::move(reader.hashes)};
+  read.body.is_reduced |= reader.is_substructure;
   if (const auto reduced = table.find("reduced")) read.body.is_reduced |= reduced->boolean();
   for (const std::string& remark : check_matrix_body(read.body)) read.body.remarks.push_back(remark);
   check_expected(table, read.body);

@@ -41,7 +41,10 @@ std::string to_plain_number(std::string_view text) {
 }  // namespace
 
 TextLines::TextLines(const std::filesystem::path& path)
-    : path_(path.string()), text_(support::read_text_file(path)), rest_(text_) {}
+    : path_(path.string()), text_(support::read_text_file(path)), rest_(text_) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+}
 
 bool TextLines::next() {
   if (rest_.empty()) return false;

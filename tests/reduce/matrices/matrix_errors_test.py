@@ -121,6 +121,43 @@ class MatrixErrorsTest(ReduceTestCase):
         files.write_coordinates(self.folder / "k.mtx", self.stiffness)
         self.assert_error("k.mtx:1: error: is of the form row, column, value, which needs a table of the rows")
 
+    def test_a_substructure(self):
+        self.write_good("abaqus", lambda path, matrix: files.write_substructure(path, {
+            "MASS" if path.name == "m.mtx" else "STIFFNESS": matrix}, FREEDOMS))
+        self.change("body.toml", 'freedoms = "f.csv"\n', "")
+        self.assert_errors("k.mtx", [
+            ("STIFFNESS", "MASS", "k.mtx:21: error: has no *MATRIX, TYPE=STIFFNESS"),
+            ("*MATRIX", "*ELEMENT", "k.mtx:6: error: '*ELEMENT,TYPE=STIFFNESS' is no part of a substructure"),
+            ("LINEAR", "LINEAR, UNSYMM", "k.mtx:2: error: the element is unsymmetric"),
+            ("NODES=         3", "NODES=         4", "k.mtx:5: error: 3 nodes stand in the comments"),
+            ("** ELEMENT NODES", "** NODES", "k.mtx:5: error: 0 nodes stand in the comments"),
+            ("\n1, 2, 6", "\n1, 2, 7", "k.mtx:5:7: error: '7' is no whole number of 1 … 6"),
+            ("\n1, 2, 6", "\n1, 2, 6\n4, 1", "k.mtx:6:1: error: '4' is no whole number of 2 … 3"),
+            ("\n1, 2, 6", "\n1, 2, 6\n2", "k.mtx:6:1: error: has no direction after the node's position"),
+            ("\n1, 2, 6", "", "k.mtx:5: error: expected the directions of the nodes before"),
+            ("\n1, 2, 6", "\n1, 2", "k.mtx:15:2: error: the matrix has more than 21 values, as 6 freedoms need"),
+            ("\n1, 2, 6", "\n1, 2, 6, 6", "k.mtx:5: error: rotation about z of node 1 stands in the list twice"),
+            ("         1,", "        -1,", "k.mtx:5: error: node -1 is internal to Abaqus and has the direction 2"),
+            ("*MATRIX", "*USER ELEMENT, NODES=1\n*MATRIX", "k.mtx:6: error: is a second element"),
+            ("         3,\n", "         2,\n", "k.mtx:6: error: x of node 2 stands in the list twice"),
+        ])
+        text = (self.folder / "k.mtx").read_text()
+        (self.folder / "k.mtx").write_text("\n".join(text.splitlines()[:-1]) + "\n")
+        self.assert_error("error: the matrix has less than 45 values, as 9 freedoms need for one triangle")
+        (self.folder / "k.mtx").write_text(text + text[text.index("*MATRIX"):])
+        self.assert_error("error: *MATRIX, TYPE=STIFFNESS stands in the file twice")
+        # With a table of the rows the file's own freedoms are only counted.
+        (self.folder / "k.mtx").write_text(text.replace("         1,", "        -1,"))
+        self.change("body.toml", 'nodes = "n.csv"', 'nodes = "n.csv"\nfreedoms = "f.csv"')
+        self.build("body.toml")
+        (self.folder / "out/body.h5").unlink()
+        self.change("f.csv", "3,6\n", "")
+        self.assert_error("k.mtx:6: error: the substructure has 9 freedoms, and the table 'freedoms' has 8")
+
+    def test_a_byte_order_mark(self):
+        (self.folder / "n.csv").write_bytes(b"\xef\xbb\xbf" + (self.folder / "n.csv").read_bytes())
+        self.build("body.toml", "--force")
+
     def test_calculix(self):
         self.write_good("calculix", files.write_calculix)
         self.change("body.toml", "f.csv", "f.dof")

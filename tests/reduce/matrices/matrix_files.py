@@ -131,3 +131,25 @@ def read_matrix_market(path):
         i, j, value = line.split()
         matrix[int(i) - 1, int(j) - 1] = matrix[int(j) - 1, int(i) - 1] = float(value)
     return matrix
+
+
+def write_substructure(path, matrices, freedoms, repeated=False):
+    """A substructure of Abaqus: {"STIFFNESS": K, "MASS": M}, four values to a line. repeated: as CalculiX writes it, a
+    node for each freedom."""
+    runs = [(node, [direction]) for node, direction in freedoms]
+    if not repeated:
+        runs = [(node, [d for n, d in freedoms if n == node]) for node in dict.fromkeys(node for node, _ in freedoms)]
+    lines = ["** a comment", f"*USER ELEMENT, NODES= {len(runs):9d}, LINEAR", "** ELEMENT NODES"]
+    nodes = [f"{node:10d}" for node, _ in runs]
+    lines += ["**" + ",".join(nodes[k : k + 10]) + "," for k in range(0, len(nodes), 10)]
+    known = None
+    for position, (_, directions) in enumerate(runs, 1):
+        if directions != known:
+            lines.append(", ".join(str(value) for value in ([position] if known else []) + directions))
+        known = directions
+    for name, matrix in matrices.items():
+        lines.append(f"*MATRIX,TYPE={name}")
+        for i, row in enumerate(matrix):
+            values = [f"{value:22.15e}" for value in row[: i + 1]]
+            lines += [", ".join(values[k : k + 4]) + "," for k in range(0, i + 1, 4)]
+    path.write_text("\n".join(lines) + "\n")

@@ -83,13 +83,18 @@ class ReducedBodiesTest(ReduceTestCase):
             files.write_abaqus(self.folder / "k.mtx", K, internal)
             files.write_abaqus(self.folder / "m.mtx", M, internal)
             lines = 'stiffness = "k.mtx"\nmass = "m.mtx"\n'
+        elif name in ("substructure", "substructure of CalculiX"):
+            internal = [(node, d) if d else (100 - node, 1) for node, d in freedoms]
+            matrices = {"STIFFNESS": K, "STRUCTURAL DAMPING": 0.0 * K, "MASS": M}
+            files.write_substructure(self.folder / "s.mtx", matrices, internal, name != "substructure")
+            lines = 'stiffness = "s.mtx"\nmass = "s.mtx"\n'
         else:
             files.write_matrix_market(self.folder / "k.mtx", K)
             files.write_matrix_market(self.folder / "m.mtx", M)
             files.write_freedoms(self.folder / "f.csv", [(node, d or "q") for node, d in freedoms])
             lines = 'stiffness = "k.mtx"\nmass = "m.mtx"\nfreedoms = "f.csv"\n'
-        lines = f'format = "{name}"\n{lines}nodes = "n.csv"\n'
-        if num_modes == 0:
+        lines = f'format = "{name.replace("substructure", "abaqus").split()[0]}"\n{lines}nodes = "n.csv"\n'
+        if num_modes == 0 and "s.mtx" not in lines:
             lines += "reduced = true\n"
         (self.folder / "body.toml").write_text(DESIGN.replace("FILES", lines).replace("METHOD", method))
 
@@ -150,7 +155,9 @@ class ReducedBodiesTest(ReduceTestCase):
 
     def test_all_modes_give_the_vehicle_of_the_whole_frame_exactly(self):
         full = self.full_vehicle()
-        for name, tolerance in (("matrix-market", 1e-9), ("abaqus", 1e-9), ("nastran", 1e-6)):
+        formats = (("matrix-market", 1e-9), ("abaqus", 1e-9), ("substructure", 1e-9),
+                   ("substructure of CalculiX", 1e-9), ("nastran", 1e-6))
+        for name, tolerance in formats:
             with self.subTest(name), self.build_reduced(self.num_inner, name) as file:
                 np.testing.assert_allclose(self.vehicle_of_file(file), full, rtol=tolerance)
                 self.assertEqual(list(file["nodes/id"]), self.ids)
@@ -164,7 +171,7 @@ class ReducedBodiesTest(ReduceTestCase):
         lowest = 6
         errors = []
         for num_modes in (0, 2, 4, 8):
-            with self.build_reduced(num_modes, "matrix-market") as file:
+            with self.build_reduced(num_modes, "substructure") as file:
                 error = self.vehicle_of_file(file)[:lowest] / full[:lowest] - 1.0
             self.assertGreater(error.min(), -1e-9)
             ratio = (2 * np.pi * full[:lowest] / omega[num_modes]) ** 2
