@@ -138,12 +138,13 @@ void Bushing::calc_switches(const Instant& instant, std::span<const int> branche
 }
 
 ElementDescription Bushing::describe() const {
+  const bool is_apart = !parameters_.free_position.isZero();  // a spring of some length, as that of a wheel
   ElementDescription description{.points = {"a", "b"},
                                  .parameters = {{"angle", parameters_.angle, "rad"},
                                                 {"free_position", parameters_.free_position, "m"},
                                                 {"free_angle", parameters_.free_angle, "rad"},
                                                 {"multiplicity", parameters_.multiplicity, "1"}},
-                                 .drawing = Drawing::kPin};
+                                 .drawing = is_apart ? Drawing::kSpring : Drawing::kPin};
   for (std::size_t k = 0; k < 3; ++k) {
     const Direction& direction = parameters_.directions[k];
     const std::string suffix = std::string("_") + kDirectionNames[k];

@@ -98,11 +98,11 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   // Equilibrium and linearisation need functions of time at t = 0 alone.
   const double end = preparation == Preparation::kBalance ? 0.0 : prepared.run.duration;
   check_histories(prepared.vehicle.histories, end);
-  if (request.quiet) return;
-  std::vector<std::string> remarks = list_unit_remarks(prepared.vehicle);
+  prepared.remarks = list_unit_remarks(prepared.vehicle);
   for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
-    remarks.push_back(std::move(remark));
-  for (const std::string& remark : remarks) fmt::print(request.streams.err, "remark: {}\n", remark);
+    prepared.remarks.push_back(std::move(remark));
+  if (request.quiet) return;
+  for (const std::string& remark : prepared.remarks) fmt::print(request.streams.err, "remark: {}\n", remark);
 }
 
 // Damping and stiffening of the flexible bodies of the models.

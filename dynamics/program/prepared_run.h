@@ -33,8 +33,10 @@ struct RunRequest {
 struct PreparedRun {
   Run run;
   Vehicle vehicle;
-  ModeSelection selection;            ///< at the start
-  ModeSelection available;            ///< of the models below: more than `selection` if modes join and leave
+  std::vector<std::string>
+      remarks;              ///< on the vehicle file: unlikely units, functions that end before the run
+  ModeSelection selection;  ///< at the start
+  ModeSelection available;  ///< of the models below: more than `selection` if modes join and leave
   std::optional<BasisChoice> choice;  ///< present if a body has modes "auto"
   std::vector<std::string> output_points;
   std::vector<StaticLengthResult> static_lengths;

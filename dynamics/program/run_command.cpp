@@ -218,6 +218,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
   warn_of_missed_road(prepared, model_warnings);
   print_of_computation(streams.err, model_warnings);
+  for (const std::string& remark : prepared.remarks)  // told when the file was read
+    model_warnings.push_back({"summary", {std::string(kComputation)}, remark});
 
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;

@@ -53,6 +53,15 @@ class Warnings(DynamicsTestCase):
         _, _, printed = self.run_to_json("duration=0.2", "modes.chassis=36", "adaptivity.indicator=false")
         self.assertEqual((printed["warnings"], self.read_warnings()), ([], []))
 
+    def test_a_remark_on_the_vehicle_file_is_kept_beside_the_numbers(self):
+        unlikely = "vehicle.bodies.front_axle.inertia=1e9"
+        process = self.run_program("--set", "duration=0.05", "--set", unlikely, "--json", "-o", "results.h5")
+        (text,) = (one["text"] for one in json.loads(process.stdout)["warnings"] if "in kg·m²" in one["text"])
+        self.assertIn("'bodies.front_axle.inertia' is that of", text)
+        self.assertEqual(process.stderr.count(text), 1)
+        self.assertIn(f"remark: {text}", process.stderr)
+        self.assertIn(("computation",), [one["of"] for one in self.read_warnings() if one["text"] == text])
+
     def test_ride_prints_the_warnings_above_its_tables(self):
         _, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2")
         ride = run_program([ROOT / "tools/ride", "results.h5"], cwd=self.folder)
