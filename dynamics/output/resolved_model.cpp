@@ -115,10 +115,12 @@ void write_points(support::Hdf5Writer& file, const Model& model, const Vehicle& 
 }
 
 // Writes what joints and force elements have in common.
+// place: from 1, among those of the vehicle file
 template <typename Element>
-void write_element(support::Hdf5Writer& file, const std::string& group, const Element& element,
-                   std::span<const int> markers, const Model& model) {
+void write_element(support::Hdf5Writer& file, const std::string& group, std::int64_t place,
+                   const Element& element, std::span<const int> markers, const Model& model) {
   file.make_group(group);
+  file.attribute(group, "place", place);
   file.attribute(group, "kind", element.kind());
   const ElementDescription description = element.describe();
   std::vector<std::string> points;
@@ -177,13 +179,15 @@ void write_resolved_model(support::Hdf5Writer& file, const ResultsHeader& header
   write_resolved_bodies(file, header);
   write_points(file, model, header.vehicle);
   for (const std::string kind : {"/joints", "/forces"}) file.make_group(kRoot + kind);
+  std::int64_t place = 0;
   for (const auto& joint : model.joints) {
     const std::string group = kRoot + "/joints/" + joint->name;
-    write_element(file, group, *joint, std::array{joint->marker_a, joint->marker_b}, model);
+    write_element(file, group, ++place, *joint, std::array{joint->marker_a, joint->marker_b}, model);
     file.attribute(group, "is_motion", std::int64_t{joint->is_motion()});
   }
+  place = 0;
   for (const auto& force : model.forces) {
-    write_element(file, kRoot + "/forces/" + force->name, *force, force->markers(), model);
+    write_element(file, kRoot + "/forces/" + force->name, ++place, *force, force->markers(), model);
   }
   write_road(file, header.road, header.run.road);
   write_histories(file, header.vehicle.histories);

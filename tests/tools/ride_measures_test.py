@@ -24,7 +24,7 @@ from sprung_tools.runs.ride_measures import (
     calc_loaded_bending,
     calc_moment_difference,
     calc_travel,
-    find_forces,
+    find_suspensions,
     read_window,
 )
 from sprung_tools.signals.ride_weighting import calc_wk
@@ -60,7 +60,7 @@ class RideMeasures(ToolTestCase):
 
     def test_travel_counts_from_balance_and_every_stroke_into_the_stop_is_a_hit(self):
         results = self.open()
-        self.assertEqual(find_forces(results, "spring"), ["link", "suspension"])
+        self.assertEqual(list(find_suspensions(results)), ["link", "suspension"])
         travel = calc_travel(results, "suspension", WINDOW)
         self.assertAlmostEqual(travel.compression, 0.1, places=6)
         self.assertAlmostEqual(travel.rebound, -0.1, places=6)

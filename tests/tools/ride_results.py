@@ -39,7 +39,9 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
         write_series(file, "bodies/body/acceleration", (nothing, nothing, 3.0 * seat), "m/s^2, m/s^2, rad/s^2")
         for name in ("suspension", "link"):
             write_series(file, f"forces/{name}/deflection", STATIC_DEFLECTION + 0.1 * beat, "m")
-            file[f"forces/{name}/deflection"].attrs["role"] = np.bytes_("deflection")
+            write_series(file, f"forces/{name}/length", 0.5 - STATIC_DEFLECTION - 0.1 * beat, "m")
+            for channel, role in (("deflection", "deflection"), ("length", "extent")):
+                file[f"forces/{name}/{channel}"].attrs["role"] = np.bytes_(role)
             stops = {"compression_stop": stop, **STOP_UNIT} if name == "suspension" else {}
             write_element(file, f"forces/{name}", "spring-damper", "spring", ENDS, stops)
         write_series(file, "forces/tyre/force", load, "N")

@@ -42,7 +42,8 @@ from sprung_tools.runs.ride_measures import (
     calc_loaded_bending,
     calc_moment_difference,
     calc_travel,
-    find_forces,
+    find_suspensions,
+    find_tyres,
     read_window,
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
@@ -94,7 +95,7 @@ def part_files(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
 
 def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
     """The rows of the table of suspensions."""
-    for name in find_forces(runs[0].results, "spring"):
+    for name in find_suspensions(runs[0].results):
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
             share = f"{100 * one.compression / one.whole:.0f} %" if one.whole is not None and one.whole > 0.0 else "–"
@@ -105,7 +106,7 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
 
 def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
     """The rows of the table of tyres."""
-    for name in find_forces(runs[0].results, "wheel"):
+    for name in find_tyres(runs[0].results):
         for run, window in zip(runs, windows):
             one = calc_contact(run.results, name, window)
             yield (

@@ -95,12 +95,29 @@ class ResultsFile:
         return self.file.has_group(group) and self.file.attribute(group, "is_static_equilibrium", int, 0) == 1
 
     def names(self, group: str) -> list[str]:
-        """The names in a group, e.g. names("bodies"); empty if there is no such group. Among the points are those that
-        are not stored, but follow from the motion of their bodies."""
+        """The names in a group, e.g. names("bodies"); empty if there is no such group. Joints and forces are in the
+        order of the vehicle file. Among the points are those that are not stored, but follow from the motion of their
+        bodies."""
         names = self.file.names(group)
+        kind = group.strip("/").rpartition("/")[2]
+        if kind in ("joints", "forces"):
+            return sorted(names, key=lambda name: self._read_places(kind).get(name, 0))
         if group.strip("/") == "points":
             return sorted({*names, *list_derived_points(self.file)})
         return names
+
+    def _read_places(self, kind: str) -> dict[str, int]:
+        """The places of joints or forces in the vehicle file; 0 of each that the file does not tell."""
+        key = f"places of {kind}"
+        if key not in self.kept:
+            group = f"model/resolved/{kind}"
+            told = set(self.file.names(group))
+            self.kept[key] = {
+                name: self.file.attribute(f"{group}/{name}", "place", int, 0) if name in told else 0
+                for name in told.union(self.file.names(kind))
+            }
+        places: dict[str, int] = self.kept[key]
+        return places
 
     def has(self, quantity: str) -> bool:
         """Whether the file holds the dataset behind a quantity, or what it follows from."""

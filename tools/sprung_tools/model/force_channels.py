@@ -56,9 +56,27 @@ def read_force_channel(results: ResultsFile, force: str, role: str) -> tuple[Flo
 
 
 def describe_load(channel: ForceChannel) -> str:
-    """The name of a channel that is a force or a torque: `force`, `force along x`, `torque`; empty for other
-    channels."""
-    names = {FORCE: "force", LONGITUDINAL: "force along x", TORQUE: "torque"}
-    if channel.role == GIVEN:
-        return channel.name.replace("_", " along ")
-    return names.get(channel.role, "")
+    """The name of a channel that is a force or a torque, unlike those of the element's other channels: `force`,
+    `force along x`, `friction`, `partner force`, `torque`; empty for other channels."""
+    if channel.role == LONGITUDINAL:
+        return "force along x"
+    return describe_axis(channel.name) if channel.role in (FORCE, GIVEN, TORQUE) else ""
+
+
+def describe_deflection(channel: ForceChannel, on_road: bool) -> str:
+    """The name of a deflection: `compression` of a spring, `partner compression`, `penetration` of a tyre, `deflection
+    along x` of a bushing, `turn`; empty for other channels."""
+    if channel.role != DEFLECTION:
+        return ""
+    if on_road:
+        return "penetration"
+    if channel.unit == "rad":
+        return "turn"
+    name = describe_axis(channel.name)
+    return name.replace("deflection", "compression") if name.endswith("deflection") else name
+
+
+def describe_axis(name: str) -> str:
+    """The name of a channel in words: `force_x` → `force along x`, `partner_force` → `partner force`."""
+    stem, _, axis = name.rpartition("_")
+    return f"{stem} along {axis}" if axis in ("x", "y") and stem else name.replace("_", " ")

@@ -9,11 +9,11 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_numbers, read_real, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
-    DEFLECTION,
     EXTENT,
     GIVEN,
     TORQUE,
     ForceChannel,
+    describe_deflection,
     describe_load,
     list_force_channels,
 )
@@ -86,11 +86,9 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
 
 def describe_history(channel: ForceChannel, on_road: bool) -> str:
     """The page's name for a channel of a force element; empty for a channel that the page does not show."""
-    if channel.role == DEFLECTION:
-        return "penetration" if on_road else "compression"
     if channel.role == EXTENT and channel.unit == "rad":
         return "angle"
-    return describe_load(channel)
+    return describe_load(channel) or describe_deflection(channel, on_road)
 
 
 def find_heavy(results: ResultsFile) -> list[str]:

@@ -14,7 +14,14 @@ from sprung_tools.runs.ride_assessment import (
     calc_vibration,
     describe_comfort,
 )
-from sprung_tools.runs.ride_measures import calc_contact, calc_travel, find_forces, list_seats, read_window
+from sprung_tools.runs.ride_measures import (
+    calc_contact,
+    calc_travel,
+    find_suspensions,
+    find_tyres,
+    list_seats,
+    read_window,
+)
 from sprung_tools.signals.third_octaves import BOUNDED, NOMINAL, PROFICIENCY, calc_comfort_boundary
 
 MOST_POINTS = 6
@@ -48,7 +55,7 @@ def name_of(point: str) -> str:
 def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: str) -> Packed | None:
     """The measures of one run; None for a mechanism, which has neither tyres nor a seat. problem: why the vibration
     cannot be judged, or empty."""
-    tyres, springs = find_forces(results, "wheel"), find_forces(results, "spring")
+    tyres, springs = find_tyres(results), find_suspensions(results)
     if not tyres and not list_seats(results):
         return None
     window = read_window(results)

@@ -13,8 +13,8 @@ from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, 
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
-    DEFLECTION,
     FORCE,
+    describe_deflection,
     describe_load,
     find_force_channel,
     list_force_channels,
@@ -97,15 +97,18 @@ def calc_force_rows(results: ResultsFile, force: str) -> list[Statistic]:
         largest = float(np.max(np.abs(results.series(channel.quantity)[0])))
         if largest > 0.0 or channel.role == FORCE:  # an applied torque has forces that are 0
             rows.append((force, f"{name}, largest", channel.unit, largest))
-    contact, deflection = (find_force_channel(results, force, role) for role in (CONTACT, DEFLECTION))
+    contact = find_force_channel(results, force, CONTACT)
     if contact:
         on_road = results.series(contact)[0] > 0.5
         step = float(np.median(np.diff(results.time)))
         rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~on_road))))
-    elif deflection:
-        values, unit = results.series(deflection)
-        largest = float(np.max(np.abs(values) if unit == "rad" else values))
-        rows.append((force, "turn, largest" if unit == "rad" else "compression, largest", unit, largest))
+        return rows
+    for channel in list_force_channels(results, force):
+        name = describe_deflection(channel, on_road=False)
+        if name:
+            values, unit = results.series(channel.quantity)
+            largest = float(np.max(values if name.endswith("compression") else np.abs(values)))
+            rows.append((force, f"{name}, largest", unit, largest))
     return rows
 
 

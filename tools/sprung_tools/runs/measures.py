@@ -28,7 +28,8 @@ from sprung_tools.runs.ride_measures import (
     calc_loaded_bending,
     calc_moment_difference,
     calc_travel,
-    find_forces,
+    find_suspensions,
+    find_tyres,
     find_largest_moment,
     list_seats,
 )
@@ -130,9 +131,9 @@ def list_objects(
         objects[name] = partial(measure_point, results, name, folder, window)
         bands = f"bands/{point_name(folder)}"
         objects[bands] = partial(measure_bands, results, bands, folder, window)
-    for force in find_forces(results, "spring"):
+    for force in find_suspensions(results):
         objects[f"suspensions/{force}"] = partial(measure_suspension, results, force, window)
-    for force in find_forces(results, "wheel"):
+    for force in find_tyres(results):
         objects[f"tyres/{force}"] = partial(measure_tyre, results, force, window)
     for body in results.names("bodies"):
         objects[f"loads/{body}"] = partial(measure_loads, results, body, window, superelements)

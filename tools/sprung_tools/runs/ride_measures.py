@@ -11,6 +11,7 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
     DEFLECTION,
+    EXTENT,
     FORCE,
     list_force_channels,
     read_force_channel,
@@ -111,19 +112,33 @@ def list_seats(results: ResultsFile) -> list[str]:
     return [f"points/{name}" for name in results.names("points") if name.rpartition(".")[2] == "seat"]
 
 
-def find_forces(results: ResultsFile, drawing: str) -> list[str]:
-    """The names of the force elements that are drawn as `spring` (suspensions) or as `wheel` (tyres), and whose
-    histories are stored."""
-    drawn = [force.name for force in read_elements(results, "forces").values() if force.drawing == drawing]
+def find_tyres(results: ResultsFile) -> list[str]:
+    """The names of the tyres whose histories are stored."""
+    drawn = [force.name for force in read_elements(results, "forces").values() if force.drawing == "wheel"]
     return [name for name in drawn if list_force_channels(results, name)]
 
 
+def find_suspensions(results: ResultsFile) -> dict[str, str]:
+    """The springs along a line whose histories are stored: the quantity of the deflection by the spring's name, and by
+    `NAME partner` of the second of two coupled ones."""
+    found = {}
+    for force in read_elements(results, "forces").values():
+        channels = list_force_channels(results, force.name) if force.drawing == "spring" else []
+        if any(one.role == EXTENT for one in channels):
+            for one in (one for one in channels if one.role == DEFLECTION):
+                prefix = one.name.removesuffix("deflection").replace("_", "")
+                found[f"{force.name} {prefix}".rstrip()] = one.quantity
+    return found
+
+
 def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
-    """How far a suspension moves from its balance. The stop counts as struck where a sample is beyond it."""
+    """How far a suspension, named as find_suspensions() does, moves from its balance. The stop counts as struck where a
+    sample is beyond it."""
     inside = samples_between(results, *window)
-    deflection, _ = read_force_channel(results, name, DEFLECTION)
+    quantity = find_suspensions(results)[name]
+    deflection, _ = results.series(quantity)
     static = calc_static(results, deflection, inside)
-    stop = read_elements(results, "forces")[name].parameters.get("compression_stop")
+    stop = read_elements(results, "forces")[quantity.split("/")[1]].parameters.get("compression_stop")
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
