@@ -33,6 +33,7 @@ struct BasisRequest {
   double tolerance = 0.01;    ///< share of the static flexibility that may be missing
   bool all_residual = false;  ///< the static response to every load, whatever the tolerance
   double rounding = 0.0;      ///< relative rounding error of the lowest ω² (rounding_error.h)
+  Progress progress = {};     ///< may be empty
 };
 
 /// The free modes that a band needs are those below this multiple of its end.

@@ -71,8 +71,9 @@ void add_static(InterfaceResidual& residual, double tolerance, std::vector<Resid
 }
 
 void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,
-                         Eigen::Index most, std::vector<ResidualSource>& added) {
+                         Eigen::Index most, const Progress& progress, std::vector<ResidualSource>& added) {
   while (residual.num_loads() > 0) {
+    if (progress) progress(fmt::format("residual vector {}", residual.num_vectors() + 1));
     const BandErrors errors = calc_band_errors(residual, highest, cutoff);
     const Eigen::VectorXd shares = errors.error.cwiseQuotient(
         residual.static_flexibility().cwiseMax(std::numeric_limits<double>::min()));
@@ -109,7 +110,7 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
     if (residual.num_loads() > kFewLoads && residual.num_vectors() == 0)
       add_static(residual, std::max(request.tolerance, kSmallestStaticShare), basis.residuals);
     add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k,
-                        basis.residuals);
+                        request.progress, basis.residuals);
   }
   const EigenPairs ritz = residual.ritz();
   const Eigen::Index m = ritz.omega_squared.size();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,9 +11,17 @@ namespace sprung::reduce {
 
 enum class EigenMethod { kAutomatic, kDense, kSparse };
 
+/// Is told what a calculation of minutes is at.
+using Progress = std::function<void(const std::string& state)>;
+
 struct ClampedModeOptions {
   EigenMethod method = EigenMethod::kAutomatic;  ///< automatic: dense where it is the cheaper or the only way
   std::uint64_t seed = 1;                        ///< of the sparse method's start vector
+  Progress progress = {};                        ///< may be empty
+
+  void tell(const std::string& state) const {
+    if (progress) progress(state);
+  }
 };
 
 /// The lowest modes of a held frame, proved to be all of them.

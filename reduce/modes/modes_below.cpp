@@ -1,5 +1,7 @@
 #include "reduce/modes/modes_below.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -30,6 +32,7 @@ ModesBelow calc_modes_below(const ModalProblem& problem, double frequency_hz,
                             const ClampedModeOptions& options) {
   const auto n = static_cast<int>(problem.num_modes());
   const double omega = 2.0 * std::numbers::pi * frequency_hz;
+  options.tell(fmt::format("count of the modes below {:.3g} Hz", frequency_hz));
   int wanted = count_below(problem, omega * omega);
   while (true) {
     const ClampedModes found = calc_clamped_modes(problem, std::min(wanted + 1, n), options);

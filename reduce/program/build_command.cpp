@@ -16,6 +16,7 @@
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/output_target.h"
 #include "tools/support/terminal/program.h"
+#include "tools/support/terminal/progress_bar.h"
 
 namespace sprung::reduce {
 
@@ -115,14 +116,18 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
     return;
   }
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
+  support::ProgressBar progress(output.filename().string(), options.quiet);
   const Design read = read_design({design, options.overrides});
   for (const std::string& remark : list_unit_remarks(read))
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
-  const Superelement made = make_superelement(read);
+  const auto tell = [&](const std::string& state) { progress.update(state); };
+  const Superelement made = make_superelement(read, {.progress = tell});
+  tell("writing the file and reading it back");
   write_superelement(made, output);
   const Superelement written = read_superelement(output);
+  progress.finish();
   report(options, fmt::format("{}: {}", output.string(), describe(written)));
   if (const std::string remark = remark_on_ground(read, written); !remark.empty())
     report(options, fmt::format("{}: remark: {}", design.string(), remark));

@@ -133,6 +133,7 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
                                const StiffnessFactor& factor, const BasisFrame& frame,
                                const ClampedModeOptions& options) {
   BasisRequest request = make_request(design, matrices, *design.reduction.highest_hz);
+  request.progress = options.progress;
   const ModesBelow modes = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
   const ModesBelow& lowest =
       modes.cluster.size() > 0

@@ -117,10 +117,12 @@ ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options) {
   const fem::BeamModel& model = design.model;
   const Eigen::Vector2d origin = model.mesh.node_positions.col(design.reference_node);
+  options.tell("factors of the stiffness");
   const BodyMatrices matrices = make_body_matrices(design);
   const fem::MassMoments moments = make_mass_moments(design, origin);
   const BodyBasis basis = make_body_basis(design, matrices, moments, options);
 
+  options.tell("inertia, section loads and checks");
   Superelement s;
   s.name = design.name;
   copy_mesh(model.mesh, matrices.node_positions, s);

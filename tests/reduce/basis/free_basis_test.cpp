@@ -145,6 +145,17 @@ TEST_CASE("the reference can be an interface point, and two points can share a n
   CHECK(make_superelement(twice).num_modes() <= num_modes + static_cast<int>(b));
 }
 
+TEST_CASE("a reduction tells what it is at") {
+  std::vector<std::string> states;
+  make_superelement(testing::make_random_design(2, 0.01),
+                    {.progress = [&](const std::string& state) { states.push_back(state); }});
+  REQUIRE(states.size() > 4);
+  CHECK(states.front() == "factors of the stiffness");
+  CHECK(states[1].starts_with("count of the modes below "));
+  CHECK(std::find(states.begin(), states.end(), "residual vector 1") != states.end());
+  CHECK(states.back() == "inertia, section loads and checks");
+}
+
 // The reference node hangs on a member that is softer than the others by 1e6: clamped there, the body swings
 // as a whole.
 TEST_CASE("a body whose reference node is soft can be reduced") {
