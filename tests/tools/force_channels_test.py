@@ -32,6 +32,7 @@ ELEMENTS = {
         "length": ("extent", "m", 0.4), "deflection": ("deflection", "m", 0.05), "force": ("force", "N", 7e4),
         "partner_length": ("extent", "m", 0.4), "partner_deflection": ("deflection", "m", 0.06),
         "partner_force": ("force", "N", 8e4)}),
+    "stop": ("hydraulic-stop", "rod", 5, {"overlap": ("deflection", "m", 0.0), "force": ("force", "N", 0.0)}),
     "suspension": (None, None, 1, {}),
 }  # fmt: skip
 
@@ -46,7 +47,8 @@ class ForceChannels(ToolTestCase):
                 if kind:
                     write_element(file, f"forces/{name}", kind, drawing, ENDS, {})
                 for channel, (role, unit, largest) in channels.items():
-                    write_series(file, f"forces/{name}/{channel}", largest * np.sin(2.0 * np.pi * time), unit)
+                    values = largest * np.sin(2.0 * np.pi * time) - 0.07 * (channel == "overlap")
+                    write_series(file, f"forces/{name}/{channel}", values, unit)
                     file[f"forces/{name}/{channel}"].attrs["role"] = np.bytes_(role)
                 file[f"model/resolved/forces/{name}"].attrs["place"] = place
         self.results = open_results(path)
@@ -54,6 +56,7 @@ class ForceChannels(ToolTestCase):
 
     def test_the_summary_has_the_largest_of_each_under_its_own_name(self):
         expected = {
+            "stop": {"force": 0.0, "overlap": -0.07},
             "leaf": {"force": 5e4, "friction": 3e3, "compression": 0.1},
             "air": {"force": 7e4, "partner force": 8e4, "compression": 0.05, "partner compression": 0.06},
             "bush": {"force along x": 100.0, "force along y": 200.0, "torque": 5.0, "deflection along x": 0.01,
@@ -80,7 +83,7 @@ class ForceChannels(ToolTestCase):
 
     def test_forces_stand_in_the_order_of_the_vehicle_file(self):
         # Those whose place the file does not tell come first, by their names.
-        self.assertEqual(self.results.names("forces"), ["link", "tyre", "suspension", "air", "leaf", "bush"])
+        self.assertEqual(self.results.names("forces"), ["link", "tyre", "suspension", "air", "leaf", "bush", "stop"])
 
 
 if __name__ == "__main__":

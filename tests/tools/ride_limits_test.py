@@ -14,7 +14,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.limits.ride_limits import Obstacles, Terrain, calc_peak, calc_power, find_roughness, find_speed
 from sprung_tools.limits.roads import calc_obstacle
 from sprung_tools.limits.root_finding import CallFailed, find_root
-from sprung_tools.limits.trials import Variant, Vehicle
+from sprung_tools.limits.trials import Variant, Vehicle, Wheels
 from sprung_tools.programs.in_process import load_module
 from sprung_tools.signals.road_profile import Recipe
 
@@ -133,8 +133,14 @@ class QuarterCar(QuarterCarCase):
             calc_peak(self.vehicle(), obstacles._replace(low_pass=300.0), 0.1, 6.0)
 
     def test_wheels_are_read_from_the_vehicle(self):
-        self.assertEqual(self.vehicle().wheels, (0.0, 0.316677))
+        self.assertEqual(self.vehicle().wheels, (0.0, (0.316677,)))
         self.assertEqual(self.vehicle().title, "quarter car")
+
+    def test_wheels_of_nearly_one_radius_share_an_outline(self):
+        self.assertIsNone(Wheels(3.0, ()).point_radius)
+        self.assertAlmostEqual(Wheels(3.0, (0.49, 0.50, 0.51)).point_radius, 0.5)
+        with self.assertRaisesRegex(InputError, r"--heights: error: .*radii 0\.4, 0\.5 m, expected radii within 5 %"):
+            Wheels(3.0, (0.4, 0.5, 0.5)).point_radius  # noqa: B018  it throws
 
     def test_a_point_that_is_not_there_is_an_error(self):
         with self.assertRaisesRegex(InputError, "run.toml: error: no quantity 'points/sprung.seat/acceleration.y'"):

@@ -13,6 +13,7 @@ from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.model.resolved_model import read_elements, read_point
+from sprung_tools.runs.ride_measures import find_suspensions
 
 TEMPLATES = ROOT / "dynamics/models/templates"
 GUIDE = TEMPLATES / "README.md"
@@ -62,8 +63,8 @@ class Templates(ToolTestCase):
             with self.subTest(name):
                 self.run_template(name)
                 with open_results(self.folder / f"{name}.h5") as results:
-                    springs = [one for one in read_elements(results, "forces").values() if one.drawing == "spring"]
-                    for spring in springs:
+                    for name_of_spring in find_suspensions(results):
+                        spring = read_elements(results, "forces")[name_of_spring]
                         static, _ = results.series(f"forces/{spring.name}/length")
                         self.assertAlmostEqual(static[0], self.drawn_length(results, spring), delta=1e-6)
                     for force in results.names("forces"):

@@ -244,6 +244,9 @@ def main() -> int:
                                scratch=Path(scratch))  # fmt: skip
         try:
             vehicles = list(pool.map(make_vehicle, variants))
+            if search.heights:
+                for one in vehicles:
+                    _ = one.wheels.point_radius  # throws before the first run where there is none
             terrain, obstacles = find_limits(vehicles, search, pool)
         except BrokenProcessPool as error:
             raise InputError("ride_limits: error: one of its processes was ended from outside") from error

@@ -18,6 +18,7 @@ from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.ride_measures import sampling_step
 
 AHEAD = 2.0  # m of level road before what the vehicle meets
+ALIKE = 0.05  # of their mean: radii that share an obstacle's outline, whose own radius is that of wheel and obstacle
 PROBE = 0.01  # s, of the run that tells what the vehicle is
 STORED = {"output.store.points": "reported"} | {
     f"output.store.{one}": "none" for one in ("recovery", "joints", "wrenches")
@@ -32,11 +33,26 @@ class Variant(NamedTuple):
 
 
 class Wheels(NamedTuple):
-    """The wheels of a vehicle: from the first to the last one [m]; the radius [m] that all have whose contact is a
-    point, None where none has."""
+    """The wheels of a vehicle: from the first to the last one [m]; the radii [m] of those whose contact is a point,
+    from the smallest on."""
 
     base: float
-    point_radius: float | None
+    point_radii: tuple[float, ...]
+
+    @property
+    def point_radius(self) -> float | None:
+        """The radius [m] of those whose contact is a point: the mean, if they differ by no more than ALIKE; None where
+        there are none. InputError for radii that differ more."""
+        if not self.point_radii:
+            return None
+        mean = sum(self.point_radii) / len(self.point_radii)
+        if self.point_radii[-1] - self.point_radii[0] > ALIKE * mean:
+            radii = ", ".join(f"{one:g}" for one in sorted(set(self.point_radii)))
+            raise InputError(
+                f'--heights: error: the wheels with contact = "point" have the radii {radii} m, expected radii within '
+                f'{100 * ALIKE:g} %: an obstacle has one outline for all; give the wheels contact = "distributed"'
+            )
+        return mean
 
 
 class Felt(NamedTuple):
@@ -104,17 +120,11 @@ class Vehicle:
 
 
 def find_wheels(results: ResultsFile) -> Wheels:
-    """The wheels of the vehicle of a run. InputError for none, and for wheels with point contact of several radii."""
+    """The wheels of the vehicle of a run. InputError for none."""
     wheels = [force for force in read_elements(results, "forces").values() if force.drawing == "wheel"]
     if not wheels:
         raise InputError(f"{results.path}: error: the vehicle has no wheels on the road")
     places = [results.series(f"points/{wheel.points['wheel']}/position.x")[0][0] for wheel in wheels]
-    radii = {
-        float(wheel.parameters["radius"]) for wheel in wheels if wheel.parameters.get("contact", "point") == "point"
-    }
-    if len(radii) > 1:
-        raise InputError(
-            f'{results.path}: error: the wheels with contact = "point" have different radii, '
-            f"{', '.join(f'{one:g}' for one in sorted(radii))} m: an obstacle's outline for all of them is not known"
-        )
-    return Wheels(float(np.ptp(places)), radii.pop() if radii else None)
+    on_points = [wheel for wheel in wheels if wheel.parameters.get("contact", "point") == "point"]
+    radii = sorted(float(wheel.parameters["radius"]) for wheel in on_points)
+    return Wheels(float(np.ptp(places)), tuple(radii))

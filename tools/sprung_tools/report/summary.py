@@ -107,7 +107,8 @@ def calc_force_rows(results: ResultsFile, force: str) -> list[Statistic]:
         name = describe_deflection(channel, on_road=False)
         if name:
             values, unit = results.series(channel.quantity)
-            largest = float(np.max(values if name.endswith("compression") else np.abs(values)))
+            both_ways = name == "turn" or " along " in name  # a stop that never touches has a negative overlap
+            largest = float(np.max(np.abs(values) if both_ways else values))
             rows.append((force, f"{name}, largest", unit, largest))
     return rows
 
