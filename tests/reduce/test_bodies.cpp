@@ -9,6 +9,7 @@
 #include <random>
 
 #include "reduce/reduction/reduction.h"
+#include "tests/reduce/free_body_truth.h"
 
 namespace sprung::reduce::testing {
 
@@ -173,6 +174,22 @@ double calc_difference(const Superelement& a, const Superelement& b) {
 
 std::string source_path(const std::string& path) {
   return std::string(SPRUNG_SOURCE_DIR) + "/" + path;
+}
+
+Design make_softly_held_design() {
+  fem::BeamModel model = make_model({make_section(), make_section()});
+  model.sections[1].bending_rigidity *= 1e-6;
+  model.sections[1].axial_rigidity *= 1e-6;
+  model.sections[1].mass_per_length *= 1e-3;
+  add_line(model, {0.0, 0.0}, {2.0, 0.0}, 8, 0);
+  add_line(model, {0.0, 0.0}, {0.0, 0.5}, 2, 1);
+  Design design = make_design(model, {0.0, 0.5}, {});
+  design.reduction = {
+      .basis = BasisKind::kFree,
+      .highest_hz = 100.0,
+      .tolerance = 0.01,
+      .interface = make_interface(model, {find_node_at(model, {0.5, 0.0}), find_node_at(model, {2.0, 0.0})})};
+  return design;
 }
 
 Superelement make_two_armed_body() {

@@ -43,6 +43,10 @@ Design make_design(const fem::BeamModel& model, const Eigen::Vector2d& reference
 /// provenance.
 Superelement make_two_armed_body();
 
+/// A free basis of a body whose reference node hangs on a member that is softer than the others by 1e6:
+/// clamped there, the body swings as a whole. Loads at two points of the stiff member.
+Design make_softly_held_design();
+
 /// A file's bytes; empty if there is none.
 std::string read_bytes(const std::filesystem::path& path);
 /// Writes or replaces a file.

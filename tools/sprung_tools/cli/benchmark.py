@@ -33,7 +33,7 @@ def parse_arguments() -> argparse.Namespace:
         "--programs", metavar="FOLDER", type=Path, default=ROOT / "build/release", help="where the programs are built"
     )
     parser.add_argument(
-        "--output-dir", metavar="FOLDER", type=Path, default=ROOT / "build/benchmark",
+        "-o", "--output-dir", metavar="FOLDER", type=Path, default=ROOT / "build/benchmark",
         help="for work_precision.png, work_precision.csv and benchmark.txt",
     )  # fmt: skip
     parser.add_argument(
