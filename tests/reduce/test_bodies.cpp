@@ -183,12 +183,11 @@ Design make_softly_held_design() {
   model.sections[1].mass_per_length *= 1e-3;
   add_line(model, {0.0, 0.0}, {2.0, 0.0}, 8, 0);
   add_line(model, {0.0, 0.0}, {0.0, 0.5}, 2, 1);
+  const std::vector<InterfaceFreedom> interface =  // names its nodes in the model
+      make_interface(model, {find_node_at(model, {0.5, 0.0}), find_node_at(model, {2.0, 0.0})});
   Design design = make_design(model, {0.0, 0.5}, {});
   design.reduction = {
-      .basis = BasisKind::kFree,
-      .highest_hz = 100.0,
-      .tolerance = 0.01,
-      .interface = make_interface(model, {find_node_at(model, {0.5, 0.0}), find_node_at(model, {2.0, 0.0})})};
+      .basis = BasisKind::kFree, .highest_hz = 100.0, .tolerance = 0.01, .interface = interface};
   return design;
 }
 
