@@ -46,6 +46,8 @@ class Functions(ToolTestCase):
                          "summary/points/sprung.origin/acceleration_max", "tyres/tyre/static_load"):  # fmt: skip
                 self.assertEqual(results.measure(name), measures[name].value)
             self.assertEqual((results.converged, results.warnings), (True, []))
+            self.assertEqual(repr(results), "<Results of 'quarter car': 1501 samples from 0 s to 1.5 s; 0 warnings>")
+        self.assertIn("closed", repr(results))
 
     def test_a_quantity_is_an_array_of_xarray_with_units(self):
         """By a stand-in that keeps what xarray.DataArray was given."""
@@ -97,6 +99,7 @@ class Functions(ToolTestCase):
             name = "forces/tyre/force"
             self.assertIn(name, response.names())
             self.assertEqual((response.frequency[0], response.frequency[-1]), (0.5, 30.0))
+            self.assertIn("from 0.5 Hz to 30 Hz", repr(response))
             self.assertEqual(response.magnitude(name).shape, response.frequency.shape)
             self.assertEqual(response.measures()[f"outputs/{name}/rms"], (response.rms(name), "N"))
             # The r.m.s. is the root of the integral of the spectrum.

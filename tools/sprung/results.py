@@ -47,6 +47,14 @@ class Results:
         self.path = Path(path)
         self._folder = folder
         self._file: ResultsFile = open_results(path)
+        self._is_closed = False
+
+    def __repr__(self) -> str:
+        if self._is_closed:
+            return f"<Results, closed: {self.path}>"
+        trust = "" if self.converged else "; do not trust it: its energy balance does not close"
+        span = f"{self.time.size} samples from {self.time[0]:g} s to {self.time[-1]:g} s"
+        return f"<Results of '{self.title}': {span}; {len(self.warnings)} warnings{trust}>"
 
     def __enter__(self) -> "Results":
         return self
@@ -57,6 +65,7 @@ class Results:
     def close(self) -> None:
         """Closes the file, and removes it if it has no name of its own."""
         self._file.file.close()
+        self._is_closed = True
         if self._folder is not None:
             self._folder.cleanup()
 
@@ -169,6 +178,10 @@ class Response:
         self._folder = folder
         file = open_hdf5(path, RESPONSE)
         self._response = labelled_responses.Response("", file, read_numbers(file, "frequency")[0])
+
+    def __repr__(self) -> str:
+        first, last = self.frequency[0], self.frequency[-1]
+        return f"<Response at {self.frequency.size} frequencies from {first:g} Hz to {last:g} Hz>"
 
     def __enter__(self) -> "Response":
         return self
