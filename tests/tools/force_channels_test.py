@@ -32,7 +32,8 @@ ELEMENTS = {
         "length": ("extent", "m", 0.4), "deflection": ("deflection", "m", 0.05), "force": ("force", "N", 7e4),
         "partner_length": ("extent", "m", 0.4), "partner_deflection": ("deflection", "m", 0.06),
         "partner_force": ("force", "N", 8e4)}),
-    "stop": ("hydraulic-stop", "rod", 5, {"overlap": ("deflection", "m", 0.0), "force": ("force", "N", 0.0)}),
+    "stop": ("hydraulic-stop", "rod", 5, {
+        "length": ("extent", "m", 0.4), "overlap": ("deflection", "m", 0.1), "force": ("force", "N", 2e4)}),
     "suspension": (None, None, 1, {}),
 }  # fmt: skip
 
@@ -56,7 +57,7 @@ class ForceChannels(ToolTestCase):
 
     def test_the_summary_has_the_largest_of_each_under_its_own_name(self):
         expected = {
-            "stop": {"force": 0.0, "overlap": -0.07},
+            "stop": {"force": 2e4, "overlap": 0.03},
             "leaf": {"force": 5e4, "friction": 3e3, "compression": 0.1},
             "air": {"force": 7e4, "partner force": 8e4, "compression": 0.05, "partner compression": 0.06},
             "bush": {"force along x": 100.0, "force along y": 200.0, "torque": 5.0, "deflection along x": 0.01,
@@ -75,11 +76,19 @@ class ForceChannels(ToolTestCase):
 
     def test_suspensions_are_springs_along_a_line_and_coupled_ones_are_two(self):
         found = find_suspensions(self.results)
-        self.assertEqual(list(found), ["link", "suspension", "air", "air partner", "leaf"])
+        self.assertEqual(list(found), ["link", "suspension", "air", "air partner", "leaf", "stop"])
         self.assertEqual(found["air partner"], "forces/air/partner_deflection")
         travel = calc_travel(self.results, "air partner", (1.0, 3.0))
         self.assertAlmostEqual(travel.compression, 0.06, places=6)
         self.assertAlmostEqual(travel.rebound, -0.06, places=6)
+
+    def test_an_end_stop_is_struck_where_its_parts_overlap(self):
+        # 0.1 sin − 0.07 from −0.07 in balance: above 0 once in each of two periods, (1/2 − asin(0.7)/π) of each.
+        travel = calc_travel(self.results, "stop", (1.0, 3.0))
+        self.assertAlmostEqual(travel.compression, 0.1, places=6)
+        self.assertAlmostEqual(travel.whole, 0.07, places=12)
+        self.assertEqual(travel.hits, 2)
+        self.assertAlmostEqual(travel.stopped, 2.0 * (0.5 - np.arcsin(0.7) / np.pi), delta=4e-3)
 
     def test_forces_stand_in_the_order_of_the_vehicle_file(self):
         # Those whose place the file does not tell come first, by their names.

@@ -22,6 +22,7 @@ from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 
+END_STOP = "hydraulic-stop"  # kind of the elements that act from a deflection of 0 on
 LONGITUDINAL = 0  # the column of x in a station's position
 
 
@@ -119,14 +120,15 @@ def find_tyres(results: ResultsFile) -> list[str]:
 
 
 def find_suspensions(results: ResultsFile) -> dict[str, str]:
-    """The springs along a line whose histories are stored: the quantity of the deflection by the spring's name, and by
-    `NAME partner` of the second of two coupled ones."""
+    """The springs along a line, and the end stops, whose histories are stored: the quantity of the deflection by the
+    element's name, and by `NAME partner` of the second of two coupled springs."""
     found = {}
     for force in read_elements(results, "forces").values():
-        channels = list_force_channels(results, force.name) if force.drawing == "spring" else []
+        is_wanted = force.drawing == "spring" or force.kind == END_STOP
+        channels = list_force_channels(results, force.name) if is_wanted else []
         if any(one.role == EXTENT for one in channels):
             for one in (one for one in channels if one.role == DEFLECTION):
-                prefix = one.name.removesuffix("deflection").replace("_", "")
+                prefix = one.name.removesuffix("overlap").removesuffix("deflection").replace("_", "")
                 found[f"{force.name} {prefix}".rstrip()] = one.quantity
     return found
 
@@ -138,7 +140,8 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     quantity = find_suspensions(results)[name]
     deflection, _ = results.series(quantity)
     static = calc_static(results, deflection, inside)
-    stop = read_elements(results, "forces")[quantity.split("/")[1]].parameters.get("compression_stop")
+    element = read_elements(results, "forces")[quantity.split("/")[1]]
+    stop = 0.0 if element.kind == END_STOP else element.parameters.get("compression_stop")
     deflection = deflection[inside]
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
