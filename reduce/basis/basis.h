@@ -32,7 +32,7 @@ struct BasisRequest {
   double highest_hz = 0.0;    ///< the end of the band
   double tolerance = 0.01;    ///< share of the static flexibility that may be missing
   bool all_residual = false;  ///< the static response to every load, whatever the tolerance
-  double rounding = 0.0;      ///< relative rounding error of the lowest ω² (rounding_error.h)
+  double rounding = 0.0;      ///< largest relative rounding error of an ω² (rounding_error.h)
   Progress progress = {};     ///< may be empty
 };
 

@@ -20,7 +20,7 @@ struct CertificateRequest {
   double next_omega_squared = 0.0;  ///< of the free mode after those; infinite where there is none
   bool holds_free_modes = false;    ///< whether the residual's exact modes are these
   bool is_complete = false;         ///< whether the basis holds every motion of the model
-  double rounding = 0.0;            ///< relative rounding error of the lowest ω² (rounding_error.h)
+  double rounding = 0.0;            ///< largest relative rounding error of an ω² (rounding_error.h)
 };
 
 /// λ_c of a request: ω² of the lowest free mode that the basis does not hold exactly; infinite where it holds

@@ -6,7 +6,7 @@
 
 namespace sprung::reduce {
 
-/// Largest estimated relative rounding error of the lowest ω² that is accepted.
+/// Largest estimated relative rounding error of a mode's ω² that is accepted.
 inline constexpr double kMaxRoundingError = 1e-4;
 
 /// Estimated relative error of a mode's ω² by rounding of the stiffness matrix. Bending stiffness grows with

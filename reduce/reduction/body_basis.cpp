@@ -108,10 +108,7 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
                              const ClampedModeOptions& options) {
   const int num_needed = calc_num_modes_needed(design.modes, matrices.held, options);
   const ClampedModes modes = calc_clamped_modes(matrices.held, num_needed, options);
-  const double rounding = estimate_rounding_error(matrices.held.stiffness, modes.pairs.vectors.col(0),
-                                                  modes.pairs.omega_squared(0));
-  check_rounding(design, make_shapes(design, modes.pairs.vectors.leftCols(1)), rounding,
-                 calc_frequency_hz(modes.pairs.omega_squared(0)));
+  const double rounding = check_rounding(design, matrices.held.stiffness, modes.pairs);
   const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
   const CanonicalVectors canonical =
       make_canonical(modes.pairs, modes.cluster, columns, make_shapes(design, modes.pairs.vectors), frame);
@@ -141,11 +138,7 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
           : calc_modes_below(matrices.free, 1.01 * calc_frequency_hz(modes.next_omega_squared), options);
   if (lowest.pairs.vectors.cols() == 0)
     throw support::NumericalError("no elastic mode of the free body was found, though the count has one");
-  const Eigen::VectorXd first = lowest.pairs.vectors.col(0);
-  const double lowest_omega_squared = lowest.pairs.omega_squared(0);
-  request.rounding = estimate_rounding_error(matrices.free.stiffness, first, lowest_omega_squared);
-  check_rounding(design, make_shapes(design, first), request.rounding,
-                 calc_frequency_hz(lowest_omega_squared));
+  request.rounding = check_rounding(design, matrices.free.stiffness, lowest.pairs);
   const bool is_free = design.reduction.basis == BasisKind::kFree;
   const FreeBodyBasis found =
       is_free ? make_free_basis(matrices.free, factor, modes, request)

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "fem/beam_element.h"
+#include "fem/coupling.h"
+#include "reduce/modes/held_node.h"
 #include "reduce/modes/rounding_error.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -26,8 +28,20 @@ Eigen::VectorXd calc_energies(const fem::BeamModel& model, const Eigen::MatrixXd
 
 }  // namespace
 
-void check_rounding(const Design& design, const Eigen::MatrixXd& shape, double error, double frequency_hz) {
-  if (error <= kMaxRoundingError) return;
+double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& stiffness,
+                      const EigenPairs& modes) {
+  double error = -1.0;
+  Eigen::Index worst = 0;
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    const double found = estimate_rounding_error(stiffness, modes.vectors.col(i), modes.omega_squared(i));
+    if (found <= error) continue;
+    error = found;
+    worst = i;
+  }
+  if (error <= kMaxRoundingError) return error;
+  const double frequency_hz = calc_frequency_hz(modes.omega_squared(worst));
+  const Eigen::MatrixXd shape = fem::move_followers(
+      design.model.couplings, insert_node(modes.vectors.col(worst), design.reference_node));
   const Eigen::VectorXd energies = calc_energies(design.model, shape);
   Eigen::Index softest = 0;
   const double largest = energies.size() > 0 ? energies.maxCoeff(&softest) : 0.0;
@@ -44,9 +58,10 @@ void check_rounding(const Design& design, const Eigen::MatrixXd& shape, double e
                     kMaxRoundingError));
   }
   throw support::NumericalError(fmt::format(
-      "rounding spoils the lowest mode ({:.6g} Hz): its estimated relative error in ω² is {:.2g}, accepted "
-      "is {:.0e}; refine the mesh less (the error grows with the fourth power of the number of elements)",
-      frequency_hz, error, kMaxRoundingError));
+      "rounding spoils {} ({:.6g} Hz): its estimated relative error in ω² is {:.2g}, accepted "
+      "is {:.0e}; refine the mesh less{} (the error grows with the fourth power of the number of elements)",
+      worst == 0 ? "the lowest mode" : fmt::format("mode {}", worst + 1), frequency_hz, error, kMaxRoundingError,
+      worst == 0 ? "" : " where this mode bends"));
 }
 
 }  // namespace sprung::reduce

@@ -11,7 +11,7 @@ namespace sprung::reduce {
 ///
 /// @param options  the result does not depend on them beyond rounding
 /// @throws support::InputError for a request that the frame cannot serve (modes, damping ratios)
-///         support::NumericalError where rounding spoils the lowest mode, the modes cannot be proved
+///         support::NumericalError where rounding spoils a mode, the modes cannot be proved
 ///         complete, or a check of the result fails (its value and tolerance)
 /// Checked by tests/reduce/truck_test.cpp, tests/reduce/design/design_test.cpp
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options = {});

@@ -131,7 +131,7 @@ CheckResult check_held_node(const Superelement& s) {
 
 double find_rounding(const Superelement& s) {
   for (const CheckResult& check : s.checks) {
-    if (check.name == kRoundingCheck) return check.value;
+    if (check.name == kRoundingCheck || check.name == kOldRoundingCheck) return check.value;
   }
   return 0.0;
 }

@@ -7,8 +7,11 @@
 
 namespace sprung::reduce {
 
-/// Name of a check recorded when the file is made. The tolerance of another check depends on its value.
-inline constexpr const char* kRoundingCheck = "rounding error of the lowest ω²";
+/// Name of a check recorded when the file is made. The tolerances of other checks depend on its value.
+inline constexpr const char* kRoundingCheck = "rounding error of ω²";
+
+/// Its name in files that were made when only the lowest mode was looked at.
+inline constexpr const char* kOldRoundingCheck = "rounding error of the lowest ω²";
 
 inline constexpr const char* kMassConditionCheck = "condition of the mass matrix of frame and modes";
 

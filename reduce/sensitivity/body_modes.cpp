@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/rounding_error.h"
 #include "reduce/reduction/mechanism.h"
 
 namespace sprung::reduce {
@@ -18,11 +17,7 @@ BodyModes calc_body_modes(const Design& design, const BodyMatrices& matrices, bo
   const ClampedModes modes =
       calc_clamped_modes(problem, std::min(num_modes, static_cast<int>(problem.num_modes())));
   const Eigen::MatrixXd shapes = insert_node(modes.pairs.vectors, design.reference_node);
-  const Eigen::VectorXd lowest = modes.pairs.vectors.col(0);
-  const double omega_squared = modes.pairs.omega_squared(0);
-  check_rounding(design, shapes.leftCols(1),
-                 estimate_rounding_error(problem.stiffness, lowest, omega_squared),
-                 calc_frequency_hz(omega_squared));
+  check_rounding(design, problem.stiffness, modes.pairs);
   return {.omega_squared = modes.pairs.omega_squared,
           .shapes = is_free ? remove_momentum(matrices.rigid, shapes) : shapes,
           .cluster = modes.cluster};

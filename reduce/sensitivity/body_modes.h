@@ -18,7 +18,7 @@ struct BodyModes {
 /// The lowest modes of a body that is free, or clamped at its reference node. The last one's cluster is
 /// whole.
 /// @param num_modes  ≥ 1; fewer where the frame has fewer freedoms
-/// @throws support::NumericalError  as make_superelement, also where rounding spoils the lowest mode
+/// @throws support::NumericalError  as make_superelement, also where rounding spoils a mode
 BodyModes calc_body_modes(const Design& design, const BodyMatrices& matrices, bool is_free, int num_modes);
 
 }  // namespace sprung::reduce

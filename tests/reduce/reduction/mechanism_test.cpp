@@ -28,6 +28,22 @@ TEST_CASE("an element that gives way without force is named as an internal mecha
   CHECK_THAT(message, Contains("internal mechanism"));
 }
 
+TEST_CASE("a mode that rounding spoils is refused where the lowest one is sound") {
+  fem::BeamModel model = testing::make_model({testing::make_section(), testing::make_section()});
+  model.sections[1].bending_rigidity *= 0.01;
+  testing::add_line(model, {0.0, 0.0}, {10.0, 0.0}, 10, 0);
+  testing::add_line(model, {5.0, 0.0}, {5.0, 1.0}, 2000, 1);
+  const auto interface = testing::make_interface(model, {testing::find_node_at(model, {10.0, 0.0})});
+  Design design = testing::make_design(model, {0.0, 0.0}, {});
+  design.reduction = {.basis = BasisKind::kFree, .highest_hz = 10.0, .interface = interface};
+  const auto message = [&] {
+    return testing::message_of<support::NumericalError>([&] { make_superelement(design); });
+  };
+  CHECK_THAT(message(), Contains("rounding spoils mode 2") && Contains("where this mode bends"));
+  design.reduction.highest_hz = 3.0;  // without the short beam's modes
+  CHECK(make_superelement(design).kind.front() == kFreeVector);
+}
+
 TEST_CASE("a body that is soft at one place, but not to rounding, is reduced") {
   const Superelement body = make_superelement(make_hinged(1e-4));
   CHECK(body.kind.front() == kFreeVector);
