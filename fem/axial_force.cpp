@@ -56,17 +56,24 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
   return forces;
 }
 
+Eigen::Matrix<double, 1, 6> calc_axial_row(const BeamElement& element) {
+  Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
+  if (element.properties.bushing) return row;
+  const double length = calc_length(element);
+  const Eigen::RowVector2d t = (element.second - element.first).transpose() / length;
+  row.segment<2>(3) = element.properties.axial_rigidity / length * t;
+  row.head<2>() = -row.segment<2>(3);
+  return row;
+}
+
 Eigen::MatrixXd calc_axial_forces(const BeamModel& model, const Eigen::MatrixXd& displacements) {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(model.mesh.num_elements(), displacements.cols());
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
     const Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
-    const BeamElement element = make_element(model, e);
-    if (element.properties.bushing) continue;
-    const double length = calc_length(element);
-    const Eigen::RowVector2d t = (element.second - element.first).transpose() / length;
+    const Eigen::RowVector2d row = calc_axial_row(make_element(model, e)).segment<2>(3);
+    // The difference of displacements first: they may be large and nearly equal.
     forces.row(e) =
-        element.properties.axial_rigidity / length * t *
-        (displacements.middleRows<2>(3 * nodes.second) - displacements.middleRows<2>(3 * nodes.first));
+        row * (displacements.middleRows<2>(3 * nodes.second) - displacements.middleRows<2>(3 * nodes.first));
   }
   return forces;
 }

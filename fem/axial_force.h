@@ -40,6 +40,11 @@ std::vector<AxialForce> calc_axial_forces(const BeamModel& model, const Eigen::V
                                           const FrameAcceleration& acceleration,
                                           const Eigen::Vector2d& origin);
 
+/// Axial force of an element without loads between its ends, per displacement of its ends in the mesh's axes;
+/// zero for a bushing.
+/// @return 1×6 [N/m, N]
+Eigen::Matrix<double, 1, 6> calc_axial_row(const BeamElement& element);
+
 /// Axial forces of a frame that forces at its nodes alone displaced: constant along each element.
 /// @param displacements  3N×k   @return k columns with a value for each element [N]
 Eigen::MatrixXd calc_axial_forces(const BeamModel& model, const Eigen::MatrixXd& displacements);

@@ -60,8 +60,8 @@ double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& s
   throw support::NumericalError(fmt::format(
       "rounding spoils {} ({:.6g} Hz): its estimated relative error in ω² is {:.2g}, accepted "
       "is {:.0e}; refine the mesh less{} (the error grows with the fourth power of the number of elements)",
-      worst == 0 ? "the lowest mode" : fmt::format("mode {}", worst + 1), frequency_hz, error, kMaxRoundingError,
-      worst == 0 ? "" : " where this mode bends"));
+      worst == 0 ? "the lowest mode" : fmt::format("mode {}", worst + 1), frequency_hz, error,
+      kMaxRoundingError, worst == 0 ? "" : " where this mode bends"));
 }
 
 }  // namespace sprung::reduce

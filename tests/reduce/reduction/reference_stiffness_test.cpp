@@ -98,6 +98,36 @@ TEST_CASE("reference stiffness is the second-order displacement of beams that do
   CHECK(form(K.acceleration[1]) == Approx(-exact.moment.y()).epsilon(kDifferences));
 }
 
+TEST_CASE("the geometric stiffness of a point is the same beside few points and beside many") {
+  // 5 modes have 15 pairs: the 9 loads of three points are solved for, or the pairs, where six points
+  // have 18. One point hangs on a rigid offset.
+  const auto reduce = [](bool all_points) {
+    fem::BeamModel model = make_bent_arm();
+    model.mesh.node_ids.push_back(7);
+    model.mesh.node_positions.conservativeResize(2, 7);
+    model.mesh.node_positions.col(6) = Eigen::Vector2d(1.4, 1.8);
+    model.couplings = {fem::make_rigid_offset(model.mesh.node_positions, 6, 5)};
+    model.mesh.named_nodes[1].node = 6;
+    if (all_points) {
+      for (const int node : {1, 2, 4})
+        model.mesh.named_nodes.push_back({.name = std::to_string(node), .node = node});
+    }
+    return make_superelement(testing::make_design(model, {0.3, -0.2}, {.wanted = ModeCount{5}}));
+  };
+  const Superelement few = reduce(false), many = reduce(true);
+  REQUIRE(few.points.size() == 3);
+  REQUIRE(many.points.size() == 6);
+  for (std::size_t p = 0; p < 3; ++p) {
+    for (std::size_t freedom = 0; freedom < 3; ++freedom) {
+      const Eigen::MatrixXd& expected = few.geometric_stiffness->point_loads[p][freedom];
+      const Eigen::MatrixXd& found = many.geometric_stiffness->point_loads[p][freedom];
+      CHECK((found - expected).norm() <= kTolerance * few.geometric_stiffness->point_loads[2][0].norm());
+      CHECK((p == 0 || freedom == 2) ==
+            (expected.norm() < 0.1 * few.geometric_stiffness->point_loads[2][1].norm()));
+    }
+  }
+}
+
 TEST_CASE("a moment on an open frame strains no axis, and a load on the held node nothing") {
   const GeometricStiffness K = *make_arm_superelement(5).geometric_stiffness;
   const double size = K.point_loads[2][0].norm();
