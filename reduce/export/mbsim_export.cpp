@@ -49,7 +49,7 @@ Eigen::MatrixXd calc_shape_products(const InertiaInvariants& inertia) {
 }  // namespace
 
 ExportReport export_mbsim(const Superelement& s, const std::string& prefix) {
-  const std::string path = prefix + ".h5";
+  const std::string path = prefix + "_mbsim.h5";  // PREFIX.h5 may be the superelement itself
   const std::vector<std::int32_t> numbers = convert_node_numbers(s, path);
   const InertiaInvariants& inertia = s.inertia;
   Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, s.num_modes());

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""A swinging beam and the truck's chassis on springs, as MBDyn and Exudyn computed them from exported bodies.
+"""A swinging beam and the truck's chassis on springs, as MBDyn, MBSim and Exudyn computed them from exported bodies.
 
 The tables in other_programs/ say which version ran with which input. The programs here and equations made of the
 exported files have to give the same.
 """
 
+import itertools
 import os
 import unittest
 
@@ -18,7 +19,7 @@ DESIGNS = {"pendulum": CASES / "swinging_beam.toml", "hung_chassis": ROOT / "mes
 BODIES = {"pendulum": "beam", "hung_chassis": "chassis"}
 SPRINGS = [(np.array([-2.175, 0.0]), np.array([-2.175, 1.0]), 1.0, 8e5),
            (np.array([2.175, 0.0]), np.array([2.175, 1.0]), 1.0, 1.2e6)]  # fmt: skip
-ALL = [(program, case) for program in ("mbdyn", "exudyn") for case in DESIGNS]
+PROGRAMS = ("mbdyn", "mbsim", "exudyn")
 
 
 def read_table(program, case):
@@ -55,7 +56,7 @@ class OtherPrograms(VerificationCase):
             frequencies = [frequency for frequency in frequencies if frequency > 1e-3]
             file = self.run_to_results(run_file, superelements=folder).file[f"bodies/{BODIES[case]}"]
             motion = np.hstack([file["position"], file["modal/amplitude"]])
-            for program in ("mbdyn", "exudyn"):
+            for program in PROGRAMS:
                 expected_frequencies, times, expected = read_table(program, case)
                 self.assert_close(frequencies, expected_frequencies, relative=1e-6)
                 self.assertEqual(len(motion), len(times))
@@ -65,7 +66,7 @@ class OtherPrograms(VerificationCase):
         self.reduce("export", self.build(case), "--to", target, "-o", "body")
         readers = {"mbdyn": lambda: read_mbdyn(self.folder / "body.fem"),
                    "exudyn": lambda: read_exudyn(self.folder / "body.hdf5", 0.01),
-                   "mbsim": lambda: read_mbsim(self.folder / "body.h5")}  # fmt: skip
+                   "mbsim": lambda: read_mbsim(self.folder / "body_mbsim.h5")}  # fmt: skip
         return readers[target]()
 
     def make_system(self, body, case, gravity):
@@ -74,15 +75,13 @@ class OtherPrograms(VerificationCase):
         return PlaneSystem(body, SPRINGS, gravity=gravity)
 
     def test_exported_files_give_what_the_others_gave(self):
-        for target, source, case in [(program, program, case) for program, case in ALL] + [
-            ("mbsim", "mbdyn", case) for case in DESIGNS
-        ]:  # fmt: skip
-            expected_frequencies, times, expected = read_table(source, case)
-            body = self.read_exported(target, case).take(expected.shape[1] - 3)
+        for program, case in itertools.product(PROGRAMS, DESIGNS):
+            expected_frequencies, times, expected = read_table(program, case)
+            body = self.read_exported(program, case).take(expected.shape[1] - 3)
             self.assert_close(self.make_system(body, case, 0.0).frequencies(), expected_frequencies, relative=1e-6)
             rows = slice(0, 16)  # 0.3 s
             found = self.make_system(body, case, 9.81).move(times[rows])
-            self.assert_same_motion(found, expected[rows], f"{target} {case}")
+            self.assert_same_motion(found, expected[rows], f"{program} {case}")
 
 
 if __name__ == "__main__":

@@ -173,8 +173,13 @@ class ProgramExportTest(ExportCase):
             printed = self.export("mbsim")
             for word in ("moments of inertia about x and y", "geometric stiffness", "section loads"):
                 self.assertIn(word, printed)
-            with h5py.File(self.folder / "body.h5") as file:
+            with h5py.File(self.folder / "body_mbsim.h5") as file:
                 data = {name: item[()] for name, item in file.items()}
+                # MBSim's reader lists the objects in the order in which they were made, and fails without it.
+                listed = []
+                root = h5py.h5g.open(file.id, b"/")
+                root.links.iterate(listed.append, idx_type=h5py.h5.INDEX_CRT_ORDER)
+                self.assertEqual(listed[0], b"mass")
             n = data["stiffness matrix"].shape[0]
             shapes = self.check_spatial(data["nodal shape matrix of translation"], data["nodal relative position"],
                                         data["nodal shape matrix of rotation"])
@@ -214,7 +219,7 @@ class ProgramExportTest(ExportCase):
         self.export("exudyn")
         self.export("mbsim")
         exudyn = self.read_dictionary(self.folder / "body.hdf5")
-        with h5py.File(self.folder / "body.h5") as file:
+        with h5py.File(self.folder / "body_mbsim.h5") as file:
             mbsim = {name: item[()] for name, item in file.items()}
         shapes = self.check_spatial(mbsim["nodal shape matrix of translation"], mbsim["nodal relative position"],
                                     mbsim["nodal shape matrix of rotation"])

@@ -26,7 +26,7 @@ void hold_structure_between_flushes(hid_t access) {
 
 }  // namespace
 
-Hdf5Handle create_file(const std::filesystem::path& path) {
+Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order) {
   const std::string_view what = "cannot be written";
   const Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
   // Format 1.10: its structure carries checksums too, and other programs have read it since 2016.
@@ -34,6 +34,9 @@ Hdf5Handle create_file(const std::filesystem::path& path) {
   check(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), what);
   hold_structure_between_flushes(access.get());
   const Hdf5Handle creation = make_properties(H5P_FILE_CREATE);
+  if (keeps_order) {
+    check(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), what);
+  }
   return own(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, what);
 }
 

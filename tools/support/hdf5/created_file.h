@@ -12,7 +12,8 @@ namespace sprung::support::hdf5 {
 
 /// A new file, open for writing. HDF5 truncates before it takes its lock, so check_temporary has to come
 /// first.
-Hdf5Handle create_file(const std::filesystem::path& path);
+/// @param keeps_order  whether the root can be listed in the order in which its objects were made
+Hdf5Handle create_file(const std::filesystem::path& path, bool keeps_order = false);
 
 /// Removes an attribute, if there is one of this name.
 void remove_attribute(std::int64_t object, const std::string& name);

@@ -25,7 +25,8 @@ ExchangeFile::ExchangeFile(std::filesystem::path target)
   hdf5::initialize();
   check_target(target_);
   check_temporary(target_, temporary_);
-  attempt([this] { file_ = hdf5::create_file(temporary_); });
+  // MBSim's reader takes objects in the order in which they were made.
+  attempt([this] { file_ = hdf5::create_file(temporary_, true); });
 }
 
 ExchangeFile::~ExchangeFile() {
