@@ -29,7 +29,11 @@ class SubstructureReader {
  public:
   SubstructureReader(const std::filesystem::path& path, const std::string& type, FreedomList& freedoms,
                      bool given)
-      : lines_(path), type_(type), freedoms_(freedoms), given_(given), entries_{.path = path.string()} {}
+      : lines_(path),
+        type_(type),
+        freedoms_(freedoms),
+        given_(given),
+        entries_{.path = path.string(), .items = {}} {}
 
   MatrixEntries read() {
     while (lines_.next()) {

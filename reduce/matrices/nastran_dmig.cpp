@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace sprung::reduce {
 
@@ -13,6 +16,13 @@ namespace {
 constexpr std::size_t kNarrow = 8, kWide = 16, kFieldsOfLine = 8;
 constexpr int kSquare = 1, kSymmetric = 6;
 constexpr int kLargestRealType = 2;
+
+// What Nastran writes beside the matrices of an external superelement. Anything else may be a matrix's entry
+// with a slip of the pen, and is refused.
+constexpr std::string_view kOtherEntries[] = {
+    "ASET",   "ASET1",  "BEGIN", "BSET",  "BSET1", "CORD1C",  "CORD1R", "CORD1S", "CORD2C",
+    "CORD2R", "CORD2S", "CSET",  "CSET1", "DTI",   "ENDDATA", "EXTRN",  "GRID",   "PARAM",
+    "PLOTEL", "QSET",   "QSET1", "RSET",  "RSET1", "SECONCT", "SEBULK", "SPOINT", "TABDMP1"};
 
 // A physical line: its first field, and the data after it.
 struct Card {
@@ -81,8 +91,7 @@ class DmigReader {
       } else if (card.keyword.empty()) {
         read_continuation(card);
       } else {
-        throw lines_.error(
-            fmt::format("'{}' is no part of a matrix, expected DMIG entries alone", card.keyword));
+        read_other(card);
       }
     }
     require_matrix();
@@ -90,9 +99,29 @@ class DmigReader {
   }
 
  private:
+  // Freedoms are those of the basic system: a grid point may not have another one for its displacements.
+  void read_other(const Card& card) {
+    const std::string_view keyword = card.keyword.substr(0, card.keyword.find(' '));
+    if (std::ranges::find(kOtherEntries, keyword) == std::end(kOtherEntries)) {
+      throw lines_.error(fmt::format(
+          "'{}' is neither DMIG nor what stands beside the matrices of an external superelement", keyword));
+    }
+    is_column_ = false;
+    is_wide_grid_ = keyword == "GRID" && card.is_wide;
+    if (keyword == "GRID" && !card.is_wide) check_system(card.fields[5]);
+  }
+
+  void check_system(const TextField& system) const {
+    if (system.text.empty() || system.text == "0") return;
+    throw lines_.error(system,
+                       fmt::format("the point has displacements in the coordinate system {}; expected "
+                                   "matrices in the basic system, 0",
+                                   system.text));
+  }
+
   void read_first(const Card& card) {
     const std::string found(card.fields[0].text);
-    is_column_ = false;
+    is_column_ = is_wide_grid_ = false;
     if (card.fields[1].text == "0") {
       read_header(card, found);
       return;
@@ -132,6 +161,7 @@ class DmigReader {
   }
 
   void read_continuation(const Card& card) {
+    if (std::exchange(is_wide_grid_, false)) check_system(card.fields[1]);
     if (!is_column_) return;  // of a header, or of another matrix
     read_pair(card.fields, 0);
     if (!card.is_wide) read_pair(card.fields, 4);
@@ -174,7 +204,7 @@ class DmigReader {
   MatrixEntries entries_;
   std::set<std::string> names_;
   std::map<std::int64_t, bool> is_scalar_;  // of each point so far
-  bool has_header_ = false, is_column_ = false;
+  bool has_header_ = false, is_column_ = false, is_wide_grid_ = false;
   int column_ = 0;
 };
 

@@ -172,6 +172,35 @@ class MatricesTest(ReduceTestCase):
                 self.build(design, "--force")
                 self.assert_same("body")
 
+    def test_nastran_superelement_with_its_other_entries(self):
+        """What Nastran writes before and after the matrices, as in published punch files."""
+        self.build_beam()
+        files.write_nodes(self.folder / "n.csv", IDS, PLACES)
+        design = self.write_design("body", 'format = "nastran"\nstiffness = "p.pch"\nmass = "p.pch"\n'
+                                   'stiffness_name = "KAAX"\nmass_name = "MAAX"\nnodes = "n.csv"\n')
+        K, M = files.make_beam(2)
+        files.write_dmig(self.folder / "p.pch", {"KAAX": K, "MAAX": M}, files.plane_freedoms(IDS))
+        before = ("BEGIN SUPER     111\n"
+                  "CORD2R *               7              0.              1.              0.\n"
+                  "*                     0.              0.              1.              1.\n"
+                  "*                     0.              0.\n"
+                  "EXTRN          1  123456       2  123456       3  123456\n"
+                  "GRID   *               1               7              0.              0.\n"
+                  "*                     0.\n"
+                  "GRID           2              1.      0.      0.       0\n"
+                  "ASET           1  123456       2  123456       3  123456\n"
+                  "QSET1          0     101    THRU     103\n")
+        after = ("DTI     TUG1    0       66      105     32767   0       7       0\n"
+                 "        PHIP            7                       REAL           1ENDREC\n"
+                 "DMIG    MUG1T          0       9       2       0                       3\n"
+                 "DMIG*   MUG1T                          1               0\n"
+                 "*                      1               1 1.000000000D+00\n"
+                 "ENDDATA\n")
+        path = self.folder / "p.pch"
+        path.write_text(before + path.read_text() + after)
+        self.build(design)
+        self.assert_same("body")
+
     def test_nodes_from_a_mesh(self):
         self.build_beam()
         (self.folder / "frame.geo").write_text('Point(1) = {0, 0, 0}; Point(2) = {2, 0, 0}; Line(1) = {1, 2};\n'
