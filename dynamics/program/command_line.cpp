@@ -38,6 +38,9 @@ void add_output_option(CLI::App& command, RunOutput& output, const char* what) {
 
 int run_arguments(const std::vector<std::string>& arguments, RunRequest request) {
   CLI::App app{"Runs a vehicle of rigid and flexible bodies.", "sprung-dynamics"};
+  app.failure_message([](const CLI::App* command, const CLI::Error& error) {
+    return "sprung-dynamics: error: " + CLI::FailureMessage::simple(command, error);
+  });
   app.footer(
       "Example: sprung-dynamics run dynamics/models/truck/bump.toml --superelements build/truck -o bump.h5 "
       "--set modes.chassis=4\n"

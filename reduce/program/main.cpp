@@ -131,6 +131,9 @@ int main(int argc, char** argv) {
     CLI::App app("Reduces planar frames of beams to superelements for vehicle dynamics.", "sprung-reduce");
     app.set_version_flag("--version", std::string("sprung-reduce ") + reduce::get_program_version());
     app.require_subcommand(1);
+    app.failure_message([](const CLI::App* command, const CLI::Error& error) {
+      return "sprung-reduce: error: " + CLI::FailureMessage::simple(command, error);
+    });
     Arguments arguments;
     add_build(app, arguments);
     add_sensitivity(app, arguments.sensitivity);

@@ -84,7 +84,7 @@ class SpoiltText(DynamicsTestCase):
         self.assert_refused(self.run_to_results("--set", "modes.chassis=3"), "--set 2", "38.31")
 
     def test_unknown_command_line(self):
-        self.assertEqual(self.run_program("--sett", "speed=1").returncode, 2)
+        self.assert_refused(self.run_program("--sett", "speed=1"), "sprung-dynamics: error: ", "--sett")
 
 
 class SpoiltSuperelement(DynamicsTestCase):
