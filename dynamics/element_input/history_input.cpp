@@ -172,11 +172,6 @@ struct Need {
   double from, to;
 };
 
-std::string locate(const HistoryUse& history) {
-  const support::SourceLocation& at = history.location;
-  return at.line > 0 ? fmt::format("{}:{}:{}: ", at.path, at.line, at.column) : at.path + ": ";
-}
-
 }  // namespace
 
 const HistoryFiles::File& HistoryFiles::open(const support::TomlValue& file) {
@@ -257,26 +252,29 @@ std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histor
   for (const HistoryUse& history : histories) {
     const Need need(history, to);
     if (need.exists() && history.from > need.from + kRoundedTime) {
-      remarks.push_back(fmt::format("{}'{}' begins at {:.9g} s; until then {}", locate(history), history.key,
-                                    history.from, describe(history.before, "first")));
+      remarks.push_back(fmt::format("{}: '{}' begins at {:.9g} s; until then {}",
+                                    support::format_place(history.location), history.key, history.from,
+                                    describe(history.before, "first")));
     }
     if (need.exists() && history.to < need.to - kRoundedTime) {
-      remarks.push_back(fmt::format(
-          "{}'{}' ends at {:.9g} s, {} at {:.9g} s; from then on {}", locate(history), history.key,
-          history.to, need.to < to ? "its piece" : "the run", need.to, describe(history.after, "last")));
+      remarks.push_back(fmt::format("{}: '{}' ends at {:.9g} s, {} at {:.9g} s; from then on {}",
+                                    support::format_place(history.location), history.key, history.to,
+                                    need.to < to ? "its piece" : "the run", need.to,
+                                    describe(history.after, "last")));
     }
     if (history.interpolation == "smooth" && has_close_samples(history)) {
-      remarks.push_back(
-          fmt::format("{}'{}' has samples {:.3g} s apart, where the mean is {:.3g} s: steps near them are no "
-                      "longer",
-                      locate(history), history.key, history.shortest_spacing, history.mean_spacing));
+      remarks.push_back(fmt::format(
+          "{}: '{}' has samples {:.3g} s apart, where the mean is {:.3g} s: steps near them are no "
+          "longer",
+          support::format_place(history.location), history.key, history.shortest_spacing,
+          history.mean_spacing));
     }
     if (history.swing > kWideSwing) {
       remarks.push_back(
-          fmt::format("{}'{}' swings out beyond its samples by {:.3g} times their range, between samples "
+          fmt::format("{}: '{}' swings out beyond its samples by {:.3g} times their range, between samples "
                       "that are further apart than those beside them; a smooth curve needs samples "
                       "whose distances change little by little",
-                      locate(history), history.key, history.swing));
+                      support::format_place(history.location), history.key, history.swing));
     }
   }
   return remarks;

@@ -122,7 +122,7 @@ std::string remark_on_road(const RoadDescription& description, const Road& road,
   if (text.empty()) return {};
   const support::SourceLocation& at =
       description.file.empty() || speed < 0.0 ? description.location : description.file_location;
-  return fmt::format("{}:{}:{}: {}", at.path, at.line, at.column, text);
+  return fmt::format("{}: {}", support::format_place(at), text);
 }
 
 }  // namespace sprung::dynamics

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprung::dynamics {
@@ -11,10 +12,33 @@ namespace {
 constexpr double kLongest = 100.0;         // m, of a vehicle
 constexpr double kLargestWheel = 10.0;     // m
 constexpr double kLargestGyration = 50.0;  // m
+// A body whose points are this much nearer than its radius of gyration, which is longer than kLongGyration.
+constexpr double kWideGyration = 10.0;
+constexpr double kLongGyration = 3.0;  // m
 
 std::string remark_at(const support::SourceLocation& location, const std::string& text) {
-  if (location.line == 0) return fmt::format("{}: {}", location.path, text);
-  return fmt::format("{}:{}:{}: {}", location.path, location.line, location.column, text);
+  return fmt::format("{}: {}", support::format_place(location), text);
+}
+
+void remark_on_inertia(const BodyDescription& body, std::vector<std::string>& remarks) {
+  if (body.mass <= 0.0) return;
+  const double gyration = std::sqrt(body.inertia / body.mass);
+  double extent = 0.0;
+  for (const PointDescription& point : body.points) extent = std::max(extent, point.position.norm());
+  if (gyration > kLargestGyration) {
+    remarks.push_back(remark_at(
+        body.inertia_location,
+        fmt::format(
+            "'bodies.{}.inertia' is that of {:.4g} kg at a distance of {:.4g} m; inertias are in kg·m², not "
+            "in kg·mm²",
+            body.name, body.mass, gyration)));
+  } else if (extent > 0.0 && gyration > std::max(kLongGyration, kWideGyration * extent)) {
+    remarks.push_back(remark_at(
+        body.mass_location,
+        fmt::format("'bodies.{}.mass' is {:.4g} kg, whose inertia is that at a distance of {:.4g} m, where "
+                    "all points are within {:.4g} m; masses are in kg, not in t",
+                    body.name, body.mass, gyration, extent)));
+  }
 }
 
 void remark_on_body(const BodyDescription& body, std::vector<std::string>& remarks) {
@@ -24,15 +48,7 @@ void remark_on_body(const BodyDescription& body, std::vector<std::string>& remar
         point.location, fmt::format("'bodies.{}.points.{}' is {:.4g} m away; lengths are in m, not in mm",
                                     body.name, point.name, point.position.norm())));
   }
-  const double gyration = body.mass > 0.0 ? std::sqrt(body.inertia / body.mass) : 0.0;
-  if (gyration > kLargestGyration) {
-    remarks.push_back(remark_at(
-        body.inertia_location,
-        fmt::format(
-            "'bodies.{}.inertia' is that of {:.4g} kg at a distance of {:.4g} m; inertias are in kg·m², not "
-            "in kg·mm²",
-            body.name, body.mass, gyration)));
-  }
+  remark_on_inertia(body, remarks);
 }
 
 void remark_on_force(const ForceDescription& force, std::vector<std::string>& remarks) {

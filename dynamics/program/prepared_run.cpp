@@ -14,6 +14,7 @@
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/program/massless_check.h"
 #include "dynamics/program/start_state.h"
+#include "dynamics/program/turned_springs.h"
 #include "dynamics/road/flat_road.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/terminal/progress_bar.h"
@@ -156,6 +157,20 @@ Model make_balance_model(const Flexibility& flexibility, const PreparedRun& prep
                     flexibility.stiffened);
 }
 
+// A balance may be one that no vehicle has.
+void remark_on_turned_springs(const Eigen::VectorXd& drawn, const RunRequest& request,
+                              PreparedRun& prepared) {
+  const Vehicle& vehicle = prepared.vehicle;
+  for (const std::size_t f :
+       find_turned_springs(vehicle, prepared.balance_model, drawn, prepared.equilibrium->q)) {
+    std::string remark = fmt::format(
+        "{}: in static equilibrium 'forces.{}' points the other way than as drawn; does it carry its load?",
+        support::format_place(vehicle.forces[f].location), vehicle.forces[f].name);
+    if (!request.quiet) fmt::print(request.streams.err, "remark: {}\n", remark);
+    prepared.remarks.push_back(std::move(remark));
+  }
+}
+
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
 // @return its coordinates
 Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation preparation,
@@ -176,6 +191,7 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   prepared.equilibrium =
       find_equilibrium(prepared.balance_model, q, show, find_motion(run, prepared.balance_model, q));
   check_steady(run, prepared.balance_model, *prepared.equilibrium);
+  remark_on_turned_springs(q, request, prepared);
   return prepared.equilibrium->q;
 }
 

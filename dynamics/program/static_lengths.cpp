@@ -9,6 +9,7 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/program/massless_check.h"
+#include "dynamics/program/turned_springs.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
 
@@ -120,6 +121,21 @@ Eigen::VectorXd find_targets(const Vehicle& vehicle, const StaticSprings& spring
           force.name, force.static_length->key, targets[worst], kMostIterations, lengths[worst]));
 }
 
+// The lengths alone would also fit a vehicle that has fallen through its springs.
+void check_directions(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn,
+                      const Eigen::VectorXd& found) {
+  for (const std::size_t f : find_turned_springs(vehicle, model, drawn, found)) {
+    const ForceDescription& force = vehicle.forces[f];
+    if (!force.static_length) continue;
+    throw support::InputError(
+        force.static_length->location,
+        fmt::format(
+            "'forces.{}.{}': where the length is reached, the spring points the other way than as drawn; "
+            "check that it carries its load",
+            force.name, force.static_length->key));
+  }
+}
+
 }  // namespace
 
 std::vector<StaticLengthResult> solve_static_lengths(
@@ -130,6 +146,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
   Eigen::VectorXd q = make_start_positions(model, vehicle);
   assemble_positions(model, q);
   check_massless_bodies(vehicle, model, q);
+  const Eigen::VectorXd drawn = q;
   const Eigen::VectorXd targets = find_targets(vehicle, springs, springs.calc_lengths(model, q));
   Eigen::VectorXd free_lengths = targets, lengths, error, step;
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(springs.size(), springs.size());  // of the inverse Jacobian
@@ -141,6 +158,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
     const Eigen::VectorXd before = error;
     error = lengths - targets;
     if ((error.array().abs() <= kTolerance * targets.array()).all()) {
+      check_directions(vehicle, model, drawn, q);
       std::vector<StaticLengthResult> results;
       for (Eigen::Index i = 0; i < springs.size(); ++i)
         results.push_back(springs.place_back(vehicle, i, lengths[i]));

@@ -206,9 +206,8 @@ void insert_in_value(const TomlTable& parameters, const TomlValue& value, suppor
   } else if (value.is_array()) {
     for (const TomlValue& item : value.items()) insert_in_value(parameters, item, document);
   } else if (value.is_string() && value.string().starts_with('=')) {
-    const support::SourceLocation& at = value.location();
     document.set(fmt::format("{}={:.17g}", value.key(), find_parameter(parameters, value)),
-                 at.line > 0 ? fmt::format("{}:{}:{}", at.path, at.line, at.column) : at.path);
+                 support::format_place(value.location()));
   }
 }
 

@@ -30,3 +30,11 @@ TEST_CASE("Lengths in millimetres and inertias in kg mm² are remarked on at the
         std::vector<std::string>{
             "cart.toml:31:8: 'forces.rope.free_length' is 5500 m; lengths are in m, not in mm"});
 }
+
+TEST_CASE("Masses in tonnes are remarked on where inertia and points contradict them") {
+  CHECK(remarks_on("mass = 4.0", "mass = 0.004") ==
+        std::vector<std::string>{
+            "cart.toml:14:8: 'bodies.arm.mass' is 0.004 kg, whose inertia is that at a distance of 13.23 m, "
+            "where all points are within 0.6083 m; masses are in kg, not in t"});
+  CHECK(remarks_on("mass = 4.0", "mass = 0.04").empty());  // 4.2 m, seven times as far as the points
+}

@@ -10,10 +10,8 @@ namespace sprung::support {
 namespace {
 
 std::string format_message(const SourceLocation& where, std::string_view message) {
-  if (where.path.empty()) return fmt::format("error: {}", message);
-  if (where.line <= 0) return fmt::format("{}: error: {}", where.path, message);
-  if (where.column <= 0) return fmt::format("{}:{}: error: {}", where.path, where.line, message);
-  return fmt::format("{}:{}:{}: error: {}", where.path, where.line, where.column, message);
+  const std::string place = format_place(where);
+  return fmt::format("{}{}error: {}", place, place.empty() ? "" : ": ", message);
 }
 
 std::string lower_case(std::string_view text) {
@@ -41,6 +39,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string format_place(const SourceLocation& where) {
+  if (where.path.empty() || where.line <= 0) return where.path;
+  if (where.column <= 0) return fmt::format("{}:{}", where.path, where.line);
+  return fmt::format("{}:{}:{}", where.path, where.line, where.column);
+}
 
 InputError::InputError(const SourceLocation& where, std::string_view message)
     : std::runtime_error(format_message(where, message)) {}

@@ -14,6 +14,9 @@ struct SourceLocation {
   int column = 0;    ///< 1-based; 0 when unknown
 };
 
+/// `path:line:column`, without the parts that are unknown.
+std::string format_place(const SourceLocation& where);
+
 /// Untrusted input (a file, the command line) that cannot be used. Only `run_program` catches it: exit
 /// code 2.
 ///

@@ -1,0 +1,80 @@
+#!/usr/bin/python3
+"""Springs too soft for their loads, through which a vehicle falls in static equilibrium."""
+
+import unittest
+
+from dynamics_test_case import DynamicsTestCase
+
+
+class TurnedSprings(DynamicsTestCase):
+    def setUp(self):
+        super().setUp()
+        for _ in range(2):
+            self.edit("vehicle.toml", "compression_stop = { deflection = 0.15, rate = 6.91e6 }", "")
+
+    def soften(self, rate):
+        """Both suspensions get a linear spring."""
+        for _ in range(2):
+            self.edit("vehicle.toml", "polynomial = [0.0, 4.67e5, 7.45e5]", f"polynomial = [0.0, {rate}]")
+
+    def test_a_run_is_remarked_on(self):
+        # Half of the weight, 71 kN, would shorten two springs of 1e4 N/m by 3.5 m.
+        self.soften(1e4)
+        for verb in ("run", "equilibrium", "modes"):
+            process = self.run_program(*(("--set", "duration=0.01") if verb == "run" else ()), verb=verb)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            for name in ("front_suspension", "rear_suspension"):
+                self.assertRegex(process.stderr, rf"remark: vehicle.toml:\d+:\d+: in static equilibrium "
+                                 rf"'forces\.{name}' points the other way than as drawn; does it carry its load\?\n")
+
+    def test_a_suspension_that_carries_its_load_is_not(self):
+        self.assertNotIn("points the other way", self.run_program("--set", "duration=0.01").stderr)
+
+    def test_a_static_length_on_the_other_side_is_refused(self):
+        """100 kg above the ground on a soft spring: below the ground they hang from another spring, which pulls with
+        1020 N there. The soft one has the length asked for, and pushes them down with the rest, 39.3 N."""
+        (self.folder / "vehicle.toml").write_text("""
+name = "mass on a spring"
+heading = "+x"
+
+[bodies.mass]
+mass = 100.0
+inertia = 10.0
+position = [0.0, 0.5]
+
+[ground.points]
+floor = [0.0, 0.0]
+ceiling = [0.0, 1.0]
+
+[[joints]]
+name = "guide"
+type = "translational"
+a = "ground.floor"
+b = "mass.origin"
+axis = [0.0, 1.0]
+
+[[forces]]
+name = "hanger"
+type = "spring-damper"
+a = "ground.ceiling"
+b = "mass.origin"
+free_length = 0.48
+spring = { polynomial = [0.0, 1000.0] }
+
+[[forces]]
+name = "seat"
+type = "spring-damper"
+a = "ground.floor"
+b = "mass.origin"
+free_length = { static = 0.5 }
+spring = { polynomial = [0.0, 100.0] }
+""")
+        (self.folder / "bump.toml").write_text(
+            'vehicle = "vehicle.toml"\nduration = 0.01\noutput_step = 0.01\nspeed = 0.0\n')
+        process = self.run_program()
+        self.assert_refused(process, "vehicle.toml:", "'forces.seat.free_length.static': where the length is reached, "
+                            "the spring points the other way than as drawn")
+
+
+if __name__ == "__main__":
+    unittest.main()
