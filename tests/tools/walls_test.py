@@ -1,6 +1,7 @@
 """No include crosses a wall between the rooms, and sprung-dynamics is not linked with gmsh."""
 
 import os
+import shutil
 import unittest
 
 from tool_test_case import ROOT, ToolTestCase, run_program
@@ -17,6 +18,15 @@ class TheProject(unittest.TestCase):
         for name, room in rooms.items():
             self.assertTrue(room.sources, name)
             self.assertTrue(read_includes(ROOT, name), name)
+
+    def test_the_top_level_holds_the_rooms_and_nothing_else(self):
+        if not shutil.which("git") or not (ROOT / ".git").exists():
+            self.skipTest("not a git repository")
+        listed = run_program(["git", "-c", "safe.directory=*", "ls-files"], cwd=ROOT, check=True).stdout
+        names = {file.split("/")[0] for file in listed.splitlines()}
+        rooms = {"fem", "reduce", "dynamics", "meshes", "tools", "tests"}
+        files = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md"}
+        self.assertEqual({name for name in names if not name.startswith(".")}, rooms | files)
 
     def test_sprung_dynamics_is_not_linked_with_gmsh(self):
         libraries = run_program(["ldd", os.environ["SPRUNG_DYNAMICS"]], check=True).stdout
