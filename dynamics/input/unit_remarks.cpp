@@ -12,6 +12,7 @@ namespace {
 constexpr double kLongest = 100.0;         // m, of a vehicle
 constexpr double kLargestWheel = 10.0;     // m
 constexpr double kLargestGyration = 50.0;  // m
+constexpr double kFastest = 70.0;          // m/s, of a road vehicle
 // A body whose points are this much nearer than its radius of gyration, which is longer than kLongGyration.
 constexpr double kWideGyration = 10.0;
 constexpr double kLongGyration = 3.0;  // m
@@ -70,8 +71,13 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
 
 }  // namespace
 
-std::vector<std::string> list_unit_remarks(const Vehicle& vehicle) {
+std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicle) {
   std::vector<std::string> remarks;
+  if (std::abs(run.speed) > kFastest) {
+    remarks.push_back(remark_at(
+        run.speed_location,
+        fmt::format("'speed' is {:.4g} m/s, or {:.4g} km/h; speeds are in m/s", run.speed, 3.6 * run.speed)));
+  }
   for (const BodyDescription& body : vehicle.bodies) remark_on_body(body, remarks);
   for (const ForceDescription& force : vehicle.forces) remark_on_force(force, remarks);
   return remarks;

@@ -99,7 +99,7 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   // Equilibrium and linearisation need functions of time at t = 0 alone.
   const double end = preparation == Preparation::kBalance ? 0.0 : prepared.run.duration;
   check_histories(prepared.vehicle.histories, end);
-  prepared.remarks = list_unit_remarks(prepared.vehicle);
+  prepared.remarks = list_unit_remarks(prepared.run, prepared.vehicle);
   for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
     prepared.remarks.push_back(std::move(remark));
   if (request.quiet) return;

@@ -9,7 +9,7 @@ namespace {
 
 std::vector<std::string> remarks_on(const std::string& old_part, const std::string& new_part) {
   return dynamics::list_unit_remarks(
-      test::read_cart(test::with_change(test::cart_text(), old_part, new_part)));
+      dynamics::Run{}, test::read_cart(test::with_change(test::cart_text(), old_part, new_part)));
 }
 
 }  // namespace
@@ -37,4 +37,15 @@ TEST_CASE("Masses in tonnes are remarked on where inertia and points contradict 
             "cart.toml:14:8: 'bodies.arm.mass' is 0.004 kg, whose inertia is that at a distance of 13.23 m, "
             "where all points are within 0.6083 m; masses are in kg, not in t"});
   CHECK(remarks_on("mass = 4.0", "mass = 0.04").empty());  // 4.2 m, seven times as far as the points
+}
+
+TEST_CASE("A speed that no road vehicle reaches is remarked on") {
+  const dynamics::Vehicle cart = test::read_cart(test::cart_text());
+  dynamics::Run run;
+  run.speed = -90.0;
+  run.speed_location = {"run.toml", 2, 9};
+  CHECK(dynamics::list_unit_remarks(run, cart) ==
+        std::vector<std::string>{"run.toml:2:9: 'speed' is -90 m/s, or -324 km/h; speeds are in m/s"});
+  run.speed = 30.0;
+  CHECK(dynamics::list_unit_remarks(run, cart).empty());
 }
