@@ -12,9 +12,8 @@ import re
 import shutil
 import sys
 import unittest
-from pathlib import Path
 
-from tool_test_case import ROOT, TOOLS, run_program
+from tool_test_case import ROOT, TOOLS, list_git_files, run_program
 
 FORMAT_VERSION = 14
 
@@ -22,9 +21,7 @@ FORMAT_VERSION = 14
 def find_files(test):
     """The files of the project for whose path from the root test(path) holds: those that git knows or would add. In a
     copy without git they are all files outside build/."""
-    command = ["git", "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    listed = run_program(command, cwd=ROOT).stdout if shutil.which("git") else ""
-    files = {Path(name) for name in listed.split("\0") if name}
+    files = set(list_git_files("--cached", "--others", "--exclude-standard"))
     if not files:
         files = {path.relative_to(ROOT) for path in ROOT.rglob("*") if path.relative_to(ROOT).parts[0] != "build"}
     return [ROOT / file for file in sorted(files) if (ROOT / file).is_file() and test(file)]

@@ -1,6 +1,7 @@
 """What the tests of the tools share: the package on the path, and running a tool as a user does."""
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -10,6 +11,14 @@ sys.path[:0] = [str(TOOLS), str(ROOT / "tests")]
 
 # After the path is set; the tests take them from here.
 from programs import ProgramTestCase, find_complaints, make_class_folder, run_program  # noqa: E402, F401
+
+
+def list_git_files(*options):
+    """The paths from the root of the files that `git ls-files` lists; none in a copy without git."""
+    if not shutil.which("git"):
+        return []
+    listed = run_program(["git", "-c", "safe.directory=*", "ls-files", "-z", *options], cwd=ROOT).stdout
+    return [Path(name) for name in listed.split("\0") if name]
 
 
 class ToolTestCase(ProgramTestCase):
