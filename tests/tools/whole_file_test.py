@@ -33,6 +33,13 @@ class WholeFile(ToolTestCase):
                 write_whole(self.folder / place if place != "." else place, "text")
         self.assertEqual(os.listdir(self.folder), ["taken"])
 
+    def test_what_is_no_regular_file_is_not_replaced(self):
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        with self.assertRaisesRegex(InputError, "pipe: error: cannot write the file .it is not a regular file"):
+            write_whole(pipe, "text")
+        self.assertTrue(pipe.is_fifo())
+
 
 if __name__ == "__main__":
     unittest.main()

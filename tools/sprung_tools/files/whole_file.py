@@ -10,9 +10,11 @@ from sprung_tools.files.errors import InputError
 def write_whole(path: str | Path, content: str | bytes) -> None:
     """Writes text (as UTF-8) or bytes. An interrupted or failed write leaves an earlier file as it was.
 
-    InputError if the file cannot be written.
+    InputError if the file cannot be written, or is a device or a pipe, which renaming would replace.
     """
     path = Path(path)
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise InputError(f"{path}: error: cannot write the file (it is not a regular file)")
     data = content.encode("utf-8") if isinstance(content, str) else content
     unfinished = path.with_name(f".unfinished-{os.getpid()}-{path.name}") if path.name else path
     try:
