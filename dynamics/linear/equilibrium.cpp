@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "dynamics/linear/frequency_solver.h"
 #include "dynamics/linear/undamped_modes.h"
@@ -26,6 +28,9 @@ constexpr double kNeutralForce = 1e-7;     // acceleration along a neutral direc
 constexpr double kLargestStep = 0.05;      // natural sizes per iteration, at first
 constexpr double kPredictionError = 0.1;   // of the change of forces that the stiffness predicts
 constexpr double kFastDecrease = 0.3;      // ratio of two successive steps with the same stiffness
+constexpr double kFirstDamping = 1e-6;     // of a step, of the largest stiffness
+constexpr double kLessDamping = 0.1;       // after a step that descends
+constexpr int kMostWatched = 12;           // Newton steps until one has to be lower than where they began
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates,
                        const Eigen::VectorXd& values) {
@@ -151,48 +156,90 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
                   kMaxNewtonIterations, last_step, least, direction.description));
 }
 
-// Bounds of a step. They widen each time the forces change as the stiffness predicts.
-struct TrustRegion {
-  double damping = 0.0;  // added to the stiffness of each direction
-  double reach = kLargestStep;
-};
-
-// One accepted descent step from q_i: the potential energy decreases, or the forces do.
-Eigen::VectorXd step_downhill(const Model& model, PartitionedEquations& equations,
-                              const LinearisedSystem& system, const ModalForce& modal,
-                              const Eigen::VectorXd& q_i, const SteadyMotion& motion, TrustRegion& trust) {
-  double potential = 0.0;
-  calc_static_force(equations, 0.0, q_i, &potential, motion);
-  const Eigen::MatrixXd& V = modal.modes.vectors;
-  for (int attempt = 0; attempt < 40; ++attempt) {
-    Eigen::VectorXd step = modal.calc_step(modal.force, trust.damping);
-    const double size = largest_natural(model, system.partition.independent, step);
-    const bool is_cut = size > trust.reach;
-    if (is_cut) step *= trust.reach / size;
-    double trial_potential = 0.0;
-    const Eigen::VectorXd trial_force =
-        calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
-    const bool assembled = trial_force.size() == q_i.size();
-    if (assembled &&
-        (trial_potential < potential || (V.transpose() * trial_force).norm() < modal.force.norm())) {
-      const Eigen::VectorXd change = V.transpose() * (system.stiffness * step),
-                            error = V.transpose() * (trial_force - system.force) + change;
-      const bool is_predicted = !modal.is_falling && error.norm() < kPredictionError * change.norm();
-      trust.reach = is_cut && is_predicted ? 2.0 * trust.reach : kLargestStep;
-      trust.damping *= 0.1;
-      break;
-    }
-    trust.damping = std::max(10.0 * trust.damping, 1e-6 * modal.stiffest);
-    trust.reach = kLargestStep;
-  }
-  return equations.q();
-}
-
 Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::VectorXd& q) {
   Eigen::VectorXd q_i(static_cast<Eigen::Index>(system.partition.independent.size()));
   for (Eigen::Index k = 0; k < q_i.size(); ++k)
     q_i[k] = q[system.partition.independent[static_cast<std::size_t>(k)]];
   return q_i;
+}
+
+// A position from which Newton steps are taken although neither potential energy nor forces decrease at
+// first.
+struct Watch {
+  Eigen::VectorXd q;  // nq
+  double potential, force;
+  int steps_left;
+};
+
+// The search for a balance. The bounds of a step widen each time the forces change as the stiffness predicts.
+struct Search {
+  double damping = 0.0;  // added to the stiffness of each direction
+  double reach = kLargestStep;
+  std::optional<Watch> watch;
+  int wait = 0, next_wait = 1;  // steps downhill until the next watch, and after its failure
+};
+
+// Ends a watch that has come lower. @return whether it has lasted too long
+bool has_failed(Search& search, double potential, double force) {
+  if (!search.watch) return false;
+  if (potential < search.watch->potential || force < search.watch->force) {
+    search.watch.reset();
+    search.next_wait = 1;
+    return false;
+  }
+  return search.watch->steps_left-- == 0;
+}
+
+Eigen::VectorXd return_to_watch(const ModalForce& modal, Search& search) {
+  Eigen::VectorXd q = std::move(search.watch->q);
+  search.watch.reset();
+  search.damping = kFirstDamping * modal.stiffest;
+  search.wait = search.next_wait;
+  search.next_wait *= 2;
+  return q;
+}
+
+// One step from the positions where `system` stands: downhill, so that the potential energy decreases or the
+// forces do, or a whole Newton step under watch. A beam that bends is a narrow curved valley, whose walls are
+// its axial stiffness: a step along the valley runs up the wall, and the next Newton step comes down to its
+// floor, far beyond any step that only descends.
+Eigen::VectorXd take_step(const Model& model, PartitionedEquations& equations, const LinearisedSystem& system,
+                          const ModalForce& modal, const Eigen::VectorXd& q, const SteadyMotion& motion,
+                          Search& search) {
+  const Eigen::VectorXd q_i = select_independent(system, q);
+  const double force = modal.force.norm();
+  double potential = 0.0;
+  calc_static_force(equations, 0.0, q_i, &potential, motion);
+  if (has_failed(search, potential, force)) return return_to_watch(modal, search);
+  const Eigen::MatrixXd& V = modal.modes.vectors;
+  for (int attempt = 0; attempt < 40; ++attempt) {
+    const bool is_newton = attempt == 0 && search.wait == 0 && !modal.is_falling;
+    const double damping = is_newton ? 0.0 : search.damping;
+    Eigen::VectorXd step = modal.calc_step(modal.force, damping);
+    const double size = largest_natural(model, system.partition.independent, step);
+    const bool is_cut = size > search.reach;
+    if (is_cut) step *= search.reach / size;
+    double trial_potential = 0.0;
+    const Eigen::VectorXd trial_force =
+        calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
+    const bool assembled = trial_force.size() == q_i.size();
+    if (assembled && (trial_potential < potential || (V.transpose() * trial_force).norm() < force)) {
+      const Eigen::VectorXd change = V.transpose() * (system.stiffness * step),
+                            error = V.transpose() * (trial_force - system.force) + change;
+      const bool is_predicted = !modal.is_falling && error.norm() < kPredictionError * change.norm();
+      search.reach = is_cut && is_predicted ? 2.0 * search.reach : kLargestStep;
+      search.damping = kLessDamping * damping;
+      search.wait = std::max(0, search.wait - 1);
+      break;
+    }
+    if (is_newton && assembled && trial_force.allFinite()) {
+      if (!search.watch) search.watch = Watch{q, potential, force, kMostWatched};
+      break;
+    }
+    search.damping = std::max(10.0 * search.damping, kFirstDamping * modal.stiffest);
+    search.reach = kLargestStep;
+  }
+  return equations.q();
 }
 
 // Further steps after a Newton step, with the same stiffness, as long as they decrease fast. Each costs one
@@ -230,7 +277,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
     equilibrium.linearised.partition = equations.partition();
     return equilibrium;
   }
-  TrustRegion trust;
+  Search search;
   double last_step = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration) {
     LinearisedSystem system = linearise(equations, 0.0, equilibrium.q, motion);
@@ -259,10 +306,9 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       return equilibrium;
     }
     if (iteration == kMaxNewtonIterations) throw_no_equilibrium(model, system, modal, newton_step);
-    equilibrium.q = step_downhill(model, equations, system, modal, select_independent(system, equilibrium.q),
-                                  motion, trust);
+    equilibrium.q = take_step(model, equations, system, modal, equilibrium.q, motion, search);
     ++equilibrium.iterations;
-    if (trust.damping == 0.0 && newton_step < kLargestStep && !modal.is_falling) {
+    if (search.damping == 0.0 && !search.watch && newton_step < kLargestStep && !modal.is_falling) {
       equilibrium.q = iterate_with_same_stiffness(model, equations, system, modal, motion, newton_step,
                                                   equilibrium.iterations);
     }
