@@ -49,39 +49,6 @@ inline Eigen::Vector2d turned(const Eigen::Vector2d& p) {
   return {-p.y(), p.x()};
 }
 
-/// Mass matrix of a body for velocities (Ṙ, θ̇, η̇).                                 (bodies, eq. 3)
-///
-/// @param eta   n modal coordinates
-/// @param mass  (3+n)×(3+n), all entries are written
-/// Source: [Shabana 2013], §5.4, with the invariants of the superelement — checked by
-/// tests/dynamics/bodies/body_equations_test.cpp
-void calc_mass_matrix(const Body& body, const FrameRotation& rotation,
-                      const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
-
-/// Like calc_mass_matrix, where `mass` holds the matrix of another state of the same body: writes only the
-/// entries that depend on the state.
-void update_mass_matrix(const Body& body, const FrameRotation& rotation,
-                        const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::MatrixXd> mass);
-
-/// Quadratic velocity vector of a body, on the right-hand side M q̈ = Q_v + ….         (bodies, eq. 4)
-///
-/// @param theta_dot     angular velocity [rad/s]
-/// @param eta, eta_dot  n
-/// @param[in,out] Q     3+n, added to
-/// Checked by tests/dynamics/bodies/body_equations_test.cpp
-void add_quadratic_velocity_forces(const Body& body, const FrameRotation& rotation, double theta_dot,
-                                   const Eigen::Ref<const Eigen::VectorXd>& eta,
-                                   const Eigen::Ref<const Eigen::VectorXd>& eta_dot,
-                                   Eigen::Ref<Eigen::VectorXd> Q);
-
-/// Weight of a body, through its invariants.                                           (bodies, eq. 5)
-/// @param gravity    in the world [m/s²]
-/// @param eta        n
-/// @param[in,out] Q  3+n, added to
-/// Checked by tests/dynamics/bodies/body_equations_test.cpp
-void add_gravity_forces(const Body& body, const FrameRotation& rotation, const Eigen::Vector2d& gravity,
-                        const Eigen::Ref<const Eigen::VectorXd>& eta, Eigen::Ref<Eigen::VectorXd> Q);
-
 /// First moment of mass of the deformed body about the frame's origin: S₀ + Pη, body axes [kg·m].
 Eigen::Vector2d calc_first_moment(const Body& body, const Eigen::Ref<const Eigen::VectorXd>& eta);
 

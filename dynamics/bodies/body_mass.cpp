@@ -10,17 +10,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-// Off-diagonal entries of M_ff below this fraction are rounding errors of mass-normalised modes.
-constexpr double kRounding = 1e-12;
-
-bool is_diagonal(const Eigen::MatrixXd& matrix) {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      if (std::abs(matrix(i, j)) > kRounding * std::sqrt(matrix(i, i) * matrix(j, j))) return false;
-    }
-  }
-  return true;
-}
+constexpr double kRounding = 1e-12;  // of eigenvalues of mass-normalised modes
 
 // G of M_ff⁻¹ = I − G Gᵀ (bodies, eq. 13); without columns where M_ff is of another kind.
 Eigen::MatrixXd factorise_inverse(const Eigen::MatrixXd& M_ff) {
@@ -41,7 +31,12 @@ BodyMass::BodyMass(const Body& body)
     : body_(&body),
       constant_(body.num_modes() == 0 && body.first_moment.isZero(0.0)),
       stand_in_(body.stand_in_mass, body.stand_in_mass, body.stand_in_inertia),
-      diagonal_(is_diagonal(body.M_ff)) {
+      M_tt_(body.M_tt, body.M_tt.diagonal()),
+      B_(body.B, body.M_tt.diagonal()),
+      first_moment_(body.first_moment),
+      M_tt_eta_(Eigen::VectorXd::Zero(body.num_modes())),
+      B_eta_(M_tt_eta_),
+      diagonal_(ModalMatrix(body.M_ff, body.M_ff.diagonal()).is_diagonal()) {
   const Eigen::Index n = body.num_modes();
   diagonal_inverse_ = body.M_ff.diagonal().cwiseInverse();
   if (!diagonal_) inverse_factor_ = factorise_inverse(body.M_ff);
@@ -80,10 +75,32 @@ void BodyMass::multiply_inverse(double* values) const {
   }
 }
 
+// The entries of M that depend on the state. B is skew, so ηᵀB = −(B η)ᵀ.
+void BodyMass::update_matrix(const FrameRotation& rotation, const double* eta) {
+  const Body& body = *body_;
+  const Eigen::Index n = body.num_modes();
+  M_tt_.multiply(eta, M_tt_eta_.data());
+  B_.multiply(eta, B_eta_.data());
+  first_moment_ = body.first_moment;
+  double inertia = body.second_moment;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Eigen::Vector2d P = body.P.col(k), in_world = rotation * P;
+    M_(0, 3 + k) = M_(3 + k, 0) = in_world.x();
+    M_(1, 3 + k) = M_(3 + k, 1) = in_world.y();
+    M_(2, 3 + k) = M_(3 + k, 2) = body.c[k] - B_eta_[k];
+    first_moment_ += eta[k] * P;
+    inertia += (2.0 * body.d[k] + M_tt_eta_[k]) * eta[k];
+  }
+  const Eigen::Vector2d across = rotation * turned(first_moment_);
+  M_(0, 2) = M_(2, 0) = across.x();
+  M_(1, 2) = M_(2, 1) = across.y();
+  M_(2, 2) = inertia;
+}
+
 // Scalars are read one at a time: a vector load of two scalars that have just been stored singly is slow.
 void BodyMass::update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta) {
   if (constant_) return;
-  update_mass_matrix(*body_, rotation, eta, M_);
+  update_matrix(rotation, eta.data());
   const Eigen::Index n = body_->num_modes();
   if (!diagonal_) {
     W_ = M_.topRightCorner(3, n);

@@ -4,6 +4,7 @@
 
 #include "dynamics/bodies/body.h"
 #include "dynamics/bodies/body_equations.h"
+#include "dynamics/bodies/modal_matrix.h"
 
 namespace sprung::dynamics {
 
@@ -15,9 +16,14 @@ class BodyMass {
  public:
   explicit BodyMass(const Body& body);
 
-  /// Mass matrix and factors at a state. @param eta  n
+  /// Mass matrix and factors at a state (bodies, eqs. 3, 6). @param eta  n
+  /// Source: [Shabana 2013], §5.4, with the invariants of the superelement — checked by
+  /// tests/dynamics/bodies/body_equations_test.cpp and body_mass_test.cpp
   void update(const FrameRotation& rotation, const Eigen::Ref<const Eigen::VectorXd>& eta);
   const Eigen::MatrixXd& matrix() const { return M_; }  ///< (3+n)×(3+n)
+  /// First moment of mass about the frame's origin, S₀ + P η, body axes [kg·m].
+  const Eigen::Vector2d& first_moment() const { return first_moment_; }
+  const Eigen::VectorXd& M_tt_eta() const { return M_tt_eta_; }  ///< n
 
   /// Whether the body is rigid with its frame at the centre of mass. Its mass matrix is then diagonal and
   /// constant, and neither weight nor rotation causes a torque.
@@ -55,6 +61,7 @@ class BodyMass {
   }
 
  private:
+  void update_matrix(const FrameRotation& rotation, const double* eta);
   void solve_coupled(double* x) const;
   // Multiplies rows of modal values by M_ff⁻¹. @param values  num_rows×n
   template <int num_rows>
@@ -65,6 +72,9 @@ class BodyMass {
   const Body* body_;
   bool constant_;
   Eigen::Vector3d stand_in_;
+  ModalMatrix M_tt_, B_;
+  Eigen::Vector2d first_moment_;
+  Eigen::VectorXd M_tt_eta_, B_eta_;
   bool diagonal_;  // M_ff is diagonal to rounding
   Eigen::VectorXd diagonal_inverse_;
   Eigen::MatrixXd inverse_factor_;  // G of M_ff⁻¹ = I − G Gᵀ, n×r: where M_ff is I and a part of rank r ≤ 3

@@ -97,51 +97,60 @@ inline void move_with_body(const double* v, MarkerState& state) {
   state.a_bias = {-omega * across_y, omega * across_x};
 }
 
-/// Position-level part of a marker's state.                                       (bodies, eqs. 1, 11)
-/// @param q      the body's 3+n coordinates
-/// @param state  made by make_marker_state
-/// Checked by tests/dynamics/bodies/marker_test.cpp
-inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
-                                 MarkerState& state) {
-  const Eigen::Index n = marker.Phi.cols();
-  const double* eta = q + 3;
-  const double* shape = marker.Phi.data();
-  double x = marker.p_BP.x(), y = marker.p_BP.y(), turn = 0.0;
-  for (Eigen::Index k = 0; k < n; ++k, shape += 3) {
+/// Φη of a marker: its displacement (x, y, angle) by the modes, body axes. @param eta  n
+inline Eigen::Vector3d multiply_shapes(const Eigen::Matrix3Xd& Phi, const double* eta) {
+  double x = 0.0, y = 0.0, turn = 0.0;
+  const double* shape = Phi.data();
+  for (Eigen::Index k = 0; k < Phi.cols(); ++k, shape += 3) {
     x += shape[0] * eta[k];
     y += shape[1] * eta[k];
     turn += shape[2] * eta[k];
   }
+  return {x, y, turn};
+}
+
+/// Position-level part of the state of a marker on a flexible body.               (bodies, eqs. 1, 11)
+/// @param displacement  Φη, 3
+/// @param q             the body's 3+n coordinates
+/// @param state         made by make_marker_state
+inline void place_marker(const Marker& marker, const double* displacement, const FrameRotation& rotation,
+                         const double* q, MarkerState& state) {
   state.rotation = rotation;
-  state.angle = q[2] + marker.alpha_BP + turn;
-  Eigen::Vector2d u(x, y);
+  state.angle = q[2] + marker.alpha_BP + displacement[2];
+  Eigen::Vector2d u(marker.p_BP.x() + displacement[0], marker.p_BP.y() + displacement[1]);
   if (marker.has_second_order()) {
-    add_second_order_position(marker, Eigen::Map<const Eigen::VectorXd>(eta, n), u, state);
+    add_second_order_position(marker, Eigen::Map<const Eigen::VectorXd>(q + 3, marker.Phi.cols()), u, state);
   }
   place_in_body(u, rotation, q, state);
 }
 
-/// Velocity-level part of a marker's state, after calc_marker_position.          (bodies, eqs. 2, 11)
-/// @param v  the body's 3+n velocities
+/// The same for a marker by itself, on any body.
 /// Checked by tests/dynamics/bodies/marker_test.cpp
-inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
-  const Eigen::Index n = marker.Phi.cols();
-  const double* eta_dot = v + 3;
-  const double* shape = state.Phi.data();
-  double x = 0.0, y = 0.0, turn = 0.0;  // u̇ and the angular velocity due to the modes
-  for (Eigen::Index k = 0; k < n; ++k, shape += 3) {
-    x += shape[0] * eta_dot[k];
-    y += shape[1] * eta_dot[k];
-    turn += shape[2] * eta_dot[k];
-  }
+inline void calc_marker_position(const Marker& marker, const FrameRotation& rotation, const double* q,
+                                 MarkerState& state) {
+  place_marker(marker, multiply_shapes(marker.Phi, q + 3).data(), rotation, q, state);
+}
+
+/// Velocity-level part of the state of a marker on a flexible body, after its position, without the
+/// second-order bias.                                                            (bodies, eqs. 2, 11)
+/// @param rate  3: u̇ and the angular velocity due to the modes, body axes
+/// @param v     the body's 3+n velocities
+inline void move_marker(const double* rate, const double* v, MarkerState& state) {
   const FrameRotation& A = state.rotation;
-  const double bending_x = A.cosine * x - A.sine * y, bending_y = A.sine * x + A.cosine * y;
+  const double bending_x = A.cosine * rate[0] - A.sine * rate[1],
+               bending_y = A.sine * rate[0] + A.cosine * rate[1];
   const double across_x = state.r_theta.x() * v[2], across_y = state.r_theta.y() * v[2];
-  state.omega = v[2] + turn;
+  state.omega = v[2] + rate[2];
   state.v = {v[0] + across_x + bending_x, v[1] + across_y + bending_y};
   state.a_bias = {-v[2] * (across_y + 2.0 * bending_y), v[2] * (across_x + 2.0 * bending_x)};
+}
+
+/// The same for a marker by itself, on any body, after calc_marker_position.
+/// Checked by tests/dynamics/bodies/marker_test.cpp
+inline void calc_marker_velocity(const Marker& marker, const double* v, MarkerState& state) {
+  move_marker(multiply_shapes(state.Phi, v + 3).data(), v, state);
   if (marker.has_second_order())
-    add_second_order_bias(marker, Eigen::Map<const Eigen::VectorXd>(eta_dot, n), state);
+    add_second_order_bias(marker, Eigen::Map<const Eigen::VectorXd>(v + 3, marker.Phi.cols()), state);
 }
 
 /// Acceleration of a marker, r̈ = ∂r/∂q q̈ + bias [m/s²].

@@ -8,7 +8,7 @@ SystemForces::SystemForces(const Model& model, const std::vector<BodyMass>& mass
     if (masses[b].is_constant())
       constant_bodies_.push_back({model.bodies[b].first_coordinate, model.bodies[b].mass});
     else
-      varying_bodies_.push_back(b);
+      varying_bodies_.push_back({b, model.bodies[b].first_coordinate, BodyForces(model.bodies[b])});
   }
   for (const int i : model.acting_markers) {
     const auto marker = static_cast<std::size_t>(i);
@@ -38,7 +38,12 @@ void SystemForces::update(const SystemMotion& motion, std::span<const int> branc
     Q_[body.first_coordinate] += body.mass * model_->gravity.x();
     Q_[body.first_coordinate + 1] += body.mass * model_->gravity.y();
   }
-  for (const std::size_t b : varying_bodies_) add_body_forces(b, motion);
+  for (VaryingBody& body : varying_bodies_) {
+    const int first = body.first_coordinate;
+    power_.dissipated +=
+        body.forces.add(motion.masses[body.body], motion.rotations[body.body], model_->gravity,
+                        motion.q.data() + first, motion.v.data() + first, Q_.data() + first);
+  }
   if (!model_->states.empty()) set_state_rates(motion, branches);
   if (!fading_.empty()) add_fading_forces(motion);
 }
@@ -64,30 +69,6 @@ void SystemForces::add_wrench(const ActingMarker& acting, const MarkerState& sta
   const MarkerRow in_body = row.in_body(state.rotation);
   const double* shape = state.Phi.data();
   for (int k = 3; k < acting.num_coordinates; ++k, shape += 3) Q[k] += in_body.by_mode(shape);
-}
-
-// Weight, quadratic velocity terms, stiffness, damping.
-void SystemForces::add_body_forces(std::size_t b, const SystemMotion& motion) {
-  const Body& body = model_->bodies[b];
-  const FrameRotation& rotation = motion.rotations[b];
-  const int first = body.first_coordinate;
-  const Eigen::Index n = body.num_modes();
-  const auto eta = motion.q.segment(first + 3, n);
-  const auto eta_dot = motion.v.segment(first + 3, n);
-  const double theta_dot = motion.v[first + 2];
-  auto Q = Q_.segment(first, 3 + n);
-  add_gravity_forces(body, rotation, model_->gravity, eta, Q);
-  add_quadratic_velocity_forces(body, rotation, theta_dot, eta, eta_dot, Q);
-  if (body.stiffening) add_stiffening_forces(*body.stiffening, theta_dot, eta, eta_dot, Q);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    double damping_force = 0.0;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      Q[3 + i] -= body.stiffness(i, j) * eta[j];
-      damping_force += body.damping(i, j) * eta_dot[j];
-    }
-    Q[3 + i] -= damping_force;
-    power_.dissipated += damping_force * eta_dot[i];
-  }
 }
 
 void SystemForces::add_fading_forces(const SystemMotion& motion) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/bodies/body_mass.h"
+#include "dynamics/bodies/body_forces.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
@@ -16,6 +16,7 @@ struct SystemMotion {
   double time;                               ///< [s]
   const Eigen::VectorXd &q, &v;              ///< nq
   std::span<const FrameRotation> rotations;  ///< of each body
+  std::span<const BodyMass> masses;          ///< of each body, up to date
   std::span<const MarkerState> markers;      ///< positions and velocities up to date
 };
 
@@ -47,15 +48,19 @@ class SystemForces {
     int first_coordinate;
     double mass;
   };
+  struct VaryingBody {
+    std::size_t body;
+    int first_coordinate;
+    BodyForces forces;
+  };
   void add_wrench(const ActingMarker& acting, const MarkerState& state);
-  void add_body_forces(std::size_t body, const SystemMotion& motion);
   void set_state_rates(const SystemMotion& motion, std::span<const int> branches);
   void add_fading_forces(const SystemMotion& motion);
 
   const Model* model_;
   std::vector<ActingMarker> acting_markers_;
   std::vector<ConstantBody> constant_bodies_;
-  std::vector<std::size_t> varying_bodies_;
+  std::vector<VaryingBody> varying_bodies_;
   std::vector<FadingForce> fading_;
   std::vector<Wrench> wrenches_;
   Eigen::VectorXd Q_;

@@ -30,30 +30,22 @@ SystemTerms::SystemTerms(const Model& model, Markers scope)
     angles_.push_back(body.first_coordinate + 2);
   }
   std::set<int> in_joints;
+  std::vector<int> of_joints, others, idle;
   for (const auto& joint : model.joints) in_joints.insert({joint->marker_a, joint->marker_b});
   for (int i = 0; i < static_cast<int>(model.markers.size()); ++i) {
     if (model.markers[static_cast<std::size_t>(i)].body == kGround) continue;
     if (in_joints.count(i) > 0) {
-      joint_markers_.push_back(make_moving_marker(i));
+      of_joints.push_back(i);
     } else if (scope == Markers::kAll ||
                std::binary_search(model.acting_markers.begin(), model.acting_markers.end(), i)) {
-      other_markers_.push_back(make_moving_marker(i));
+      others.push_back(i);
     } else {
-      idle_markers_.push_back(make_moving_marker(i));
+      idle.push_back(i);
     }
   }
-}
-
-SystemTerms::MovingMarker SystemTerms::make_moving_marker(int marker_index) const {
-  const Marker& marker = model_->markers[static_cast<std::size_t>(marker_index)];
-  const auto b = static_cast<std::size_t>(marker.body);
-  const Body& body = model_->bodies[b];
-  return {.marker = static_cast<std::size_t>(marker_index),
-          .body = b,
-          .first_coordinate = body.first_coordinate,
-          .num_coordinates = body.num_coordinates(),
-          .p_BP = marker.p_BP,
-          .alpha_BP = marker.alpha_BP};
+  joint_markers_ = MarkerSet(model, of_joints);
+  other_markers_ = MarkerSet(model, others);
+  idle_markers_ = MarkerSet(model, idle);
 }
 
 void SystemTerms::update_positions(double time, const Eigen::Ref<const Eigen::VectorXd>& q) {
@@ -65,45 +57,20 @@ void SystemTerms::place_joints(double time, const Eigen::Ref<const Eigen::Vector
   time_ = time;
   q_ = q;
   for (std::size_t b = 0; b < angles_.size(); ++b) rotations_[b] = nearby_rotations_[b].at(q_[angles_[b]]);
-  place_markers(joint_markers_);
+  joint_markers_.place(rotations_, q_, markers_);
   set_only(Term::kJointPositions);
 }
 
 void SystemTerms::place_others() {
   assert(has(Term::kJointPositions));
-  place_markers(other_markers_);
+  other_markers_.place(rotations_, q_, markers_);
   set(Term::kPositions);
-}
-
-void SystemTerms::place_markers(std::span<const MovingMarker> markers) {
-  for (const MovingMarker& moving : markers) {
-    const FrameRotation& rotation = rotations_[moving.body];
-    const double* q = q_.data() + moving.first_coordinate;
-    MarkerState& state = markers_[moving.marker];
-    if (!moving.is_rigid()) {
-      calc_marker_position(model_->markers[moving.marker], rotation, q, state);
-      continue;
-    }
-    state.angle = q[2] + moving.alpha_BP;
-    place_in_body(moving.p_BP, rotation, q, state);
-  }
-}
-
-void SystemTerms::move_markers(std::span<const MovingMarker> markers) {
-  for (const MovingMarker& moving : markers) {
-    const double* v = v_.data() + moving.first_coordinate;
-    MarkerState& state = markers_[moving.marker];
-    if (moving.is_rigid())
-      move_with_body(v, state);
-    else
-      calc_marker_velocity(model_->markers[moving.marker], v, state);
-  }
 }
 
 void SystemTerms::update_all_markers() {
   assert(has(Term::kVelocities));
-  place_markers(idle_markers_);
-  move_markers(idle_markers_);
+  idle_markers_.place(rotations_, q_, markers_);
+  idle_markers_.move(v_, markers_);
   set(Term::kAllMarkers);
 }
 
@@ -129,8 +96,8 @@ void SystemTerms::update_mass() {
 void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) {
   assert(has(Term::kPositions));
   v_ = v;
-  move_markers(joint_markers_);
-  move_markers(other_markers_);
+  joint_markers_.move(v_, markers_);
+  other_markers_.move(v_, markers_);
   reset(Term::kForces);
   reset(Term::kAccelerations);
   reset(Term::kAllMarkers);
@@ -138,8 +105,10 @@ void SystemTerms::update_velocities(const Eigen::Ref<const Eigen::VectorXd>& v) 
 }
 
 void SystemTerms::update_forces(std::span<const int> branches) {
-  assert(has(Term::kPositions) && has(Term::kVelocities));
-  forces_.update({.time = time_, .q = q_, .v = v_, .rotations = rotations_, .markers = markers_}, branches);
+  assert(has(Term::kPositions) && has(Term::kVelocities) && has(Term::kMass));
+  forces_.update(
+      {.time = time_, .q = q_, .v = v_, .rotations = rotations_, .masses = masses_, .markers = markers_},
+      branches);
   reset(Term::kAccelerations);
   set(Term::kForces);
 }

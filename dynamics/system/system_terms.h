@@ -9,6 +9,7 @@
 
 #include "dynamics/bodies/body_mass.h"
 #include "dynamics/system/block_jacobian.h"
+#include "dynamics/system/marker_set.h"
 #include "dynamics/system/model.h"
 #include "dynamics/system/system_constraints.h"
 #include "dynamics/system/system_forces.h"
@@ -116,28 +117,16 @@ class SystemTerms {
   Instant instant_of(std::size_t f) const { return {time_, markers(), model_->states_of(f, v_.data())}; }
 
  private:
-  // A marker that moves, and where its body's coordinates are; on a rigid body p_BP and alpha_BP are all that
-  // its position needs.
-  struct MovingMarker {
-    std::size_t marker, body;
-    int first_coordinate, num_coordinates;
-    Eigen::Vector2d p_BP;
-    double alpha_BP;
-    bool is_rigid() const { return num_coordinates == 3; }
-  };
   void set_only(Term term) { up_to_date_ = static_cast<unsigned>(term); }
   void set(Term term) { up_to_date_ |= static_cast<unsigned>(term); }
   void reset(Term term) { up_to_date_ &= ~static_cast<unsigned>(term); }
-  MovingMarker make_moving_marker(int marker) const;
-  void place_markers(std::span<const MovingMarker> markers);
-  void move_markers(std::span<const MovingMarker> markers);
 
   const Model* model_;
-  std::vector<MovingMarker> joint_markers_, other_markers_;  // of the scope
-  std::vector<MovingMarker> idle_markers_;                   // outside of it
-  std::vector<int> angles_;                                  // coordinates, of each body
-  std::vector<std::size_t> varying_bodies_;                  // whose mass matrix depends on the state
-  unsigned up_to_date_ = 0;                                  // set of Term
+  MarkerSet joint_markers_, other_markers_;  // of the scope
+  MarkerSet idle_markers_;                   // outside of it
+  std::vector<int> angles_;                  // coordinates, of each body
+  std::vector<std::size_t> varying_bodies_;  // whose mass matrix depends on the state
+  unsigned up_to_date_ = 0;                  // set of Term
   double time_ = 0.0;
   Eigen::VectorXd q_, v_;
   std::vector<FrameRotation> rotations_;

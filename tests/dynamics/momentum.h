@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/bodies/body_equations.h"
+#include "dynamics/bodies/body_mass.h"
 
 namespace sprung::test {
 
@@ -14,11 +14,9 @@ struct Momentum {
 /// @param q, v  the body's 3+n coordinates and velocities
 inline Momentum calc_momentum(const dynamics::Body& body, const Eigen::Ref<const Eigen::VectorXd>& q,
                               const Eigen::Ref<const Eigen::VectorXd>& v) {
-  const int size = body.num_coordinates();
-  const Eigen::Index n = body.num_modes();
-  Eigen::MatrixXd mass(size, size);
-  dynamics::calc_mass_matrix(body, dynamics::FrameRotation::from_angle(q[2]), q.tail(n), mass);
-  const Eigen::VectorXd conjugate = mass * v;
+  dynamics::BodyMass mass(body);
+  mass.update(dynamics::FrameRotation::from_angle(q[2]), q.tail(body.num_modes()));
+  const Eigen::VectorXd conjugate = mass.matrix() * v;
   // The generalized momentum of θ is the angular momentum about the frame's own origin.
   return {.linear = conjugate.head<2>(), .angular = conjugate[2] + q[0] * conjugate[1] - q[1] * conjugate[0]};
 }

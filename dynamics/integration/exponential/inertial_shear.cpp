@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "dynamics/integration/exponential/wide_product.h"
 #include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/wide_product.h"
 
 namespace sprung::dynamics {
 
@@ -28,18 +28,17 @@ void InertialShear::start(const VibrationBasis& basis, const std::vector<int>& e
   }
   if (!is_useful()) return;
   const auto o = static_cast<Eigen::Index>(others_.size()), e = static_cast<Eigen::Index>(elastic_.size());
-  const Eigen::Index even = o + o % 2;
   factor_.resize(o, o);
   ratio_.resize(o, e);
   has_inertia_ = calc_ratio(mass(Eigen::all, others_));
   first_ratio_ = ratio_;
-  shear_ = change_ = Eigen::MatrixXd::Zero(even, e);
-  elastic_rows_ = basis.T(with_velocities(elastic_, f_), Eigen::all);
-  other_columns_ = Eigen::MatrixXd::Zero(2 * f_, 2 * even);
-  other_columns_.leftCols(o) = basis.inverse(Eigen::all, others_);
-  other_columns_.middleCols(even, o) = basis.inverse(Eigen::all, with_velocities(others_, f_)).rightCols(o);
-  elastic_motion_ = Eigen::VectorXd::Zero(2 * e);
-  other_motion_ = Eigen::VectorXd::Zero(2 * even);
+  shear_ = change_ = Eigen::MatrixXd::Zero(o, e);
+  elastic_positions_ = basis.T(elastic_, Eigen::all).transpose();
+  elastic_velocities_ = basis.T(with_velocities(elastic_, f_), Eigen::all).bottomRows(e).transpose();
+  change_rows_ = Eigen::MatrixXd::Zero(2 * o, 2 * f_);
+  other_columns_ = basis.inverse(Eigen::all, with_velocities(others_, f_));
+  elastic_motion_ = Eigen::VectorXd::Zero(e);
+  other_motion_ = Eigen::VectorXd::Zero(2 * o);
   loss_ = Eigen::VectorXd::Zero(2 * f_);
 }
 
@@ -57,18 +56,26 @@ bool InertialShear::calc_ratio(const Eigen::MatrixXd& columns) {
 bool InertialShear::follow(const Eigen::MatrixXd& columns) {
   if (!has_inertia_ || !calc_ratio(columns)) return false;
   change_ = -shear_;
-  shear_.topRows(ratio_.rows()) = first_ratio_ - ratio_;
+  shear_ = first_ratio_ - ratio_;
   change_ += shear_;
+  const Eigen::Index o = change_.rows();
+  for (Eigen::Index i = 0; i < o; ++i) {
+    elastic_motion_ = change_.row(i);
+    for (const Eigen::Index half : {Eigen::Index{0}, o}) {
+      support::multiply(half == 0 ? elastic_positions_ : elastic_velocities_, elastic_motion_.data(),
+                        loss_.data());
+      change_rows_.row(half + i) = loss_;
+    }
+  }
   return true;
 }
 
+// u −= C (ΔG applied to the elastic motion of u), C = other_columns_. Few freedoms are not elastic, so the
+// rows of ΔG times T are found once for all columns.
 void InertialShear::convert(Eigen::MatrixXd& pairs) {
-  const Eigen::Index o = change_.rows(), e = change_.cols();
   for (auto u : pairs.colwise()) {
-    multiply(elastic_rows_, u.data(), elastic_motion_.data());
-    multiply(change_, elastic_motion_.data(), other_motion_.data());
-    multiply(change_, elastic_motion_.data() + e, other_motion_.data() + o);
-    multiply(other_columns_, other_motion_.data(), loss_.data());
+    support::multiply(change_rows_, u.data(), other_motion_.data());
+    support::multiply(other_columns_, other_motion_.data(), loss_.data());
     u -= loss_;
   }
 }
@@ -78,7 +85,7 @@ void InertialShear::shift(double factor, double* state) const {
   for (double* half : {state, state + f_}) {
     for (std::size_t k = 0; k < elastic_.size(); ++k)
       elastic_motion_[static_cast<Eigen::Index>(k)] = half[elastic_[k]];
-    multiply(shear_, elastic_motion_.data(), other_motion_.data());
+    support::multiply(shear_, elastic_motion_.data(), other_motion_.data());
     for (std::size_t i = 0; i < others_.size(); ++i)
       half[others_[i]] += factor * other_motion_[static_cast<Eigen::Index>(i)];
   }

@@ -39,11 +39,12 @@ class InertialShear {
   Eigen::Index f_ = 0;
   bool has_inertia_ = false;  // the others, where the pairs were made
   std::vector<int> elastic_, others_;
-  // −G of the pairs; ΔG, and its last change: others × elastic. The others get a row of zeros where their
-  // number is odd, for `multiply`.
+  // −G of the pairs; ΔG, and its last change: others × elastic.
   Eigen::MatrixXd first_ratio_, shear_, change_;
-  Eigen::MatrixXd factor_, ratio_;                         // M̂_oo, M̂_oo⁻¹ M̂_oe
-  Eigen::MatrixXd elastic_rows_, other_columns_;           // of T and of T⁻¹, for positions and velocities
+  Eigen::MatrixXd factor_, ratio_;                          // M̂_oo, M̂_oo⁻¹ M̂_oe
+  Eigen::MatrixXd elastic_positions_, elastic_velocities_;  // transposed rows of T, 2f × elastic
+  Eigen::MatrixXd change_rows_;    // ΔG's last change times these rows of T, for positions and velocities
+  Eigen::MatrixXd other_columns_;  // of T⁻¹, likewise
   mutable Eigen::VectorXd elastic_motion_, other_motion_;  // work space
   Eigen::VectorXd loss_;
 };

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/integration/exponential/wide_product.h"
 #include "dynamics/integration/ode_system.h"
+#include "tools/support/dense/wide_product.h"
 
 namespace sprung::dynamics {
 
@@ -30,8 +30,8 @@ struct VibrationBasis {
   PairBlocks blocks;
 
   /// @param u, state  2f
-  void to_state(const Eigen::VectorXd& u, double* state) const { multiply(T, u.data(), state); }
-  void to_pairs(const double* state, double* u) const { multiply(inverse, state, u); }
+  void to_state(const Eigen::VectorXd& u, double* state) const { support::multiply(T, u.data(), state); }
+  void to_pairs(const double* state, double* u) const { support::multiply(inverse, state, u); }
 };
 
 /// Modes with a frequency are coupled by damping; their pairs are the complex modes of that part, in real

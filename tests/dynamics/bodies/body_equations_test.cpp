@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "dynamics/bodies/body_forces.h"
+#include "dynamics/bodies/body_mass.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/momentum.h"
@@ -64,16 +66,23 @@ struct Case {
   }
 
   MatrixXd mass(const VectorXd& at) const {
-    MatrixXd M = MatrixXd::Constant(3 + kNumModes, 3 + kNumModes, std::nan(""));
-    dynamics::calc_mass_matrix(body, FrameRotation::from_angle(at[2]), at.tail(kNumModes), M);
-    return M;
+    dynamics::BodyMass mass(body);
+    mass.update(FrameRotation::from_angle(at[2]), at.tail(kNumModes));
+    return mass.matrix();
   }
-  VectorXd quadratic_velocity_forces() const {
+  // The forces without stiffness and damping of the modes.
+  VectorXd forces(const VectorXd& velocity, const Vector2d& gravity) const {
+    Body loose = body;
+    loose.stiffness.setZero();
+    loose.damping.setZero();
+    const FrameRotation rotation = FrameRotation::from_angle(q[2]);
+    dynamics::BodyMass mass(loose);
+    mass.update(rotation, q.tail(kNumModes));
     VectorXd Q = VectorXd::Zero(3 + kNumModes);
-    dynamics::add_quadratic_velocity_forces(body, FrameRotation::from_angle(q[2]), v[2], q.tail(kNumModes),
-                                            v.tail(kNumModes), Q);
+    dynamics::BodyForces(loose).add(mass, rotation, gravity, q.data(), velocity.data(), Q.data());
     return Q;
   }
+  VectorXd quadratic_velocity_forces() const { return forces(v, Vector2d::Zero()); }
 };
 
 constexpr double kRounding = 1e-12;  // relative, of sums over 20 points
@@ -134,14 +143,35 @@ TEST_CASE("The quadratic velocity forces are what Lagrange's equations leave of 
 TEST_CASE("The weight is the sum over the body's points, in any direction of gravity", "[bodies]") {
   const Case general(4);
   const Vector2d gravity(2.5, -9.1);
-  VectorXd expected = VectorXd::Zero(3 + kNumModes), Q = expected;
+  VectorXd expected = VectorXd::Zero(3 + kNumModes);
   for (const test::MassPoint& point : general.frame.points) {
     const PointMotion motion(point, general.q, general.v);
     expected += motion.dm * motion.J.transpose() * gravity;
   }
-  dynamics::add_gravity_forces(general.body, FrameRotation::from_angle(general.q[2]), gravity,
-                               general.q.tail(kNumModes), Q);
-  CHECK((Q - expected).norm() < kRounding * expected.norm());
+  const VectorXd at_rest = VectorXd::Zero(3 + kNumModes);
+  CHECK((general.forces(at_rest, gravity) - expected).norm() < kRounding * expected.norm());
+}
+
+TEST_CASE("Stiffness and damping act on the modes alone, whether they are diagonal or not", "[bodies]") {
+  // The differences from a body without them are −K η and −C η̇; the power is η̇ᵀC η̇.
+  for (const double coupling : {0.0, 0.3}) {
+    Case general(7);
+    Body& body = general.body;
+    body.damping = VectorXd::LinSpaced(kNumModes, 1.0, 4.0).asDiagonal();
+    body.damping(1, 4) = body.damping(4, 1) = body.stiffness(0, 2) = body.stiffness(2, 0) = coupling;
+    const FrameRotation rotation = FrameRotation::from_angle(general.q[2]);
+    dynamics::BodyMass mass(body);
+    mass.update(rotation, general.q.tail(kNumModes));
+    VectorXd Q = -general.quadratic_velocity_forces();
+    const double power = dynamics::BodyForces(body).add(mass, rotation, Vector2d::Zero(), general.q.data(),
+                                                        general.v.data(), Q.data());
+    const VectorXd eta = general.q.tail(kNumModes), eta_dot = general.v.tail(kNumModes);
+    const VectorXd expected = -body.stiffness * eta - body.damping * eta_dot;
+    const double size = general.quadratic_velocity_forces().norm() + expected.norm();
+    CHECK(Q.head<3>().norm() < kRounding * size);
+    CHECK((Q.tail(kNumModes) - expected).norm() < kRounding * size);
+    CHECK(power == Approx(eta_dot.dot(body.damping * eta_dot)).epsilon(kRounding));
+  }
 }
 
 TEST_CASE("Momentum and angular momentum are sums over the body's points", "[bodies]") {

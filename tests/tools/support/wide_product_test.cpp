@@ -1,4 +1,4 @@
-#include "dynamics/integration/exponential/wide_product.h"
+#include "tools/support/dense/wide_product.h"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -9,16 +9,16 @@
 using namespace sprung;
 
 TEST_CASE("A wide product is the product that Eigen gives, whatever the numbers of rows and columns",
-          "[integration]") {
+          "[dense]") {
   // An error of rounding in each of n products and sums: n ε |A| |x| in each row.
-  for (const Eigen::Index rows : {2, 6, 24, 26, 114}) {
+  for (const Eigen::Index rows : {1, 2, 3, 6, 7, 23, 24, 26, 29, 114}) {
     for (const Eigen::Index cols : {1, 5, 24, 26, 115}) {
       const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(rows, cols, [](Eigen::Index i, Eigen::Index k) {
         return std::sin(1.0 + 3.7 * static_cast<double>(i) + 0.9 * static_cast<double>(k * k));
       });
       const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(cols, -1.3, 2.1);
       Eigen::VectorXd y = Eigen::VectorXd::Constant(rows, std::numeric_limits<double>::quiet_NaN());
-      dynamics::multiply(A, x.data(), y.data());
+      support::multiply(A, x.data(), y.data());
       const Eigen::VectorXd allowed =
           static_cast<double>(cols) * std::numeric_limits<double>::epsilon() * (A.cwiseAbs() * x.cwiseAbs());
       CHECK(((y - A.lazyProduct(x)).cwiseAbs().array() <= 2.0 * allowed.array()).all());

@@ -1,8 +1,8 @@
-#include "dynamics/integration/exponential/wide_product.h"
+#include "tools/support/dense/wide_product.h"
 
 #include <algorithm>
 
-namespace sprung::dynamics {
+namespace sprung::support {
 
 namespace {
 
@@ -65,7 +65,11 @@ void multiply(const Eigen::MatrixXd& A, const double* x, double* y) {
   }
   Eigen::Index first = 0;
   for (; first + 4 <= size; first += 4) multiply_rows<4>(A, first, x, y);
-  if (first < size) multiply_rows<2>(A, first, x, y);
+  if (first + 2 <= size) {
+    multiply_rows<2>(A, first, x, y);
+    first += 2;
+  }
+  if (first < size) multiply_rows<1>(A, first, x, y);
 }
 
-}  // namespace sprung::dynamics
+}  // namespace sprung::support
