@@ -162,4 +162,25 @@ void SparseLu::solve(double* x) const {
   }
 }
 
+void SparseLu::solve_transposed(double* x) const {
+  double* y = work_.data();
+  const double* factors = factors_.data();
+  const auto size = static_cast<std::size_t>(size_);
+  for (std::size_t k = 0; k < size; ++k) y[k] = x[steps_[k].column];
+  const int* column = upper_columns_.data();
+  for (std::size_t k = 0; k < size; ++k) {
+    const double* pivot = factors + steps_[k].first;
+    for (int j = 0; j < steps_[k].num_upper; ++j) y[*column++] -= pivot[1 + j] * y[k];
+    y[k] *= *pivot;
+  }
+  for (std::size_t k = size; k-- > 0;) {
+    const int begin = k == 0 ? 0 : steps_[k - 1].end_of_forward;
+    for (int i = begin; i < steps_[k].end_of_forward; ++i) {
+      const Product& left = forward_[static_cast<std::size_t>(i)];
+      y[left.step] -= factors[left.place] * y[k];
+    }
+    x[steps_[k].row] = y[k];
+  }
+}
+
 }  // namespace sprung::dynamics

@@ -25,6 +25,8 @@ class SparseLu {
   void factorise(std::span<const double> values);
   /// x ← A⁻¹ x
   void solve(double* x) const;
+  /// x ← A⁻ᵀ x
+  void solve_transposed(double* x) const;
   /// Sign and size do not depend on the pivots chosen.
   double determinant() const { return determinant_; }
   int num_factor_entries() const { return static_cast<int>(factors_.size()); }

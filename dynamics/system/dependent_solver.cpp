@@ -183,6 +183,49 @@ void DependentSolver::solve_singles(std::size_t first, std::size_t end, const Ei
   }
 }
 
+// The blocks of φ_dᵀ in the opposite order: each takes its share out of the columns of those before it.
+void DependentSolver::solve_transposed(Eigen::VectorXd& r, Eigen::VectorXd& y) const {
+  if (!is_regular_) {
+    y.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  std::size_t end = singles_.size();
+  for (std::size_t b = blocks_.size(); b-- > 0;) {
+    const DiagonalBlock& block = blocks_[b];
+    solve_singles_transposed(block.num_singles_before, end, r, y);
+    end = block.num_singles_before;
+    for (std::size_t i = 0; i < block.columns.size(); ++i) work_[i] = r[block.columns[i]];
+    block.lu.solve_transposed(work_.data());
+    for (std::size_t i = 0; i < block.rows.size(); ++i) y[block.rows[i]] = work_[i];
+    for (const Entry& entry : block.outside)
+      r[entry.column] -= values_[entry.source] * work_[static_cast<std::size_t>(entry.row)];
+  }
+  solve_singles_transposed(0, end, r, y);
+}
+
+void DependentSolver::solve_singles_transposed(std::size_t first, std::size_t end, Eigen::VectorXd& r,
+                                               Eigen::VectorXd& y) const {
+  for (std::size_t k = end; k-- > first;) {
+    const Single& single = singles_[k];
+    const double value = r[single.column] * single.inverse;
+    y[single.row] = value;
+    for (std::size_t i = k == 0 ? 0 : singles_[k - 1].end_of_outside; i < single.end_of_outside; ++i)
+      r[outside_of_singles_[i].column] -= values_[outside_of_singles_[i].source] * value;
+  }
+}
+
+void DependentSolver::subtract_transposed_product(const Eigen::VectorXd& y,
+                                                  std::span<double> x_independent) const {
+  for (const Strip& strip : strips_) {
+    const double* value = values_ + strip.offset;
+    double* x = x_independent.data() + strip.first;
+    for (int i = 0; i < strip.num_rows; ++i, value += strip.stride) {
+      const double factor = y[strip.row + i];
+      for (int j = 0; j < strip.num_columns; ++j) x[j] -= value[j] * factor;
+    }
+  }
+}
+
 int DependentSolver::num_factor_entries() const {
   std::size_t count = singles_.size() + outside_of_singles_.size();
   for (const DiagonalBlock& block : blocks_) {

@@ -33,6 +33,11 @@ class DependentSolver {
   /// x = φ_d⁻¹ r; NaN where φ_d has no inverse whatever its values.
   /// @param r, x  num_constraints; x in the order of Partition::dependent
   void solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
+  /// y = φ_d⁻ᵀ r; NaN where φ_d has no inverse whatever its values.
+  /// @param r  in the order of Partition::dependent, overwritten   @param y  num_constraints
+  void solve_transposed(Eigen::VectorXd& r, Eigen::VectorXd& y) const;
+  /// x_i −= φ_iᵀ y. @param y  num_constraints   @param x_independent  in the order of Partition::independent
+  void subtract_transposed_product(const Eigen::VectorXd& y, std::span<double> x_independent) const;
   /// Marks the present factors as those of a good partition.
   void set_reference();
   /// Moves the reference to the present factors in the blocks whose determinant is larger than it was there.
@@ -77,6 +82,8 @@ class DependentSolver {
   const DiagonalBlock& add_block(const std::vector<int>& group, const PatternRows& rows,
                                  const BlockTriangularForm& form);
   void solve_singles(std::size_t first, std::size_t end, const Eigen::VectorXd& r, Eigen::VectorXd& x) const;
+  void solve_singles_transposed(std::size_t first, std::size_t end, Eigen::VectorXd& r,
+                                Eigen::VectorXd& y) const;
 
   // Columns of a block of the Jacobian that lie side by side and belong to independent coordinates.
   struct Strip {

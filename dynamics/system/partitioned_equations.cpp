@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/support/dense/wide_product.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -26,7 +28,8 @@ PartitionedEquations::PartitionedEquations(const Model& model)
       full_(model, SystemTerms::Markers::kActing),
       num_freedoms_(model.num_freedoms()),
       num_constraints_(model.num_constraints) {
-  accepted_q_ = accepted_v_ = trial_q_ = trial_v_ = momentum_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  accepted_q_ = accepted_v_ = trial_q_ = trial_v_ = Eigen::VectorXd::Zero(model.num_coordinates);
+  direction_ = momentum_ = trial_q_;
   residual_ = correction_ = column_ = dependent_column_ = Eigen::VectorXd::Zero(num_constraints_);
   step_.resize(static_cast<std::size_t>(num_freedoms_));
 }
@@ -183,16 +186,19 @@ Eigen::MatrixXd PartitionedEquations::calc_directions() const {
 }
 
 void PartitionedEquations::calc_directions(Eigen::MatrixXd& directions) const {
-  directions.setZero(model_->num_coordinates, num_freedoms_);
-  for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    dependents_.get_independent_column(k, column_);
-    dependents_.solve(column_, dependent_column_);
-    const auto column = static_cast<Eigen::Index>(k);
-    directions(partition_.independent[k], column) = 1.0;
-    for (std::size_t d = 0; d < partition_.dependent.size(); ++d) {
-      directions(partition_.dependent[d], column) = -dependent_column_[static_cast<Eigen::Index>(d)];
-    }
-  }
+  directions.resize(model_->num_coordinates, num_freedoms_);
+  for (std::size_t k = 0; k < partition_.independent.size(); ++k)
+    calc_direction(k, directions.col(static_cast<Eigen::Index>(k)));
+}
+
+// A column of D.
+void PartitionedEquations::calc_direction(std::size_t freedom, Eigen::Ref<Eigen::VectorXd> direction) const {
+  direction.setZero();
+  direction[partition_.independent[freedom]] = 1.0;
+  dependents_.get_independent_column(freedom, column_);
+  dependents_.solve(column_, dependent_column_);
+  for (std::size_t d = 0; d < partition_.dependent.size(); ++d)
+    direction[partition_.dependent[d]] = -dependent_column_[static_cast<Eigen::Index>(d)];
 }
 
 Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& directions) const {
@@ -207,17 +213,24 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
   return reduced;
 }
 
-void PartitionedEquations::calc_mass_columns(const Eigen::MatrixXd& directions,
-                                             const std::vector<int>& freedoms,
+// Dᵀ x = x_i − φ_iᵀ φ_d⁻ᵀ x_d.
+void PartitionedEquations::calc_mass_columns(const std::vector<int>& freedoms,
                                              Eigen::MatrixXd& columns) const {
   columns.resize(num_freedoms_, static_cast<Eigen::Index>(freedoms.size()));
   for (std::size_t k = 0; k < freedoms.size(); ++k) {
-    momentum_ = directions.col(freedoms[k]);
+    calc_direction(static_cast<std::size_t>(freedoms[k]), direction_);
+    momentum_ = direction_;
     for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-      const Eigen::Index first = model_->bodies[b].first_coordinate, n = model_->bodies[b].num_coordinates();
-      momentum_.segment(first, n).noalias() = terms().mass(b) * directions.col(freedoms[k]).segment(first, n);
+      const int first = model_->bodies[b].first_coordinate;
+      support::multiply(terms().mass(b), direction_.data() + first, momentum_.data() + first);
     }
-    columns.col(static_cast<Eigen::Index>(k)).noalias() = directions.transpose() * momentum_;
+    double* column = columns.col(static_cast<Eigen::Index>(k)).data();
+    for (std::size_t i = 0; i < partition_.independent.size(); ++i)
+      column[i] = momentum_[partition_.independent[i]];
+    for (std::size_t d = 0; d < partition_.dependent.size(); ++d)
+      column_[static_cast<Eigen::Index>(d)] = momentum_[partition_.dependent[d]];
+    dependents_.solve_transposed(column_, dependent_column_);
+    dependents_.subtract_transposed_product(dependent_column_, {column, partition_.independent.size()});
   }
 }
 

@@ -86,9 +86,8 @@ class PartitionedEquations {
   void update_mass() { mutable_terms().update_mass(); }
   /// Dᵀ M D, f×f, after update_mass.
   Eigen::MatrixXd calc_reduced_mass(const Eigen::MatrixXd& directions) const;
-  /// Columns of it. @param freedoms  c of them   @param[out] columns  f×c
-  void calc_mass_columns(const Eigen::MatrixXd& directions, const std::vector<int>& freedoms,
-                         Eigen::MatrixXd& columns) const;
+  /// Columns of it, without D. @param freedoms  c of them   @param[out] columns  f×c
+  void calc_mass_columns(const std::vector<int>& freedoms, Eigen::MatrixXd& columns) const;
   /// Accelerations that additional forces would cause, see ConstrainedEquations.
   void calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x) { full_.calc_response(force, x); }
   /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
@@ -106,6 +105,7 @@ class PartitionedEquations {
  private:
   SystemTerms& mutable_terms() { return full_.terms(); }
   bool solve_dependents(double time);
+  void calc_direction(std::size_t freedom, Eigen::Ref<Eigen::VectorXd> direction) const;
   bool has_lost_turns() const;
   void refactor();
 
@@ -123,7 +123,7 @@ class PartitionedEquations {
   Eigen::VectorXd trial_q_, trial_v_;                  // nq
   Eigen::VectorXd residual_, correction_;              // m
   mutable Eigen::VectorXd column_, dependent_column_;  // m
-  mutable Eigen::VectorXd momentum_;                   // nq
+  mutable Eigen::VectorXd direction_, momentum_;       // nq
   std::vector<double> step_;                           // of the independents, f
 };
 

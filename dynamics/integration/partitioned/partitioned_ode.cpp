@@ -155,8 +155,7 @@ bool PartitionedOde::calc_mass_columns(double time, std::span<const double> y,
                                        const std::vector<int>& freedoms, Eigen::MatrixXd& columns) {
   if (!evaluate_motion(time, y)) return false;
   equations_.update_mass();
-  equations_.calc_directions(directions_);
-  equations_.calc_mass_columns(directions_, freedoms, columns);
+  equations_.calc_mass_columns(freedoms, columns);
   return true;
 }
 

@@ -40,7 +40,8 @@ MatrixXd make_dense(int size, const std::vector<dynamics::MatrixPosition>& patte
 
 }  // namespace
 
-TEST_CASE("Sparse LU solves, with new values too, and has the determinant with its sign", "[system]") {
+TEST_CASE("Sparse LU solves, transposed too, with new values, and has the determinant with its sign",
+          "[system]") {
   test::RandomNumbers random(5);
   for (const int size : {1, 2, 5, 20}) {
     const std::vector<dynamics::MatrixPosition> pattern = scattered_pattern(size);
@@ -54,6 +55,9 @@ TEST_CASE("Sparse LU solves, with new values too, and has the determinant with i
       VectorXd x = r;
       lu.solve(x.data());
       CHECK((dense * x - r).norm() < 1e-12 * (1.0 + x.norm()));
+      x = r;
+      lu.solve_transposed(x.data());
+      CHECK((dense.transpose() * x - r).norm() < 1e-12 * (1.0 + x.norm()));
       CHECK(lu.determinant() == Approx(dense.determinant()).epsilon(1e-10));
     }
   }

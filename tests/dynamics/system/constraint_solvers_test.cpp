@@ -7,6 +7,7 @@
 #include "dynamics/joints/coordinate_joint.h"
 #include "dynamics/system/dependent_solver.h"
 #include "dynamics/system/multiplier_solver.h"
+#include "dynamics/system/partitioned_equations.h"
 #include "tests/catch.h"
 #include "tests/dynamics/beam_superelement.h"
 #include "tests/dynamics/random_numbers.h"
@@ -136,6 +137,24 @@ TEST_CASE("Dependents and products with independents are those of the dense Jaco
   CHECK((sum - r - Phi_i * x_i).norm() < 1e-14 * Phi_i.norm() * x_i.norm());
   solver.solve(r, x_d);
   CHECK((Phi_d * x_d - r).norm() < 1e-13 * Phi_d.norm() * x_d.norm());
+
+  VectorXd used = r, y(model.num_constraints), product = x_i;
+  solver.solve_transposed(used, y);
+  CHECK((Phi_d.transpose() * y - r).norm() < 1e-13 * Phi_d.norm() * y.norm());
+  solver.subtract_transposed_product(y, {product.data(), static_cast<std::size_t>(product.size())});
+  CHECK((product - x_i + Phi_i.transpose() * y).norm() < 1e-14 * Phi_i.norm() * y.norm());
+}
+
+TEST_CASE("Columns of the reduced mass are those of the whole matrix", "[system]") {
+  const Assembly assembly;
+  dynamics::PartitionedEquations equations(assembly.model);
+  equations.choose_partition_at(0.0, test::RandomNumbers(31).vector(assembly.model.num_coordinates, 1.0));
+  equations.update_mass();
+  const std::vector<int> freedoms{4, 0, 2};
+  MatrixXd columns;
+  equations.calc_mass_columns(freedoms, columns);
+  const MatrixXd whole = equations.calc_reduced_mass(equations.calc_directions());
+  CHECK((columns - whole(Eigen::all, freedoms)).norm() < 1e-13 * whole.norm());
 }
 
 TEST_CASE("Dependents with a singular Jacobian have no solution", "[system]") {
@@ -151,5 +170,8 @@ TEST_CASE("Dependents with a singular Jacobian have no solution", "[system]") {
   solver.factorise(jacobian);
   VectorXd x = VectorXd::Zero(2);
   solver.solve(VectorXd::Ones(2), x);
+  CHECK_FALSE(x.allFinite());
+  VectorXd r = VectorXd::Ones(2);
+  solver.solve_transposed(r, x);
   CHECK_FALSE(x.allFinite());
 }
