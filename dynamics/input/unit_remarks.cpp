@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sprung::dynamics {
 
@@ -15,7 +16,10 @@ constexpr double kLargestGyration = 50.0;  // m
 constexpr double kFastest = 70.0;          // m/s, of a road vehicle
 // A body whose points are this much nearer than its radius of gyration, which is longer than kLongGyration.
 constexpr double kWideGyration = 10.0;
-constexpr double kLongGyration = 3.0;  // m
+constexpr double kLongGyration = 3.0;        // m
+constexpr double kLargestDeflection = 10.0;  // m, of a spring under a body's own weight
+constexpr double kLeastDamping = 1e-3;       // of critical, of the lighter body on the spring
+constexpr double kHighestBump = 5.0;         // m
 
 std::string remark_at(const support::SourceLocation& location, const std::string& text) {
   return fmt::format("{}: {}", support::format_place(location), text);
@@ -69,6 +73,56 @@ void remark_on_force(const ForceDescription& force, std::vector<std::string>& re
       fmt::format("'forces.{}.{}' is {:.4g} m; lengths are in m, not in mm", force.name, key, length)));
 }
 
+// Mass of the lightest body that an element acts on; 0 if one has none.
+double find_lightest(const Vehicle& vehicle, const ForceDescription& force) {
+  double lightest = std::numeric_limits<double>::infinity();
+  for (const PointReference& point : force.points) {
+    const BodyDescription* body = vehicle.find_body(body_of_point(point.name));
+    if (body == nullptr) continue;  // the ground
+    const reduce::Superelement* superelement = vehicle.superelement_of(*body);
+    lightest = std::min(lightest, superelement != nullptr ? superelement->inertia.mass : body->mass);
+  }
+  return lightest;
+}
+
+void remark_on_rates(const Vehicle& vehicle, const ForceDescription& force,
+                     std::vector<std::string>& remarks) {
+  const double mass = find_lightest(vehicle, force), weight = mass * vehicle.gravity.norm();
+  if (!(weight > 0.0) || !std::isfinite(weight)) return;
+  if (const auto* tyre = std::get_if<TyreDescription>(&force.parameters)) {
+    const Tyre::Parameters& tyres = tyre->parameters;
+    const double most = tyres.multiplicity * tyres.spring.value(tyres.radius);
+    if (most >= weight) return;
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format(
+            "'forces.{}' carries at most {:.3g} N, less than the weight of its wheel's body, {:.3g} N; "
+            "stiffnesses are in N/m, not in N/mm",
+            force.name, most, weight)));
+  }
+  const auto* spring = std::get_if<SpringDamper::Parameters>(&force.parameters);
+  if (spring == nullptr) return;
+  const double begin = std::max(0.0, spring->rebound_stop.value_or(0.0));  // of the travel between the stops
+  const double rate = spring->multiplicity * spring->spring.slope(begin);
+  if (rate > 0.0 && weight / rate > kLargestDeflection) {
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format(
+            "'forces.{}.spring' has {:.3g} N/m, which the weight of the lighter body on it, {:.3g} N, "
+            "compresses by {:.3g} m; stiffnesses are in N/m, not in N/mm",
+            force.name, rate / spring->multiplicity, weight, weight / rate)));
+  }
+  const double damping =
+      spring->multiplicity * std::max(spring->damper.slope(0.1), spring->damper.slope(-0.1));
+  if (rate > 0.0 && damping > 0.0 && damping < kLeastDamping * 2.0 * std::sqrt(rate * mass)) {
+    remarks.push_back(remark_at(
+        force.location,
+        fmt::format("'forces.{}.damper' has {:.3g} N·s/m, {:.2g} % of critical for the lighter body on it; "
+                    "dampers are in N·s/m, not in N·s/mm",
+                    force.name, damping / spring->multiplicity, 50.0 * damping / std::sqrt(rate * mass))));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicle) {
@@ -78,8 +132,16 @@ std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicl
         run.speed_location,
         fmt::format("'speed' is {:.4g} m/s, or {:.4g} km/h; speeds are in m/s", run.speed, 3.6 * run.speed)));
   }
+  if (std::abs(run.road.height) > kHighestBump) {
+    remarks.push_back(
+        remark_at(run.road.location,
+                  fmt::format("'road.height' is {:.4g} m; heights are in m, not in mm", run.road.height)));
+  }
   for (const BodyDescription& body : vehicle.bodies) remark_on_body(body, remarks);
-  for (const ForceDescription& force : vehicle.forces) remark_on_force(force, remarks);
+  for (const ForceDescription& force : vehicle.forces) {
+    remark_on_force(force, remarks);
+    remark_on_rates(vehicle, force, remarks);
+  }
   return remarks;
 }
 

@@ -116,6 +116,17 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
           names));
 }
 
+// The joint that is farthest open as drawn.
+void find_widest_gap(const Model& model, const Eigen::VectorXd& phi, AssemblyReport& report) {
+  for (int i = 0; i < model.num_constraints; ++i) {
+    const std::size_t joint = joint_of_constraint(model, i);
+    const bool is_distance = model.joints[joint]->constraint_unit(i - model.joint_rows[joint]) == "m";
+    if (!is_distance || std::abs(phi[i]) <= report.widest_gap) continue;
+    report.widest_gap = std::abs(phi[i]);
+    report.open_joint = model.joints[joint]->name;
+  }
+}
+
 }  // namespace
 
 AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
@@ -128,6 +139,8 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
 
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(model.num_constraints);
   terms.calc_residual(phi);
+  AssemblyReport report;
+  find_widest_gap(model, phi, report);
   double size = model.num_constraints > 0 ? phi.lpNorm<Eigen::Infinity>() : 0.0;
   for (int iteration = 0; size > std::max(kClosingTolerance * model.length_scale, model.calc_rounding(q));
        ++iteration) {
@@ -157,7 +170,6 @@ AssemblyReport assemble_positions(const Model& model, Eigen::VectorXd& q) {
   const std::vector<int> dependent = find_dependent_constraints(terms);
   if (!dependent.empty()) throw_redundant(terms, dependent);
 
-  AssemblyReport report;
   report.residual = size;
   for (std::size_t i = 0; i < start.size(); ++i) {
     const double movement = (terms.markers()[i].r - start[i]).norm();

@@ -11,6 +11,8 @@ struct AssemblyReport {
   double largest_movement = 0.0;  ///< of any marker [m]
   std::string moved_marker;       ///< which one
   double residual = 0.0;          ///< largest |φ| afterwards
+  double widest_gap = 0.0;        ///< of a joint before, a distance [m]
+  std::string open_joint;         ///< which joint
 };
 
 /// Moves the bodies from the positions of the input file so that every joint closes, with the least movement

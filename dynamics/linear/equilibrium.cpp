@@ -30,6 +30,7 @@ constexpr double kPredictionError = 0.1;   // of the change of forces that the s
 constexpr double kFastDecrease = 0.3;      // ratio of two successive steps with the same stiffness
 constexpr double kFirstDamping = 1e-6;     // of a step, of the largest stiffness
 constexpr double kLessDamping = 0.1;       // after a step that descends
+constexpr double kWatchedReach = 3.0;      // of the first of the Newton steps that are watched
 constexpr int kMostWatched = 12;           // Newton steps until one has to be lower than where they began
 
 double largest_natural(const Model& model, const std::vector<int>& coordinates,
@@ -68,6 +69,14 @@ struct ModalForce {
       if (!is_neutral.back()) moved += V.col(k).cwiseAbs() * (rounding[k] / calc_stiffness(k));
     }
     rounding_step = kRoundingMargin * largest_natural(model, independent, moved);
+  }
+
+  // Whether each direction has a stiffness that holds it, or neither that nor a force.
+  bool is_held() const {
+    for (Eigen::Index k = 0; k < force.size(); ++k) {
+      if (!is_neutral[static_cast<std::size_t>(k)] && modes.omega_squared[k] < 0.0) return false;
+    }
+    return !is_falling;
   }
 
   double calc_stiffness(Eigen::Index k) const {
@@ -168,6 +177,7 @@ Eigen::VectorXd select_independent(const LinearisedSystem& system, const Eigen::
 struct Watch {
   Eigen::VectorXd q;  // nq
   double potential, force;
+  double reach;  // how far from there the steps may lead [natural sizes]
   int steps_left;
 };
 
@@ -179,15 +189,20 @@ struct Search {
   int wait = 0, next_wait = 1;  // steps downhill until the next watch, and after its failure
 };
 
-// Ends a watch that has come lower. @return whether it has lasted too long
-bool has_failed(Search& search, double potential, double force) {
+// Ends a watch that has come lower. @return whether it has lasted too long, or has come too far: there may be
+// another equilibrium
+bool has_failed(const Model& model, const Eigen::VectorXd& q, Search& search, double potential,
+                double force) {
   if (!search.watch) return false;
   if (potential < search.watch->potential || force < search.watch->force) {
     search.watch.reset();
     search.next_wait = 1;
     return false;
   }
-  return search.watch->steps_left-- == 0;
+  double distance = 0.0;
+  for (int i = 0; i < model.num_coordinates; ++i)
+    distance = std::max(distance, std::abs(q[i] - search.watch->q[i]) / model.coordinate_scale(i));
+  return distance > search.watch->reach || search.watch->steps_left-- == 0;
 }
 
 Eigen::VectorXd return_to_watch(const ModalForce& modal, Search& search) {
@@ -210,10 +225,10 @@ Eigen::VectorXd take_step(const Model& model, PartitionedEquations& equations, c
   const double force = modal.force.norm();
   double potential = 0.0;
   calc_static_force(equations, 0.0, q_i, &potential, motion);
-  if (has_failed(search, potential, force)) return return_to_watch(modal, search);
+  if (has_failed(model, q, search, potential, force)) return return_to_watch(modal, search);
   const Eigen::MatrixXd& V = modal.modes.vectors;
   for (int attempt = 0; attempt < 40; ++attempt) {
-    const bool is_newton = attempt == 0 && search.wait == 0 && !modal.is_falling;
+    const bool is_newton = attempt == 0 && search.wait == 0 && modal.is_held();
     const double damping = is_newton ? 0.0 : search.damping;
     Eigen::VectorXd step = modal.calc_step(modal.force, damping);
     const double size = largest_natural(model, system.partition.independent, step);
@@ -232,8 +247,8 @@ Eigen::VectorXd take_step(const Model& model, PartitionedEquations& equations, c
       search.wait = std::max(0, search.wait - 1);
       break;
     }
-    if (is_newton && assembled && trial_force.allFinite()) {
-      if (!search.watch) search.watch = Watch{q, potential, force, kMostWatched};
+    if (is_newton && !is_cut && assembled && trial_force.allFinite()) {
+      if (!search.watch) search.watch = Watch{q, potential, force, kWatchedReach * size, kMostWatched};
       break;
     }
     search.damping = std::max(10.0 * search.damping, kFirstDamping * modal.stiffest);

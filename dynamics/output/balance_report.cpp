@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
 #include "dynamics/output/section_report.h"
 #include "dynamics/section_loads/body_remarks.h"
 #include "dynamics/system/system_terms.h"
@@ -33,9 +36,12 @@ struct RestingForces {
   }
 };
 
-std::string format_remarks(const std::vector<BodyRemark>& remarks) {
+// Without those of the files, which were told when they were read.
+std::string format_warnings(const std::vector<RunWarning>& warnings) {
   std::string text;
-  for (const BodyRemark& remark : remarks) text += fmt::format("\nwarning: {}\n", remark.text);
+  for (const RunWarning& warning : warnings) {
+    if (!is_of_computation(warning)) text += fmt::format("\nwarning: {}\n", warning.text);
+  }
   return text;
 }
 
@@ -46,6 +52,18 @@ std::vector<std::string> neutral_descriptions(const Equilibrium& equilibrium) {
 }
 
 }  // namespace
+
+std::vector<RunWarning> list_balance_warnings(const Vehicle& vehicle, const RestingSections& sections,
+                                              const std::vector<std::string>& file_remarks) {
+  std::vector<RunWarning> warnings;
+  const auto add = [&warnings](const std::vector<BodyRemark>& remarks) {
+    for (const BodyRemark& remark : remarks) warnings.push_back({"sections", {remark.body}, remark.text});
+  };
+  add(list_missing_parts(sections.loads, vehicle.judged));
+  add(list_large_bending(sections.bending));
+  for (RunWarning& remark : list_file_warnings(file_remarks)) warnings.push_back(std::move(remark));
+  return warnings;
+}
 
 std::string format_equilibrium(const BalanceReport& report) {
   const Equilibrium& equilibrium = report.equilibrium;
@@ -91,7 +109,7 @@ std::string format_equilibrium(const BalanceReport& report) {
   }
   if (report.sections == nullptr) return text;
   text += format_sections(*report.sections);
-  return text + format_remarks(list_missing_parts(*report.sections, report.vehicle.judged));
+  return text + format_warnings(report.warnings);
 }
 
 Json make_equilibrium_json(const BalanceReport& report) {
@@ -114,11 +132,12 @@ Json make_equilibrium_json(const BalanceReport& report) {
           {"neutral", neutral_descriptions(report.equilibrium)},
           {"stable", report.equilibrium.stable},
           {"iterations", report.equilibrium.iterations},
-          {"last_step", report.equilibrium.last_step}};
+          {"last_step", report.equilibrium.last_step},
+          {"warnings", make_warnings_json(report.warnings)}};
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         const SectionStatistics& sections, bool is_steady) {
+                         const std::vector<RunWarning>& warnings, bool is_steady) {
   std::string text = fmt::format(
       "{}: modes about {}, {} freedoms\n"
       "A force with two slopes at rest, such as a damper with different rates in compression and rebound, "
@@ -141,7 +160,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
     }
   }
   text += table.str();
-  return text + format_remarks(list_missing_parts(sections, vehicle.judged));
+  return text + format_warnings(warnings);
 }
 
 bool FrequencyBracket::holds(const std::vector<VehicleMode>& modes, std::size_t mode) const {
@@ -157,12 +176,17 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
     table.add_row({fmt::format("{}", k + 1), fmt::format("{:.6f}", lower), fmt::format("{:.6f}", upper),
                    fmt::format("{:.1e}", upper / lower - 1.0)});
   }
-  return fmt::format("\nBrackets of the undamped frequencies up to {:.6g} Hz\n{}", bracket.highest_hz,
-                     table.str());
+  const std::string band =
+      std::isfinite(bracket.highest_hz) ? fmt::format(" up to {:.6g} Hz", bracket.highest_hz) : "";
+  return fmt::format(
+      "\nBrackets of the undamped frequencies{}, of the vehicle linearised with the body frames at their "
+      "reference "
+      "nodes\n{}",
+      band, table.str());
 }
 
 Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
-                     const FrequencyBracket* bracket) {
+                     const std::vector<RunWarning>& warnings, const FrequencyBracket* bracket) {
   Json list = Json::array();
   for (const VehicleMode& mode : modes) {
     list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
@@ -175,7 +199,9 @@ Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatist
                                 mode.undamped_frequency_hz};
     }
   }
-  return {{"modes", list}, {"sections", make_sections_json(sections)}};
+  return {{"modes", list},
+          {"sections", make_sections_json(sections)},
+          {"warnings", make_warnings_json(warnings)}};
 }
 
 }  // namespace sprung::dynamics

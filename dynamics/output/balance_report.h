@@ -7,7 +7,8 @@
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/linear/vehicle_modes.h"
-#include "dynamics/section_loads/section_statistics.h"
+#include "dynamics/output/run_warnings.h"
+#include "dynamics/section_loads/resting_sections.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
@@ -21,7 +22,13 @@ struct BalanceReport {
   bool is_steady = false;                       ///< whether it is an equilibrium relative to a steady motion
   Eigen::VectorXd file_positions;               ///< num_coordinates, as given in the vehicle file
   const SectionStatistics* sections = nullptr;  ///< at the equilibrium; null: not reported
+  std::vector<RunWarning> warnings = {};
 };
+
+/// What is doubtful at an equilibrium: what the modes miss of moments and deflections, deflections that are
+/// not small, and remarks on the files that were read.
+std::vector<RunWarning> list_balance_warnings(const Vehicle& vehicle, const RestingSections& sections,
+                                              const std::vector<std::string>& file_remarks);
 
 /// Lower bounds of the vehicle's undamped frequencies; the modes found are upper ones.
 struct FrequencyBracket {
@@ -32,18 +39,18 @@ struct FrequencyBracket {
 };
 
 /// Positions of the bodies, values of the force elements, bending moments and neutral directions, as text
-/// tables, with a warning where the modes miss too much of the moments.
+/// tables, with the warnings that do not concern the files.
 std::string format_equilibrium(const BalanceReport& report);
 /// Positions, values and neutral directions as one JSON object, SI units.
 support::Json make_equilibrium_json(const BalanceReport& report);
 
-/// Table of the vehicle's modes.
-/// @param sections   at the equilibrium: a warning follows where the modes miss too much of the moments
+/// Table of the vehicle's modes, with the warnings that do not concern the files.
 /// @param is_steady  about steady motion, not at rest
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                         const SectionStatistics& sections, bool is_steady = false);
-/// @param bracket  null: none
+                         const std::vector<RunWarning>& warnings, bool is_steady = false);
+/// @param sections  at the equilibrium   @param bracket  null: none
 support::Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+                              const std::vector<RunWarning>& warnings,
                               const FrequencyBracket* bracket = nullptr);
 std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);
 

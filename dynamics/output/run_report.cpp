@@ -28,12 +28,31 @@ std::string describe_modes(const Model& model) {
 void add_certified_row(const CertifiedShare& share, const CertifiedError& body, support::TextTable& run) {
   if (share.point.empty()) return;
   std::string text = fmt::format(
-      "up to {:.4g} Hz at most {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
-      body.highest_hz(), 100.0 * share.missing, share.point, share.direction == 0 ? "x" : "y",
-      100.0 * share.above);
+      "up to {:.4g} Hz {} {:.3g} % of the r.m.s. acceleration of {} along {}; {:.3g} % of it above",
+      body.highest_hz(), body.is_proved() ? "at most" : "about (not proved)", 100.0 * share.missing,
+      share.point, share.direction == 0 ? "x" : "y", 100.0 * share.above);
+  if (share.loudest_above > share.above)
+    text += fmt::format(", {:.3g} % of that of {}", 100.0 * share.loudest_above, share.loudest);
   if (!share.uncovered.empty())
     text += fmt::format("; without loads on {} outside of the interface", share.uncovered);
   run.add_row({"basis of " + body.name() + " misses", text});
+}
+
+// What the run was asked for; all settings are in its results file.
+Json describe_parameters(const Run& run, const Model& model) {
+  Json modes = Json::object();
+  for (const Body& body : model.bodies) {
+    if (body.num_modes() > 0) modes[body.name] = body.mode_numbers;
+  }
+  return {{"speed", run.speed},
+          {"duration", run.duration},
+          {"output_step", run.output_step},
+          {"start", start_name(run.start)},
+          {"statistics", {run.statistics_from, run.statistics_to}},
+          {"road", run.road.shape},
+          {"method", method_name(run.integrator.options.method)},
+          {"relative_tolerance", run.integrator.options.relative_tolerance},
+          {"modes", modes}};
 }
 
 Json describe_certified(const std::vector<CertifiedError>& bodies) {
@@ -41,10 +60,13 @@ Json describe_certified(const std::vector<CertifiedError>& bodies) {
   for (const CertifiedError& body : bodies) {
     const CertifiedShare share = body.find_worst();
     if (share.point.empty()) continue;
-    all[body.name()] = {
-        {"highest_frequency", body.highest_hz()},   {"point", share.point},
-        {"axis", share.direction == 0 ? "x" : "y"}, {"of_rms_acceleration", share.missing},
-        {"above_highest_frequency", share.above},   {"outside_of_interface", share.uncovered}};
+    all[body.name()] = {{"proved", body.is_proved()},
+                        {"highest_frequency", body.highest_hz()},
+                        {"point", share.point},
+                        {"axis", share.direction == 0 ? "x" : "y"},
+                        {"of_rms_acceleration", share.missing},
+                        {"above_highest_frequency", share.above},
+                        {"outside_of_interface", share.uncovered}};
   }
   return all;
 }
@@ -182,11 +204,8 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
                             {"axial_effect", body.axial_effect()}};
   }
   const TransientStatistics& transient = summary.transient;
-  Json warnings = Json::array();
-  for (const RunWarning& warning : summary.warnings) {
-    warnings.push_back({{"concerns", warning.concerns}, {"of", warning.of}, {"text", warning.text}});
-  }
-  return {{"freedoms", model.num_mechanical_freedoms()},
+  return {{"parameters", describe_parameters(summary.run, model)},
+          {"freedoms", model.num_mechanical_freedoms()},
           {"points", points},
           {"bending", bending},
           {"sections", make_sections_json(summary.statistics.sections())},
@@ -200,7 +219,7 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
           {"switches", transient.switches},
           {"modes", modes},
           {"repartitions", transient.stepper.repartitions},
-          {"warnings", warnings},
+          {"warnings", make_warnings_json(summary.warnings)},
           {"elapsed", summary.times.wall},
           {"cpu_time", summary.times.cpu},
           {"integration_cpu_time", summary.times.integration},

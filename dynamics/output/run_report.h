@@ -28,6 +28,7 @@ struct RunTimes {
 
 /// The outcome of a run.
 struct RunSummary {
+  const Run& run;
   const RunStatistics& statistics;
   const TransientStatistics& transient;
   double duration = 0.0;  ///< simulated [s]

@@ -63,17 +63,13 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     if (marker < 0) throw std::invalid_argument(fmt::format("RunStatistics: there is no point '{}'", name));
     points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}});
   }
-  for (const BodySections& body : sections.bodies()) {
-    if (!body.has_modes()) continue;
-    bending_.emplace_back(model.bodies[body.body()], *vehicle.superelement_of(vehicle.bodies[body.body()]),
-                          body.loads());
-  }
+  bending_ = make_body_bending(vehicle, model, sections);
   const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
   for (const BodySections& body : sections.bodies()) {
     if (!body.has_modes()) continue;
     const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[body.body()]);
     const std::optional<reduce::Certificate>& certificate = superelement.certificate;
-    if (!certificate || !certificate->is_bounded() || certificate->interface.empty()) continue;
+    if (!certificate || certificate->interface.empty()) continue;
     certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle, output_step);
   }
 }
@@ -101,11 +97,7 @@ void RunStatistics::add(const Snapshot& snapshot) {
                            snapshot.energy.dissipated - snapshot.energy.input;
   largest_imbalance_ = std::max(largest_imbalance_, std::abs(imbalance));
 
-  auto bending = bending_.begin();
-  for (const BodySections& body : sections_.sections().bodies()) {
-    if (body.has_modes()) (bending++)->add(snapshot.time, body.loads(), snapshot.q);
-  }
-
+  add_to_bending(sections_.sections(), snapshot.time, snapshot.q, bending_);
   add_to_certified(snapshot);
 
   const double tolerance = 1e-9;

@@ -71,7 +71,12 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
       is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
   const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(worst.coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
-  warnings.push_back({kSummary, list_points_of(body, statistics), text});
+  std::vector<std::string> points = list_points_of(body, statistics);
+  if (missing.point >= 0) {
+    const std::string named = name_missing_point(adaptivity, missing);
+    if (std::find(points.begin(), points.end(), named) == points.end()) points.push_back(named);
+  }
+  warnings.push_back({kSummary, points, text});
   warnings.push_back({kModes, {body}, text});
 }
 
@@ -93,9 +98,11 @@ bool is_balanced(const RunStatistics& statistics) {
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly) {
   if (!(assembly.largest_movement > model.length_scale)) return {};
   return fmt::format(
-      "to close the joints, {} was moved by {:.3g} m, farther than any point is from its body's origin "
-      "({:.3g} m): check the positions of the bodies and the points of the joints",
-      assembly.moved_marker, assembly.largest_movement, model.length_scale);
+      "to close the joints, of which '{}' was {:.3g} m open, {} was moved by {:.3g} m, farther than any "
+      "point is "
+      "from its body's origin ({:.3g} m): check the positions of the bodies and the points of the joints",
+      assembly.open_joint, assembly.widest_gap, assembly.moved_marker, assembly.largest_movement,
+      model.length_scale);
 }
 
 std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly) {
@@ -113,10 +120,11 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   return warnings;
 }
 
-std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
+std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& model,
+                                          const RunStatistics& statistics,
                                           const TransientStatistics& transient,
-                                          const JudgedQuantities& judged,
                                           const AdaptivityOptions* adaptivity) {
+  const JudgedQuantities& judged = vehicle.judged;
   std::vector<RunWarning> warnings;
   warn_of_energy(statistics, warnings);
   if (adaptivity != nullptr && judged.points) {
@@ -124,8 +132,24 @@ std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistic
   }
   add_remarks(list_missing_parts(statistics.sections(), judged), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
-  if (judged.points) add_remarks(list_missed_by_bases(statistics.certified()), statistics, warnings);
+  if (judged.points) {
+    add_remarks(list_missed_by_bases(statistics.certified()), statistics, warnings);
+  }
   return warnings;
+}
+
+std::vector<RunWarning> list_file_warnings(const std::vector<std::string>& remarks) {
+  std::vector<RunWarning> warnings;
+  for (const std::string& remark : remarks)
+    warnings.push_back({kSummary, {std::string(kComputation)}, remark});
+  return warnings;
+}
+
+support::Json make_warnings_json(const std::vector<RunWarning>& warnings) {
+  support::Json list = support::Json::array();
+  for (const RunWarning& warning : warnings)
+    list.push_back({{"concerns", warning.concerns}, {"of", warning.of}, {"text", warning.text}});
+  return list;
 }
 
 void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings) {

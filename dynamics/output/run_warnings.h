@@ -9,6 +9,7 @@
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/hdf5/hdf5_file.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -32,13 +33,17 @@ std::string describe_far_movement(const Model& model, const AssemblyReport& asse
 /// The warnings that need no run: of sizes, and of bodies that the assembly moved far.
 std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly);
 /// The warnings about a run that has come to its end, the gravest first, without those of the model.
-/// @param judged      kinds of quantities whose missing parts are warned of
 /// @param adaptivity  null if no modes were left out
 /// Checked by tests/dynamics/program/warnings_test.py
-std::vector<RunWarning> list_run_warnings(const Model& model, const RunStatistics& statistics,
+std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& model,
+                                          const RunStatistics& statistics,
                                           const TransientStatistics& transient,
-                                          const JudgedQuantities& judged,
                                           const AdaptivityOptions* adaptivity);
+/// Remarks on the files that were read: they concern all numbers.
+std::vector<RunWarning> list_file_warnings(const std::vector<std::string>& remarks);
+
+/// What they concern, of what, and their texts.
+support::Json make_warnings_json(const std::vector<RunWarning>& warnings);
 
 /// The point at which modes left out are missing the most.
 std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);

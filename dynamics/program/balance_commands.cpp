@@ -32,14 +32,16 @@ int equilibrium_command(const RunRequest& request, bool json) {
   const PreparedRun prepared = prepare_run(request, Preparation::kBalance);
   const Model& model = prepared.balance_model;
   VehicleSections sections(prepared.vehicle, model);
-  const SectionStatistics section_loads = calc_resting_sections(model, *prepared.equilibrium, sections);
+  const RestingSections resting =
+      calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
   const BalanceReport report{model,
                              prepared.vehicle,
                              *prepared.equilibrium,
                              prepared.assembly,
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle),
-                             &section_loads};
+                             &resting.loads,
+                             list_balance_warnings(prepared.vehicle, resting, prepared.remarks)};
   fmt::print(request.streams.out, "{}",
              json ? format_report_json(request, make_equilibrium_json(report))
                   : describe_static_lengths(prepared) + format_equilibrium(report));
@@ -51,18 +53,20 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   const Model& model = prepared.balance_model;
   const std::vector<VehicleMode> modes = calc_vehicle_modes(model, *prepared.equilibrium);
   VehicleSections sections(prepared.vehicle, model);
-  const SectionStatistics section_loads = calc_resting_sections(model, *prepared.equilibrium, sections);
+  const RestingSections resting =
+      calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
+  const std::vector<RunWarning> warnings = list_balance_warnings(prepared.vehicle, resting, prepared.remarks);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared);
   if (output.json) {
-    fmt::print(
-        request.streams.out, "{}",
-        format_report_json(request, make_modes_json(modes, section_loads, bracket ? &*bracket : nullptr)));
+    fmt::print(request.streams.out, "{}",
+               format_report_json(
+                   request, make_modes_json(modes, resting.loads, warnings, bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
   fmt::print(
       request.streams.out, "{}",
-      format_modes(model, prepared.vehicle, modes, section_loads, prepared.run.start == Run::Start::kSteady));
+      format_modes(model, prepared.vehicle, modes, warnings, prepared.run.start == Run::Start::kSteady));
   if (bracket) fmt::print(request.streams.out, "{}", format_bracket(modes, *bracket));
   return support::kGood;
 }

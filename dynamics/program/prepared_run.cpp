@@ -14,7 +14,7 @@
 #include "dynamics/program/automatic_modes.h"
 #include "dynamics/program/massless_check.h"
 #include "dynamics/program/start_state.h"
-#include "dynamics/program/turned_springs.h"
+#include "dynamics/program/unlikely_balance.h"
 #include "dynamics/road/flat_road.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/terminal/progress_bar.h"
@@ -157,18 +157,11 @@ Model make_balance_model(const Flexibility& flexibility, const PreparedRun& prep
                     flexibility.stiffened);
 }
 
-// A balance may be one that no vehicle has.
-void remark_on_turned_springs(const Eigen::VectorXd& drawn, const RunRequest& request,
-                              PreparedRun& prepared) {
-  const Vehicle& vehicle = prepared.vehicle;
-  for (const std::size_t f :
-       find_turned_springs(vehicle, prepared.balance_model, drawn, prepared.equilibrium->q)) {
-    std::string remark = fmt::format(
-        "{}: in static equilibrium 'forces.{}' points the other way than as drawn; does it carry its load?",
-        support::format_place(vehicle.forces[f].location), vehicle.forces[f].name);
-    if (!request.quiet) fmt::print(request.streams.err, "remark: {}\n", remark);
-    prepared.remarks.push_back(std::move(remark));
-  }
+// "" for none.
+void tell_remark(std::string remark, const RunRequest& request, PreparedRun& prepared) {
+  if (remark.empty()) return;
+  if (!request.quiet) fmt::print(request.streams.err, "remark: {}\n", remark);
+  prepared.remarks.push_back(std::move(remark));
 }
 
 // Assembles the vehicle and, if the preparation needs it, finds its equilibrium on level ground.
@@ -191,11 +184,13 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   prepared.equilibrium =
       find_equilibrium(prepared.balance_model, q, show, find_motion(run, prepared.balance_model, q));
   check_steady(run, prepared.balance_model, *prepared.equilibrium);
-  remark_on_turned_springs(q, request, prepared);
+  for (std::string& remark :
+       list_unlikely_balance(vehicle, prepared.balance_model, q, prepared.equilibrium->q))
+    tell_remark(std::move(remark), request, prepared);
   return prepared.equilibrium->q;
 }
 
-// The same; where there is no balance, the error tells of a body that the assembly has moved far.
+// The same; where there is no balance, the error tells of bodies that are drawn far from each other.
 Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
@@ -203,9 +198,11 @@ Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparat
   } catch (const support::NumericalError& error) {
     const Model model = make_balance_model(flexibility, prepared);
     Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
-    const std::string moved = describe_far_movement(model, assemble_positions(model, q));
-    if (moved.empty()) throw;
-    throw support::NumericalError(fmt::format("{}; {}", error.what(), moved));
+    const std::string far = describe_far_element(prepared.vehicle, model, q),
+                      moved = describe_far_movement(model, assemble_positions(model, q));
+    if (far.empty() && moved.empty()) throw;
+    const char* separator = far.empty() || moved.empty() ? "" : "; ";
+    throw support::NumericalError(fmt::format("{}; {}{}{}", error.what(), far, separator, moved));
   }
 }
 
@@ -229,10 +226,12 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.output_points = resolve_output_points(prepared.run, vehicle);
   prepared.level_road = std::make_unique<FlatRoad>();
   prepared.road = make_road(prepared.run);
-  if (preparation == Preparation::kRun && !request.quiet) {
-    const std::string remark =
-        remark_on_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration);
-    if (!remark.empty()) fmt::print(request.streams.err, "remark: {}\n", remark);
+  // Where the statistics contain it, a warning of the run says so.
+  const std::string in_statistics =
+      describe_missed_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.statistics_to);
+  if (preparation == Preparation::kRun && in_statistics.empty()) {
+    tell_remark(remark_on_road(prepared.run.road, *prepared.road, prepared.run.speed, prepared.run.duration),
+                request, prepared);
   }
   // Modes are chosen about the balance of the rigid vehicle, if the run asks for a choice.
   if (!list_automatic_bodies(prepared.run.modes).empty()) find_free_lengths({}, {}, prepared);

@@ -10,6 +10,7 @@
 #include "dynamics/output/response_writer.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "dynamics/system/system_terms.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/program.h"
@@ -19,6 +20,7 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kSameSpeed = 1e-6;
+constexpr double kLifting = 3.0;  // r.m.s. values: a normal variable falls so low in a thousandth of the time
 
 void check_request(const Run& run) {
   if (run.start == Run::Start::kSteady) {
@@ -87,6 +89,40 @@ std::vector<std::string> list_warnings(const PreparedRun& prepared, const Linear
                     kink.element));
   }
   remark_on_speed(prepared, vehicle, warnings);
+  return warnings;
+}
+
+// Wheels that the random road would lift, which a linear vehicle cannot know.
+std::vector<std::string> list_lifting_wheels(const PreparedRun& prepared, const LinearVehicle& vehicle,
+                                             const ResponseResult& result) {
+  std::vector<std::string> warnings;
+  if (!result.has_road()) return warnings;
+  const Model& model = vehicle.model();
+  SystemTerms terms(model);
+  terms.update_positions(0.0, prepared.equilibrium->q);
+  terms.update_velocities(Eigen::VectorXd::Zero(model.num_coordinates));
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  terms.choose_branches(branches);
+  for (std::size_t i = 0; i < result.subjects.size(); ++i) {
+    const OutputSubject& subject = result.subjects[i];
+    if (subject.kind != OutputSubject::Kind::kChannel || subject.role != ChannelRole::kForce) continue;
+    const auto f = static_cast<std::size_t>(subject.object);
+    const auto* tyre = std::get_if<TyreDescription>(&prepared.vehicle.forces[f].parameters);
+    if (tyre == nullptr || !tyre->parameters.one_sided) continue;
+    const ForceElement& force = *model.forces[f];
+    std::vector<double> values(force.channels().size());
+    force.calc_channels(terms.instant_of(f), model.branches_of(f, branches), values);
+    const auto is_force = [](const Channel& channel) { return channel.role == ChannelRole::kForce; };
+    const auto channels = force.channels();
+    const auto place = std::find_if(channels.begin(), channels.end(), is_force) - channels.begin();
+    const double rms = result.rms[static_cast<Eigen::Index>(i)],
+                 at_rest = values[static_cast<std::size_t>(place)];
+    if (kLifting * rms <= at_rest) continue;
+    warnings.push_back(fmt::format(
+        "'{}' leaves the ground now and then, which a linear response does not contain: its force "
+        "varies by {:.4g} N r.m.s. about {:.4g} N at rest",
+        force.name, rms, at_rest));
+  }
   return warnings;
 }
 
@@ -164,7 +200,10 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   ResponseResult result =
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
-  for (const std::string& warning : list_warnings(prepared, vehicle)) {
+  std::vector<std::string> warnings = list_warnings(prepared, vehicle);
+  for (std::string& warning : list_lifting_wheels(prepared, vehicle, result))
+    warnings.push_back(std::move(warning));
+  for (const std::string& warning : warnings) {
     fmt::print(request.streams.err, "warning: {}\n", warning);
     result.remarks.push_back("Warning: " + warning);
   }

@@ -218,8 +218,8 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
   warn_of_missed_road(prepared, model_warnings);
   print_of_computation(streams.err, model_warnings);
-  for (const std::string& remark : prepared.remarks)  // told when the file was read
-    model_warnings.push_back({"summary", {std::string(kComputation)}, remark});
+  for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
+    model_warnings.push_back(std::move(remark));
 
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
@@ -243,13 +243,13 @@ int run_command(const RunRequest& request, const RunOutput& output) {
       integrate(prepared, options, written, progress, sections, statistics, times, streams.err);
   const AdaptivityOptions* adaptivity = options.adaptivity ? &*options.adaptivity : nullptr;
   std::vector<RunWarning> warnings =
-      list_run_warnings(prepared.model, statistics, transient, prepared.vehicle.judged, adaptivity);
+      list_run_warnings(prepared.vehicle, prepared.model, statistics, transient, adaptivity);
   print_of_computation(streams.err, warnings);
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
   times.cpu = cpu_time() - request.earlier_cpu_time;
-  const RunSummary summary{statistics, transient,  run.duration - prepared.start.time,
-                           times,      adaptivity, warnings};
+  const RunSummary summary{run,   statistics, transient, run.duration - prepared.start.time,
+                           times, adaptivity, warnings};
   fmt::print(streams.out, "{}",
              output.json ? format_report_json(request, make_summary_json(prepared.model, summary))
                          : format_summary(summary));

@@ -14,7 +14,7 @@ namespace sprung::dynamics {
 /// equilibrium that no vehicle has.
 /// @param drawn, found  coordinates
 /// @return their places in vehicle.forces
-/// Checked by tests/dynamics/program/turned_springs_test.py
+/// Checked by tests/dynamics/program/unlikely_balance_test.py
 std::vector<std::size_t> find_turned_springs(const Vehicle& vehicle, const Model& model,
                                              const Eigen::VectorXd& drawn, const Eigen::VectorXd& found);
 

@@ -47,14 +47,20 @@ std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& 
   std::vector<BodyRemark> remarks;
   for (const CertifiedError& body : bodies) {
     const CertifiedShare share = body.find_worst();
-    if (share.point.empty() || !(share.missing > kTooMuchMissing)) continue;
+    if (!(share.missing > kTooMuchMissing)) continue;
+    const std::string of_point =
+        fmt::format("{:.3g} % of the r.m.s. acceleration of {} along {} up to {:.4g} Hz",
+                    100.0 * share.missing, share.point, share.direction == 0 ? "x" : "y", body.highest_hz());
     remarks.push_back(
         {body.name(),
-         fmt::format(
-             "{}: under these loads its superelement may miss {:.3g} % of the r.m.s. acceleration of {} "
-             "along {} up to {:.4g} Hz; reduce it with a smaller tolerance",
-             body.name(), 100.0 * share.missing, share.point, share.direction == 0 ? "x" : "y",
-             body.highest_hz())});
+         body.is_proved()
+             ? fmt::format(
+                   "{}: under these loads its superelement may miss {}; reduce it with a smaller tolerance",
+                   body.name(), of_point)
+             : fmt::format(
+                   "{}: under these loads its superelement misses about {}, judged by what it misses at "
+                   "rest, since its certificate has no bound; reduce it with the basis \"free\"",
+                   body.name(), of_point)});
   }
   return remarks;
 }

@@ -23,8 +23,8 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
 /// more than a tenth of its length, or whose bending axial forces change by more than a tenth.
 std::vector<BodyRemark> list_large_bending(const std::vector<BodyBending>& bodies);
 
-/// A remark on each body whose basis may miss more than a twentieth of an acceleration within its certified
-/// band.
+/// A remark on each body whose basis may miss more than a twentieth of an acceleration within the band of its
+/// certificate.
 std::vector<BodyRemark> list_missed_by_bases(const std::vector<CertifiedError>& bodies);
 
 }  // namespace sprung::dynamics

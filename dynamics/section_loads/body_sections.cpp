@@ -25,6 +25,8 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
     const int node = superelement.elements(station % 2, station / 2);
     positions_.row(station) = superelement.node_positions.col(node).transpose();
   }
+  length_ = (positions_.colwise().maxCoeff() - positions_.colwise().minCoeff()).norm();
+  weight_ = moving.mass * model.gravity.norm();
   if (const std::optional<reduce::SectionSizes>& of_elements = superelement.section_sizes) {
     const auto at_ends = [](const Eigen::VectorXd& values) -> Eigen::VectorXd {
       return values.transpose().replicate(2, 1).reshaped();

@@ -25,6 +25,8 @@ class BodySections {
   std::size_t body() const { return body_; }  ///< 0-based, of the model
   /// Undeformed positions of the stations, body axes, stations×2 [m].
   const Eigen::MatrixXd& positions() const { return positions_; }
+  double length() const { return length_; }  ///< diagonal of the stations [m]
+  double weight() const { return weight_; }  ///< [N]
   /// Area [m²] and section modulus [m³] at each station, 0: not known; none where the superelement has none.
   const std::optional<reduce::SectionSizes>& sizes() const { return sizes_; }
   bool has_modes() const { return num_modes_ > 0; }
@@ -63,6 +65,7 @@ class BodySections {
   int first_, num_modes_;
   BodyLoads loads_;
   Eigen::MatrixXd positions_;
+  double length_, weight_;
   std::optional<reduce::SectionSizes> sizes_;
   Eigen::MatrixXd by_mode_;        // 3 stations × modes
   Eigen::MatrixXd by_load_;        // 3 stations × coefficients of the loads, modes, modes turned

@@ -13,6 +13,7 @@ namespace {
 
 constexpr Eigen::Index kBlock = 512;        // outputs that are transformed together
 constexpr double kLeastAcceleration = 0.1;  // m/s², r.m.s. below which no share is formed
+constexpr double kHeld = 1e-6;  // r.m.s., of the largest, of points that a joint keeps from moving
 
 int find_row(const reduce::Certificate& certificate, const reduce::Superelement& superelement, int node,
              int freedom) {
@@ -29,6 +30,7 @@ int find_row(const reduce::Certificate& certificate, const reduce::Superelement&
 CertifiedError::CertifiedError(const Model& model, int body, const reduce::Superelement& superelement,
                                const std::vector<VehiclePoint>& points, double output_step)
     : name_(model.bodies[static_cast<std::size_t>(body)].name),
+      is_proved_(superelement.certificate->is_bounded()),
       highest_hz_(superelement.certificate->highest_hz),
       step_(output_step),
       first_(model.bodies[static_cast<std::size_t>(body)].first_coordinate) {
@@ -51,7 +53,7 @@ CertifiedError::CertifiedError(const Model& model, int body, const reduce::Super
   weights_.resize(num_freedoms);
   for (Eigen::Index j = 0; j < num_freedoms; ++j) {
     const reduce::InterfaceError& one = certificate.interface[static_cast<std::size_t>(j)];
-    weights_[j] = std::sqrt(one.error * one.static_flexibility);
+    weights_[j] = std::sqrt((is_proved_ ? one.error : one.static_error) * one.static_flexibility);
     const std::string name = name_ + "." + superelement.points[static_cast<std::size_t>(one.point)].name;
     const int marker = model.find_marker(name);
     if (marker < 0 || one.freedom > 1) {
@@ -148,10 +150,17 @@ CertifiedShare CertifiedError::find_worst() const {
     blocks = 1.0;
   }
   if (blocks == 0.0) return worst;
+  const double largest = total.size() > 0 ? std::sqrt(total.maxCoeff() / blocks) : 0.0;
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     if (rows_[j].first < 0) continue;
     const auto marker = static_cast<Eigen::Index>(rows_[j].first);
     const double rms = std::sqrt(total[marker] / blocks);
+    if (rms <= kHeld * largest) continue;
+    const double share_above = std::sqrt(above[marker] / total[marker]);
+    if (rms > kLeastAcceleration && share_above > worst.loudest_above) {
+      worst.loudest = point_names_[static_cast<std::size_t>(markers_[static_cast<std::size_t>(marker)])];
+      worst.loudest_above = share_above;
+    }
     const double bound = weights_[static_cast<Eigen::Index>(j)] * std::sqrt(missing / blocks);
     const double share = bound / std::max(rms, kLeastAcceleration);
     if (!worst.point.empty() && share <= worst.missing) continue;
@@ -159,7 +168,7 @@ CertifiedShare CertifiedError::find_worst() const {
     worst.point = point_names_[place];
     worst.direction = rows_[j].second;
     worst.missing = share;
-    worst.above = total[marker] > 0.0 ? std::sqrt(above[marker] / total[marker]) : 0.0;
+    worst.above = share_above;
   }
   return worst;
 }

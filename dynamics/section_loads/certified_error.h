@@ -14,25 +14,29 @@ namespace sprung::dynamics {
 
 /// What the basis of a superelement misses at most of an acceleration in a run.
 struct CertifiedShare {
-  std::string point;      ///< "chassis.front_spring"; empty: no bound, or no run yet
-  int direction = 0;      ///< 0: x, 1: y of the body
-  double missing = 0.0;   ///< bound, up to the end of the band, over the r.m.s. acceleration of the point
-  double above = 0.0;     ///< share of this r.m.s. above the band, about which nothing is proved
-  std::string uncovered;  ///< a point with loads that are not in the interface, "" for none
+  std::string point;     ///< "chassis.front_spring"; empty: no bound, or no run yet
+  int direction = 0;     ///< 0: x, 1: y of the body
+  double missing = 0.0;  ///< bound, up to the end of the band, over the r.m.s. acceleration of the point
+  double above = 0.0;    ///< share of this r.m.s. above the band, about which nothing is proved
+  std::string loudest;   ///< the interface point with the largest share above the band
+  double loudest_above = 0.0;  ///< this share
+  std::string uncovered;       ///< a point with loads that are not in the interface, "" for none
 };
 
 /// Holds the interface loads of a run, by frequency, against the certificate of a body's superelement
-/// (section_loads, eq. 6). Loads and accelerations of the outputs are transformed block by block.
-/// Checked by tests/verification/certified_test.py
+/// (section_loads, eq. 6). A certificate without a bound has the errors at rest in its place. Loads and
+/// accelerations of the outputs are transformed block by block. Checked by
+/// tests/verification/certified_test.py
 class CertifiedError {
  public:
-  /// @param body         0-based, of the model; with a superelement whose certificate is bounded
+  /// @param body         0-based, of the model; with a superelement that has a certificate
   /// @param points       of the vehicle, in the order of the model's markers
   /// @param output_step  > 0 [s]
   CertifiedError(const Model& model, int body, const reduce::Superelement& superelement,
                  const std::vector<VehiclePoint>& points, double output_step);
 
   const std::string& name() const { return name_; }
+  bool is_proved() const { return is_proved_; }      ///< whether the certificate has a bound
   double highest_hz() const { return highest_hz_; }  ///< the end of the band
   /// Adds an output.
   /// @param loads         force and torque on each marker of the model, world axes
@@ -40,7 +44,8 @@ class CertifiedError {
   /// @param acceleration  of each marker of markers(), world axes [m/s²]
   void add(std::span<const Wrench> loads, const Eigen::VectorXd& q, const Eigen::Matrix2Xd& acceleration);
   const std::vector<int>& markers() const { return markers_; }  ///< of the interface points
-  /// For the interface point and direction of which most may be missing.
+  /// For the interface point and direction of which most may be missing; points that do not move, as where
+  /// the body is fixed to the ground, have no share.
   CertifiedShare find_worst() const;
 
   template <class Bytes, class Error>
@@ -65,6 +70,7 @@ class CertifiedError {
   void add_block(Eigen::Index length, double& missing, Eigen::VectorXd& total, Eigen::VectorXd& above) const;
 
   std::string name_;
+  bool is_proved_;
   double highest_hz_, step_;
   int first_;
   std::vector<std::string> point_names_;  // of each marker of the vehicle

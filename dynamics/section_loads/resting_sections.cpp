@@ -7,10 +7,10 @@
 
 namespace sprung::dynamics {
 
-SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& equilibrium,
-                                        VehicleSections& sections) {
-  SectionStatistics statistics(sections);
-  if (sections.bodies().empty()) return statistics;
+RestingSections calc_resting_sections(const Vehicle& vehicle, const Model& model,
+                                      const Equilibrium& equilibrium, VehicleSections& sections) {
+  RestingSections resting{SectionStatistics(sections), make_body_bending(vehicle, model, sections)};
+  if (sections.bodies().empty()) return resting;
   ConstrainedEquations equations(model, SystemTerms::Markers::kAll);
   const Eigen::VectorXd v = equilibrium.motion.calc_velocity(model, equilibrium.q);
   std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
@@ -24,8 +24,9 @@ SectionStatistics calc_resting_sections(const Model& model, const Equilibrium& e
         "the accelerations at the equilibrium cannot be computed: constraints depend on each other");
   }
   sections.update(terms, equations.multipliers(), equilibrium.q, v, equations.v_dot());
-  statistics.add(0.0);
-  return statistics;
+  resting.loads.add(0.0);
+  add_to_bending(sections, 0.0, equilibrium.q, resting.bending);
+  return resting;
 }
 
 }  // namespace sprung::dynamics

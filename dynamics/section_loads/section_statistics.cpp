@@ -1,5 +1,6 @@
 #include "dynamics/section_loads/section_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sprung::dynamics {
@@ -16,6 +17,8 @@ void add_values(const Eigen::Ref<const Eigen::Matrix3Xd>& values, double time,
     }
   }
 }
+
+constexpr double kRoundingShare = 1e-9;  // of a moment or deflection, beside what the forces could cause
 
 double calc_share(const SectionPeak& part, const SectionPeak& whole) {
   if (part.value == 0.0) return 0.0;
@@ -38,15 +41,24 @@ void add_deflections(const BodySections& body, double time, SectionPeaks& peaks)
 
 double SectionPeaks::missing_moment_share() const {
   const bool has_loads = from_loads[kMoment].value != 0.0;
-  return calc_share(missing_moment, (has_loads ? from_loads : from_modes)[kMoment]);
+  const std::array<SectionPeak, 3>& whole = has_loads ? from_loads : from_modes;
+  const double force = std::max({weight, std::abs(whole[kAxial].value), std::abs(whole[kShear].value)});
+  if (std::abs(missing_moment.value) <= kRoundingShare * length * force) return 0.0;
+  return calc_share(missing_moment, whole[kMoment]);
 }
 
 double SectionPeaks::missing_deflection_share() const {
+  if (std::abs(missing_deflection.value) <= kRoundingShare * length) return 0.0;
   return calc_share(missing_deflection, deflection);
 }
 
 SectionStatistics::SectionStatistics(const VehicleSections& sections)
-    : sections_(&sections), peaks_(sections.bodies().size()) {}
+    : sections_(&sections), peaks_(sections.bodies().size()) {
+  for (std::size_t b = 0; b < peaks_.size(); ++b) {
+    peaks_[b].length = sections.bodies()[b].length();
+    peaks_[b].weight = sections.bodies()[b].weight();
+  }
+}
 
 void SectionStatistics::add(double time) {
   for (std::size_t b = 0; b < peaks_.size(); ++b) {

@@ -25,9 +25,11 @@ struct SectionPeaks {
   /// Of the named points: the largest deflection; and what the modes lack of a deflection along x or y
   /// (section_loads, eq. 4). The station is 3 × point + direction [m].
   SectionPeak deflection, missing_deflection;
+  double length = 0.0;  ///< of the body [m]
+  double weight = 0.0;  ///< of the body [N]
 
   /// What the modes lack as a share of the largest value, of moments that from the loads where there is one;
-  /// 0 where all are 0.
+  /// 0 where all are 0, or rounding errors beside the body's weight and its axial and shear forces.
   double missing_moment_share() const;
   double missing_deflection_share() const;
 };

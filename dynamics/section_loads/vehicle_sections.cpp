@@ -28,4 +28,23 @@ void VehicleSections::update(std::span<const Wrench> loads, const Eigen::VectorX
   for (BodySections& body : bodies_) body.update(loads, q, v, v_dot);
 }
 
+std::vector<BodyBending> make_body_bending(const Vehicle& vehicle, const Model& model,
+                                           const VehicleSections& sections) {
+  std::vector<BodyBending> bending;
+  for (const BodySections& body : sections.bodies()) {
+    if (!body.has_modes()) continue;
+    bending.emplace_back(model.bodies[body.body()], *vehicle.superelement_of(vehicle.bodies[body.body()]),
+                         body.loads());
+  }
+  return bending;
+}
+
+void add_to_bending(const VehicleSections& sections, double time, const Eigen::VectorXd& q,
+                    std::vector<BodyBending>& bending) {
+  auto next = bending.begin();
+  for (const BodySections& body : sections.bodies()) {
+    if (body.has_modes()) (next++)->add(time, body.loads(), q);
+  }
+}
+
 }  // namespace sprung::dynamics

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/section_loads/body_bending.h"
 #include "dynamics/section_loads/body_sections.h"
 #include "dynamics/system/system_terms.h"
 
@@ -31,5 +32,12 @@ class VehicleSections {
   std::vector<BodySections> bodies_;
   std::vector<Wrench> loads_;  // on each marker
 };
+
+/// The bending of each body with modes, in the order of the sections' bodies.
+std::vector<BodyBending> make_body_bending(const Vehicle& vehicle, const Model& model,
+                                           const VehicleSections& sections);
+/// Adds the present bending. @param sections  up to date at this time and q
+void add_to_bending(const VehicleSections& sections, double time, const Eigen::VectorXd& q,
+                    std::vector<BodyBending>& bending);
 
 }  // namespace sprung::dynamics

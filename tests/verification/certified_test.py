@@ -2,6 +2,7 @@
 """The truck with the certified chassis, against the chassis with all motions of its model."""
 
 import os
+import re
 import unittest
 
 import numpy as np
@@ -140,6 +141,27 @@ class Bound(VerificationCase):
             self.assertGreater(share, 0.1 * found["of_rms_acceleration"])
             told = [one["text"] for one in results.summary["warnings"] if "its superelement may miss" in one["text"]]
             self.assertEqual(bool(told), warns, results.summary["warnings"])
+
+    def test_a_point_that_the_ground_holds_misses_nothing(self):
+        """Its acceleration is zero, of which no share can be missing; the other points do not warn either."""
+        self.build(good=("= 60.0", "= 60.0"))
+        held = PUSHED.replace("position = [0.0, 0.0]", "position = [0.0, 0.0]\n[[joints]]\nname = \"wall\"\n"
+                              'type = "revolute"\na = "ground.origin"\nb = "chassis.middle"\n')  # fmt: skip
+        run = self.write_model(held.format(superelement="good", point="rear_spring"), PUSHED_RUN)
+        results = self.run_to_results(run, superelements=self.folder)
+        self.assertNotEqual(results.summary["certified"]["chassis"]["point"], "chassis.middle")
+
+    def test_a_basis_without_a_bound_that_is_taken_whole_is_warned_of(self):
+        """Four clamped vectors miss much of the flexibility at the interface, and so of the acceleration there."""
+        design = (ROOT / "meshes/truck/chassis.toml").read_text(encoding="utf-8")
+        self.assertEqual(design.count("all = true"), 1)
+        (self.folder / "few.toml").write_text(design.replace("all = true", "count = 4"), encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "few.toml"], cwd=self.folder, check=True)
+        summary = self.push("few").summary
+        self.assertFalse(summary["certified"]["chassis"]["proved"])
+        texts = [one["text"] for one in summary["warnings"]]
+        self.assertTrue(any(re.match(r"chassis: under these loads its superelement misses about \d", text)
+                            for text in texts), texts)  # fmt: skip
 
     def test_loads_that_are_not_in_the_interface_are_named(self):
         self.build(good=("= 60.0", "= 60.0"))

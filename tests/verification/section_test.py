@@ -259,7 +259,7 @@ class Warnings(VerificationCase):
     def test_a_cantilever_clamped_where_it_is_loaded_misses_moments_in_every_command(self):
         vehicle = CANTILEVER.format(wall="wall", held="right", loaded="left")
         for verb in ("run", "equilibrium", "modes"):
-            (found,) = self.warn(verb, vehicle, "duration = 0.01\n[modes]\nbeam = 4\n")
+            found, *_ = self.warn(verb, vehicle, "duration = 0.01\n[modes]\nbeam = 4\n")
             self.assertRegex(
                 found,
                 r"^warning: beam: its modes miss \d+(\.\d+)? % of the largest bending moment \(at x = ",
@@ -274,6 +274,17 @@ class Warnings(VerificationCase):
                 found = self.warn("run", vehicle.replace("beam.root", "beam.left"), RUN.format(modes=modes))
                 missed = [line for line in found if "its modes miss" in line]
                 self.assertEqual(bool(missed), expected, (superelement, modes, found))
+
+
+    def test_rounding_errors_are_no_missing_moments(self):
+        # Free fall has no moments, and pure tension has none either.
+        free = CANTILEVER.format(wall="origin", held="left", loaded="right").replace("-10.0", "0.0")
+        joint = free[free.index("[[joints]]"):free.index("[[forces]]")]
+        pulled = CANTILEVER.format(wall="origin", held="left", loaded="right")
+        pulled = pulled.replace("force = [0.0, -10.0]", "force = [1000.0, 0.0]")
+        for vehicle in (free.replace(joint, "").replace("gravity = [0.0, 0.0]", "gravity = [0.0, -9.8]"), pulled):
+            found = self.warn("run", vehicle, 'start = "as-given"\nduration = 0.05\n[modes]\nbeam = 4\n')
+            self.assertFalse([line for line in found if "bending moment" in line], found)
 
 
 class LinearBending(VerificationCase):
@@ -310,6 +321,9 @@ class LinearBending(VerificationCase):
             )  # fmt: skip
             expected = "warning: beam: the deflection is 12 % of the body's length (at t = 0 s)"
             self.assertEqual(any(line.startswith(expected) for line in find_warnings(process.stdout)), told)
+            balance = self.program("equilibrium", "run.toml", superelements=SUPERELEMENTS)
+            texts = [one["text"] for one in balance["warnings"]]
+            self.assertEqual(any("of the body's length" in text for text in texts), told, texts)
 
 
 class Truck(VerificationCase):

@@ -49,3 +49,29 @@ TEST_CASE("A speed that no road vehicle reaches is remarked on") {
   run.speed = 30.0;
   CHECK(dynamics::list_unit_remarks(run, cart).empty());
 }
+
+TEST_CASE("Stiffnesses and dampers per millimetre are remarked on beside the weight of the lighter body") {
+  // 4 kg weigh 4 |(0.5, −9)| = 36.06 N; three ropes of 1 N/m, and a wheel's body of 0.3 m radius.
+  CHECK(remarks_on("spring = { polynomial = [10.0, 200.0, 30.0] }", "spring = { polynomial = [0.0, 1.0] }") ==
+        std::vector<std::string>{"cart.toml:31:8: 'forces.rope.spring' has 1 N/m, which the weight of the "
+                                 "lighter body on it, 36.1 N, "
+                                 "compresses by 12 m; stiffnesses are in N/m, not in N/mm"});
+  // Of 2 √(600 · 4) = 98 N·s/m three dampers of 0.011 N·s/m are 0.034 %.
+  CHECK(remarks_on("damper = { compression = 7.0, rebound = 11.0 }",
+                   "damper = { compression = 0.007, rebound = 0.011 }") ==
+        std::vector<std::string>{"cart.toml:31:8: 'forces.rope.damper' has 0.011 N·s/m, 0.034 % of critical "
+                                 "for the lighter body on it; "
+                                 "dampers are in N·s/m, not in N·s/mm"});
+  const std::vector<std::string> of_wheel =
+      remarks_on("spring = { polynomial = [0.0, 1000.0, 600.0] }", "spring = { polynomial = [0.0, 1e-3] }");
+  REQUIRE(of_wheel.size() == 1);
+  CHECK_THAT(of_wheel.front(), Contains("'forces.wheel' carries at most 0.001 N, less than the weight of"));
+}
+
+TEST_CASE("A bump that is metres high is remarked on") {
+  dynamics::Run run;
+  run.road.height = 80.0;
+  run.road.location = {"run.toml", 5, 1};
+  CHECK(dynamics::list_unit_remarks(run, test::read_cart(test::cart_text())) ==
+        std::vector<std::string>{"run.toml:5:1: 'road.height' is 80 m; heights are in m, not in mm"});
+}

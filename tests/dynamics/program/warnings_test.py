@@ -38,6 +38,27 @@ class Warnings(DynamicsTestCase):
         ]
         self.assertEqual(stored, printed["warnings"])
 
+    def test_missing_modes_are_said_of_the_point_that_they_name_on_whatever_body(self):
+        _, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2", 'vehicle.monitor=["front_axle.origin"]')
+        for warning in printed["warnings"]:
+            if warning["concerns"] == "summary" and "acceleration of front_axle.origin" in warning["text"]:
+                self.assertIn("front_axle.origin", warning["of"])
+                return
+        self.skipTest("no modes of the chassis matter to the axle")
+
+    def test_balance_and_modes_print_their_warnings_as_json(self):
+        for verb in ("equilibrium", "modes"):
+            process = self.run_program("--set", "modes.chassis=2", "--json", "--quiet", verb=verb)
+            (warning,) = json.loads(process.stdout)["warnings"]
+            self.assertEqual((warning["concerns"], warning["of"]), ("sections", ["chassis"]))
+            self.assertTrue(warning["text"].startswith("chassis: its modes miss "), warning)
+
+    def test_a_run_prints_what_it_was_asked_for(self):
+        _, _, printed = self.run_to_json("duration=0.2", "modes.chassis=2", "speed=4.5")
+        found = printed["parameters"]
+        self.assertEqual((found["speed"], found["duration"], found["road"]), (4.5, 0.2, "half-sine"))
+        self.assertEqual((found["method"], found["modes"]), ("exponential", {"chassis": [1, 2]}))
+
     def test_an_energy_balance_that_does_not_close_concerns_the_computation(self):
         code, said, printed = self.run_to_json(
             "duration=0.5", "integrator.method=generalized-alpha", "integrator.fixed_step=0.005", "output_step=0.005"
@@ -79,11 +100,12 @@ class Warnings(DynamicsTestCase):
         self.assertTrue(warning["text"].startswith(ends), warning)
         self.assertIn(warning["text"], [one["text"] for one in self.read_warnings()])
         self.assertIn(f"warning: {ends}", said)
-        for settings, expected in (((road, "statistics.to=0.3"), ""), (("speed=-3.0",), "drives against its heading")):
+        # Beside the statistics it is a remark on the run file, with its place.
+        for settings, expected in (((road, "statistics.to=0.3"), f"--set 2: {ends}"),
+                                   (("speed=-3.0",), "the vehicle drives against its heading")):  # fmt: skip
             _, said, printed = self.run_to_json("duration=0.5", *settings)
-            texts = [one["text"] for one in printed["warnings"] if one["of"] == ["computation"]]
-            self.assertEqual(len(texts), 1 if expected else 0, texts)
-            self.assertIn(expected, "".join(texts))
+            (text,) = (one["text"] for one in printed["warnings"] if one["of"] == ["computation"])
+            self.assertIn(expected, text)
 
     def test_a_balance_that_is_not_found_tells_of_a_point_that_was_moved_far(self):
         run = ROOT / "dynamics/models/templates/half_car_run.toml"
@@ -91,8 +113,9 @@ class Warnings(DynamicsTestCase):
             far = ("--set", "vehicle.bodies.body.position=[3000.0, 0.9]")
             process = run_program([PROGRAM, verb, run, "--quiet", *far], cwd=self.folder)
             self.assertEqual(process.returncode, 3, process.stderr)
-            self.assertRegex(process.stderr, "error: no static equilibrium after .*; to close the joints, "
-                             r"body\.\w+ was moved by \S+ m, farther than any point is from its body's")  # fmt: skip
+            self.assertRegex(process.stderr, r"error: no static equilibrium after .*; as drawn, 'forces\.\w+' is 3000 m long: "
+                             r"check .*; to close the joints, of which '\w+' was \S+ m open, \S+ was moved by \S+ m, farther "
+                             "than any point is from its body's")  # fmt: skip
 
     def test_wall_time_and_the_times_of_program_and_integration_are_told_apart(self):
         _, _, printed = self.run_to_json("duration=0.2")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Springs too soft for their loads, through which a vehicle falls in static equilibrium."""
+"""Static equilibria that no vehicle has: fallen through its springs or tyres, or drawn far apart."""
 
 import unittest
 
@@ -74,6 +74,31 @@ spring = { polynomial = [0.0, 100.0] }
         process = self.run_program()
         self.assert_refused(process, "vehicle.toml:", "'forces.seat.free_length.static': where the length is reached, "
                             "the spring points the other way than as drawn")
+
+
+class Tyres(DynamicsTestCase):
+    def test_a_tyre_pressed_in_by_more_than_its_radius_is_an_error(self):
+        # 200 N/m in place of N/mm: half of the weight presses two such tyres in by far more than 0.6 m.
+        process = self.run_program("--set", "vehicle.forces.front_tyre.spring.polynomial=[0.0, 200.0]",
+                                   verb="equilibrium")  # fmt: skip
+        self.assertEqual(process.returncode, 2, process.stderr)
+        self.assertRegex(process.stderr, r"vehicle\.toml:\d+:\d+: error: in static equilibrium 'forces\.front_tyre' is "
+                         r"pressed in by [\d.]+ m of its radius of 0\.6 m; stiffnesses are in N/m, not in N/mm\n")  # fmt: skip
+
+    def test_a_tyre_pressed_in_by_more_than_half_of_it_is_remarked_on(self):
+        # Two tyres carry about 71 kN, which press in a linear one of 9e4 N/m by 0.39 m.
+        process = self.run_program("--set", "vehicle.forces.front_tyre.spring.polynomial=[0.0, 9e4]",
+                                   verb="equilibrium")  # fmt: skip
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertRegex(process.stderr, r"remark: .*'forces\.front_tyre' is pressed in by 0\.[345]")
+
+
+class FarApart(DynamicsTestCase):
+    def test_an_element_between_bodies_drawn_kilometres_apart_is_named(self):
+        process = self.run_program("--set", "vehicle.bodies.chassis.position=[3675.0, 0.975]", verb="equilibrium")
+        self.assertIn(process.returncode, (2, 3), process.stdout)
+        self.assertRegex(process.stderr, r"as drawn, 'forces\.\w+' is 36\d\d m long|joints cannot be closed|"
+                         r"of which '\w+' was 36\d\d m open")  # fmt: skip
 
 
 if __name__ == "__main__":

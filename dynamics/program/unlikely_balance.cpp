@@ -1,0 +1,86 @@
+#include "dynamics/program/unlikely_balance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/program/turned_springs.h"
+#include "dynamics/system/system_terms.h"
+#include "tools/support/errors/input_error.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kFarTurned = 0.25 * std::numbers::pi;
+constexpr double kDeeplyPressed = 0.5;  // of a tyre's radius
+constexpr double kFarApart = 10.0;      // of the largest distance of a point from its body's frame
+
+std::string remark_at(const support::SourceLocation& location, const std::string& text) {
+  return fmt::format("{}: in static equilibrium {}", support::format_place(location), text);
+}
+
+void check_tyre(const ForceDescription& force, double height, std::vector<std::string>& remarks) {
+  const double radius = std::get<TyreDescription>(force.parameters).parameters.radius;
+  const double pressed = radius - height;
+  if (pressed <= kDeeplyPressed * radius) return;
+  const std::string text = fmt::format(
+      "'forces.{}' is pressed in by {:.3g} m of its radius of {:.3g} m; stiffnesses are in N/m, not in N/mm",
+      force.name, pressed, radius);
+  if (pressed > radius) throw support::InputError(force.location, "in static equilibrium " + text);
+  remarks.push_back(remark_at(force.location, text));
+}
+
+}  // namespace
+
+std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Model& model,
+                                               const Eigen::VectorXd& drawn, const Eigen::VectorXd& found) {
+  std::vector<std::string> remarks;
+  SystemTerms terms(model);
+  terms.update_positions(0.0, found);
+  bool has_tyres = false;
+  for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
+    if (!vehicle.forces[f].on_road) continue;
+    has_tyres = true;
+    const auto center = static_cast<std::size_t>(model.forces[f]->markers().front());
+    check_tyre(vehicle.forces[f], terms.markers()[center].r.y(), remarks);
+  }
+  for (std::size_t b = 0; b < model.bodies.size() && has_tyres; ++b) {
+    const Eigen::Index angle = model.bodies[b].first_coordinate + 2;
+    const double turned = found[angle] - drawn[angle];
+    if (std::abs(turned) <= kFarTurned) continue;
+    remarks.push_back(remark_at(vehicle.bodies[b].location,
+                                fmt::format("'bodies.{}' is turned by {:.3g}° from where it is drawn",
+                                            vehicle.bodies[b].name, turned * 180.0 / std::numbers::pi)));
+  }
+  for (const std::size_t f : find_turned_springs(vehicle, model, drawn, found)) {
+    remarks.push_back(
+        remark_at(vehicle.forces[f].location,
+                  fmt::format("'forces.{}' points the other way than as drawn; does it carry its load?",
+                              vehicle.forces[f].name)));
+  }
+  return remarks;
+}
+
+std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, drawn);
+  double longest = kFarApart * model.length_scale;
+  std::string text;
+  for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
+    if (!vehicle.forces[f].along_line) continue;
+    const std::vector<int> markers = model.forces[f]->markers();
+    const auto place = [&](int marker) { return terms.markers()[static_cast<std::size_t>(marker)].r; };
+    const double length = (place(markers[0]) - place(markers[1])).norm();
+    if (length <= longest) continue;
+    longest = length;
+    text =
+        fmt::format("as drawn, 'forces.{}' is {:.4g} m long: check the positions of the bodies that it joins",
+                    vehicle.forces[f].name, length);
+  }
+  return text;
+}
+
+}  // namespace sprung::dynamics

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/input/vehicle.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// Remarks on a static equilibrium that hardly any vehicle has: springs that point the other way than as
+/// drawn, bodies of a vehicle on tyres that are turned far, tyres that are pressed in deeply.
+/// @param drawn, found  positions before and in equilibrium, num_coordinates
+/// @throws support::InputError at a tyre that is pressed in by more than its radius
+/// Checked by tests/dynamics/program/unlikely_balance_test.py
+std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Model& model,
+                                               const Eigen::VectorXd& drawn, const Eigen::VectorXd& found);
+
+/// Names the force element that is drawn far longer than the vehicle's bodies are large; "" if there is none.
+std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn);
+
+}  // namespace sprung::dynamics
