@@ -9,6 +9,7 @@
 #include "dynamics/program/model_report.h"
 #include "dynamics/section_loads/resting_sections.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
@@ -42,9 +43,9 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              make_start_positions(model, prepared.vehicle),
                              &resting.loads,
                              list_balance_warnings(prepared.vehicle, resting, prepared.remarks)};
-  fmt::print(request.streams.out, "{}",
-             json ? format_report_json(request, make_equilibrium_json(report))
-                  : describe_static_lengths(prepared) + format_equilibrium(report));
+  support::print(request.streams.out, "{}",
+                 json ? format_report_json(request, make_equilibrium_json(report))
+                      : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
 
@@ -59,15 +60,15 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared);
   if (output.json) {
-    fmt::print(request.streams.out, "{}",
-               format_report_json(
-                   request, make_modes_json(modes, resting.loads, warnings, bracket ? &*bracket : nullptr)));
+    support::print(request.streams.out, "{}",
+                   format_report_json(request, make_modes_json(modes, resting.loads, warnings,
+                                                               bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
-  fmt::print(
+  support::print(
       request.streams.out, "{}",
       format_modes(model, prepared.vehicle, modes, warnings, prepared.run.start == Run::Start::kSteady));
-  if (bracket) fmt::print(request.streams.out, "{}", format_bracket(modes, *bracket));
+  if (bracket) support::print(request.streams.out, "{}", format_bracket(modes, *bracket));
   return support::kGood;
 }
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dynamics/program/commands.h"
+#include "tools/support/terminal/print.h"
 
 namespace sprung::dynamics {
 
@@ -86,8 +87,8 @@ int run_arguments(const std::vector<std::string>& arguments, RunRequest request)
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
     const int code = app.exit(error, out, err);
-    fmt::print(request.streams.out, "{}", out.str());
-    fmt::print(request.streams.err, "{}", err.str());
+    support::print(request.streams.out, "{}", out.str());
+    support::print(request.streams.err, "{}", err.str());
     return code == 0 ? support::kGood : support::kBadInput;
   }
   if (*run) return run_command(request, output);

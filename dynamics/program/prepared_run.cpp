@@ -17,6 +17,7 @@
 #include "dynamics/program/unlikely_balance.h"
 #include "dynamics/road/flat_road.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/progress_bar.h"
 
 namespace sprung::dynamics {
@@ -103,7 +104,8 @@ void read_files(const RunRequest& request, Preparation preparation, PreparedRun&
   for (std::string& remark : list_history_remarks(prepared.vehicle.histories, end))
     prepared.remarks.push_back(std::move(remark));
   if (request.quiet) return;
-  for (const std::string& remark : prepared.remarks) fmt::print(request.streams.err, "remark: {}\n", remark);
+  for (const std::string& remark : prepared.remarks)
+    support::print(request.streams.err, "remark: {}\n", remark);
 }
 
 // Damping and stiffening of the flexible bodies of the models.
@@ -160,7 +162,7 @@ Model make_balance_model(const Flexibility& flexibility, const PreparedRun& prep
 // "" for none.
 void tell_remark(std::string remark, const RunRequest& request, PreparedRun& prepared) {
   if (remark.empty()) return;
-  if (!request.quiet) fmt::print(request.streams.err, "remark: {}\n", remark);
+  if (!request.quiet) support::print(request.streams.err, "remark: {}\n", remark);
   prepared.remarks.push_back(std::move(remark));
 }
 

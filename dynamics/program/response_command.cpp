@@ -13,6 +13,7 @@
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
@@ -204,7 +205,7 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   for (std::string& warning : list_lifting_wheels(prepared, vehicle, result))
     warnings.push_back(std::move(warning));
   for (const std::string& warning : warnings) {
-    fmt::print(request.streams.err, "warning: {}\n", warning);
+    support::print(request.streams.err, "warning: {}\n", warning);
     result.remarks.push_back("Warning: " + warning);
   }
   if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
@@ -212,10 +213,11 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   if (!states.empty()) result.remarks.push_back(states);
 
   if (!output.results.empty()) write_response(output.results, result);
-  fmt::print(request.streams.out, "{}",
-             output.json ? format_report_json(request, make_response_json(result)) : format_response(result));
+  support::print(
+      request.streams.out, "{}",
+      output.json ? format_report_json(request, make_response_json(result)) : format_response(result));
   if (!output.results.empty() && !output.json)
-    fmt::print(request.streams.out, "Response: {}\n", output.results.string());
+    support::print(request.streams.out, "Response: {}\n", output.results.string());
   return support::kGood;
 }
 

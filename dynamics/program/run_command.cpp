@@ -19,6 +19,7 @@
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/bytes.h"
 #include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 #include "tools/support/terminal/progress_bar.h"
 
@@ -51,7 +52,7 @@ TransientOptions make_options(const Run& run, const Model& model) {
                                     const TransientStatistics& transient, ResultsWriter* writer,
                                     std::FILE* err) {
   if (!writer) throw support::Interrupted(fmt::format("at t = {:.6g} s", time));
-  fmt::print(err, "interrupted; completing {}\n", writer->partial().string());
+  support::print(err, "interrupted; completing {}\n", writer->partial().string());
   std::fflush(err);
   writer->write_summary(statistics, transient);
   throw support::Interrupted(
@@ -60,21 +61,21 @@ TransientOptions make_options(const Run& run, const Model& model) {
 }
 
 void print_description(std::FILE* out, const PreparedRun& prepared) {
-  fmt::print(
+  support::print(
       out, "{}",
       describe_run(prepared.vehicle, prepared.model, prepared.run, prepared.assembly,
                    prepared.initial_velocities, prepared.equilibrium ? &*prepared.equilibrium : nullptr));
-  fmt::print(out, "{}", describe_static_lengths(prepared));
+  support::print(out, "{}", describe_static_lengths(prepared));
   if (!prepared.run.continue_from.empty()) {
-    fmt::print(out, "Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
-               prepared.start.time);
+    support::print(out, "Continues from {} at t = {:.6g} s\n", prepared.run.continue_from.string(),
+                   prepared.start.time);
   }
-  if (prepared.choice) fmt::print(out, "{}", summarise_choice(*prepared.choice));
+  if (prepared.choice) support::print(out, "{}", summarise_choice(*prepared.choice));
 }
 
 void print_of_computation(std::FILE* err, const std::vector<RunWarning>& warnings) {
   for (const RunWarning& warning : warnings) {
-    if (is_of_computation(warning)) fmt::print(err, "warning: {}\n", warning.text);
+    if (is_of_computation(warning)) support::print(err, "warning: {}\n", warning.text);
   }
 }
 
@@ -140,9 +141,9 @@ WrittenRun open_results(const RunOutput& output, const ResultsHeader& header, Ru
 
 void print_resumption(std::FILE* out, const std::optional<Checkpoint>& checkpoint) {
   if (checkpoint) {
-    fmt::print(out, "Resumes from the checkpoint at t = {:.6g} s\n", checkpoint->state.time);
+    support::print(out, "Resumes from the checkpoint at t = {:.6g} s\n", checkpoint->state.time);
   } else {
-    fmt::print(out, "Resumes from the start: the run was interrupted before its first checkpoint\n");
+    support::print(out, "Resumes from the start: the run was interrupted before its first checkpoint\n");
   }
 }
 
@@ -211,7 +212,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
   if (output.dry_run) {
-    fmt::print(streams.out, "{}", output.json ? format_model_json(prepared) : format_model(prepared));
+    support::print(streams.out, "{}", output.json ? format_model_json(prepared) : format_model(prepared));
     return support::kGood;
   }
   if (!output.json && !request.quiet) print_description(streams.out, prepared);
@@ -233,7 +234,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);
   const bool prints = !output.json && !request.quiet;
   if (written.writer && prints)
-    fmt::print(streams.out, "Results: {}\n", describe_storage(written.writer->storage(), run.output));
+    support::print(streams.out, "Results: {}\n", describe_storage(written.writer->storage(), run.output));
   if (output.resume && prints) print_resumption(streams.out, written.checkpoint);
   const support::DeferredInterrupts deferred;  // what was calculated is kept
   support::ProgressBar progress(request.run_file.filename().string(), request.quiet || output.json,
@@ -250,10 +251,10 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   times.cpu = cpu_time() - request.earlier_cpu_time;
   const RunSummary summary{run,   statistics, transient, run.duration - prepared.start.time,
                            times, adaptivity, warnings};
-  fmt::print(streams.out, "{}",
-             output.json ? format_report_json(request, make_summary_json(prepared.model, summary))
-                         : format_summary(summary));
-  if (written.writer && !output.json) fmt::print(streams.out, "Results: {}\n", output.results.string());
+  support::print(streams.out, "{}",
+                 output.json ? format_report_json(request, make_summary_json(prepared.model, summary))
+                             : format_summary(summary));
+  if (written.writer && !output.json) support::print(streams.out, "Results: {}\n", output.results.string());
   return is_balanced(statistics) ? support::kGood : support::kCheckFailed;
 }
 

@@ -3,6 +3,7 @@
 #include "dynamics/output/choice_report.h"
 #include "dynamics/program/commands.h"
 #include "tools/support/hdf5/foreign_file.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::dynamics {
@@ -41,11 +42,11 @@ int select_modes_command(const RunRequest& request, const RunOutput& output) {
                               "has no body with modes \"auto\", so there is nothing to choose");
   }
   if (!output.results.empty()) write_choice_file(output.results, prepared, request.overrides);
-  fmt::print(request.streams.out, "{}",
-             output.json ? support::format_json(make_choice_json(*prepared.choice))
-                         : format_choice(*prepared.choice));
+  support::print(request.streams.out, "{}",
+                 output.json ? support::format_json(make_choice_json(*prepared.choice))
+                             : format_choice(*prepared.choice));
   if (!output.results.empty() && !output.json)
-    fmt::print(request.streams.out, "Choice: {}\n", output.results.string());
+    support::print(request.streams.out, "Choice: {}\n", output.results.string());
   return support::kGood;
 }
 

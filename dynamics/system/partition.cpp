@@ -50,9 +50,11 @@ std::vector<int> find_dependent_constraints(const SystemTerms& terms) {
   }
   for (double& scale : row_scales) scale = scale > 0.0 ? 1.0 / std::sqrt(scale) : 1.0;
   const Eigen::SparseMatrix<double> rows = row_scales.asDiagonal() * scaled;
-  const ColumnPivots pivots = choose_columns(rows);
-  const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
-  if (*smallest > kSafePivot * *largest) return {};
+  if (rows.rows() <= rows.cols()) {
+    const ColumnPivots pivots = choose_columns(rows);
+    const auto [smallest, largest] = std::minmax_element(pivots.sizes.begin(), pivots.sizes.end());
+    if (*smallest > kSafePivot * *largest) return {};
+  }
   // The model probably contains a mistake: the cost of finding its place does not matter.
   const support::SingularPairs singular = support::calc_left_singular_pairs(rows.toDense());
   std::vector<int> found;

@@ -15,6 +15,7 @@
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/files/output_target.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 #include "tools/support/terminal/progress_bar.h"
 
@@ -30,7 +31,7 @@ constexpr double kGroundShare = 1e-2;  // of the lowest frequency
 // Progress goes to stdout line by line, so that a pipe sees it too.
 void report(const BuildOptions& options, const std::string& text) {
   if (options.quiet) return;
-  fmt::print("{}\n", text);
+  support::print(stdout, "{}\n", text);
   std::fflush(stdout);
 }
 
@@ -134,13 +135,13 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   const std::string certificate = format_certificate_line(written);
   if (!certificate.empty()) report(options, fmt::format("{}: {}", output.string(), certificate));
   if (previous.superelement && !options.quiet) {
-    fmt::print("{}", format_comparison(compare_modes(*previous.superelement, written)));
+    support::print(stdout, "{}", format_comparison(compare_modes(*previous.superelement, written)));
   }
 }
 
 void report_failure(const std::string& message) {
   std::fflush(stdout);
-  fmt::print(stderr, "{}\n", message);
+  support::print(stderr, "{}\n", message);
 }
 
 }  // namespace

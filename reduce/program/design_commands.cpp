@@ -8,6 +8,7 @@
 #include "reduce/sensitivity/sensitivity_tables.h"
 #include "reduce/sensitivity/sweep_tables.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::reduce {
@@ -58,22 +59,24 @@ int run_sensitivity(const SensitivityOptions& options) {
   const Design design = read_design(options.design);
   const DesignSensitivity sensitivity =
       calc_sensitivity(design, list_parameters(options.design, design), options.num_modes);
-  fmt::print("{}", options.json ? format_sensitivity_json(design, sensitivity)
-                                : format_sensitivity(design, sensitivity));
+  support::print(
+      stdout, "{}",
+      options.json ? format_sensitivity_json(design, sensitivity) : format_sensitivity(design, sensitivity));
   return support::kGood;
 }
 
 int run_sweep(const SweepCommand& command) {
   const SweepOptions options = read_sweep(command);
   const std::vector<SweepPoint> points = calc_sweep(options);
-  fmt::print("{}", command.json ? format_sweep_json(options, points) : format_sweep(options, points));
+  support::print(stdout, "{}",
+                 command.json ? format_sweep_json(options, points) : format_sweep(options, points));
   return support::kGood;
 }
 
 int run_matrices(const MatricesOptions& options) {
   const Design design = read_design(options.design);
   for (const std::filesystem::path& path : write_frame_matrices(design, options.prefix))
-    fmt::print("{}\n", path.string());
+    support::print(stdout, "{}\n", path.string());
   return support::kGood;
 }
 

@@ -10,6 +10,7 @@
 #include "reduce/program/commands.h"
 #include "reduce/reduction/superelement_checks.h"
 #include "reduce/superelement/superelement.h"
+#include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
 
 namespace sprung::reduce {
@@ -35,14 +36,14 @@ int run_info(const std::filesystem::path& path, bool json) {
   const Superelement superelement = read_superelement(path);
   const std::vector<CheckResult> checks = collect_checks(superelement);
   if (json) {
-    fmt::print("{}", format_superelement_json(superelement, checks));
+    support::print(stdout, "{}", format_superelement_json(superelement, checks));
   } else {
     const std::string parts[] = {format_summary(superelement), format_modes(superelement),
                                  format_free_damping(superelement), format_certificate(superelement)};
     for (const std::string& part : parts) {
-      if (!part.empty()) fmt::print("{}\n", part);
+      if (!part.empty()) support::print(stdout, "{}\n", part);
     }
-    fmt::print("{}", format_checks(checks));
+    support::print(stdout, "{}", format_checks(checks));
   }
   return support::kGood;
 }
@@ -55,10 +56,10 @@ int run_check(const std::vector<std::filesystem::path>& paths, bool json) {
         std::all_of(checks.begin(), checks.end(), [](const CheckResult& check) { return check.passed(); });
     passed = passed && all;
     if (json) {
-      fmt::print("{}", format_checks_json(path.string(), checks));
+      support::print(stdout, "{}", format_checks_json(path.string(), checks));
     } else {
-      fmt::print("{}: {}\n{}", path.string(), all ? "all checks passed" : "a check FAILED",
-                 format_checks(checks));
+      support::print(stdout, "{}: {}\n{}", path.string(), all ? "all checks passed" : "a check FAILED",
+                     format_checks(checks));
     }
   }
   return passed ? support::kGood : support::kCheckFailed;
@@ -67,8 +68,8 @@ int run_check(const std::vector<std::filesystem::path>& paths, bool json) {
 int run_export(const ExportOptions& options) {
   const ExportReport report =
       export_superelement(read_superelement(options.superelement), options.target, options.prefix);
-  for (const std::filesystem::path& path : report.paths) fmt::print("{}\n", path.string());
-  for (const std::string& remark : report.left_out) fmt::print("left out: {}\n", remark);
+  for (const std::filesystem::path& path : report.paths) support::print(stdout, "{}\n", path.string());
+  for (const std::string& remark : report.left_out) support::print(stdout, "left out: {}\n", remark);
   return support::kGood;
 }
 
@@ -76,7 +77,7 @@ int run_diff(const std::filesystem::path& old_path, const std::filesystem::path&
   const Superelement old_body = read_superelement(old_path);
   const Superelement new_body = read_superelement(new_path);
   const Comparison comparison = compare_modes(old_body, new_body);
-  fmt::print("{}", json ? format_comparison_json(comparison) : format_comparison(comparison));
+  support::print(stdout, "{}", json ? format_comparison_json(comparison) : format_comparison(comparison));
   return support::kGood;
 }
 

@@ -55,6 +55,25 @@ bool PartitionedOde::evaluate_motion(double time, std::span<const double> y) {
          equations_.update_motion(formula_time, q_i, v_i) == PartitionedEquations::Outcome::kGood;
 }
 
+void PartitionedOde::throw_not_finite(double time) const {
+  const SystemTerms& terms = equations_.terms();
+  std::vector<Wrench> wrenches(model_->markers.size());
+  const std::span<const int> branches = piece_.branches();
+  for (std::size_t f = 0; f < model_->forces.size(); ++f) {
+    const ForceElement& force = *model_->forces[f];
+    const Power power = force.add_wrenches(terms.instant_of(f), model_->branches_of(f, branches), wrenches);
+    const bool is_finite = std::isfinite(power.dissipated) && std::isfinite(power.input) &&
+                           std::all_of(wrenches.begin(), wrenches.end(), [](const Wrench& wrench) {
+                             return wrench.force.allFinite() && std::isfinite(wrench.torque);
+                           });
+    if (is_finite) continue;
+    throw support::NumericalError(
+        fmt::format("'forces.{}' is not a finite number at t = {:.9g} s: look at its functions and sizes",
+                    force.name, time));
+  }
+  throw_not_closed(time);
+}
+
 void PartitionedOde::throw_not_closed(double time) {
   throw support::NumericalError(fmt::format(
       "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
@@ -66,9 +85,8 @@ void PartitionedOde::close_joints(double time, std::span<const double> y) {
 
 void PartitionedOde::calc_accelerations(double time, std::span<const double> y) {
   close_joints(time, y);
-  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood) {
-    throw_not_closed(time);
-  }
+  if (equations_.update_accelerations(piece_.branches()) != PartitionedEquations::Outcome::kGood)
+    throw_not_finite(time);
 }
 
 State PartitionedOde::make_state(double time, std::span<const double> y) {

@@ -136,6 +136,19 @@ TEST_CASE("Redundant joints are an input error that names them", "[analysis]") {
   CHECK_THAT(message, !Contains("'only'"));
 }
 
+TEST_CASE("More constraints than coordinates are redundant joints, too", "[analysis]") {
+  Model model;
+  test::add_body(model, dynamics::make_rigid_body("door", 1.0, 1.0));
+  for (const double x : {0.2, 1.1}) {
+    test::add_pin(model, x < 1.0 ? "upper" : "lower", test::add_marker(model, 0, {x, 0.0}),
+                  test::add_marker(model, dynamics::kGround, {x, 0.0}));
+  }
+  dynamics::number_model(model);
+  VectorXd q = VectorXd::Zero(3);
+  CHECK_THAT(error_message<support::InputError>([&] { dynamics::assemble_positions(model, q); }),
+             Contains("redundant joints: 'upper' (x), 'lower' (x) hold the same motion more than once"));
+}
+
 TEST_CASE("A flexible body with too few modes for its pins is told to take more of them", "[analysis]") {
   // A beam pinned at three points: two of the constraints require it to bend and to stretch.
   const test::BeamSuperelement beam = test::make_beam_superelement(

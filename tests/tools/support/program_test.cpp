@@ -9,11 +9,14 @@
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "tests/catch.h"
 #include "tests/tools/support/child_process.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/terminal/print.h"
+#include "tools/support/terminal/progress_bar.h"
 
 using namespace sprung::support;
 
@@ -194,6 +197,41 @@ TEST_CASE("output that does not reach the disk is an error") {
     const int full = ::open("/dev/full", O_WRONLY);
     ::dup2(full, STDOUT_FILENO);
     std::fputs("result\n", stdout);
+    return static_cast<int>(kGood);
+  });
+  CHECK(result.exit_code == 2);
+  CHECK(result.output == "sprung-test: error: standard output cannot be written: No space left on device\n");
+}
+
+TEST_CASE("a message that cannot be written does not end the program") {
+  const ChildResult result = run([] {
+    const int full = ::open("/dev/full", O_WRONLY);
+    ::dup2(full, STDERR_FILENO);
+    {
+      ProgressBar bar("run", false, stderr);
+      for (int i = 0; i <= 100; ++i) bar.update(0.01 * i);
+      bar.finish();
+    }
+    print(stderr, "warning: {}\n", "nobody reads this");
+    std::fputs("result\n", stdout);
+    return static_cast<int>(kGood);
+  });
+  CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("a file does not get the number of a standard stream that was closed") {
+  const ChildResult result = run_in_child([] {
+    for (const int stream : {STDIN_FILENO, STDERR_FILENO}) ::close(stream);
+    return run_program("sprung-test", [] { return ::open("/dev/null", O_RDONLY); });
+  });
+  CHECK(result.exit_code > STDERR_FILENO);
+}
+
+TEST_CASE("output that fails before the end tells its reason") {
+  const ChildResult result = run([] {
+    const int full = ::open("/dev/full", O_WRONLY);
+    ::dup2(full, STDOUT_FILENO);
+    print(stdout, "{}\n", std::string(100'000, '.'));
     return static_cast<int>(kGood);
   });
   CHECK(result.exit_code == 2);

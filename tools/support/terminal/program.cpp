@@ -1,5 +1,6 @@
 #include "tools/support/terminal/program.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -10,11 +11,11 @@
 #include <exception>
 #include <new>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/terminal/print.h"
 
 namespace sprung::support {
 
@@ -63,20 +64,30 @@ void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+// A file that is opened must not get the number of a standard stream that was closed, whose messages would go
+// into it. Standard output stays one that cannot be written.
+void keep_standard_streams_apart() {
+  for (const auto& [stream, access] :
+       {std::pair{STDIN_FILENO, O_RDONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}}) {
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", access);  // the lowest number that is free
+  }
+}
+
 // Prints a message after the output so far. If its stream itself is closed, nothing can be done.
 void print_message(const Streams& streams, std::string_view text) {
   std::fflush(streams.out);
-  std::fwrite(text.data(), 1, text.size(), streams.err);
-  std::fputc('\n', streams.err);
+  write_text(streams.err, text);
+  write_text(streams.err, "\n");
 }
 
 // The reader of the output may end first (`| head`), which is not an error.
 int finish_output(const char* name, const Streams& streams, int code) {
   errno = 0;
   const bool failed = std::fflush(streams.out) != 0 || std::ferror(streams.out) != 0;
-  if (!failed || errno == EPIPE) return code;
+  const int reason = errno != 0 ? errno : last_write_error();
+  if (!failed || reason == EPIPE) return code;
   print_message(streams,
-                fmt::format("{}: error: standard output cannot be written: {}", name, std::strerror(errno)));
+                fmt::format("{}: error: standard output cannot be written: {}", name, std::strerror(reason)));
   return code == kGood ? kBadInput : code;
 }
 
@@ -92,9 +103,6 @@ int run_body(const char* name, const Streams& streams, const std::function<int()
   } catch (const Interrupted& error) {
     print_message(streams, fmt::format("{}: interrupted: {}", name, error.what()));
     return kInterrupted;
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::broken_pipe) return kInterrupted;  // fmt::print, its reader gone
-    print_message(streams, fmt::format("{}: internal error: {}", name, error.what()));
   } catch (const std::bad_alloc&) {
     print_message(streams, fmt::format("{}: internal error: out of memory", name));
   } catch (const std::exception& error) {
@@ -121,6 +129,7 @@ bool interrupt_requested() {
 
 int run_program(const char* name, const std::function<int()>& body) {
   program_name = name;
+  keep_standard_streams_apart();
   install_signal_handlers();
   return run_body(name, {}, body);
 }

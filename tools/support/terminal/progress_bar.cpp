@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tools/support/terminal/print.h"
+
 namespace sprung::support {
 
 namespace {
@@ -35,13 +37,13 @@ void ProgressBar::update(double fraction) {
     if (is_time_to_draw()) draw(fraction);
   } else if (static_cast<int>(10.0 * fraction) > tenths_) {
     tenths_ = static_cast<int>(10.0 * fraction);
-    fmt::print(stream_, "{}: {} %\n", label_, 10 * tenths_);
+    print(stream_, "{}: {} %\n", label_, 10 * tenths_);
   }
 }
 
 void ProgressBar::update(const std::string& state) {
   if (quiet_ || !is_terminal_ || seconds_since(start_) < kSecondsOfSilence || !is_time_to_draw()) return;
-  fmt::print(stream_, "\r{}: {}\x1b[K", label_, state);
+  print(stream_, "\r{}: {}\x1b[K", label_, state);
   std::fflush(stream_);
   drawn_ = true;
 }
@@ -60,13 +62,13 @@ void ProgressBar::draw(double fraction) {
   const double elapsed = seconds_since(start_);
   const std::string left =
       fraction > 0.01 ? fmt::format("{:.0f} s left", elapsed * (1.0 - fraction) / fraction) : std::string{};
-  fmt::print(stream_, "\r{} {} {:3.0f} %  {}\x1b[K", label_, bar, 100.0 * fraction, left);
+  print(stream_, "\r{} {} {:3.0f} %  {}\x1b[K", label_, bar, 100.0 * fraction, left);
   std::fflush(stream_);
   drawn_ = true;
 }
 
 void ProgressBar::finish() {
-  if (drawn_) fmt::print(stream_, "\r\x1b[K");
+  if (drawn_) print(stream_, "\r\x1b[K");
   drawn_ = false;
 }
 
