@@ -124,9 +124,11 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   const auto tell = [&](const std::string& state) { progress.update(state); };
-  const Superelement made = make_superelement(read, {.progress = tell});
-  tell("writing the file and reading it back");
-  write_superelement(made, output);
+  {
+    const Superelement made = make_superelement(read, {.progress = tell});
+    tell("writing the file and reading it back");
+    write_superelement(made, output);
+  }  // a large body is not kept while it is read back
   const Superelement written = read_superelement(output);
   progress.finish();
   report(options, fmt::format("{}: {}", output.string(), describe(written)));

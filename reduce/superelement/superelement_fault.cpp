@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "reduce/superelement/superelement_fields.h"
 #include "tools/support/dense/dense_solvers.h"
 
 namespace sprung::reduce {
@@ -24,6 +23,11 @@ template <typename... Arguments>
 Fault make_fault(std::string_view dataset, fmt::format_string<Arguments...> format,
                  Arguments&&... arguments) {
   return SuperelementFault{std::string(dataset), fmt::format(format, std::forward<Arguments>(arguments)...)};
+}
+
+// As allFinite, which is several times slower: 0 x is NaN of NaN and of infinity.
+bool is_finite(const RowMatrix& matrix) {
+  return (0.0 * matrix.array()).sum() == 0.0;
 }
 
 // sign +1: symmetric, −1: skew.
@@ -67,7 +71,7 @@ Fault check_matrix(const SuperelementField& field, const RowMatrix& matrix, Eige
     return make_fault(field.path, "has {}×{} values, expected {}×{}", matrix.rows(), matrix.cols(), rows,
                       columns);
   }
-  if (!matrix.allFinite()) return make_fault(field.path, "contains NaN or infinity");
+  if (!is_finite(matrix)) return make_fault(field.path, "contains NaN or infinity");
   switch (field.rule) {
     case FieldRule::kPositive:
     case FieldRule::kNotNegative:
@@ -204,12 +208,19 @@ Fault check_second_moment(const InertiaInvariants& inertia) {
 }  // namespace
 
 std::optional<SuperelementFault> find_fault(const Superelement& superelement) {
+  FieldValues values;
+  return find_fault(superelement, values);
+}
+
+std::optional<SuperelementFault> find_fault(const Superelement& superelement, FieldValues& values) {
+  values.clear();
   if (superelement.name.empty()) return make_fault("/", "attribute 'name' is empty");
   if (Fault fault = check_counts(superelement)) return fault;
   const FieldCounts counts = count_parts(superelement);
+  values = get_values(superelement);
+  auto value = values.begin();
   for (const SuperelementField& field : superelement_fields(find_version(superelement))) {
-    const FieldValue value = field.member.get(superelement);
-    if (Fault fault = check_field(field, value, calc_extents(field, counts))) return fault;
+    if (Fault fault = check_field(field, *value++, calc_extents(field, counts))) return fault;
   }
   if (Fault fault = check_nodes(superelement)) return fault;
   if (Fault fault = check_modes(superelement)) return fault;

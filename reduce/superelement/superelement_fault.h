@@ -4,6 +4,7 @@
 #include <string>
 
 #include "reduce/superelement/superelement.h"
+#include "reduce/superelement/superelement_fields.h"
 
 namespace sprung::reduce {
 
@@ -17,5 +18,8 @@ struct SuperelementFault {
 /// them: indices in range, distinct names, ascending frequencies, a possible second moment. The writer does
 /// not write a superelement with a fault, and the reader does not return one.
 std::optional<SuperelementFault> find_fault(const Superelement& superelement);
+/// @param[out] values  of its fields, for the hash and the file: large ones take time to make. None where
+/// parts are missing
+std::optional<SuperelementFault> find_fault(const Superelement& superelement, FieldValues& values);
 
 }  // namespace sprung::reduce

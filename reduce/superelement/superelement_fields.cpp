@@ -287,6 +287,13 @@ std::int64_t find_version(const Superelement& superelement) {
   return superelement.geometric_stiffness ? kStiffeningVersion : kFirstVersion;
 }
 
+FieldValues get_values(const Superelement& superelement) {
+  FieldValues values;
+  for (const SuperelementField& field : superelement_fields(find_version(superelement)))
+    values.push_back(field.member.get(superelement));
+  return values;
+}
+
 FieldCounts count_parts(const Superelement& s) {
   return {{'1', 1},
           {'N', s.num_nodes()},

@@ -51,6 +51,11 @@ std::vector<SuperelementField> superelement_fields(std::int64_t version = kSuper
 /// Version of the file that a superelement is written to.
 std::int64_t find_version(const Superelement& superelement);
 
+/// The values of a superelement's fields, in the order of superelement_fields(find_version(superelement)).
+using FieldValues = std::vector<FieldValue>;
+/// @param superelement  with all parts of its version (find_fault)
+FieldValues get_values(const Superelement& superelement);
+
 /// What the letters of the shapes stand for (superelement.md); '1' stands for itself.
 using FieldCounts = std::map<char, std::int64_t>;
 FieldCounts count_parts(const Superelement& superelement);

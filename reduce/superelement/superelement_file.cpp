@@ -6,7 +6,6 @@
 
 #include "reduce/superelement/superelement.h"
 #include "reduce/superelement/superelement_fault.h"
-#include "reduce/superelement/superelement_fields.h"
 #include "reduce/superelement/superelement_hash.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/hdf5/hdf5_file.h"
@@ -25,6 +24,10 @@ void write_field(support::Hdf5Writer& file, const SuperelementField& field, cons
     file.write(path, std::span<const std::string>(value.texts));
   } else if (field.type == FieldType::kIntegers) {
     file.write(path, std::span<const std::int64_t>(value.integers), shape);
+  } else if (value.reals.size() == 1) {
+    const support::RowMatrix& matrix = value.reals.front();
+    file.write(path, std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size())), shape,
+               field.unit);
   } else {
     std::vector<double> numbers;
     for (const support::RowMatrix& matrix : value.reals)
@@ -101,10 +104,11 @@ FieldValue read_field(const Hdf5Reader& file, const SuperelementField& field, Fi
 }  // namespace
 
 std::string write_superelement(const Superelement& superelement, const std::filesystem::path& path) {
-  if (const std::optional<SuperelementFault> fault = find_fault(superelement)) {
+  FieldValues values;
+  if (const std::optional<SuperelementFault> fault = find_fault(superelement, values)) {
     throw std::invalid_argument(fmt::format("write_superelement: '{}' {}", fault->dataset, fault->message));
   }
-  std::string hash = calc_content_hash(superelement);
+  std::string hash = calc_content_hash(superelement, values);
   const std::int64_t version = find_version(superelement);
   support::Hdf5Writer file(path);
   file.attribute("/", "format", kSuperelementFormat);
@@ -114,9 +118,10 @@ std::string write_superelement(const Superelement& superelement, const std::file
   file.attribute("/", "num_elastic_dofs", superelement.num_elastic_dofs);
   file.attribute("/", "content_hash", std::string_view(hash));
   const FieldCounts counts = count_parts(superelement);
+  auto value = values.begin();
   for (const SuperelementField& field : superelement_fields(version)) {
     const std::vector<std::int64_t> extents = calc_extents(field, counts);
-    write_field(file, field, field.member.get(superelement), {extents.begin(), extents.end()});
+    write_field(file, field, *value++, {extents.begin(), extents.end()});
   }
   file.attribute("/provenance", "program_version", superelement.provenance.program_version);
   file.attribute("/provenance", "algorithm_revision", superelement.provenance.algorithm_revision);
@@ -142,11 +147,12 @@ Superelement read_superelement(const std::filesystem::path& path) {
   }
   s.provenance.program_version = file.string_attribute("/provenance", "program_version");
   s.provenance.algorithm_revision = file.integer_attribute("/provenance", "algorithm_revision");
-  if (const std::optional<SuperelementFault> fault = find_fault(s)) {
+  FieldValues values;
+  if (const std::optional<SuperelementFault> fault = find_fault(s, values)) {
     throw dataset_error(file, fault->dataset, fault->message);
   }
   s.content_hash = file.string_attribute("/", "content_hash");
-  if (const std::string hash = calc_content_hash(s); hash != s.content_hash) {
+  if (const std::string hash = calc_content_hash(s, values); hash != s.content_hash) {
     throw InputError(
         {.path = path.string()},
         fmt::format("attribute 'content_hash' is {}, but the contents have the hash {}: the file was "

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reduce/superelement/superelement_fields.h"
 #include "tools/support/files/content_hash.h"
 
 namespace sprung::reduce {
@@ -58,16 +57,21 @@ void add_checks(ContentHash& hash, const std::vector<CheckResult>& checks) {
 }  // namespace
 
 std::string calc_content_hash(const Superelement& superelement) {
+  return calc_content_hash(superelement, get_values(superelement));
+}
+
+std::string calc_content_hash(const Superelement& superelement, const FieldValues& values) {
   ContentHash hash;
   hash.add("name", superelement.name);
   add(hash, "num_elastic_dofs", superelement.num_elastic_dofs);
+  auto value = values.begin();
   for (const SuperelementField& field : superelement_fields(find_version(superelement))) {
     switch (field.hash) {
       case FieldHash::kWhole:
-        add_whole(hash, field, field.member.get(superelement));
+        add_whole(hash, field, *value);
         break;
       case FieldHash::kRows:
-        add_rows(hash, field, field.member.get(superelement));
+        add_rows(hash, field, *value);
         break;
       case FieldHash::kPoints:
         add_points(hash, superelement.points);
@@ -81,6 +85,7 @@ std::string calc_content_hash(const Superelement& superelement) {
       case FieldHash::kWithPrevious:
         break;
     }
+    ++value;
   }
   hash.add("program_version", superelement.provenance.program_version);
   add(hash, "algorithm_revision", superelement.provenance.algorithm_revision);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "reduce/superelement/superelement.h"
+#include "reduce/superelement/superelement_fields.h"
 
 namespace sprung::reduce {
 
@@ -10,5 +11,7 @@ namespace sprung::reduce {
 /// `content_hash` is not part of it.
 /// @return 64 hexadecimal digits
 std::string calc_content_hash(const Superelement& superelement);
+/// @param values  of its fields
+std::string calc_content_hash(const Superelement& superelement, const FieldValues& values);
 
 }  // namespace sprung::reduce

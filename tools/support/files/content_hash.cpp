@@ -2,6 +2,7 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <new>
@@ -62,7 +63,15 @@ void ContentHash::add(std::string_view label, std::string_view text) {
 
 void ContentHash::add(std::string_view label, std::span<const double> values) {
   add_header('d', label, values.size());
-  for (const double value : values) add_integer(std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value));
+  constexpr std::size_t kAtOnce = 512;  // one call of OpenSSL for each value would take longer than the hash
+  std::array<std::array<char, 8>, kAtOnce> block;
+  for (; !values.empty(); values = values.subspan(std::min(kAtOnce, values.size()))) {
+    const std::span<const double> taken = values.first(std::min(kAtOnce, values.size()));
+    std::transform(taken.begin(), taken.end(), block.begin(), [](double value) {
+      return little_endian(std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value));
+    });
+    add_bytes(std::string_view(block.front().data(), 8 * taken.size()));
+  }
 }
 
 void ContentHash::add(std::string_view label, std::span<const std::int64_t> values) {
