@@ -130,6 +130,8 @@ MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& ori
                                   &moments.y_N_y, &moments.rotary_N}) {
     vector->setZero(num_dofs);
   }
+  for (Triplets* triplets : {&sums.NxNx, &sums.NxNy, &sums.NyNy, &sums.rotary_NN})
+    triplets->reserve(36 * model.mesh.elements.size() + model.point_masses.size());
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
     add_element(sums, make_element(model, e), get_dofs(model.mesh.elements[static_cast<std::size_t>(e)]),
                 origin);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "reduce/modes/row_major.h"
+
 namespace sprung::reduce {
 
 class StiffnessFactor;
@@ -28,7 +30,7 @@ struct ModalProblem {
 
   /// (M − Q Qᵀ) x.  @param x  n×k
   Eigen::MatrixXd times_mass(const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd y = mass * x;
+    Eigen::MatrixXd y = multiply(mass, x);
     if (is_free()) y -= rigid_share * (rigid_share.transpose() * x);
     return y;
   }

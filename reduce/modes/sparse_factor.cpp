@@ -4,12 +4,11 @@
 #include <stdexcept>
 
 #include "reduce/modes/cholmod_factor.h"
+#include "reduce/modes/row_major.h"
 
 namespace sprung::reduce {
 
 namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr Eigen::Index kBlock = 32;  // columns solved at a time: L is read once for all of them
 
@@ -28,7 +27,7 @@ class SimplicialFactor final : public SparseFactor {
     Eigen::MatrixXd solution(x.rows(), x.cols());
     for (Eigen::Index begin = 0; begin < x.cols(); begin += kBlock) {
       const Eigen::Index width = std::min(kBlock, x.cols() - begin);
-      RowMajor block = factor_.permutationP() * x.middleCols(begin, width);
+      RowMajorMatrix block = factor_.permutationP() * x.middleCols(begin, width);
       solve_permuted(block);
       solution.middleCols(begin, width) = factor_.permutationPinv() * block;
     }
@@ -44,7 +43,7 @@ class SimplicialFactor final : public SparseFactor {
 
  private:
   // L D Lᵀ x = b in place.
-  void solve_permuted(RowMajor& x) const {
+  void solve_permuted(RowMajorMatrix& x) const {
     const SparseMatrix& L = factor_.matrixL().nestedExpression();  // without the diagonal of ones
     const Eigen::VectorXd D = factor_.vectorD();
     for (Eigen::Index j = 0; j < L.cols(); ++j) {

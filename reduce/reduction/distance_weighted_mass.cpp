@@ -34,6 +34,7 @@ Eigen::SparseMatrix<double> calc_distance_weighted_mass(const fem::BeamModel& mo
                                                         const Eigen::Vector2d& origin) {
   fem::check_beam_model(model, "calc_distance_weighted_mass");
   std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(36 * model.mesh.elements.size() + 2 * model.point_masses.size());
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
     const fem::Matrix6 matrix = calc_element(fem::make_element(model, e), origin);
     const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];

@@ -1,28 +1,59 @@
 #include "reduce/reduction/element_work.h"
 
+#include <algorithm>
+
+#include "reduce/modes/row_major.h"
+
 namespace sprung::reduce {
+
+namespace {
+
+using Strided = Eigen::Map<const RowMajorMatrix, 0, Eigen::OuterStride<>>;
+
+constexpr Eigen::Index kElementsAtOnce = 256;
+
+// Displacements of the elements' ends along and across them, and rotations, against their outward normals at
+// the first end: the rows of the resultants, 6×count.
+RowMajorMatrix calc_end_motions(const Superelement& s, const RowMajorMatrix& shapes, Eigen::Index begin,
+                                Eigen::Index count) {
+  RowMajorMatrix motions(6 * count, shapes.cols());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index e = begin + i;
+    const Eigen::Vector2d along =
+        (s.node_positions.col(s.elements(1, e)) - s.node_positions.col(s.elements(0, e))).normalized();
+    for (Eigen::Index end = 0; end < 2; ++end) {
+      const double sign = end == 0 ? -1.0 : 1.0;
+      const auto shape = shapes.middleRows(3 * s.elements(end, e), 3);
+      const Eigen::Index row = 6 * i + 3 * end;
+      motions.row(row) = sign * along.x() * shape.row(0) + sign * along.y() * shape.row(1);
+      motions.row(row + 1) = sign * along.x() * shape.row(1) - sign * along.y() * shape.row(0);
+      motions.row(row + 2) = sign * shape.row(2);
+    }
+  }
+  return motions;
+}
+
+}  // namespace
 
 ElementWork calc_element_work(const Superelement& s) {
   return calc_element_work(s, s.resultants);
 }
 
 ElementWork calc_element_work(const Superelement& s, const Eigen::MatrixXd& resultants) {
-  const Eigen::Index n = s.frequency_hz.size(), k = resultants.cols();
+  const Eigen::Index n = s.frequency_hz.size(), k = resultants.cols(), num_elements = s.elements.cols();
   ElementWork work{.axial = Eigen::MatrixXd::Zero(n, k), .bending = Eigen::MatrixXd::Zero(n, k)};
-  for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
-    const Eigen::Vector2d along =
-        (s.node_positions.col(s.elements(1, e)) - s.node_positions.col(s.elements(0, e))).normalized();
-    const Eigen::RowVector2d tangent = along.transpose();
-    const Eigen::RowVector2d normal(-along.y(), along.x());
-    for (Eigen::Index end = 0; end < 2; ++end) {
-      const double sign = end == 0 ? -1.0 : 1.0;
-      const Eigen::MatrixXd shape = s.shapes.middleRows(3 * s.elements(end, e), 3);
-      const Eigen::MatrixXd force = resultants.middleRows(6 * e + 3 * end, 3);
-      const Eigen::RowVectorXd u = tangent * shape.topRows<2>();
-      const Eigen::RowVectorXd w = normal * shape.topRows<2>();
-      work.axial += sign * u.transpose() * force.row(0);
-      work.bending += sign * (w.transpose() * force.row(1) + shape.row(2).transpose() * force.row(2));
-    }
+  const RowMajorMatrix shapes = s.shapes;
+  for (Eigen::Index begin = 0; begin < num_elements; begin += kElementsAtOnce) {
+    const Eigen::Index count = std::min(kElementsAtOnce, num_elements - begin);
+    const RowMajorMatrix motions = calc_end_motions(s, shapes, begin, count);
+    const RowMajorMatrix forces = resultants.middleRows(6 * begin, 6 * count);
+    const auto every_third = [count](const RowMajorMatrix& rows, Eigen::Index first) {
+      return Strided(rows.data() + first * rows.cols(), 2 * count, rows.cols(),
+                     Eigen::OuterStride<>(3 * rows.cols()));
+    };
+    work.axial.noalias() += every_third(motions, 0).transpose() * every_third(forces, 0);
+    work.bending.noalias() += every_third(motions, 1).transpose() * every_third(forces, 1);
+    work.bending.noalias() += every_third(motions, 2).transpose() * every_third(forces, 2);
   }
   return work;
 }

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "reduce/modes/row_major.h"
+
 namespace sprung::reduce {
 
 namespace {
@@ -13,7 +15,7 @@ Eigen::MatrixXd symmetrise(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::MatrixXd project(const Eigen::SparseMatrix<double>& product, const Eigen::MatrixXd& shapes) {
-  return shapes.transpose() * (product * shapes);
+  return shapes.transpose() * multiply(product, shapes);
 }
 
 }  // namespace

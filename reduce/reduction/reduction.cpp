@@ -7,6 +7,7 @@
 
 #include "fem/assembly.h"
 #include "reduce/modes/held_node.h"
+#include "reduce/modes/row_major.h"
 #include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/inertia_invariants.h"
 #include "reduce/reduction/reference_stiffness.h"
@@ -23,13 +24,14 @@ using support::NumericalError;
 
 Eigen::MatrixXd calc_mode_resultants(const fem::BeamModel& model, const Eigen::MatrixXd& shapes) {
   const int num_elements = model.mesh.num_elements();
+  const RowMajorMatrix rows = shapes;  // what belongs to a node lies together
   Eigen::MatrixXd resultants(6 * num_elements, shapes.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> ends(6, shapes.cols()), found = ends;
   for (int e = 0; e < num_elements; ++e) {
     const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
-    Eigen::MatrixXd ends(6, shapes.cols());
-    ends.topRows(3) = shapes.middleRows(3 * nodes.first, 3);
-    ends.bottomRows(3) = shapes.middleRows(3 * nodes.second, 3);
-    resultants.middleRows(6 * e, 6) = fem::calc_resultants(fem::make_element(model, e)) * ends;
+    ends << rows.middleRows<3>(3 * nodes.first), rows.middleRows<3>(3 * nodes.second);
+    found.noalias() = fem::calc_resultants(fem::make_element(model, e)) * ends;
+    resultants.middleRows<6>(6 * e) = found;
   }
   return resultants;
 }
