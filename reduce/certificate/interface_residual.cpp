@@ -27,6 +27,19 @@ void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   matrix.rightCols(columns.cols()) = columns;
 }
 
+// Makes room for columns, half as many again where there is too little: long ones are seldom copied.
+void make_room(Eigen::MatrixXd& matrix, Eigen::Index num_columns) {
+  if (num_columns > matrix.cols()) matrix.conservativeResize(Eigen::NoChange, num_columns + num_columns / 2);
+}
+
+// Brings vectors to unit strain energy. @param forces  their K u, scaled with them
+void normalise(Eigen::MatrixXd& vectors, Eigen::MatrixXd& forces) {
+  const Eigen::VectorXd scale =
+      vectors.cwiseProduct(forces).colwise().sum().transpose().cwiseSqrt().cwiseInverse();
+  vectors *= scale.asDiagonal();
+  forces *= scale.asDiagonal();
+}
+
 }  // namespace
 
 InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor,
@@ -43,8 +56,8 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
   for (Eigen::Index i = 0; i < exact_.cols(); ++i) {
     static_flexibility_ += share.row(i).cwiseAbs2().transpose() / exact.omega_squared(i);
   }
-  vectors_.resize(n, 0);
-  second_.resize(n, 0);
+  room_for_vectors_.resize(n, 0);
+  room_for_second_.resize(n, 0);
   BU_.resize(b, 0);
   BT_.resize(b, 0);
   update_ritz();
@@ -52,28 +65,27 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
 
 void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
   Eigen::MatrixXd added = vectors - exact_ * (exact_momenta_.transpose() * vectors);
-  for (Eigen::Index i = 0; i < added.cols(); ++i) {
-    added.col(i) /= std::sqrt(added.col(i).dot(problem_->stiffness * added.col(i)));
+  Eigen::MatrixXd forces = multiply(problem_->stiffness, added);
+  normalise(added, forces);
+  for (int pass = 0; pass < 2 && num_vectors() > 0; ++pass) {  // what is new of them; twice, against rounding
+    const Eigen::MatrixXd coupling = this->vectors().transpose() * forces;
+    added -= this->vectors() * support::solve_positive_definite(UKU_, coupling);
+    forces = multiply(problem_->stiffness, added);
   }
-  if (num_vectors() > 0) {  // what is new of them; twice, against rounding
-    for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::MatrixXd coupling = vectors_.transpose() * (problem_->stiffness * added);
-      added -= vectors_ * support::solve_positive_definite(UKU_, coupling);
-    }
-    for (Eigen::Index i = 0; i < added.cols(); ++i) {
-      added.col(i) /= std::sqrt(added.col(i).dot(problem_->stiffness * added.col(i)));
-    }
-  }
+  normalise(added, forces);
   const Eigen::MatrixXd momenta = problem_->times_mass(added);
   const Eigen::MatrixXd second = factor_->solve(momenta);
-  const Eigen::MatrixXd forces = problem_->stiffness * added;
-  border(UKU_, vectors_.transpose() * forces, added.transpose() * forces);
-  border(UMU_, vectors_.transpose() * momenta, added.transpose() * momenta);
-  border(TMU_, second_.transpose() * momenta, second.transpose() * momenta);
+  border(UKU_, this->vectors().transpose() * forces, added.transpose() * forces);
+  border(UMU_, this->vectors().transpose() * momenta, added.transpose() * momenta);
+  border(TMU_, this->second().transpose() * momenta, second.transpose() * momenta);
   append_columns(BU_, loads_.transpose() * added);
   append_columns(BT_, loads_.transpose() * second);
-  append_columns(vectors_, added);
-  append_columns(second_, second);
+  const Eigen::Index old = num_vectors(), width = added.cols();
+  make_room(room_for_vectors_, old + width);
+  make_room(room_for_second_, old + width);
+  room_for_vectors_.middleCols(old, width) = added;
+  room_for_second_.middleCols(old, width) = second;
+  num_vectors_ += width;
   update_ritz();
 }
 
@@ -95,7 +107,7 @@ void InterfaceResidual::update_ritz() {
 }
 
 EigenPairs InterfaceResidual::ritz() const {
-  return {.omega_squared = omega_squared_, .vectors = vectors_ * rotation_};
+  return {.omega_squared = omega_squared_, .vectors = vectors() * rotation_};
 }
 
 Eigen::MatrixXd InterfaceResidual::calc_amplitudes(double s) const {
@@ -144,7 +156,7 @@ Eigen::MatrixXd InterfaceResidual::calc_error_matrix(const Eigen::MatrixXd& load
 Eigen::VectorXd InterfaceResidual::make_vector(Eigen::Index load, double s) const {
   if (num_vectors() == 0) return flexible_.col(load);
   const Eigen::VectorXd y = rotation_ * calc_amplitudes(s).col(load);
-  return flexible_.col(load) - vectors_ * y + s * (second_ * y);
+  return flexible_.col(load) - vectors() * y + s * (second() * y);
 }
 
 }  // namespace sprung::reduce

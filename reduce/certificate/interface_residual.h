@@ -21,9 +21,9 @@ class InterfaceResidual {
   InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor, const EigenPairs& exact,
                     const Eigen::MatrixXd& loads);
 
-  Eigen::Index size() const { return vectors_.rows(); }
+  Eigen::Index size() const { return room_for_vectors_.rows(); }
   Eigen::Index num_loads() const { return static_flexibility_.size(); }
-  Eigen::Index num_vectors() const { return vectors_.cols(); }
+  Eigen::Index num_vectors() const { return num_vectors_; }
 
   /// Elastic displacement of each load's own freedom under it, at rest: diag(BᵀK⁻¹B), b [m/N, rad/(N·m)].
   const Eigen::VectorXd& static_flexibility() const { return static_flexibility_; }
@@ -57,6 +57,10 @@ class InterfaceResidual {
   EigenPairs ritz() const;
 
  private:
+  // U, T = K⁻¹(M − QQᵀ)U, n×m
+  using Columns = Eigen::MatrixXd::ConstColsBlockXpr;
+  Columns vectors() const { return room_for_vectors_.leftCols(num_vectors_); }
+  Columns second() const { return room_for_second_.leftCols(num_vectors_); }
   void update_ritz();
 
   const ModalProblem* problem_;
@@ -65,8 +69,9 @@ class InterfaceResidual {
   Eigen::MatrixXd flexible_;               // Z = K⁻¹B_X, n×b
   Eigen::VectorXd load_work_;              // diagonal of B_XᵀZ, b
   Eigen::VectorXd static_flexibility_;
-  Eigen::MatrixXd vectors_, second_;  // U, T = K⁻¹(M − QQᵀ)U, n×m
-  Eigen::MatrixXd loads_;             // B_X
+  Eigen::Index num_vectors_ = 0;
+  Eigen::MatrixXd room_for_vectors_, room_for_second_;  // n×(m or more)
+  Eigen::MatrixXd loads_;                               // B_X
   // Products of the vectors as added, and their Ritz form.
   Eigen::MatrixXd UKU_, UMU_, TMU_, BU_, BT_;
   Eigen::VectorXd omega_squared_;  // m
