@@ -16,29 +16,13 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr Index kWidth = 4;
 constexpr double kRitzResidual = 1e-12;  // of a solution, relative
+constexpr double kRoughResidual =
+    1e-7;  // of those of which only the frequency counts: it has the square of this
 constexpr double kDependent = 1e-14;  // the part of a vector outside the vectors before, beside the first one
 constexpr double kMostVectors = 20.0;   // for each pair asked for
-constexpr double kBetweenTests = 1.15;  // growth of the number of vectors from one test of convergence on
-
-// (M − Q Qᵀ) X for blocks: each entry of M is read once for all columns.
-class BlockMass {
- public:
-  explicit BlockMass(const ModalProblem& problem) : problem_(&problem), mass_(problem.mass) {}
-  MatrixXd operator()(const MatrixXd& x) const {
-    const RowMajorMatrix rows = x;
-    RowMajorMatrix product = mass_ * rows;
-    if (problem_->is_free()) product -= problem_->rigid_share * (problem_->rigid_share.transpose() * x);
-    return product;
-  }
-
- private:
-  const ModalProblem* problem_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> mass_;
-};
+constexpr double kBetweenTests = 1.05;  // growth of the number of vectors from one test of convergence on
 
 // A block and its product with the mass.
 struct Block {
@@ -64,19 +48,19 @@ MatrixXd orthonormalize(Block& block, double smallest) {
 class Lanczos {
  public:
   Lanczos(const ModalProblem& problem, const StiffnessFactor& factor, Index num_pairs, std::uint64_t seed)
-      : mass_(problem), factor_(&factor), num_pairs_(num_pairs) {
+      : problem_(&problem), factor_(&factor), num_pairs_(num_pairs) {
     const Index n = problem.size();
-    vectors_.resize(n, std::min(n, 3 * num_pairs + 4 * kWidth));
+    vectors_.resize(n, std::min(n, 6 * num_pairs + 16 * kWidth));  // memory is taken as they come
     MatrixXd start(n, kWidth);
     for (Index j = 0; j < kWidth; ++j)
       start.col(j) = make_random_vector(n, seed * kWidth + static_cast<std::uint64_t>(j));
     // One step with K⁻¹ M takes out what has no mass.
-    next_.vectors = factor.solve(mass_(start));
-    next_.momenta = mass_(next_.vectors);
+    next_.vectors = factor.solve(problem_->times_mass(start));
+    next_.momenta = problem_->times_mass(next_.vectors);
     orthonormalize(next_, 0.0);
     const MatrixXd y = factor.solve(next_.momenta);
     scale_ = 1.0 / (y.transpose() * next_.momenta).trace() * static_cast<double>(kWidth);
-    next_.momenta = mass_(next_.vectors);
+    next_.momenta = problem_->times_mass(next_.vectors);
     orthonormalize(next_, 0.0);
   }
 
@@ -94,30 +78,38 @@ class Lanczos {
     const MatrixXd own = next_.momenta.transpose() * block.vectors;
     block.vectors.noalias() -= next_.vectors * own;
     projected_.block(begin, begin, width, width) = 0.5 * (own + own.transpose());
-    block.momenta = mass_(block.vectors);
+    block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd first = orthonormalize(block, kDependent * largest_);
     block.vectors.noalias() -=
         vectors_.leftCols(size_) * (vectors_.leftCols(size_).transpose() * block.momenta);
-    block.momenta = mass_(block.vectors);
+    block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd second = orthonormalize(block, 1e-3);
     coupling_ = second * first;
     next_ = std::move(block);
   }
 
-  // The pairs asked for, once all have converged.
-  std::optional<EigenPairs> find_converged() {
-    if (size_ < num_pairs_) return std::nullopt;
+  // The pairs wanted, once all have converged.
+  std::optional<EigenPairs> find_converged(const WantedPairs& wanted) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(projected_);
     largest_ = eigen.eigenvalues()(size_ - 1);
+    // No Ritz value is below the solution that it approaches, so that none is counted that is not there.
+    const auto num_below = (scale_ * eigen.eigenvalues().array().inverse() < wanted.below).count();
+    const Index num_exact = std::max<Index>(wanted.lowest, num_below);
+    num_pairs_ = num_exact + wanted.beyond;
+    if (size_ < num_pairs_) return std::nullopt;
     const MatrixXd ritz = eigen.eigenvectors().rightCols(num_pairs_).rowwise().reverse();
     const Eigen::VectorXd theta = eigen.eigenvalues().tail(num_pairs_).reverse();
     const MatrixXd residual = coupling_ * ritz.bottomRows(coupling_.cols());
     for (Index i = 0; i < num_pairs_; ++i) {
-      if (residual.col(i).norm() > kRitzResidual * theta(i)) return std::nullopt;
+      if (residual.col(i).norm() > (i < num_exact ? kRitzResidual : kRoughResidual) * theta(i))
+        return std::nullopt;
     }
     return EigenPairs{.omega_squared = scale_ * theta.cwiseInverse(),
                       .vectors = vectors_.leftCols(size_) * ritz};
   }
+
+  // As far as is known: of all below a value those that were found.
+  Index num_pairs() const { return num_pairs_; }
 
  private:
   void append() {
@@ -134,7 +126,7 @@ class Lanczos {
     size_ = end;
   }
 
-  BlockMass mass_;
+  const ModalProblem* problem_;
   const StiffnessFactor* factor_;
   Index num_pairs_;
   double scale_ = 1.0;    // s brings 1/ω² to the order of 1
@@ -148,21 +140,29 @@ class Lanczos {
 
 }  // namespace
 
-EigenPairs solve_by_blocks(const ModalProblem& problem, const StiffnessFactor& factor, int num_pairs,
-                           std::uint64_t seed) {
-  Lanczos lanczos(problem, factor, num_pairs, seed);
-  const double most = std::min(static_cast<double>(problem.num_modes()), kMostVectors * num_pairs + 100.0);
-  double test_at = num_pairs;
-  while (!lanczos.is_exhausted() && static_cast<double>(lanczos.size()) < most) {
+EigenPairs solve_by_blocks(const ModalProblem& problem, const StiffnessFactor& factor,
+                           const WantedPairs& wanted, std::uint64_t seed) {
+  Lanczos lanczos(problem, factor, wanted.lowest + wanted.beyond, seed);
+  const auto limit = [&] {
+    return std::min(static_cast<double>(problem.num_modes()),
+                    kMostVectors * static_cast<double>(lanczos.num_pairs()) + 100.0);
+  };
+  auto test_at = static_cast<double>(lanczos.num_pairs());
+  while (!lanczos.is_exhausted() && static_cast<double>(lanczos.size()) < limit()) {
     lanczos.step();
     if (static_cast<double>(lanczos.size()) < test_at && !lanczos.is_exhausted()) continue;
-    if (std::optional<EigenPairs> pairs = lanczos.find_converged()) return std::move(*pairs);
+    if (std::optional<EigenPairs> pairs = lanczos.find_converged(wanted)) return std::move(*pairs);
     test_at = kBetweenTests * static_cast<double>(lanczos.size());
   }
   throw support::NumericalError(fmt::format(
       "modes: {} were not found with {} vectors: more of them have one frequency than the {} of a block, or "
       "the mesh is too fine",
-      num_pairs, lanczos.size(), kWidth));
+      lanczos.num_pairs(), lanczos.size(), kWidth));
+}
+
+EigenPairs solve_by_blocks(const ModalProblem& problem, const StiffnessFactor& factor, int num_pairs,
+                           std::uint64_t seed) {
+  return solve_by_blocks(problem, factor, WantedPairs{.lowest = num_pairs}, seed);
 }
 
 }  // namespace sprung::reduce

@@ -7,6 +7,14 @@
 
 namespace sprung::reduce {
 
+/// Which solutions are wanted: the lowest ones or all with ω² below a value, whichever are more, and some
+/// beyond those. Of the ones beyond only ω² is exact.
+struct WantedPairs {
+  int lowest = 0;
+  double below = 0.0;  ///< [rad²/s²]
+  int beyond = 0;
+};
+
 /// The lowest solutions of K φ = ω² M φ by Lanczos iteration with the inverse of K (shift 0) on blocks of
 /// vectors, without restarts. Large factors are read from memory once for a block, not once for each of its
 /// vectors. Each block is made M-orthogonal to all before.
@@ -23,5 +31,7 @@ namespace sprung::reduce {
 /// Source: [Grimes, Lewis & Simon 1994] — checked by tests/reduce/modes/block_lanczos_test.cpp
 EigenPairs solve_by_blocks(const ModalProblem& problem, const StiffnessFactor& factor, int num_pairs,
                            std::uint64_t seed);
+EigenPairs solve_by_blocks(const ModalProblem& problem, const StiffnessFactor& factor,
+                           const WantedPairs& wanted, std::uint64_t seed);
 
 }  // namespace sprung::reduce

@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kTolerance = 1e-12;  // of a Ritz value, relative
 constexpr Eigen::Index kMaxRestarts = 1000;
+constexpr int kBeyond =
+    5;  // solutions after the last one below a value: the gap has to be seen in which they are counted
 
 // y = s K⁻¹ x. The scale s brings 1/ω² to the order of 1: Spectra's test of convergence is an absolute one
 // for values below 4e-11, which is where 1/ω² of a stiff body lies.
@@ -82,7 +84,26 @@ EigenPairs polish(const StiffnessFactor& factor, const ModalProblem& problem, co
   return {.omega_squared = ritz.omega_squared, .vectors = Y * ritz.vectors};
 }
 
+// That of the problem, or one that is made for it.
+class KnownFactor {
+ public:
+  explicit KnownFactor(const ModalProblem& problem) : known_(problem.factor) {
+    if (known_ == nullptr) own_.emplace(problem.stiffness);
+  }
+  const StiffnessFactor& operator*() const { return known_ != nullptr ? *known_ : *own_; }
+
+ private:
+  const StiffnessFactor* known_;
+  std::optional<StiffnessFactor> own_;
+};
+
 }  // namespace
+
+EigenPairs solve_sparse_below(const ModalProblem& problem, double omega_squared, std::uint64_t seed) {
+  const KnownFactor factor(problem);
+  return polish(*factor, problem,
+                solve_by_blocks(problem, *factor, {.below = omega_squared, .beyond = kBeyond}, seed));
+}
 
 EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_t seed) {
   const Eigen::Index n = problem.size();
@@ -90,9 +111,8 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
     throw std::invalid_argument(
         fmt::format("solve_sparse: num_pairs is {}, expected 1 … {}", num_pairs, problem.num_modes() - 1));
   }
-  std::optional<StiffnessFactor> own;
-  if (problem.factor == nullptr) own.emplace(problem.stiffness);
-  const StiffnessFactor& factor = own ? *own : *problem.factor;
+  const KnownFactor known(problem);
+  const StiffnessFactor& factor = *known;
   if (n > kMostSimplicial) return polish(factor, problem, solve_by_blocks(problem, factor, num_pairs, seed));
   const Eigen::VectorXd start = make_random_vector(n, seed);
   const double scale = estimate_lowest(factor, problem, start);

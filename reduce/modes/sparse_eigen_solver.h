@@ -19,4 +19,8 @@ namespace sprung::reduce {
 /// Checked by tests/reduce/modes/clamped_modes_test.cpp
 EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_t seed);
 
+/// All solutions below a value of ω² that the iteration meets, and some beyond, of which the ω² alone is
+/// exact. For large frames, where counting them beforehand costs a factorisation.
+EigenPairs solve_sparse_below(const ModalProblem& problem, double omega_squared, std::uint64_t seed);
+
 }  // namespace sprung::reduce
