@@ -27,6 +27,12 @@ void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   matrix.rightCols(columns.cols()) = columns;
 }
 
+Eigen::MatrixXd join(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
+  both << left, right;
+  return both;
+}
+
 // Makes room for columns, half as many again where there is too little: long ones are seldom copied.
 void make_room(Eigen::MatrixXd& matrix, Eigen::Index num_columns) {
   if (num_columns > matrix.cols()) matrix.conservativeResize(Eigen::NoChange, num_columns + num_columns / 2);
@@ -75,12 +81,15 @@ void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
   normalise(added, forces);
   const Eigen::MatrixXd momenta = problem_->times_mass(added);
   const Eigen::MatrixXd second = factor_->solve(momenta);
-  border(UKU_, this->vectors().transpose() * forces, added.transpose() * forces);
-  border(UMU_, this->vectors().transpose() * momenta, added.transpose() * momenta);
-  border(TMU_, this->second().transpose() * momenta, second.transpose() * momenta);
-  append_columns(BU_, loads_.transpose() * added);
-  append_columns(BT_, loads_.transpose() * second);
   const Eigen::Index old = num_vectors(), width = added.cols();
+  // Long vectors are read once for two products.
+  const Eigen::MatrixXd of_vectors = this->vectors().transpose() * join(forces, momenta);
+  const Eigen::MatrixXd of_loads = loads_.transpose() * join(added, second);
+  border(UKU_, of_vectors.leftCols(width), added.transpose() * forces);
+  border(UMU_, of_vectors.rightCols(width), added.transpose() * momenta);
+  border(TMU_, this->second().transpose() * momenta, second.transpose() * momenta);
+  append_columns(BU_, of_loads.leftCols(width));
+  append_columns(BT_, of_loads.rightCols(width));
   make_room(room_for_vectors_, old + width);
   make_room(room_for_second_, old + width);
   room_for_vectors_.middleCols(old, width) = added;
