@@ -1,6 +1,7 @@
 #include "reduce/modes/canonical_basis.h"
 
 #include <cmath>
+#include <utility>
 
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/largest_displacement.h"
@@ -114,8 +115,12 @@ Eigen::MatrixXd calc_canonical_rotation(const Eigen::MatrixXd& shapes, const Eig
     const Eigen::MatrixXd members = shapes.middleCols(range.begin, range.size());
     const Eigen::MatrixXd parts = participation.middleCols(range.begin, range.size());
     ClusterDirections directions{.fixed = {}, .free = Eigen::MatrixXd::Identity(range.size(), range.size())};
-    fix_by_participation(directions, parts);
-    if (directions.free.cols() > 0) fix_by_moment(directions, members, frame);
+    if (range.size() == 1) {  // nothing to choose
+      std::swap(directions.fixed, directions.free);
+    } else {
+      fix_by_participation(directions, parts);
+      if (directions.free.cols() > 0) fix_by_moment(directions, members, frame);
+    }
     for (Eigen::Index i = 0; i < range.size(); ++i) {
       const Eigen::VectorXd direction = directions.fixed.col(i);
       directions.fixed.col(i) *= calc_sign(parts * direction, members * direction, frame.node_positions);
