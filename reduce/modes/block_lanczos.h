@@ -22,7 +22,7 @@ struct WantedPairs {
 /// The solutions have relative residuals below 1e-12, but are *not necessarily the lowest ones* where more of
 /// them have one frequency than a block has vectors. Count them (eigenvalue_count.h).
 ///
-/// Needs about three times as many vectors as pairs.
+/// Needs about five times as many vectors as pairs.
 ///
 /// @param factor     of K
 /// @param num_pairs  1 … n−1

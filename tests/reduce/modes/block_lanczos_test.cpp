@@ -1,8 +1,11 @@
 #include "reduce/modes/block_lanczos.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "reduce/modes/dense_eigen_solver.h"
+#include "reduce/modes/eigenvalue_count.h"
+#include "reduce/modes/modes_below.h"
 #include "reduce/reduction/body_basis.h"
 #include "tests/catch.h"
 #include "tests/reduce/test_bodies.h"
@@ -49,6 +52,44 @@ TEST_CASE("a block finds four modes of one frequency") {
   const ModalProblem problem = make_diagonal(omega_squared, Eigen::VectorXd::Ones(400));
   const EigenPairs pairs = solve_by_blocks(problem, StiffnessFactor(problem.stiffness), 12, 5);
   CHECK(calc_largest_error(pairs.omega_squared, omega_squared.head(12)) < 1e-12);
+}
+
+// Expected: the dense solution. How many are below is not told.
+TEST_CASE("blocks give all modes below a frequency, and the frequencies of some beyond") {
+  const Design design = testing::make_design(testing::make_lattice(8, 6), {4.0, 3.0}, {});
+  const BodyMatrices matrices = make_body_matrices(design);
+  const Eigen::Index n = matrices.held.size();
+  const EigenPairs dense =
+      solve_dense(matrices.free.stiffness, matrices.free.times_mass(Eigen::MatrixXd::Identity(n, n)));
+  for (const Eigen::Index num_below : {0, 4, 11}) {
+    const double below =
+        0.5 * (dense.omega_squared(num_below) + (num_below > 0 ? dense.omega_squared(num_below - 1) : 0.0));
+    const EigenPairs pairs =
+        solve_by_blocks(matrices.free, *matrices.factor, {.below = below, .beyond = 3}, 1);
+    CAPTURE(num_below);
+    REQUIRE(pairs.omega_squared.size() == num_below + 3);
+    CHECK(calc_largest_error(pairs.omega_squared, dense.omega_squared.head(num_below + 3)) < 1e-9);
+  }
+}
+
+// A frame so large that the iteration itself finds how many modes are below a frequency. Expected: their
+// count before it, and the lowest modes as they are asked for by number.
+TEST_CASE("the modes of a large frame below a frequency are counted once, and all are there") {
+  const Design design = testing::make_design(testing::make_lattice(82, 82), {41.0, 41.0}, {});
+  const BodyMatrices matrices = make_body_matrices(design);
+  REQUIRE(matrices.free.size() > kMostSimplicial);
+  const double hz = 5.0, omega = 2.0 * std::numbers::pi * hz;
+  const ModesBelow below = calc_modes_below(matrices.free, hz);
+  const int counted = count_modes_below(matrices.free, omega * omega);
+  REQUIRE(counted > 3);
+  CHECK(below.cluster.size() == counted);
+  CHECK(below.num_missing == 0);
+  const ClampedModes lowest = calc_clamped_modes(matrices.free, counted + 1);
+  CHECK(calc_largest_error(below.pairs.omega_squared, lowest.pairs.omega_squared.head(counted)) < 1e-11);
+  CHECK(below.next_omega_squared == Approx(lowest.pairs.omega_squared(counted)).epsilon(1e-11));
+  const Eigen::MatrixXd gram =
+      below.pairs.vectors.transpose() * matrices.free.times_mass(below.pairs.vectors);
+  CHECK((gram - Eigen::MatrixXd::Identity(counted, counted)).cwiseAbs().maxCoeff() < 1e-11);
 }
 
 TEST_CASE("freedoms without mass take no part") {
