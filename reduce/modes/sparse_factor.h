@@ -27,7 +27,7 @@ enum class FactorMethod {
   kSimplicial,  ///< Eigen's LDLᵀ
   kCholmod      ///< CHOLMOD: supernodal of a positive definite matrix, with the order of METIS
 };
-inline constexpr Eigen::Index kMostSimplicial = 20'000;
+inline constexpr Eigen::Index kMostSimplicial = 5'000;
 
 /// Whether the program was built with CHOLMOD. Without it everything works, and large frames take longer.
 bool has_cholmod();
