@@ -15,6 +15,7 @@
 #include "reduce/modes/held_node.h"
 #include "reduce/modes/rounding_error.h"
 #include "reduce/reduction/distance_weighted_mass.h"
+#include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/mechanism.h"
 #include "reduce/reduction/superelement_checks.h"
 #include "tools/support/errors/numerical_error.h"
@@ -61,11 +62,16 @@ double calc_residual(const ModalProblem& problem, const StiffnessFactor& factor,
   return largest;
 }
 
-std::vector<CheckResult> make_model_checks(int num_missing, double rounding, double residual) {
+// Where the reference node is soft, the residual is what rounding leaves of its hold.
+std::vector<CheckResult> make_model_checks(int num_missing, double rounding, const HeldRounding& held,
+                                           double residual) {
   return {
       {.name = "modes missing below the highest one", .value = std::abs(num_missing) * 1.0, .tolerance = 0.0},
       {.name = kRoundingCheck, .value = rounding, .tolerance = kMaxRoundingError},
-      {.name = "residual of the modes", .value = residual, .tolerance = kResidualTolerance}};
+      {.name = kHeldRoundingCheck, .value = held.error, .tolerance = kMaxHeldRounding},
+      {.name = kResidualCheck,
+       .value = residual,
+       .tolerance = kResidualTolerance + std::min(held.error, kMaxRoundingError)}};
 }
 
 // A band that the modes stored can be judged by.
@@ -104,7 +110,7 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
 }
 
 BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
-                             const StiffnessFactor& factor, const BasisFrame& frame,
+                             const StiffnessFactor& factor, const BasisFrame& frame, const HeldRounding& held,
                              const ClampedModeOptions& options) {
   const int num_needed = calc_num_modes_needed(design.modes, matrices.held, options);
   const ClampedModes modes = calc_clamped_modes(matrices.held, num_needed, options);
@@ -118,17 +124,23 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
   basis.stiffness = canonical.stiffness;
   basis.kind.assign(columns.size(), kClampedVector);
   basis.checks =
-      make_model_checks(modes.num_below - static_cast<int>(modes.cluster.size()), rounding,
+      make_model_checks(modes.num_below - static_cast<int>(modes.cluster.size()), rounding, held,
                         calc_residual(matrices.held, factor, canonical.vectors, canonical.stiffness));
-  basis.certificate = certify_clamped(
-      design, matrices, factor,
-      {.omega_squared = canonical.stiffness.diagonal(), .vectors = canonical.vectors}, rounding, options);
+  try {
+    basis.certificate = certify_clamped(
+        design, matrices, factor,
+        {.omega_squared = canonical.stiffness.diagonal(), .vectors = canonical.vectors}, rounding, options);
+  } catch (const support::NumericalError&) {
+    if (!held.is_of_soft_reference()) throw;
+    throw support::NumericalError(
+        fmt::format("{}, or the basis \"free\"", describe_soft_reference(design, matrices)));
+  }
   return basis;
 }
 
 BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrices,
                                const StiffnessFactor& factor, const BasisFrame& frame,
-                               const ClampedModeOptions& options) {
+                               const HeldRounding& held, const ClampedModeOptions& options) {
   BasisRequest request = make_request(design, matrices, *design.reduction.highest_hz);
   request.progress = options.progress;
   const ModesBelow modes = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
@@ -156,7 +168,7 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
   basis.kind = found.kind;
   basis.certificate = found.certificate;
   const Eigen::Index k = is_free ? modes.cluster.size() : 0;
-  basis.checks = make_model_checks(modes.num_missing, request.rounding,
+  basis.checks = make_model_checks(modes.num_missing, request.rounding, held,
                                    calc_residual(matrices.free, factor, canonical.vectors.leftCols(k),
                                                  canonical.stiffness.topLeftCorner(k, k)));
   if (is_free) {
@@ -203,9 +215,12 @@ BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, co
                       : calc_distance_weighted_mass(design.model, origin);
   const BasisFrame frame = make_basis_frame(moments, matrices.node_positions, weighted_mass);
   const StiffnessFactor& factor = *matrices.factor;
+  const HeldRounding held = estimate_held_rounding(matrices);
+  if (held.is_of_soft_reference() && held.error > kMaxHeldRounding)
+    throw support::NumericalError(describe_soft_reference(design, matrices));
   return design.reduction.basis == BasisKind::kClamped
-             ? make_clamped_basis(design, matrices, factor, frame, options)
-             : make_interface_basis(design, matrices, factor, frame, options);
+             ? make_clamped_basis(design, matrices, factor, frame, held, options)
+             : make_interface_basis(design, matrices, factor, frame, held, options);
 }
 
 Eigen::VectorXd calc_frequencies(const BodyBasis& basis) {

@@ -9,6 +9,7 @@
 #include "reduce/modes/held_node.h"
 #include "reduce/modes/row_major.h"
 #include "reduce/reduction/body_basis.h"
+#include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/inertia_invariants.h"
 #include "reduce/reduction/reference_stiffness.h"
 #include "reduce/reduction/static_response.h"
@@ -92,9 +93,22 @@ GeometricStiffness make_unknown_stiffness(std::size_t num_points) {
   return none;
 }
 
-void require_checks(const std::vector<CheckResult>& checks) {
+// Whether a check is of what the reference node holds, and rounding spoils that.
+bool is_spoilt_by_reference(const CheckResult& failed, const BodyMatrices& matrices) {
+  const bool is_of_hold =
+      failed.name == kResidualCheck || failed.name == kPointLoadCheck || failed.name == kHeldRoundingCheck;
+  return is_of_hold && estimate_held_rounding(matrices).is_of_soft_reference();
+}
+
+void require_checks(const std::vector<CheckResult>& checks, const Design& design,
+                    const BodyMatrices& matrices) {
   for (const CheckResult& check : checks) {
     if (check.passed()) continue;
+    if (is_spoilt_by_reference(check, matrices)) {
+      throw NumericalError(fmt::format("{} ({}: {:.3g}, tolerance {:.3g})",
+                                       describe_soft_reference(design, matrices), check.name, check.value,
+                                       check.tolerance));
+    }
     if (check.name == kMassConditionCheck) {
       throw NumericalError(fmt::format(
           "the reference node is held too softly: in some mode nearly all of the body moves rigidly "
@@ -156,7 +170,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
 
   s.checks = basis.checks;
   for (const CheckResult& check : check_superelement(s)) s.checks.push_back(check);
-  require_checks(s.checks);
+  require_checks(s.checks, design, matrices);
   return s;
 }
 

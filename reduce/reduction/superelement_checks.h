@@ -13,7 +13,13 @@ inline constexpr const char* kRoundingCheck = "rounding error of ω²";
 /// Its name in files that were made when only the lowest mode was looked at.
 inline constexpr const char* kOldRoundingCheck = "rounding error of the lowest ω²";
 
+/// What rounding does to the frame while its reference node carries the whole body (held_rounding.h). Files
+/// made before it was looked at have none.
+inline constexpr const char* kHeldRoundingCheck = "rounding error of the held frame";
+
 inline constexpr const char* kMassConditionCheck = "condition of the mass matrix of frame and modes";
+inline constexpr const char* kResidualCheck = "residual of the modes";
+inline constexpr const char* kPointLoadCheck = "work of the section loads on the modes";
 
 /// Makes every check for which a superelement alone is enough (reduce, "Checks"): orthogonality of
 /// the modes, stiffness and damping against the frequencies, the inertia integrals against their components,
