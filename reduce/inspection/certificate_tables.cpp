@@ -29,16 +29,15 @@ std::string format_freedom(const Superelement& s, const InterfaceError& one) {
   return fmt::format("{} {}", s.points[static_cast<std::size_t>(one.point)].name, freedom_name(one.freedom));
 }
 
-// The lowest free mode in the band that the basis has at another frequency.
-std::string format_wrong_mode(const Certificate& certificate) {
-  for (Eigen::Index i = 0; i < certificate.free_hz.size(); ++i) {
-    if (certificate.free_error(i) <= certificate.rounding_floor) continue;
-    const std::string wrong = certificate.free_error(i) >= kUnbounded
-                                  ? "missing"
-                                  : fmt::format("{:.2g} % off", 100.0 * certificate.free_error(i));
-    return fmt::format("the free mode at {:.6g} Hz is {}", certificate.free_hz(i), wrong);
-  }
-  return "the basis holds no free mode exactly";
+// The free mode in the band whose frequency in the basis is the most wrong; of those missing the lowest.
+std::string format_worst_mode(const Certificate& certificate) {
+  const Eigen::Index in_band = (certificate.free_hz.array() <= certificate.highest_hz).count();
+  Eigen::Index worst = 0;
+  const double largest = in_band > 0 ? certificate.free_error.head(in_band).maxCoeff(&worst) : 0.0;
+  if (largest <= certificate.rounding_floor) return "the basis holds no free mode exactly";
+  return fmt::format("the free mode at {:.6g} Hz is {}", certificate.free_hz(worst),
+                     largest >= kUnbounded ? "missing" : fmt::format("{:.2g} % off", 100.0 * largest)) +
+         (in_band > 1 ? ", the most in the band" : "");
 }
 
 }  // namespace
@@ -83,7 +82,7 @@ std::string format_certificate_line(const Superelement& s) {
   }
   return fmt::format(
       "interface flexibility without a bound up to {:.3g} Hz: {}; at rest within {} %, worst: {}",
-      certificate.highest_hz, format_wrong_mode(certificate),
+      certificate.highest_hz, format_worst_mode(certificate),
       format_share(worst.static_error, certificate.rounding_floor), format_freedom(s, worst));
 }
 
@@ -97,6 +96,12 @@ std::string format_certificate(const Superelement& s) {
               ? fmt::format(", none left out below {:.4f} Hz\n", certificate.cutoff_hz)
               : ", none left out\n";
   if (const std::string line = format_certificate_line(s); !line.empty()) text += line + "\n";
+  if (!certificate.is_bounded()) {
+    text +=
+        "No number can bound the band: where the basis has a free mode at another frequency, the error "
+        "grows\n"
+        "without limit near both. How good it is, the errors of the frequencies and those at rest tell.\n";
+  }
   TextTable modes({"free mode", "frequency Hz", "error of the basis %"});
   const Eigen::Index shown = std::min(certificate.free_hz.size(), kMostRows);
   for (Eigen::Index i = 0; i < shown; ++i) {

@@ -37,6 +37,28 @@ TEST_CASE("a certificate without a bound says why, and how poor the basis is at 
   const Superelement body = make_superelement(design);
   CHECK_THAT(format_certificate_line(body), StartsWith("interface flexibility without a bound up to ") &&
                                                 Contains("% off; at rest within "));
+  CHECK_THAT(format_certificate(body), Contains("No number can bound the band"));
+}
+
+// Errors in an order in which neither the first nor the last one is the largest, and a larger one above the
+// band.
+TEST_CASE(
+    "the line of a certificate without a bound names the frequency that is the most wrong in the band") {
+  Superelement body = make_superelement(testing::make_random_design(2, 0.05));
+  Certificate& certificate = *body.certificate;
+  certificate.highest_hz = 80.0;
+  certificate.free_hz = Eigen::Vector4d(18.5, 55.0, 72.7, 110.0);
+  certificate.free_error = Eigen::Vector4d(0.00082, 0.17, 0.02, 0.4);
+  for (InterfaceError& one : certificate.interface) one.error = kUnbounded;
+  CHECK_THAT(format_certificate_line(body),
+             Contains(": the free mode at 55 Hz is 17 % off, the most in the band; at rest within "));
+  certificate.free_error(2) = kUnbounded;
+  CHECK_THAT(format_certificate_line(body),
+             Contains(": the free mode at 72.7 Hz is missing, the most in the band; at rest within "));
+  certificate.free_error = Eigen::Vector4d(0.01, 0.0, 0.0, 0.4);
+  certificate.highest_hz = 20.0;
+  CHECK_THAT(format_certificate_line(body),
+             Contains(": the free mode at 18.5 Hz is 1 % off; at rest within "));
 }
 
 // The free damping of clamped modes by a modal test: with all modes of the model, C is known, and the free
