@@ -161,7 +161,7 @@ class FatigueCommand(ToolTestCase):
         done = self.run_tool("fatigue", "a.h5", "--category", "71", "--strength", "500", "--endurance", "1e8", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         packed = json.loads(done.stdout)
-        self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 1))
+        self.assertEqual((packed["format"], packed["version"]), ("sprung-measures", 2))
         line = {"category": 71e6, "slopes": [3.0, 5.0], "knee": 5e6, "endurance": 1e8, "strength": 500e6}
         self.assertEqual(packed["strength_line"], line)
         (run,) = packed["runs"]

@@ -12,9 +12,10 @@ from tool_test_case import TOOLS, ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
+from sprung_tools.runs.largest_loads import MOMENT, find_best_peak
 from sprung_tools.runs.measures import UNITS_OF, calc_measures, combine, list_history_objects, list_objects
 from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
-from sprung_tools.runs.ride_measures import calc_bending, calc_comfort, calc_contact, calc_travel
+from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel
 from sprung_tools.signals.third_octaves import NOMINAL
 
 WINDOW = (1.0, 3.0)
@@ -50,7 +51,7 @@ class Json(ToolTestCase):
     def test_it_has_the_numbers_of_the_tables_under_their_names_with_units(self):
         path = write_run(self.folder / "a.h5")
         found = self.read_json("truck=a.h5")
-        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 1))
+        self.assertEqual((found["format"], found["version"]), ("sprung-measures", 2))
         (run,) = found["runs"]
         self.assertEqual((run["label"], run["file"], run["kind"], run["title"]), ("truck", "a.h5", "run", "synthetic"))
         self.assertEqual(run["span"], {"from": 1.0, "to": 3.0, "unit": "s"})
@@ -58,7 +59,7 @@ class Json(ToolTestCase):
             comfort = calc_comfort(results, "points/body.seat", WINDOW)
             felt = calc_assessment(results, "points/body.seat", WINDOW)
             travel, contact = calc_travel(results, "suspension", WINDOW), calc_contact(results, "tyre", WINDOW)
-            bending = calc_bending(results, "body", WINDOW)
+            bending = find_best_peak(results, "body", MOMENT, WINDOW)
             expected_bands = calc_bands(results, "points/body.seat", WINDOW)
         expected = {
             "points/body.seat/rms": (comfort.rms, "m/s^2"), "points/body.seat/peak": (comfort.peak, "m/s^2"),
@@ -77,10 +78,12 @@ class Json(ToolTestCase):
             "tyres/tyre/dynamic_load_rms": (contact.dynamic_rms, "N"),
             "tyres/tyre/time_off_ground": (contact.off_ground, "s"),
             "tyres/tyre/time_without_load": (contact.unloaded, "s"),
-            "loads/body/moment": (bending.moment, "N m"), "loads/body/station": (0.25, "m"),
+            "loads/body/moment": (bending.value, "N m"), "loads/body/station": (0.25, "m"),
             "loads/body/time": (bending.time, "s"), "loads/body/shear": (-40.0, "N"),
-            "loads/body/axial": (None, "N"), "loads/body/moment_from_loads": (None, "N m"),
-            "loads/body/moment_difference": (None, "N m"),
+            "loads/body/axial": (None, "N"), "loads/body/axial_size": (None, "N"),
+            "loads/body/moment_size": (abs(bending.value), "N m"), "loads/body/shear_size": (40.0, "N"),
+            "loads/body/moment_from_modes": (bending.value, "N m"), "loads/body/shear_from_modes": (-40.0, "N"),
+            "loads/body/axial_from_modes": (None, "N"), "loads/body/moment_difference": (None, "N m"),
             "modes/1/frequency": (1.5, "Hz"), "modes/1/damping_ratio": (0.2, "1"),
             "modes/2/frequency": (9.0, "Hz"), "summary/energy_closure": (1e-6, "1"), "summary/steps": (12.0, "1"),
             "summary/points/body.seat/displacement_max": (0.25, "m"),
@@ -96,6 +99,32 @@ class Json(ToolTestCase):
         self.assertEqual(max(bands, key=bands.get), "5")  # a sine of 5 Hz
         self.assertEqual(sum(name.startswith("points/body.seat/") for name in run["measures"]), 10)
         self.assertEqual(sum(name.startswith("points/body.center_of_mass/") for name in run["measures"]), 10)
+
+    def test_the_loads_of_a_body_are_from_its_loads_with_their_place_and_time_and_those_from_its_modes_beside(self):
+        path = write_run(self.folder / "a.h5")
+        with h5py.File(path, "a") as file:
+            moments = np.zeros(file["recovery/body/moment"].shape)
+            moments[1500, 2], moments[2500, 0] = -5e3, 4e3  # the largest is not where and when that of the modes is
+            write_series(file, "recovery/body/moment_from_loads", moments, "N m")
+            write_series(file, "recovery/body/shear_from_loads", -0.5 * moments, "N")
+            write_series(file, "recovery/body/axial_from_loads", 0.1 * moments, "N")
+            file["recovery/body/axial"] = np.full(moments.shape, 1e-7)
+            file["recovery/body/axial"].attrs["unit"] = np.bytes_("N")
+            difference = np.max(np.abs(moments - file["recovery/body/moment"][:])[1000:3001])
+        (run,) = self.read_json("a.h5")["runs"]
+        of_body = [name for name in run["measures"] if name.startswith("loads/body/")]
+        found = {name.rpartition("/")[2]: run["measures"][name]["value"] for name in of_body}
+        expected = {
+            "moment": -5e3, "station": 1.0, "time": 1.5, "shear": 2.5e3, "axial": -500.0, "moment_size": 5e3,
+            "shear_size": 2.5e3, "axial_size": 500.0, "moment_from_modes": -3e3, "shear_from_modes": -40.0,
+            "axial_from_modes": 1e-7, "moment_difference": difference,
+        }  # fmt: skip
+        self.assertEqual(set(found), set(expected))
+        for name, value in expected.items():
+            self.assertAlmostEqual(found[name], value, places=9, msg=name)
+        rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
+        (row,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
+        self.assertEqual(row, ["-5", "1.000", "1.500", "-3", f"{1e-3 * difference:.4g}"])
 
     def test_points_and_span_are_those_asked_for(self):
         write_run(self.folder / "a.h5")

@@ -21,13 +21,13 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
 from sprung_tools.runs.labelled_responses import Response, open_responses
 from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
+from sprung_tools.runs.largest_loads import MOMENT, calc_moment_difference, calc_peak, find_bending
 from sprung_tools.runs.measures import (
     JSON_FORMAT,
     JSON_VERSION,
     calc_measures,
     describe_response,
     describe_run,
-    find_bending,
     find_points,
     list_linear_objects,
     list_objects,
@@ -36,11 +36,8 @@ from sprung_tools.runs.measures import (
 )
 from sprung_tools.runs.ride_assessment import calc_assessment
 from sprung_tools.runs.ride_measures import (
-    calc_bending,
     calc_comfort,
     calc_contact,
-    calc_loaded_bending,
-    calc_moment_difference,
     calc_travel,
     find_suspensions,
     find_tyres,
@@ -48,17 +45,23 @@ from sprung_tools.runs.ride_measures import (
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import list_doubts
+from sprung_tools.runs.section_stress import FROM_MODES
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
+MISSING = "–"  # in a cell
 COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
            "total", "absorbed W")  # fmt: skip
 LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch", "total", "absorbed W")
 TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
-BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "difference kN m")
+BENDING = ("body", "run", "largest moment kN m", "at x m", "at s", "from modes kN m", "largest difference kN m")
+DIFFERENCE_NOTE = (
+    "note: the largest difference is that of the two moments at one place and time, wherever they differ most; what "
+    "'its modes miss' is another number (tools/README.md, Measures)"
+)
 
 
 def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
@@ -98,8 +101,9 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
     for name in find_suspensions(runs[0].results):
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
-            share = f"{100 * one.compression / one.whole:.0f} %" if one.whole is not None and one.whole > 0.0 else "–"
-            hits = ("–", "–") if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
+            whole = one.whole or 0.0
+            share = f"{100 * one.compression / whole:.0f} %" if whole > 0.0 else MISSING
+            hits = (MISSING, MISSING) if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
             compression, rebound = (f"{1e3 * value:.1f}" for value in (one.compression, one.rebound))
             yield (name, run.label, compression, share, rebound, *hits)
 
@@ -122,15 +126,14 @@ def make_bending_rows(
     """The rows of the table of bending moments."""
     for body in runs[0].results.names("bodies"):
         for run, window in zip(runs, windows):
-            from_loads, from_modes = (find(run.results, body, window) for find in (calc_loaded_bending, calc_bending))
-            found = from_loads or find_bending(run.results, body, window, superelements)
+            found = find_bending(run.results, body, window, superelements)
             if not found:
                 continue
-            difference = calc_moment_difference(run.results, body, window)
-            both = (from_modes.moment if from_modes and from_loads else None, difference)
+            from_modes = calc_peak(run.results, body, MOMENT, FROM_MODES, window)
+            both = (from_modes and from_modes.value, calc_moment_difference(run.results, body, window))
             yield (
-                body, run.label, f"{1e-3 * found.moment:.4g}", f"{found.station:.3f}", f"{found.time:.3f}",
-                *("–" if value is None else f"{1e-3 * value:.4g}" for value in both),
+                body, run.label, f"{1e-3 * found.value:.4g}", f"{found.station:.3f}", f"{found.time:.3f}",
+                *(MISSING if value is None else f"{1e-3 * value:.4g}" for value in both),
             )  # fmt: skip
 
 
@@ -201,5 +204,7 @@ def main() -> int:
         cells = list(rows)
         if cells:
             text.append(format_table(headings, cells))
+        if headings == BENDING and any(row[-1] != MISSING for row in cells):
+            text.append(DIFFERENCE_NOTE)
     print("\n\n".join(text))
     return 0

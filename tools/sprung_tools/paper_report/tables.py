@@ -17,15 +17,9 @@ from sprung_tools.paper_report.paper_claims import list_claims
 from sprung_tools.paper_report.paper_runs import MODE_COUNTS, ROADS, name_modes
 from sprung_tools.paper_report.run_numbers import CENTRE, MIDDLE, SEAT, Numbers, chassis_frequencies
 from sprung_tools.paper_report.sensitivity_tables import make_sensitivity_table, make_speed_table
-from sprung_tools.runs.ride_measures import (
-    Bending,
-    calc_bending,
-    calc_comfort,
-    calc_contact,
-    calc_travel,
-    find_largest_moment,
-    read_window,
-)
+from sprung_tools.runs.largest_loads import MOMENT, Peak, calc_peak, find_peak
+from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel, read_window
+from sprung_tools.runs.section_stress import FROM_MODES
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.text_table import Rows, Table
 
@@ -114,7 +108,7 @@ def make_convergence_table(numbers: Numbers) -> Table:
         if not all(has_modes(numbers, road, count) for road in ROADS):
             continue
         bump, terrain = (numbers.modes(road, count) for road in ROADS)
-        bending = calc_bending(terrain.results, "chassis", terrain.window)
+        bending = calc_peak(terrain.results, "chassis", MOMENT, FROM_MODES, terrain.window)
         end = terrain.front_end if count else None
         rows.append(
             (
@@ -128,7 +122,7 @@ def make_convergence_table(numbers: Numbers) -> Table:
                 f"{terrain.rms_acceleration(CENTRE):.3f}",
                 f"{terrain.rms_acceleration(SEAT):.3f}",
                 f"{end.ratio:.1f}" if end else "–",
-                f"{1e-3 * abs(bending.moment):.1f}" if bending else "–",
+                f"{1e-3 * abs(bending.value):.1f}" if bending else "–",
             )
         )
     headings = (
@@ -208,10 +202,10 @@ def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> d
         column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
         moments, stations = calc_rigid_moments(results, "chassis", read_superelement(superelements / "chassis.h5"))
-        bending: Bending | None = find_largest_moment(results, moments, stations, window)
+        bending: Peak | None = find_peak(results, moments, stations, window)
     else:
-        bending = calc_bending(results, "chassis", window)
-    moment = f"{1e-3 * bending.moment:.0f}, {bending.station:.2f}" if bending else "–"
+        bending = calc_peak(results, "chassis", MOMENT, FROM_MODES, window)
+    moment = f"{1e-3 * bending.value:.0f}, {bending.station:.2f}" if bending else "–"
     column["largest bending moment kN·m, at x m"] = moment
     return column
 

@@ -5,7 +5,6 @@ A name is a path OBJECT/MEASURE such as `points/chassis.seat/wk_rms`; tools/READ
 """
 
 import math
-import os
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
@@ -16,33 +15,36 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_real, read_text, read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.files.stored_file import StoredFile
-from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.largest_loads import (
+    AXIAL,
+    LOADS,
+    SHEAR,
+    calc_moment_difference,
+    calc_peak,
+    find_bending,
+    find_best_peak,
+)
 from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
 from sprung_tools.runs.ride_measures import (
-    Bending,
-    calc_bending,
     calc_comfort,
     calc_contact,
-    calc_loaded_bending,
-    calc_moment_difference,
     calc_travel,
     find_suspensions,
     find_tyres,
-    find_largest_moment,
     list_seats,
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
-from sprung_tools.runs.section_stress import calc_section_stress, list_sources, list_stressed_bodies
+from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
 
-JSON_FORMAT, JSON_VERSION = "sprung-measures", 1  # tools/README.md, "Measures"
+JSON_FORMAT, JSON_VERSION = "sprung-measures", 2  # tools/README.md, "Measures"
 CENTRE = "center_of_mass"
 HISTORIES = "histories/"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
@@ -54,8 +56,11 @@ SUSPENSION_UNITS = {"compression": "m", "rebound": "m", "way_to_stop": "m", "sto
 TYRE_UNITS = {
     "static_load": "N", "greatest_load": "N", "dynamic_load_rms": "N", "time_off_ground": "s", "time_without_load": "s",
 }  # fmt: skip
-LOAD_UNITS = {"moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N", "moment_from_loads": "N m",
-              "moment_difference": "N m"}  # fmt: skip
+LOAD_UNITS = {
+    "moment": "N m", "station": "m", "time": "s", "shear": "N", "axial": "N",
+    "moment_size": "N m", "shear_size": "N", "axial_size": "N",
+    "moment_from_modes": "N m", "shear_from_modes": "N", "axial_from_modes": "N", "moment_difference": "N m",
+}  # fmt: skip
 STRESS_UNITS = {"highest": "Pa", "lowest": "Pa", "largest_range": "Pa", "station": "m"}
 MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
@@ -107,17 +112,6 @@ def point_name(folder: str) -> str:
     """The name of a point in tables: `points/chassis.seat` → `chassis.seat`."""
     group, name, *_ = folder.split("/")
     return name if group == "points" else f"{name}.{CENTRE}"
-
-
-def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Bending | None:
-    """A body's largest moment: from its modes, of a rigid body from its loads. Where the file has none of a rigid body,
-    it takes the folder of its superelement, else the result is None."""
-    found = calc_bending(results, body, window) or calc_loaded_bending(results, body, window)
-    name = results.superelement(body)
-    if found is not None or superelements is None or not name:
-        return found
-    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
-    return find_largest_moment(results, *moments, window)
 
 
 def list_objects(
@@ -183,15 +177,21 @@ def measure_tyre(results: ResultsFile, name: str, window: Span) -> Measures:
 
 
 def measure_loads(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Measures:
-    """The largest bending moment of a body, and the largest shear and axial force of a flexible one, all from its
-    modes; the largest moment from its loads, and the largest difference of the two; none of a body without moments."""
-    found = find_bending(results, body, window, superelements)
-    if found is None:
+    """The largest bending moment, shear and axial force of a body, from its loads where the file has them, else from
+    its modes; their sizes; beside them those from the modes, and the largest difference of the moments; none of a body
+    without moments."""
+    bending = find_bending(results, body, window, superelements)
+    if bending is None:
         return {}
-    forces = [find_largest(results, f"recovery/{body}/{name}", window) for name in ("shear", "axial")]
-    from_loads = calc_loaded_bending(results, body, window)
-    loaded = (from_loads and from_loads.moment, calc_moment_difference(results, body, window))
-    return combine(f"loads/{body}", LOAD_UNITS, [*found, *forces, *loaded])
+    forces = [find_best_peak(results, body, load, window) for load in (SHEAR, AXIAL)]
+    from_modes = [calc_peak(results, body, load, FROM_MODES, window) for load in LOADS]
+    values = [peak and peak.value for peak in (bending, *forces)]
+    sizes = [None if value is None else abs(value) for value in values]
+    moment, *others = values
+    return combine(f"loads/{body}", LOAD_UNITS, [
+        moment, bending.station, bending.time, *others, *sizes, *(peak and peak.value for peak in from_modes),
+        calc_moment_difference(results, body, window),
+    ])  # fmt: skip
 
 
 def measure_stresses(results: ResultsFile, body: str, window: Span) -> Measures:
@@ -202,14 +202,6 @@ def measure_stresses(results: ResultsFile, body: str, window: Span) -> Measures:
     largest = np.unravel_index(int(np.argmax(np.abs(stress))), stress.shape)
     values = (stress.max(), stress.min(), np.ptp(stress, axis=0).max(), section.along[largest[1]])
     return combine(f"stresses/{body}", STRESS_UNITS, map(float, values))
-
-
-def find_largest(results: ResultsFile, dataset: str, window: Span) -> float | None:
-    """The value of largest size in a dataset [n×stations], with its sign; None if there is no such dataset."""
-    if not results.has(dataset):
-        return None
-    values = read_numbers(results.file, dataset)[0][samples_between(results, *window)]
-    return float(values.flat[np.argmax(np.abs(values))])
 
 
 def read_summary(results: ResultsFile) -> Measures:

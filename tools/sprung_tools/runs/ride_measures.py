@@ -1,4 +1,4 @@
-"""Measures of a run for the driver, the wheels and the frame, from one results file over a span of time."""
+"""Measures of a run for the driver and the wheels, from one results file over a span of time."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,6 @@ import numpy as np
 
 from sprung_tools.files.array_types import Flags, Floats
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import (
     CONTACT,
@@ -23,7 +22,6 @@ from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 
 END_STOP = "hydraulic-stop"  # kind of the elements that act from a deflection of 0 on
-LONGITUDINAL = 0  # the column of x in a station's position
 
 
 class Comfort(NamedTuple):
@@ -60,14 +58,6 @@ class Contact(NamedTuple):
     dynamic_rms: float
     off_ground: float
     unloaded: float
-
-
-class Bending(NamedTuple):
-    """The largest bending moment of a body [N·m] with its sign, the station's x in the body frame [m], the time [s]."""
-
-    moment: float
-    station: float
-    time: float
 
 
 def read_window(results: ResultsFile, start: float | None = None, end: float | None = None) -> Span:
@@ -173,39 +163,3 @@ def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
         float(np.count_nonzero(bare) * sampling_step(results)) for bare in (contact[inside] == 0, force[inside] <= 0.0)
     )
     return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
-
-
-def calc_bending(results: ResultsFile, body: str, window: Span) -> Bending | None:
-    """A flexible body's largest bending moment; None if the file holds no moments of the body."""
-    if not results.has(f"recovery/{body}/moment"):
-        return None
-    moments, _ = results.history(f"recovery/{body}/moment")
-    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return find_largest_moment(results, moments, stations, window)
-
-
-def calc_loaded_bending(results: ResultsFile, body: str, window: Span) -> Bending | None:
-    """A body's largest bending moment from its loads; None if the file holds none."""
-    if not results.has(f"recovery/{body}/moment_from_loads"):
-        return None
-    moments, _ = read_numbers(results.file, f"recovery/{body}/moment_from_loads")
-    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return find_largest_moment(results, moments, stations, window)
-
-
-def calc_moment_difference(results: ResultsFile, body: str, window: Span) -> float | None:
-    """The largest difference between a body's bending moments from its loads and from its modes, N·m; None if the file
-    lacks one of them."""
-    names = [f"recovery/{body}/{name}" for name in ("moment_from_loads", "moment")]
-    if not all(results.has(name) for name in names):
-        return None
-    from_loads, from_modes = (read_numbers(results.file, name)[0] for name in names)
-    return float(np.max(np.abs(from_loads - from_modes)[samples_between(results, *window)]))
-
-
-def find_largest_moment(results: ResultsFile, moments: Floats, stations: Floats, window: Span) -> Bending:
-    """The largest of the moments [n×stations] N·m. stations: their positions in the body frame [stations×2] m."""
-    inside = np.flatnonzero(samples_between(results, *window))
-    row, column = np.unravel_index(np.argmax(np.abs(moments[inside])), (inside.size, moments.shape[1]))
-    sample = inside[row]
-    return Bending(float(moments[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]))

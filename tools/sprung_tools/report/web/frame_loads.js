@@ -156,6 +156,7 @@ function makeLoads() {
   prepareLoads();
   byId("loads").hidden = !loads.all.length;
   if (!loads.all.length) return;
+  byId("difference-note").hidden = !loads.all.some((one) => one.quantities.some((quantity) => quantity.difference));
   const select = byId("load-body");
   fillSelect(select, loads.all.map((one, place) => ({value: String(place), label: one.label})));
   const show = () => {

@@ -1,0 +1,80 @@
+"""The largest loads of sections along bodies: bending moment, shear and axial force, from the loads on a body where the
+file has them, else from its modes, and how far the two differ."""
+
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from sprung_tools.files.array_types import Floats
+from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
+from sprung_tools.signals.spans import Span
+
+LONGITUDINAL = 0  # the column of x in a station's position
+MOMENT, SHEAR, AXIAL = LOADS = ("moment", "shear", "axial")
+
+
+class Peak(NamedTuple):
+    """A load of largest size: its value with its sign [N·m or N], the station's x in the body frame [m], the time [s].
+    """
+
+    value: float
+    station: float
+    time: float
+
+
+def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Span) -> Peak:
+    """Where and when loads [n×stations] are largest. stations: their positions in the body frame [stations×2] m."""
+    inside = np.flatnonzero(samples_between(results, *window))
+    row, column = np.unravel_index(np.argmax(np.abs(values[inside])), (inside.size, values.shape[1]))
+    sample = inside[row]
+    return Peak(float(values[sample, column]), float(stations[column, LONGITUDINAL]), float(results.time[sample]))
+
+
+def has_load(results: ResultsFile, body: str, load: str, source: str) -> bool:
+    """Whether the file has a load of a body from its loads or from its modes; a body without modes has no stations of
+    the latter."""
+    return (results.file.shape(f"recovery/{body}/{load}{ENDINGS[source]}") or (0, 0))[1] > 0
+
+
+def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: Span) -> Peak | None:
+    """The largest of LOADS along a body, from its loads or from its modes; None if the file lacks it."""
+    if not has_load(results, body, load, source):
+        return None
+    values, _ = read_numbers(results.file, f"recovery/{body}/{load}{ENDINGS[source]}")
+    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    return find_peak(results, values, stations, window)
+
+
+def find_best_peak(results: ResultsFile, body: str, load: str, window: Span) -> Peak | None:
+    """The largest of LOADS along a body from its loads where the file has them, else from its modes; None if it lacks
+    both."""
+    peaks = (calc_peak(results, body, load, source, window) for source in (FROM_LOADS, FROM_MODES))
+    return next((peak for peak in peaks if peak is not None), None)
+
+
+def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Peak | None:
+    """A body's largest moment. Where the file has none of a rigid body, it takes the folder of its superelement, else
+    the result is None."""
+    found = find_best_peak(results, body, MOMENT, window)
+    name = results.superelement(body)
+    if found is not None or superelements is None or not name:
+        return found
+    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
+    return find_peak(results, *moments, window)
+
+
+def calc_moment_difference(results: ResultsFile, body: str, window: Span) -> float | None:
+    """The largest difference between a body's bending moments from its loads and from its modes, N·m; None if the file
+    lacks one of them."""
+    sources = (FROM_LOADS, FROM_MODES)
+    if not all(has_load(results, body, MOMENT, source) for source in sources):
+        return None
+    from_loads, from_modes = (
+        read_numbers(results.file, f"recovery/{body}/{MOMENT}{ENDINGS[source]}")[0] for source in sources
+    )
+    return float(np.max(np.abs(from_loads - from_modes)[samples_between(results, *window)]))
