@@ -4,7 +4,7 @@
 const THUMB = 8;  // half the width of the scrubber's handle, px
 const MUCH = 0.06;  // of the vehicle's length: a magnified deflection that is larger is too much by default
 const player = {
-  runs: [], main: 0, other: -1, magnification: 1, speed: 1, playing: false, before: 0, labels: false, labelled: [], flexible: false, onStop: null,
+  runs: [], main: 0, other: -1, magnification: 1, speed: 1, playing: false, before: 0, labels: false, labelled: [], beyond: "", flexible: false, onStop: null,
 };
 
 /** One run's vehicle. Returns what its tyres do, for the text below. */
@@ -26,17 +26,19 @@ function drawVehicle(context, view, prepared, time, alpha) {
 
 function drawScene() {
   const canvas = byId("scene"), main = player.runs[player.main];
-  const {height: wanted, scale} = fitScene(main, canvas.clientWidth);
+  const shown = player.other >= 0 ? [main, player.runs[player.other]] : [main];
+  const {height: wanted, scale} = fitScene(shown, canvas.clientWidth);
   const {context, width, height} = prepareCanvas(canvas, wanted);
   context.fillStyle = style("--sky");
   context.fillRect(0, 0, width, height);
-  const view = makeView(main, frameAt(main, clock.time), width, height, scale);
+  const view = makeView(shown, clock.time, width, height, scale);
   player.view = view;
   if (main.vehicle.wheels.length) {
     drawRoad(context, view, main.road);
     drawDistances(context, view, main.road);
   }
   if (player.other >= 0) drawVehicle(context, view, player.runs[player.other], clock.time, 0.6);
+  player.beyond = player.other >= 0 ? nameBeyond(context, view, player.runs[player.other], clock.time) : "";
   const {told, nodes} = drawVehicle(context, view, main, clock.time, 1);
   player.labelled = player.labels ? drawLabels(context, view, main.vehicle, nodes) : [];
   drawCaptions(context, view, main.vehicle, player.magnification);

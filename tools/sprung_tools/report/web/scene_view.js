@@ -26,22 +26,29 @@ function findRise(prepared) {
   return rise;
 }
 
-/** The scene's height for its width, px, and how large a vehicle is drawn, px/m: as large as the width allows. */
-function fitScene(prepared, width) {
-  const [x0, y0, x1, y1] = prepared.vehicle.box, length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
-  if (!prepared.vehicle.wheels.length) {
+/** The box [x0, y0, x1, y1] around the vehicles of all runs shown, as they stand at the start; m. */
+function boxOfAll(shown) {
+  const ends = (find, corner) => find(...shown.map((one) => one.vehicle.box[corner]));
+  return [ends(Math.min, 0), ends(Math.min, 1), ends(Math.max, 2), ends(Math.max, 3)];
+}
+
+/** The scene's height for its width, px, and how large vehicles are drawn, px/m: as large as the width allows. shown: the run that
+ * the view follows, and the one that it is overlaid with. */
+function fitScene(shown, width) {
+  const [x0, y0, x1, y1] = boxOfAll(shown), length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
+  if (!shown[0].vehicle.wheels.length) {
     const height = Math.min(Math.max(0.88 * width * tall / length + 30, LEAST_HEIGHT), MOST_HEIGHT);
     return {height: Math.round(height), scale: 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6))};
   }
-  const seen = tall + Math.min(findRise(prepared), MOST_RISE * tall);
+  const seen = tall + Math.min(Math.max(...shown.map(findRise)), MOST_RISE * tall);
   const widest = width / ((width < 560 ? 1.12 : ROOM) * length);
   const height = Math.min(Math.max(widest * seen + BELOW + 3 * EDGE, LEAST_HEIGHT), MOST_HEIGHT);
   return {height: Math.round(height), scale: Math.min(widest, (height - BELOW - 3 * EDGE) / seen)};
 }
 
 /** World metres → pixels. A mechanism is seen whole from one place, a vehicle is followed. */
-function makeView(prepared, at, width, height, scale) {
-  const [x0, y0, x1, y1] = prepared.vehicle.box;
+function makeView(shown, time, width, height, scale) {
+  const prepared = shown[0], at = frameAt(prepared, time), [x0, y0, x1, y1] = boxOfAll(shown);
   if (!prepared.vehicle.wheels.length) {
     return {
       scale, width, height, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
@@ -53,7 +60,7 @@ function makeView(prepared, at, width, height, scale) {
   const x = bx + 0.5 * (x0 + x1) - startX;
   let ground = 0;
   for (let k = -4; k <= 4; ++k) ground += heightOfRoad(prepared.road, x + k * length / 4) / 9;
-  const top = height - BELOW - scale * (findTop(prepared, at) - ground);  // of the vehicle, px
+  const top = height - BELOW - scale * (Math.max(...shown.map((one) => findTop(one, frameAt(one, time)))) - ground);  // of the vehicles, px
   const base = height - BELOW + Math.max(0, EDGE - top);  // a vehicle that flies high takes the view along
   return {
     scale, width, height, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
@@ -98,6 +105,18 @@ function drawDistances(context, view, road) {
     context.stroke();
     context.fillText(`${formatTick(k * step)} m`, x, view.height - 4);
   }
+}
+
+/** The name of a run whose vehicle has left the view, at the edge where it did: it drives another way, or at another speed. */
+function nameBeyond(context, view, prepared, time) {
+  const x = view.X(between(prepared.places[prepared.vehicle.main][0], frameAt(prepared, time))), name = prepared.run.label;
+  if (x >= 0 && x <= view.width) return "";
+  context.font = "12px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  context.textAlign = "left";
+  const text = x < 0 ? `← ${name}` : `${name} →`;
+  drawPlate(context, text, x < 0 ? 8 : view.width - 8 - context.measureText(text).width, view.height - BELOW - 20, colourOf(prepared.index));
+  return text;
 }
 
 /** Which way the vehicle travels, and by how much deflections are magnified. */

@@ -70,23 +70,20 @@ function fillWarnings() {
 /** The rows in the summary; the others are under "All numbers". */
 const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|axial/.test(row.name);
 
-function fillFrequencies(table) {
-  const most = Math.max(...data.runs.map((run) => run.vehicleModes.table.length));
-  const head = element("tr", {}, element("th", {class: "number", scope: "col"}, "mode"));
-  data.runs.forEach((run, index) => head.append(runHeadings()[index], element("th", {class: "number", scope: "col"}, "damping"),
-    element("th", {scope: "col"}, "who moves")));
-  table.replaceChildren(element("caption", {class: "note"}, "Modes about the equilibrium, undamped frequency in Hz"), element("thead", {}, head));
-  const body = element("tbody");
-  for (let mode = 0; mode < Math.min(most, 24); ++mode) {
-    const row = element("tr", {}, element("td", {class: "number"}, String(mode + 1)));
-    for (const run of data.runs) {
-      const found = run.vehicleModes.table[mode];
-      row.append(element("td", {class: "number"}, found ? format(found.f) : ""),
-        element("td", {class: "number"}, found ? `${format(100 * found.damping, 3)} %` : ""), element("td", {class: "who"}, found ? found.who.replaceAll(" %", "\u00a0%") : ""));
-    }
-    body.append(row);
-  }
-  table.append(body);
+const MOST_FREQUENCIES = 24;  // of a run, in its table
+
+/** A table of modes for each run, beside each other where there is room. */
+function fillFrequencies(place) {
+  const shown = data.runs.map((run, index) => ({run, index, modes: run.vehicleModes.table})).filter(({modes}) => modes.length);
+  place.replaceChildren(...shown.map(({run, index, modes}) => {
+    const least = modes.slice(0, MOST_FREQUENCIES), count = modes.length > least.length ? `, the lowest ${least.length} of ${modes.length}` : "";
+    const headings = ["mode", "Hz", "damping", "who moves"].map((text, k) => element("th", {class: k < 3 ? "number" : "", scope: "col"}, text));
+    const rows = least.map((mode, k) => element("tr", {}, ...[String(k + 1), format(mode.f), `${format(100 * mode.damping, 3)} %`]
+      .map((text) => element("td", {class: "number"}, text)), element("td", {class: "who"}, mode.who.replaceAll(" %", "\u00a0%"))));
+    return element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": `The vehicle's modes, ${run.label}`},
+      element("table", {}, element("caption", {class: "note"}, element("span", {class: "key", style: `--c:${colourOf(index)}`}), `${run.label}${count}`),
+        element("thead", {}, element("tr", {}, ...headings)), element("tbody", {}, ...rows)));
+  }));
 }
 
 function fillChecks(place) {
@@ -143,7 +140,7 @@ function fillTables() {
   fillStatistics(byId("summary-table"), rows.filter(inSummary));
   fillStatistics(byId("statistics-table"), rows);
   fillRide();
-  fillFrequencies(byId("frequency-table"));
+  fillFrequencies(byId("frequency-tables"));
   fillChecks(byId("check-tables"));
   fillFacts(byId("fact-table"));
 }

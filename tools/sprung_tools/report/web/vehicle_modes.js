@@ -1,8 +1,9 @@
 "use strict";
 // The vehicle's own modes about its equilibrium, drawn in motion.
 
-const MODE_HEIGHT = 260;  // px
-const LARGEST = 0.08;  // of the vehicle's size: the largest displacement at full amplitude
+const LEAST_MODE_HEIGHT = 140, MODE_HEIGHT = 300;  // px
+const MODE_EDGE = 14;  // between the edge and all that moves, px: signs and lines are wider than the places of nodes
+const LARGEST = 0.09;  // of the vehicle's size: the largest displacement at full amplitude
 const PERIOD = 2;  // s, in which a mode is shown to move once to and fro
 const modeShow = {run: 0, mode: 0, amplitude: 1, phase: Math.PI / 2, playing: false, before: 0};
 
@@ -21,37 +22,45 @@ function unpackVehicleModes(index) {
   return unpackedModes.get(index);
 }
 
-/** The box of all nodes and wheels in equilibrium, with room for the motion. */
-function boxOfEquilibrium(vehicle, equilibrium) {
-  const corners = Object.values(equilibrium).flat();
-  for (const wheel of vehicle.wheels) {
-    const [x, y] = equilibrium[wheel.body][wheel.node];
-    corners.push([x - wheel.radius, y - wheel.radius], [x + wheel.radius, y + wheel.radius]);
-  }
+/** The least box [x0, y0, x1, y1] around nodes {body: [[x, y] …]} and wheels, of one or several positions of the vehicle. */
+function boxAround(vehicle, ...positions) {
+  const corners = positions.flatMap((nodes) => [...Object.values(nodes).flat(), ...vehicle.wheels.flatMap((wheel) => {
+    const [x, y] = nodes[wheel.body][wheel.node];
+    return [[x - wheel.radius, y - wheel.radius], [x + wheel.radius, y + wheel.radius]];
+  })]);
   const along = (axis) => corners.map((corner) => corner[axis]);
-  const [x0, x1, y0, y1] = [Math.min(...along(0)), Math.max(...along(0)), Math.min(...along(1)), Math.max(...along(1))];
-  const room = 1.1 * LARGEST * Math.max(x1 - x0, y1 - y0);
-  return [x0 - room, y0 - room, x1 + room, y1 + room];
+  return [Math.min(...along(0)), Math.min(...along(1)), Math.max(...along(0)), Math.max(...along(1))];
+}
+
+/** Nodes moved by so many times their displacements in a mode. */
+function moveNodes(equilibrium, shape, size) {
+  return Object.fromEntries(Object.entries(equilibrium).map(([name, places]) =>
+    [name, places.map(([x, y], k) => [x + size * shape[name][k][0], y + size * shape[name][k][1]])]));
+}
+
+/** The view that shows a mode wherever it moves to, and the scene's height, px. */
+function fitMode(vehicle, equilibrium, shape, size, width) {
+  const [x0, y0, x1, y1] = boxAround(vehicle, equilibrium, moveNodes(equilibrium, shape, size), moveNodes(equilibrium, shape, -size));
+  const inside = width - 2 * MODE_EDGE, wide = Math.max(x1 - x0, 1e-6), tall = Math.max(y1 - y0, 1e-6);
+  const height = Math.round(Math.min(MODE_HEIGHT, Math.max(LEAST_MODE_HEIGHT, inside * tall / wide + 2 * MODE_EDGE)));
+  const scale = Math.min(inside / wide, (height - 2 * MODE_EDGE) / tall);
+  return {
+    scale, width, height, X: (x) => 0.5 * width + scale * (x - 0.5 * (x0 + x1)), Y: (y) => 0.5 * height - scale * (y - 0.5 * (y0 + y1)),
+  };
 }
 
 function drawVehicleMode() {
   const canvas = byId("mode-scene"), run = data.runs[modeShow.run], {equilibrium, shapes} = unpackVehicleModes(modeShow.run);
-  const [x0, y0, x1, y1] = boxOfEquilibrium(run.vehicle, equilibrium);
-  const fitted = Math.min(MODE_HEIGHT, Math.max(140, canvas.clientWidth * (y1 - y0) / (x1 - x0)));
-  const {context, width, height} = prepareCanvas(canvas, Math.round(fitted));
-  const scale = Math.min(width / (x1 - x0), height / (y1 - y0));
-  const view = {
-    scale, width, height, X: (x) => 0.5 * width + scale * (x - 0.5 * (x0 + x1)), Y: (y) => 0.5 * height - scale * (y - 0.5 * (y0 + y1)),
-  };
-  const size = LARGEST * Math.max(x1 - x0, y1 - y0) * modeShow.amplitude * Math.sin(modeShow.phase);
-  const nodes = Object.fromEntries(Object.entries(equilibrium).map(([name, places]) =>
-    [name, places.map(([x, y], k) => [x + size * shapes[modeShow.mode][name][k][0], y + size * shapes[modeShow.mode][name][k][1]])]));
+  const [x0, y0, x1, y1] = boxAround(run.vehicle, equilibrium), size = LARGEST * Math.max(x1 - x0, y1 - y0), shape = shapes[modeShow.mode];
+  const view = fitMode(run.vehicle, equilibrium, shape, size * Math.max(modeShow.amplitude, 1), canvas.clientWidth);
+  const {context} = prepareCanvas(canvas, view.height);
+  const nodes = moveNodes(equilibrium, shape, size * modeShow.amplitude * Math.sin(modeShow.phase));
   context.globalAlpha = 0.25;
   drawBodies(context, view, run.vehicle, equilibrium, style("--soft"));
   context.globalAlpha = 1;
   for (const wheel of run.vehicle.wheels) drawWheel(context, view, wheel, nodes[wheel.body][wheel.node], colourOf(modeShow.run), true);
   drawBodies(context, view, run.vehicle, nodes, colourOf(modeShow.run));
-  modeShow.nodes = nodes;
+  Object.assign(modeShow, {nodes, view});
 }
 
 function advanceMode(now) {
