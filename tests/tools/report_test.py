@@ -1,5 +1,5 @@
 """tools/report without a browser: the data of the page against the results, and the errors. report_page_test.py tests
-what the page draws. One case is of a whole run, which needs sprung-dynamics (SPRUNG_DYNAMICS)."""
+what the page draws. Some cases are of whole runs, which need sprung-dynamics (SPRUNG_DYNAMICS)."""
 
 import base64
 import json
@@ -146,10 +146,47 @@ class Report(ToolTestCase):
         _, data = self.report("rigid.h5", "rigid.h5")
         self.assertEqual(len({run["label"] for run in data["runs"]}), 2)
 
+    def drive(self, example, output, *arguments):
+        command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / f"dynamics/models/examples/{example}_run.toml"]
+        run_program([*command, *arguments, "-o", output, "--quiet"], cwd=self.folder, check=True)
+
+    def read_rows(self, data, of):
+        return {row["name"]: row["value"] for row in data["runs"][0]["statistics"] if row["of"] == of}
+
+    def test_a_mechanism_is_shown_along_the_axis_that_moves(self):
+        self.drive("slider_crank", "slider.h5")  # a crank of 0.05 m: the piston moves 0.1 m along x, and not along y
+        _, data = self.report("slider.h5")
+        rows, channels = self.read_rows(data, "piston.origin"), data["runs"][0]["channels"]
+        self.assertEqual({name.partition(",")[0] for name in rows}, {"displacement along x", "acceleration along x"})
+        self.assertAlmostEqual(rows["displacement along x, lowest"], -0.1, places=4)
+        self.assertEqual(rows["displacement along x, highest"], 0.0)  # from the start, its outermost place
+        shown = [one["name"] for one in channels if one["group"] == "Motion of points"]
+        self.assertEqual(shown, ["piston.origin, position along x", "piston.origin, acceleration along x"])
+        self.assertEqual([one["name"] for one in data["runs"][0]["spectra"]], ["piston.origin along x"])
+        acceleration = decode(channels[1]["v"])
+        for name, value in (("highest", acceleration.max()), ("lowest", acceleration.min())):
+            self.assertAlmostEqual(rows[f"acceleration along x, {name}"], float(value), places=4)
+
+    def test_of_a_mechanism_that_moves_both_ways_the_larger_one_comes_first(self):
+        self.drive("four_bar", "bars.h5")
+        _, data = self.report("bars.h5")
+        names = [one["name"] for one in data["runs"][0]["channels"] if one["group"] == "Motion of points"]
+        ranges = [np.ptp(decode(one["v"])) for one in data["runs"][0]["channels"] if "position along" in one["name"]]
+        self.assertEqual({name.split()[-1] for name in names}, {"x", "y"})
+        self.assertGreater(ranges[0], ranges[1])
+        self.assertTrue(names[0].startswith("coupler.middle, position along "))
+
+    def test_rounding_of_a_vehicle_at_rest_is_shown_as_nothing(self):
+        self.drive("quarter_car", "rest.h5", "--set", 'road={shape="flat"}', "--set", "duration=0.5")
+        _, data = self.report("rest.h5")
+        rows = self.read_rows(data, "sprung.origin")
+        self.assertEqual(set(rows.values()), {0.0})
+        self.assertEqual(data["runs"][0]["spectra"], [])
+        for channel in (one for one in data["runs"][0]["channels"] if one["group"] == "Vertical motion"):
+            self.assertFalse(np.any(decode(channel["v"])), channel["name"])
+
     def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
-        command = [os.environ["SPRUNG_DYNAMICS"], "run", ROOT / "dynamics/models/examples/quarter_car_run.toml"]
-        settings = ("--set", "duration=8", "-o", "car.h5", "--quiet")
-        run_program([*command, *settings], cwd=self.folder, check=True)
+        self.drive("quarter_car", "car.h5", "--set", "duration=8")
         runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples
         self.addCleanup(runs[0].results.file.close)
         pages = [make_small_page("", runs, [], [], largest) for largest in (15e6, 700e3, 1.0)]

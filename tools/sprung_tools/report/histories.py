@@ -20,6 +20,7 @@ from sprung_tools.model.force_channels import (
 from sprung_tools.model.resolved_model import ROOT, read_elements
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
+from sprung_tools.report.shown_motion import choose_axes, is_vehicle, name_axis, read_motion
 from sprung_tools.runs.labelled_runs import Shown
 from sprung_tools.runs.section_stress import ENDINGS, list_sources
 from sprung_tools.signals.spectra import calc_power_spectrum
@@ -60,11 +61,8 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
 
     for shown in extra:
         add("Asked for", shown.label, shown.quantity)
-    balanced = results.is_from_balance
     for point in list_monitored(results):
-        add("Vertical motion", f"{point}, {'displacement' if balanced else 'position'}",
-            f"points/{point}/{'displacement' if balanced else 'position'}.y")  # fmt: skip
-        add("Vertical motion", f"{point}, acceleration", f"points/{point}/acceleration.y")
+        channels.extend(list_motion_channels(results, point))
     for drawn in bodies:
         for point in find_most_bent(results, drawn):
             add("Deflection", f"{point}, in the body frame", f"points/{point}/deflection.y")
@@ -82,6 +80,17 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
     for name in results.names("energy"):
         add("Energy", name, f"energy/{name}")
     return channels
+
+
+def list_motion_channels(results: ResultsFile, point: str) -> list[Channel]:
+    """Displacement, or position where no equilibrium was sought, and acceleration of a monitored point."""
+    group = "Vertical motion" if is_vehicle(results) else "Motion of points"
+    return [
+        Channel(group, f"{point}, {what}{name_axis(results, axis)}", *read_motion(results, point, what, axis))
+        for axis in choose_axes(results, point)
+        for what in ("displacement" if results.is_from_balance else "position", "acceleration")
+        if results.has(f"points/{point}/{what}.{axis}")
+    ]
 
 
 def describe_history(channel: ForceChannel, on_road: bool) -> str:
@@ -129,20 +138,25 @@ def pack_channel(channel: Channel, time: Floats, most: int) -> Packed:
 
 
 def calc_spectra(results: ResultsFile) -> list[Packed]:
-    """The power spectral densities of the monitored points' vertical accelerations, up to HIGHEST_FREQUENCY."""
+    """The power spectral densities of the monitored points' accelerations, up to HIGHEST_FREQUENCY; none of a point
+    that does not move."""
     step = float(np.median(np.diff(results.time)))
     even = np.arange(results.time[0], results.time[-1], step)
     spectra = []
     for point in list_monitored(results):
-        if not results.has(f"points/{point}/acceleration.y"):
+        axis = choose_axes(results, point)[0]
+        if not results.has(f"points/{point}/acceleration.{axis}"):
             continue
-        values = np.interp(even, results.time, results.series(f"points/{point}/acceleration.y")[0])
+        values = np.interp(even, results.time, read_motion(results, point, "acceleration", axis)[0])
+        if not np.any(values):
+            continue
         duration = min(SEGMENT, step * (values.size // 2) if step * values.size > 2.0 * SEGMENT else step * values.size)
         if round(duration / step) < 8:
             continue
         frequency, density = calc_power_spectrum(values, step, duration)
         shown = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
-        spectra.append({"name": point, "f": encode(frequency[shown]), "p": encode(density[shown])})
+        name = f"{point}{name_axis(results, axis)}"
+        spectra.append({"name": name, "f": encode(frequency[shown]), "p": encode(density[shown])})
     return spectra
 
 

@@ -22,15 +22,19 @@ from sprung_tools.model.force_channels import (
 from sprung_tools.model.resolved_model import read_road_settings, read_settings
 from sprung_tools.report.histories import Channel, list_monitored
 from sprung_tools.report.packing import Packed
-from sprung_tools.runs.labelled_runs import Run
+from sprung_tools.report.shown_motion import VERTICAL, calc_size, choose_axes, clear_rounding, name_axis, read_motion
+from sprung_tools.runs.labelled_runs import Run, samples_between
+from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
 from sprung_tools.runs.stored_histories import list_gaps
+from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.number_ranges import format_ranges
 
 Statistic = tuple[str, str, str, float]  # what it is of, name, unit, value
 
 MOST_FREQUENCIES = 12  # of a superelement that are shown
 MOST_ALIKE = 6  # forces of one kind in the summary; if there are more, they are only in "All numbers"
+PARTS = (("max", "highest"), ("min", "lowest"), ("rms", "r.m.s."))  # endings of attributes, words
 COMPUTATION = {
     "steps": "steps", "evaluations": "evaluations", "switches": "switches located",
     "energy_closure": "energy balance, relative error", "constraint_violation": "joints, largest violation",
@@ -72,18 +76,39 @@ def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[P
 
 
 def list_point_rows(results: ResultsFile) -> list[Statistic]:
-    """The statistics that sprung-dynamics itself computed, as (point, quantity, unit, value)."""
+    """The statistics of the monitored points along the axis that is shown, as (point, quantity, unit, value)."""
     rows: list[Statistic] = []
     there_are = results.names("summary/points")
     for point in (one for one in list_monitored(results) if one in there_are):
-        group = f"summary/points/{point}"
-        there = results.file.attributes(group)
+        axis = choose_axes(results, point)[0]
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
-            for part, name in (("max", "highest"), ("min", "lowest"), ("rms", "r.m.s.")):
-                if f"{what}_{part}" in there:
-                    value = read_real(results.file, group, f"{what}_{part}")
-                    rows.append((point, f"{what}, {name}", unit, value))
+            is_known = axis == VERTICAL
+            found = read_extremes(results, point, what) if is_known else calc_extremes(results, point, what, axis)
+            rows += [(point, f"{what}{name_axis(results, axis)}, {name}", unit, value) for name, value in found.items()]
     return rows
+
+
+def read_extremes(results: ResultsFile, point: str, what: str) -> dict[str, float]:
+    """Highest, lowest and r.m.s. value of a point's vertical motion, which sprung-dynamics itself computed."""
+    group = f"summary/points/{point}"
+    there = results.file.attributes(group)
+    keys = {name: f"{what}_{part}" for part, name in PARTS if f"{what}_{part}" in there}
+    if not keys:
+        return {}
+    values = np.array([read_real(results.file, group, key) for key in keys.values()])
+    return dict(zip(keys, clear_rounding(values, calc_size(results, point, what)).tolist()))
+
+
+def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dict[str, float]:
+    """The same of the motion along another axis, over the run's own statistics window. A displacement is from the
+    equilibrium, or from the start where none was sought."""
+    is_from_start = what == "displacement" and not results.is_from_balance
+    stored = "position" if is_from_start else what
+    if not results.has(f"points/{point}/{stored}.{axis}"):
+        return {}
+    values, _ = read_motion(results, point, stored, axis)
+    values = (values - values[0] if is_from_start else values)[samples_between(results, *read_window(results))]
+    return {"highest": float(values.max()), "lowest": float(values.min()), "r.m.s.": calc_rms(values)}
 
 
 def calc_force_rows(results: ResultsFile, force: str) -> list[Statistic]:

@@ -34,7 +34,7 @@ function drawHistory(chart, key) {
 function makeHistories() {
   const channels = listChannels();
   const byPattern = (pattern, used) => channels.find((one) => pattern.test(one.value) && !used.includes(one.value));
-  const wanted = [/^Asked for/, /displacement$|position$/, /acceleration$/, /^Deflection: .*body frame/, /force$/, /./, /./];
+  const wanted = [/^Asked for/, /(displacement|position)( along [xy])?$/, /acceleration( along [xy])?$/, /^Deflection: .*body frame/, /force$/, /./, /./];
   const chosen = [];
   for (const pattern of wanted) {
     const found = byPattern(pattern, chosen);

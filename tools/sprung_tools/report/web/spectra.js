@@ -88,7 +88,7 @@ function makeSpectra() {
     const peak = Math.max(...series.map((one) => one.v.reduce((a, b) => Math.max(a, b), 0)));
     removeGraph(chart);
     chart.unit = "(m/s²)²/Hz";
-    chart.plot.setAttribute("aria-label", `Spectrum of the vertical acceleration of ${select.value}, ${labels.join(" and ")}`);
+    chart.plot.setAttribute("aria-label", `Spectrum of the acceleration of ${select.value}, ${labels.join(" and ")}`);
     chart.graph = spectrum = new Dygraph(chart.plot, mergeRows(series, series.map(() => 1)), {
       ...commonOptions(chart.legend, "(m/s²)²/Hz"), labels: ["frequency, Hz", ...labels], colors: colours, xlabel: "frequency, Hz",
       ylabel: "(m/s²)²/Hz", underlayCallback: markFrequencies, drawCallback: nameFrequencies,

@@ -68,7 +68,7 @@ function fillWarnings() {
 }
 
 /** The rows in the summary; the others are under "All numbers". */
-const inSummary = (row) => row.brief && !/displacement, r\.m\.s\.|axial/.test(row.name);
+const inSummary = (row) => row.brief && !/displacement( along [xy])?, r\.m\.s\.|axial/.test(row.name);
 
 const MOST_FREQUENCIES = 24;  // of a run, in its table
 
