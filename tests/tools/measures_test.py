@@ -126,6 +126,24 @@ class Json(ToolTestCase):
         (row,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
         self.assertEqual(row, ["-5", "1.000", "1.500", "-3", f"{1e-3 * difference:.4g}"])
 
+    def test_without_the_motion_of_bodies_only_what_needs_their_rotation_is_left_out_and_named(self):
+        write_run(self.folder / "whole.h5")
+        with h5py.File(write_run(self.folder / "a.h5"), "a") as file:
+            del file["bodies/body/acceleration"], file["bodies/body/center_of_mass"]
+        whole, run = self.read_json("whole.h5", "a.h5")["runs"]
+        self.assertEqual({name.split("/")[1] for name in run["measures"] if name.startswith("points/")}, {"body.seat"})
+        for name in UNITS_OF["points"]:
+            left_out = name in ("we_rms", "total")
+            expected = None if left_out else whole["measures"][f"points/body.seat/{name}"]["value"]
+            self.assertEqual(run["measures"][f"points/body.seat/{name}"]["value"], expected, name)
+        for arguments in ((), ("--points", "body.seat")):
+            process = self.run_tool("ride", "truck=a.h5", *arguments)
+            self.assert_succeeds(process)
+            gap = "body.seat: without We and the total: 'bodies/body/acceleration' is not stored"
+            self.assertIn(f"note: truck: {gap}", process.stdout)
+        process = self.run_tool("ride", "truck=a.h5", "--points", "body.center_of_mass")  # asked for, and not there
+        self.assertEqual(process.returncode, 2)
+
     def test_points_and_span_are_those_asked_for(self):
         write_run(self.folder / "a.h5")
         (run,) = self.read_json("a.h5", "--points", "body.center_of_mass", "--from", "0.5")["runs"]

@@ -8,6 +8,9 @@ import unittest
 import numpy as np
 from report_page_case import PICTURES, ROOT, SIZES, PageTestCase
 
+ONLY_THE_SEAT = (
+    'output.store={points=["body.seat"],bodies="none",joints="none",forces="none",recovery="none",wrenches="none"}'
+)
 EDGE = 7  # px: the radius of the sign of a mass, the largest one
 # The furthest places of a vehicle's nodes and wheels in a view, px: left, top, right, bottom.
 EXTENT = """((vehicle, nodes, view) => {
@@ -35,6 +38,8 @@ class Fit(PageTestCase):
         for name, changes in (("rigid_semi", rigid), ("semi", ())):
             cls.drive("templates/semitrailer_run.toml", name, "--set", "duration=0.5", *changes)
         cls.drive("templates/half_car_run.toml", "half_car", "--set", "duration=0.5")
+        cls.drive("templates/half_car_run.toml", "seat", "--set", ONLY_THE_SEAT)
+        cls.report("seat.html", "seat.h5")
         cls.report("semi.html", "rigid=rigid_semi.h5", "flexible=semi.h5")
         cls.report("mixed.html", "semi=semi.h5", "half car=half_car.h5")
 
@@ -102,6 +107,20 @@ class Fit(PageTestCase):
         self.assertEqual(page.evaluate("player.beyond"), "")
         page.evaluate("player.runs[0].places[player.runs[0].vehicle.main][0].fill(-40); drawScene();")
         self.assertEqual(page.evaluate("player.beyond"), "← semi")
+
+    def test_a_run_without_the_motion_of_its_bodies_is_judged_but_not_drawn(self):
+        page = self.open("seat.html")
+        self.assertEqual(page.evaluate("document.getElementById('player').hidden"), True)
+        text = page.evaluate("document.getElementById('animation').innerText")
+        self.assertIn("its file does not hold the motion of body, front_axle, rear_axle", text)
+        ride = page.evaluate("document.getElementById('ride').innerText")
+        self.assertIn("body.seat: without We and the total", ride)
+        for measure in ("(Wk)", "(VDV)", "(MTVV)", "absorbed power"):
+            self.assertIn(measure, ride)
+        self.assertNotIn("(We)", ride.replace("Wk, Wd and We.", ""))
+        page.click("[data-zoom=in]")
+        page.resize(700, 900)
+        page.picture(PICTURES / "not_drawn.png")
 
 
 if __name__ == "__main__":

@@ -230,7 +230,7 @@ class Refusing(ToolTestCase):
         self.refuse("run.h5", "-o", "a.html", fragment="did not finish (complete = 0)")
 
     def test_what_a_file_lacks_is_named(self):
-        for lacking in ("bodies/chassis/position", "model/bodies", "model/resolved/points/chassis.seat/position",
+        for lacking in ("model/bodies", "model/resolved/points/chassis.seat/position",
                         "forces/front_tyre/force",
                         "bodies/chassis/modal/amplitude", "model/superelements/chassis/elements"):  # fmt: skip
             with self.subTest(lacking):
@@ -238,6 +238,16 @@ class Refusing(ToolTestCase):
                 with h5py.File(self.folder / "run.h5", "a") as file:
                     del file[lacking]
                 self.refuse("run.h5", "-o", "a.html", fragment=lacking.rpartition("/")[2])
+
+    def test_a_run_whose_bodies_are_not_stored_is_not_drawn_but_all_else_is_shown(self):
+        write_results(self.folder / "run.h5")
+        with h5py.File(self.folder / "run.h5", "a") as file:
+            del file["bodies/chassis/position"]
+        process = self.run_tool("report", "run.h5", "-o", "a.html")
+        self.assert_succeeds(process)
+        (run,) = read_page(self.folder / "a.html")[1]["runs"]
+        self.assertEqual((run["frames"], run["unknown"], run["span"]), (None, ["chassis"], [0.0, run["span"][1]]))
+        self.assertIn("front_tyre, force", [one["name"] for one in run["channels"]])
 
     def test_values_that_are_not_finite(self):
         with h5py.File(self.folder / "run.h5", "a") as file:

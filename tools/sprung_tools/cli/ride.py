@@ -34,7 +34,7 @@ from sprung_tools.runs.measures import (
     pack_measures,
     point_name,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment
+from sprung_tools.runs.ride_assessment import calc_assessment, list_pitch_gaps
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -64,15 +64,19 @@ DIFFERENCE_NOTE = (
 )
 
 
-def make_comfort_rows(runs: Sequence[Run], points: Sequence[str], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
-    """The rows of the table of vibration."""
-    for point in points:
-        for run, window in zip(runs, windows):
+def make_comfort_rows(
+    runs: Sequence[Run], points: Sequence[Sequence[str]], windows: Sequence[Span]
+) -> Iterator[tuple[str, ...]]:
+    """The rows of the table of vibration. points: of each run, as find_points() gives them."""
+    for point in dict.fromkeys(point for some in points for point in some):
+        for run, some, window in zip(runs, points, windows):
+            if point not in some:
+                continue
             one = calc_comfort(run.results, point, window)
             more = calc_assessment(run.results, point, window)
             numbers = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
                        more.total, more.power)  # fmt: skip
-            yield (point_name(point), run.label, *(f"{value:.4g}" for value in numbers))
+            yield (point_name(point), run.label, *(MISSING if value is None else f"{value:.4g}" for value in numbers))
 
 
 def make_linear_rows(responses: Sequence[Response], wanted: Sequence[str]) -> Iterator[tuple[str, ...]]:
@@ -183,11 +187,12 @@ def main() -> int:
     if arguments.json:
         print(make_json(runs, windows, responses, arguments.points, arguments.superelements))
         return 0
+    points = [find_points(run.results, arguments.points) for run in runs]
     tables: list[tuple[Sequence[str], Iterator[tuple[str, ...]]]]
     tables = [(LINEAR, make_linear_rows(responses, arguments.points))]
     if runs:
         tables += [
-            (COMFORT, make_comfort_rows(runs, find_points(runs[0].results, arguments.points), windows)),
+            (COMFORT, make_comfort_rows(runs, points, windows)),
             (TRAVEL, make_travel_rows(runs, windows)),
             (CONTACT, make_contact_rows(runs, windows)),
             (BENDING, make_bending_rows(runs, windows, arguments.superelements)),
@@ -198,6 +203,8 @@ def main() -> int:
         low, high = response.frequency[0], response.frequency[-1]
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     doubts = list_doubts(runs)
+    for run, some in zip(runs, points):
+        doubts += [f"note: {run.label}: {gap}" for gap in list_pitch_gaps(run.results, some)]
     if doubts:
         text.append("\n".join(doubts))
     for headings, rows in tables:

@@ -165,9 +165,9 @@ def pack_modes(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> 
     largest displacement along the body [m]."""
     packed = []
     for body in bodies:
-        if body.shapes.shape[2] == 0:
-            continue
         where = f"bodies/{body.name}/modal"
+        if body.shapes.shape[2] == 0 or not results.has(f"{where}/amplitude"):
+            continue
         numbers = results.mode_numbers(body.name)
         amplitude, _ = read_numbers(results.file, f"{where}/amplitude")
         active = np.ones_like(amplitude)

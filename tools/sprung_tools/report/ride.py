@@ -13,6 +13,7 @@ from sprung_tools.runs.ride_assessment import (
     calc_bands,
     calc_vibration,
     describe_comfort,
+    list_pitch_gaps,
 )
 from sprung_tools.runs.ride_measures import (
     calc_contact,
@@ -62,8 +63,9 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
     points = []
     for point, vibration in vibrations.items():
         found = calc_assessment(results, point, window, vibration)
+        words = None if found.total is None else describe_comfort(found.total)
         points.append({
-            "name": name_of(point), **found._asdict(), "words": describe_comfort(found.total),
+            "name": name_of(point), **found._asdict(), "words": words,
             "bands": clean(calc_bands(results, point, window)),
         })  # fmt: skip
     travels: list[Packed] = []
@@ -73,7 +75,9 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
         contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
     except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
         problem = problem or str(error)
-    return {"window": window, "problem": problem, "points": points, "travel": travels, "tyres": contacts}
+    gaps = list_pitch_gaps(results, list(vibrations))
+    return {"window": window, "problem": problem, "gaps": gaps, "points": points, "travel": travels,
+            "tyres": contacts}  # fmt: skip
 
 
 def clean(values: Floats) -> list[float]:

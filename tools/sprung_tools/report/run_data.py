@@ -8,7 +8,7 @@ from sprung_tools.report.frame_loads import pack_frame_loads
 from sprung_tools.report.histories import calc_spectra, list_channels, pack_channel, pack_modes
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.ride import calc_vibrations, list_ride_channels, pack_ride
-from sprung_tools.report.scene import pack_frames, pack_road, pack_vehicle
+from sprung_tools.report.scene import list_unknown, pack_frames, pack_road, pack_vehicle
 from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts
 from sprung_tools.report.vehicle_modes import pack_vehicle_modes
 from sprung_tools.runs.labelled_runs import Run, Shown
@@ -45,6 +45,8 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "loads": pack_frame_loads(results, bodies, frames // FRAMES_OF_LOADS),
         "spectra": calc_spectra(results),
         "modes": pack_modes(results, bodies, most),
+        "span": [float(results.time[0]), float(results.time[-1])],
+        "unknown": list_unknown(results, bodies),
         "frames": pack_frames(results, bodies, wheels, frames),
         "vehicle": pack_vehicle(results, bodies, wheels),
         "road": pack_road(results),

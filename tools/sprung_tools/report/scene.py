@@ -9,17 +9,26 @@ from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, FORCE, list_force_channels, read_force_channel
 from sprung_tools.model.resolved_model import read_direction
-from sprung_tools.model.vehicle_shape import DrawnBody, Wheel, calc_motion, read_links, read_road
+from sprung_tools.model.vehicle_shape import DrawnBody, Samples, Wheel, calc_motion, read_links, read_road
 from sprung_tools.report.histories import find_heavy, list_monitored
 from sprung_tools.report.packing import Packed, encode, find_kept
+from sprung_tools.report.vehicle_modes import calc_equilibrium
 from sprung_tools.signals.spans import find_spans
 
 UNMARKED = ("origin", "center_of_mass")  # points that every body has
 MOST_SEEN = 400  # samples from which the view of a mechanism is chosen
 
 
-def pack_frames(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequence[Wheel], most: int) -> Packed:
-    """Each body's position and amplitudes, and each tyre's contact, at equally spaced times."""
+def list_unknown(results: ResultsFile, bodies: Sequence[DrawnBody]) -> list[str]:
+    """The bodies whose motion the file does not hold."""
+    return [body.name for body in bodies if not results.has(f"bodies/{body.name}/position")]
+
+
+def pack_frames(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequence[Wheel], most: int) -> Packed | None:
+    """Each body's position and amplitudes, and each tyre's contact, at equally spaced times; None if the file does not
+    hold the motion of all bodies."""
+    if list_unknown(results, bodies):
+        return None
     count = min(results.time.size, most)
     time = np.linspace(results.time[0], results.time[-1], count)
 
@@ -48,12 +57,22 @@ def pack_frames(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Seque
     }  # fmt: skip
 
 
+def calc_places(results: ResultsFile, body: DrawnBody, samples: Samples) -> Floats:
+    """The places of a body's nodes in some samples [n×N×2] m; in equilibrium where the file does not hold its motion,
+    and in its own frame where there was none."""
+    if results.has(f"bodies/{body.name}/position"):
+        return calc_motion(results, body, samples).position
+    kept = ("bodies", "modal") if body.shapes.shape[2] > 0 else ("bodies",)
+    has_equilibrium = all(results.has(f"model/equilibrium/{one}/{body.name}") for one in kept)
+    return (calc_equilibrium(results, body)[0] if has_equilibrium else body.places)[None]
+
+
 def pack_vehicle(results: ResultsFile, bodies: Sequence[DrawnBody], wheels: Sequence[Wheel]) -> Packed:
     """How the vehicle looks, and the box [m] that it fills: at the start, or throughout the run if it has no wheels."""
     links = read_links(results, bodies)
     # The view follows a vehicle; of a mechanism without wheels it shows the whole motion.
     samples = [0] if wheels else np.unique(np.linspace(0, results.time.size - 1, MOST_SEEN).astype(int))
-    boxes = [calc_motion(results, body, samples).position for body in bodies]
+    boxes = [calc_places(results, body, samples) for body in bodies]
     on_ground = [end[1] for link in links for end in link.ends if end[0] is None]
     corners = np.concatenate([*(box.reshape(-1, 2) for box in boxes), np.reshape(on_ground, (-1, 2))])
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)

@@ -94,12 +94,14 @@ def combine(name: str, units: dict[str, str], values: Iterable[float | None]) ->
 
 def find_points(results: ResultsFile, wanted: Sequence[str] = ()) -> list[str]:
     """The points to judge: those asked for; without any, every point called seat and the centre of mass of its body;
-    without seats, the centres of mass of all bodies. Returns groups such as `points/chassis.seat`.
+    without seats, the centres of mass of all bodies; of these, the ones whose acceleration the file has. Returns groups
+    such as `points/chassis.seat`.
     """
     if not wanted:
         seats = list_seats(results)
         bodies = sorted({seat.split("/")[1].partition(".")[0] for seat in seats}) or results.names("bodies")
-        return seats + [f"bodies/{body}/{CENTRE}" for body in bodies]
+        found = seats + [f"bodies/{body}/{CENTRE}" for body in bodies]
+        return [point for point in found if results.has(f"{point}/acceleration")]
     points = []
     for name in wanted:
         body, _, point = name.partition(".")

@@ -6,6 +6,7 @@ the multiplying factors of 8.2.2.1 for the seat surface the total is
     a_v = √(a_wx² + a_wz² + (0.4 m/rad · a_wry)²)                                                       (1)
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -44,29 +45,50 @@ class Vibration(NamedTuple):
 
     fore_aft: Floats  # Wd, m/s²
     vertical: Floats  # Wk, m/s²
-    pitch: Floats  # We, rad/s²
+    pitch: Floats | None  # We, rad/s²; None where the file does not tell it
     running: Floats  # r.m.s. of the vertical one over the second before, m/s²
 
 
 class Assessment(NamedTuple):
     """The measures of a point over a span of time: weighted r.m.s. values, their total by (1), and of the vertical one
-    the largest running r.m.s. (MTVV), vibration dose value and crest factor; absorbed power."""
+    the largest running r.m.s. (MTVV), vibration dose value and crest factor; absorbed power. Pitch and total are None
+    where the file does not tell the rotation of the body."""
 
     fore_aft: float  # m/s²
     vertical: float  # m/s²
-    pitch: float  # rad/s²
-    total: float  # m/s²
+    pitch: float | None  # rad/s²
+    total: float | None  # m/s²
     mtvv: float  # m/s²
     dose: float  # m/s^1.75
     crest: float
     power: float  # W
 
 
+def name_body(point: str) -> str:
+    """The body of a point. point: as calc_vibration() takes it."""
+    group, name, *_ = point.split("/")
+    return name.partition(".")[0] if group == "points" else name
+
+
+def find_pitch_gap(results: ResultsFile, point: str) -> str:
+    """Why the file does not tell the rotation of the body at a point; empty if it does. point: as calc_vibration()
+    takes it."""
+    dataset = f"bodies/{name_body(point)}/acceleration"
+    if not results.has(dataset):
+        return results.file.describe_missing(dataset)
+    return f"'{dataset}' is not stored at every output" if results.file.every(dataset) > 1 else ""
+
+
+def list_pitch_gaps(results: ResultsFile, points: Sequence[str]) -> list[str]:
+    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why."""
+    gaps = {point: find_pitch_gap(results, point) for point in points}
+    return [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
+
+
 def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
     """The angular acceleration [n], rad/s², of the body at a point. point: as calc_vibration() takes it."""
     group, name, *_ = point.split("/")
-    body = name.partition(".")[0] if group == "points" else name
-    results.check_every_output(f"bodies/{body}/acceleration.angle")
+    body = name_body(point)
     angular, _ = results.series(f"bodies/{body}/acceleration.angle")
     if group == "points" and results.num_modes(body):
         modal, _ = read_numbers(results.file, f"bodies/{body}/modal/acceleration")
@@ -87,7 +109,7 @@ def calc_vibration(results: ResultsFile, point: str) -> Vibration:
     results.check_every_output(f"{point}/acceleration")
     along, up = (results.series(f"{point}/acceleration.{axis}")[0] for axis in ("x", "y"))
     vertical = weigh(up, WK)
-    pitch = weigh(read_pitch_acceleration(results, point), WE)
+    pitch = None if find_pitch_gap(results, point) else weigh(read_pitch_acceleration(results, point), WE)
     return Vibration(weigh(along, WD), vertical, pitch, calc_running_rms(vertical, step))
 
 
@@ -96,10 +118,11 @@ def calc_assessment(results: ResultsFile, point: str, window: Span, vibration: V
     felt = vibration or calc_vibration(results, point)
     inside = samples_between(results, *window)
     step = sampling_step(results)
-    fore_aft, vertical, pitch = (calc_rms(one[inside]) for one in (felt.fore_aft, felt.vertical, felt.pitch))
+    fore_aft, vertical = calc_rms(felt.fore_aft[inside]), calc_rms(felt.vertical[inside])
+    pitch = None if felt.pitch is None else calc_rms(felt.pitch[inside])
     power = calc_absorbed_power(results.series(f"{point}/acceleration.y")[0], step)[inside]
     return Assessment(
-        fore_aft, vertical, pitch, calc_total(fore_aft, vertical, pitch),
+        fore_aft, vertical, pitch, None if pitch is None else calc_total(fore_aft, vertical, pitch),
         float(np.max(felt.running[inside])), calc_dose(felt.vertical[inside], step),
         float(np.max(np.abs(felt.vertical[inside]))) / vertical if vertical > 0.0 else 0.0, float(np.mean(power)),
     )  # fmt: skip

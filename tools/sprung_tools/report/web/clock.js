@@ -3,9 +3,9 @@
 
 /** The time shown by the animation and the diagrams' cursor [s]. */
 const clock = {
-  time: Math.min(...data.runs.map((run) => run.frames.first)),
-  first: Math.min(...data.runs.map((run) => run.frames.first)),
-  last: Math.max(...data.runs.map((run) => run.frames.last)),
+  time: Math.min(...data.runs.map((run) => run.span[0])),
+  first: Math.min(...data.runs.map((run) => run.span[0])),
+  last: Math.max(...data.runs.map((run) => run.span[1])),
   listeners: [],
   set(time) {
     this.time = Math.min(Math.max(time, this.first), this.last);

@@ -49,7 +49,7 @@ let resizing = 0;
 window.addEventListener("resize", () => {
   cancelAnimationFrame(resizing);
   resizing = requestAnimationFrame(() => {
-    drawScene();
+    if (!byId("player").hidden) drawScene();
     drawLoads();
     if (!byId("mode-player").hidden) drawVehicleMode();
     linked.forEach(placeCursor);

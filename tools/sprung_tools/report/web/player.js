@@ -117,7 +117,7 @@ function findDeflection(prepared) {
 
 /** 10, or 5 where that is much; 1 without a flexible body. */
 function chooseMagnification() {
-  const shares = player.runs.map((one) => findDeflection(one) / Math.max(one.vehicle.box[2] - one.vehicle.box[0], 1e-9));
+  const shares = player.runs.filter(Boolean).map((one) => findDeflection(one) / Math.max(one.vehicle.box[2] - one.vehicle.box[0], 1e-9));
   const largest = Math.max(...shares);
   if (largest === 0) return 1;
   return 10 * largest > MUCH ? 5 : 10;
@@ -154,14 +154,18 @@ function connectControls() {
 }
 
 function makePlayer() {
-  player.runs = data.runs.map(prepareRun);
-  player.flexible = data.runs.some((run) => run.modes.length);
-  const options = data.runs.map((run, index) => ({value: String(index), label: run.label}));
+  player.runs = data.runs.map((run, index) => (run.frames ? prepareRun(run, index) : null));
+  player.flexible = player.runs.some((one) => one && one.run.modes.length);
+  const drawn = player.runs.filter(Boolean), options = drawn.map(({index, run}) => ({value: String(index), label: run.label}));
+  byId("unknown-note").textContent = data.runs.filter((run) => !run.frames)
+    .map((run) => `${run.label} is not drawn: its file does not hold the motion of ${run.unknown.join(", ")}.`).join(" ");
+  byId("player").hidden = !drawn.length;
+  if (!drawn.length) return;
   fillSelect(byId("main-run"), options);
   fillSelect(byId("other-run"), [{value: "-1", label: "no other run"}, ...options]);
   // The second run in front of the first: what differs from the first is what one wants to see.
-  player.main = data.runs.length > 1 ? 1 : 0;
-  player.other = data.runs.length > 1 ? 0 : -1;
+  player.main = drawn[Math.min(1, drawn.length - 1)].index;
+  player.other = drawn.length > 1 ? drawn[0].index : -1;
   byId("main-run").value = String(player.main);
   byId("other-run").value = String(player.other);
   byId("magnify").hidden = !player.flexible;
