@@ -53,6 +53,19 @@ class Designs(StudyCase):
         self.assertEqual((bad["exit_code"], good["exit_code"]), ("2", "0"))
         self.assertIn("youngs_modulus", bad["error"])
 
+    def test_a_misspelt_key_of_a_design_is_refused_at_its_place_after_one_reduction(self):
+        self.write_design_study([1e11, 2e11, 3e11])
+        text = (self.folder / "study.toml").read_text(encoding="utf-8")
+        (self.folder / "study.toml").write_text(text.replace("youngs_modulus", "youngs_modulos"), encoding="utf-8")
+        self.assert_refuses(self.study(), "study.toml:7:8: error: unknown key 'youngs_modulos'")
+        self.assertEqual((self.folder / "out/rows.jsonl").read_text(encoding="utf-8"), "")
+        self.assertEqual(len(list((self.folder / "out/designs").iterdir())), 1)
+
+    def test_a_misspelt_key_of_the_run_is_refused_although_the_first_design_fails(self):
+        self.write_design_study([-1.0, 2e11], '[[parameters]]\nkey = "modes.baem"\nvalues = [5, 10]\n')
+        self.assert_refuses(self.study(), "study.toml:10:8: error: 'modes.baem' is about no body of the vehicle")
+        self.assertEqual((self.folder / "out/rows.jsonl").read_text(encoding="utf-8"), "")
+
     def test_a_key_that_leads_through_a_number_is_a_row_with_the_reason(self):
         self.write_study(
             f'command = "modes"\ndesigns = ["{VERIFICATION / "beam_inside.toml"}"]\nmeasures = ["program/modes/1/x"]\n'

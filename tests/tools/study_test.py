@@ -1,6 +1,7 @@
 """`study` with the programs: rows are what single runs give, a failed run is a row."""
 
 import json
+import shutil
 import unittest
 
 import h5py
@@ -177,14 +178,53 @@ class Rows(StudyCase):
         self.assert_refuses(self.study(), "study.toml:5:1: error: unknown key 'heigth'")
 
     def test_a_measure_that_no_run_has_is_remarked_on(self):
-        self.write_study('measures = ["tyres/wheel/static_load", "program/steps"]\nset.duration = 0.5\n'
+        self.write_study('measures = ["program/nothing", "program/steps"]\nset.duration = 0.5\n'
                          + HEIGHT + "values = [0.01]")  # fmt: skip
         process = self.study()
         self.assertEqual(process.returncode, 0)
         self.assertEqual(find_complaints(process.stderr), [
-            "warning: the first run has no measure tyres/wheel/static_load; the others are made all the same",
-            "warning: no run has the measure tyres/wheel/static_load",
+            "warning: the first run has no measure program/nothing; the others are made all the same",
+            "warning: no run has the measure program/nothing",
         ])  # fmt: skip
+
+    def test_a_measure_of_what_the_vehicle_does_not_have_is_refused_at_its_place_after_one_run(self):
+        slips = {
+            "points/sprung.orign/wk_rms": "the vehicle has no point 'sprung.orign' (did you mean 'sprung.origin'?)",
+            "bands/sprung.orign/5": "the vehicle has no point 'sprung.orign' (did you mean 'sprung.origin'?)",
+            "tyres/tire/static_load": "the vehicle has no tyre 'tire' (did you mean 'tyre'?)",
+            "suspensions/springs/rebound": "the vehicle has no suspension 'springs'",
+            "loads/sprang/moment": "the vehicle has no body 'sprang' (did you mean 'sprung'?)",
+            "tyres/tyre/static_lod": "tyres/… has no measure 'static_lod' (did you mean 'static_load'?)",
+        }  # fmt: skip
+        for number, (name, what) in enumerate(slips.items()):
+            with self.subTest(name):
+                self.write_study(f'measures = ["program/steps", "{name}"]\nset.duration = 0.5\n{HEIGHT}'
+                                 f"values = [0.01, 0.02, 0.03, {number + 4}e-2]")  # fmt: skip
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                column = len('measures = ["program/steps", "') + 1 + name.index(what.split("'")[1])
+                self.assert_refuses(self.study("--jobs", "2"), f"study.toml:2:{column}: error: {what}")
+                self.assertEqual(len((self.folder / "out/rows.jsonl").read_text(encoding="utf-8").splitlines()), 1)
+
+    def test_where_the_vehicle_varies_a_measure_that_one_does_not_have_is_an_empty_cell(self):
+        text = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
+        for name in ("tyre", "wheel"):
+            changed = text.replace('name = "tyre"', f'name = "{name}"')
+            (self.folder / f"{name}.toml").write_text(changed, encoding="utf-8")
+        shutil.copy(EXAMPLES / "quarter_car_run.toml", self.folder / "run.toml")
+        self.write_study('measures = ["tyres/wheel/static_load"]\nset.duration = 0.5\n'
+                         '[[parameters]]\nkey = "vehicle"\nvalues = ["tyre.toml", "wheel.toml"]', run="run.toml")
+        self.assertEqual(self.study().returncode, 0)
+        first, second = (row["tyres/wheel/static_load [N]"] for row in self.read_table())
+        self.assertEqual(first, "")
+        self.assertGreater(float(second), 0.0)
+
+    def test_a_key_that_is_wrong_whatever_its_value_is_refused_and_a_value_is_not(self):
+        self.write_study('measures = ["program/steps"]\nset.duration = 0.5\n'
+                         '[[parameters]]\nkey = "modes.chasis"\nvalues = [1, 2]')  # fmt: skip
+        self.assert_refuses(self.study(), "study.toml:5:8: error: 'modes.chasis' is about no body of the vehicle")
+        self.write_study('measures = ["program/steps"]\nset.duration = 0.5\n'
+                         '[[parameters]]\nkey = "speed"\nvalues = [-1.0, 2.0]')  # fmt: skip
+        self.assertIn("2 runs: 2 made", self.study().stdout)
 
     def test_results_files_are_kept_if_asked_for(self):
         self.write_study(self.MEASURES + HEIGHT + "values = [0.01]")

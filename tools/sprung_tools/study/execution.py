@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.programs.calls import BAD_INPUT, INTERRUPTED, call, make_command
+from sprung_tools.programs.calls import INTERRUPTED
 from sprung_tools.programs.finding import Programs
 from sprung_tools.programs.process_pool import open_pool
+from sprung_tools.study.early_checks import check_designs, check_first, check_measures
 from sprung_tools.study.kept_rows import KeptRows, Row
 from sprung_tools.study.one_run import Setting, Task, make_and_keep
 from sprung_tools.study.plan import Planner, reduce_variants
@@ -58,7 +59,7 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
         tasks = make_tasks(study, programs, options, points, pool)
         results = options.folder / "results" if options.keep_results else None
         setting = Setting(kept.path, programs.dynamics, study.command, study.run, tuple(study.measures),
-                          options.folder / SCRATCH, results)  # fmt: skip
+                          options.folder / SCRATCH, results, study.has_one_vehicle)  # fmt: skip
         if setting.results is not None:
             setting.results.mkdir(exist_ok=True)
         if options.collect:
@@ -70,9 +71,9 @@ def run_study(study: Study, programs: Programs, options: Options) -> Finished:
             if task.hash not in there or task.hash in again or not has_results(there[task.hash], setting)
         }  # fmt: skip
         if missing:
-            check_first(study, setting, tasks[0], points[0])
+            check_first(study, setting, tasks)
             with Progress("runs", len(missing)) as progress:
-                make_runs(list(missing.values()), setting, pool, options.jobs, kept, progress)
+                make_runs(study, list(missing.values()), setting, pool, options.jobs, kept, progress)
         rows = [kept.rows[task.hash] for task in tasks]
     return Finished(study, points, tasks, rows, len(missing), len(tasks) - len(missing))
 
@@ -83,6 +84,7 @@ def make_tasks(
     """The tasks of all points, after stage one."""
     planner = Planner(study, options.folder, programs)
     drafts = [planner.draft(point) for point in points]
+    check_designs(study, drafts, programs, pool)
     count = len({one.folder for draft in drafts for one in draft.variants.values()})
     with Progress("designs", count) as progress:
         failures = reduce_variants(programs, drafts, pool, progress.step)
@@ -94,42 +96,21 @@ def has_results(row: Row, setting: Setting) -> bool:
     return setting.results is None or row.has_failed or (setting.results / f"{row.hash[:16]}.h5").is_file()
 
 
-def check_first(study: Study, setting: Setting, task: Task, point: Point) -> None:
-    """Tries the first run without making it. A key of --set that the program does not know is an InputError at its
-    place in the study file: it is a slip, which would make every run fail."""
-    if task.problem:
-        return
-    folder = setting.scratch / "first"
-    folder.mkdir()
-    for file in task.superelements:
-        (folder / file.name).symlink_to(file.resolve())
-    command = make_command(setting.program, "run", setting.run, folder, task.overrides)
-    outcome = call([*command, "--dry-run"])
-    before, _, what = outcome.error.partition(": error: ")
-    if outcome.exit_code != BAD_INPUT or not before.startswith("--set ") or not what.startswith("unknown key"):
-        return
-    number = before.removeprefix("--set ")
-    key = task.overrides[int(number) - 1].partition("=")[0] if number.isdecimal() else ""
-    for parameter, value in zip(study.parameters, point):
-        if key in parameter.settings(value):
-            name = "key" if len(parameter.keys) == 1 else "keys"
-            raise study.file.fail((*parameter.place, name), what, fragment=key)
-    raise study.file.fail(("set", *key.split(".")), what)
-
-
 def make_runs(
-    tasks: list[Task], setting: Setting, pool: ProcessPoolExecutor, jobs: int, kept: KeptRows, progress: Progress
-) -> None:
-    """Makes the runs. An interrupted run leaves no row."""
+    study: Study, tasks: list[Task], setting: Setting, pool: ProcessPoolExecutor, jobs: int, kept: KeptRows,
+    progress: Progress,
+) -> None:  # fmt: skip
+    """Makes the runs: one, and if it shows no mistake that all would have, the others. An interrupted run leaves no
+    row."""
     waiting: set[Future[Row]] = set()
     failures = 0
-    has_good = any(not row.has_failed for row in kept.rows.values())
+    has_good = is_tried = any(not row.has_failed for row in kept.rows.values())
     left = iter(tasks)
     try:
         while True:
             for task in left:
                 waiting.add(pool.submit(make_and_keep, task, setting))
-                if len(waiting) >= QUEUED * jobs:
+                if len(waiting) >= (QUEUED * jobs if is_tried else 1):
                     break
             if not waiting:
                 return
@@ -138,6 +119,8 @@ def make_runs(
                 if row.exit_code == INTERRUPTED:
                     raise KeyboardInterrupt
                 kept.rows[row.hash] = row
+                check_measures(study, row)
+                is_tried = True
                 failures += row.has_failed
                 if not (row.has_failed or has_good):
                     has_good = True

@@ -28,6 +28,7 @@ from sprung_tools.runs.measures import (
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 from sprung_tools.study.kept_rows import Row, keep_row
+from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
 
 PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
@@ -52,7 +53,7 @@ class Measured(NamedTuple):
 
 class Setting(NamedTuple):
     """What all runs of a study share. rows: the file of rows; scratch: a folder for files that do not stay; results:
-    the folder of the results files, if they are kept."""
+    the folder of the results files, if they are kept; has_one_vehicle: whether all runs are of one vehicle file."""
 
     rows: Path
     program: Path
@@ -61,6 +62,7 @@ class Setting(NamedTuple):
     measures: tuple[str, ...]
     scratch: Path
     results: Path | None
+    has_one_vehicle: bool
 
     @property
     def needs_file(self) -> bool:
@@ -115,12 +117,16 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
         with open_results(output) as results:
             converged = is_converged(results)
             warnings = tuple(dict.fromkeys(one.text for one in list_warnings(results)))
+            if setting.has_one_vehicle:
+                check_names(results, wanted)
             window = read_window(results)
             objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
             measures = pick(objects, wanted)
     elif output is not None:
         with open_hdf5(output, RESPONSE) as file:
             response = Response("", file, read_numbers(file, "frequency")[0])
+            if setting.has_one_vehicle:
+                check_response_points(response, list_points(wanted))
             measures = pick(list_linear_objects(response, list_points(wanted)), wanted)
     said = dict(flatten("program", read_json(outcome)))
     measures |= {

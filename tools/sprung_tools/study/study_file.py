@@ -63,6 +63,11 @@ class Study(NamedTuple):
     random_road: dict[str, Any]
     parameters: tuple[Parameter, ...]
 
+    @property
+    def has_one_vehicle(self) -> bool:
+        """Whether all runs are of one vehicle file."""
+        return all("vehicle" not in parameter.keys for parameter in self.parameters)
+
 
 class Reader:
     """A table of the file, whose values are taken with their types checked. Unknown keys are errors."""
