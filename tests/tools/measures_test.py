@@ -144,6 +144,12 @@ class Json(ToolTestCase):
         process = self.run_tool("ride", "truck=a.h5", "--points", "body.center_of_mass")  # asked for, and not there
         self.assertEqual(process.returncode, 2)
 
+    def test_a_run_that_is_too_short_for_the_mtvv_has_a_remark(self):
+        write_run(self.folder / "a.h5")
+        for end, count in (("0.4", 1), ("1.0", 0)):
+            (run,) = self.read_json("a.h5", "--from", "0", "--to", end)["runs"]
+            self.assertEqual(sum("the MTVV is the largest r.m.s. over 1 s" in one for one in run["remarks"]), count)
+
     def test_points_and_span_are_those_asked_for(self):
         write_run(self.folder / "a.h5")
         (run,) = self.read_json("a.h5", "--points", "body.center_of_mass", "--from", "0.5")["runs"]

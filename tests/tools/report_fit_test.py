@@ -108,6 +108,10 @@ class Fit(PageTestCase):
         page.evaluate("player.runs[0].places[player.runs[0].vehicle.main][0].fill(-40); drawScene();")
         self.assertEqual(page.evaluate("player.beyond"), "← semi")
 
+    def test_a_run_that_is_too_short_for_the_mtvv_says_so(self):
+        ride = self.open("semi.html").evaluate("document.getElementById('ride-problem').textContent")
+        self.assertIn("flexible: the MTVV is the largest r.m.s. over 1 s, and the run has only 0.5 s", ride)
+
     def test_a_run_without_the_motion_of_its_bodies_is_judged_but_not_drawn(self):
         page = self.open("seat.html")
         self.assertEqual(page.evaluate("document.getElementById('player').hidden"), True)
@@ -118,6 +122,7 @@ class Fit(PageTestCase):
         for measure in ("(Wk)", "(VDV)", "(MTVV)", "absorbed power"):
             self.assertIn(measure, ride)
         self.assertNotIn("(We)", ride.replace("Wk, Wd and We.", ""))
+        self.assertNotIn("the MTVV is", ride)
         page.click("[data-zoom=in]")
         page.resize(700, 900)
         page.picture(PICTURES / "not_drawn.png")

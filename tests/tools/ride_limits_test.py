@@ -184,6 +184,7 @@ class Command(QuarterCarCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"as it is +5 +18\.0 +\d+\.\d +\d+\n")
         self.assertRegex(done.stdout, r"soft +100 +\d+\.\d\d +\d+\.\d +\d+\n?")
+        self.assertIn('contact = "point" feel no force along the road: the vehicle keeps its speed', done.stdout)
         self.assertGreater((self.folder / "limits.png").stat().st_size, 10000)
         done = self.run_tool(*words, "--json")
         packed = json.loads(done.stdout)

@@ -1,5 +1,6 @@
 """runs/ride_measures.py: each measure of histories whose values are known."""
 
+import re
 import unittest
 
 import h5py
@@ -142,6 +143,19 @@ class Tool(ToolTestCase):
         (found,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
         self.assertIn("what 'its modes miss' is another number", printed)  # (section_loads, eq. 3)
         self.assertEqual(found, ["-3.6", "0.250", "2.000", "-3", "0.9"])
+
+    def test_every_heading_of_the_vibration_has_its_unit(self):
+        write_ride_results(self.folder / "a.h5")
+        (heading,) = [line for line in self.run_tool("ride", "a.h5").stdout.splitlines() if line.startswith("point ")]
+        units = [word.rpartition(" ")[2] for word in re.split(r" {2,}", heading.strip())[2:]]
+        self.assertEqual(units, ["m/s²", "m/s²", "m/s²", "m/s^1.75", "m/s²", "factor", "m/s²", "rad/s²", "m/s²", "W"])
+
+    def test_a_run_that_is_too_short_for_the_mtvv_is_remarked_on(self):
+        write_ride_results(self.folder / "a.h5")  # from 0 s
+        for end, is_short in (("0.4", True), ("1.0", False)):
+            printed = self.run_tool("ride", "truck=a.h5", "--from", "0", "--to", end).stdout
+            remark = "note: truck: the MTVV is the largest r.m.s. over 1 s, and the run has only 0.4 s until the end"
+            self.assertEqual(remark in printed, is_short)
 
     def test_no_share_of_travel_is_given_if_the_vehicle_rests_on_its_stop(self):
         write_ride_results(self.folder / "a.h5", stop=0.05)

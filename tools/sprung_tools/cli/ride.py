@@ -34,7 +34,7 @@ from sprung_tools.runs.measures import (
     pack_measures,
     point_name,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment, list_pitch_gaps
+from sprung_tools.runs.ride_assessment import calc_assessment, list_remarks
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -51,9 +51,10 @@ from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 MISSING = "–"  # in a cell
-COMFORT = ("point", "run", "r.m.s.", "peak", "Wk r.m.s.", "VDV", "MTVV", "crest factor", "Wd fore-aft", "We pitch",
-           "total", "absorbed W")  # fmt: skip
-LINEAR = ("point", "response", "r.m.s.", "Wk r.m.s.", "Wd fore-aft", "We pitch", "total", "absorbed W")
+COMFORT = ("point", "run", "r.m.s. m/s²", "peak m/s²", "Wk r.m.s. m/s²", "VDV m/s^1.75", "MTVV m/s²", "crest factor",
+           "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²", "absorbed W")  # fmt: skip
+LINEAR = ("point", "response", "r.m.s. m/s²", "Wk r.m.s. m/s²", "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²",
+          "absorbed W")  # fmt: skip
 TRAVEL = ("suspension", "run", "compression mm", "of travel", "rebound mm", "stop hits", "on the stop s")
 CONTACT = ("tyre", "run", "static kN", "r.m.s. dynamic kN", "over static", "greatest kN", "off the ground s",
            "without load s")  # fmt: skip
@@ -149,7 +150,7 @@ def make_json(
     packed: list[dict[str, Any]] = []
     for run, window in zip(runs, windows):
         objects = list_objects(run.results, window, points, superelements)
-        packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
+        packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window, points),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
         packed.append({"label": response.label, "file": response.file.filename, **describe_response(response),
@@ -203,8 +204,8 @@ def main() -> int:
         low, high = response.frequency[0], response.frequency[-1]
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     doubts = list_doubts(runs)
-    for run, some in zip(runs, points):
-        doubts += [f"note: {run.label}: {gap}" for gap in list_pitch_gaps(run.results, some)]
+    for run, some, window in zip(runs, points, windows):
+        doubts += [f"note: {run.label}: {remark}" for remark in list_remarks(run.results, some, window)]
     if doubts:
         text.append("\n".join(doubts))
     for headings, rows in tables:

@@ -39,6 +39,10 @@ JSON_FORMAT, JSON_VERSION = "sprung-ride-limits", 1  # tools/README.md, "Ride li
 BAND = (0.0547, 3.3)  # 1/m
 Task = tuple[Callable[..., Root], Vehicle, Terrain | Obstacles, float]
 KMH = 3.6
+POINT_NOTE = (
+    'note: wheels with contact = "point" feel no force along the road: the vehicle keeps its speed over obstacles, '
+    'which would slow it down; contact = "distributed" has this force'
+)
 
 
 class Found(NamedTuple):
@@ -104,6 +108,8 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
     if rows:
         heading = f"km/h at {search.obstacles.acceleration / GRAVITY:g} g"
         text.append(format_table(("vehicle", "obstacle mm", "m/s", heading, "runs", "note"), rows))
+    if any(one.vehicle.wheels.point_radii for one in obstacles):
+        text.append(POINT_NOTE)
     return "\n\n".join(text)
 
 

@@ -13,7 +13,7 @@ from sprung_tools.runs.ride_assessment import (
     calc_bands,
     calc_vibration,
     describe_comfort,
-    list_pitch_gaps,
+    list_remarks,
 )
 from sprung_tools.runs.ride_measures import (
     calc_contact,
@@ -75,8 +75,8 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
         contacts = [{"name": name, **calc_contact(results, name, window)._asdict()} for name in tyres]
     except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
         problem = problem or str(error)
-    gaps = list_pitch_gaps(results, list(vibrations))
-    return {"window": window, "problem": problem, "gaps": gaps, "points": points, "travel": travels,
+    remarks = list_remarks(results, list(vibrations), window)
+    return {"window": window, "problem": problem, "remarks": remarks, "points": points, "travel": travels,
             "tyres": contacts}  # fmt: skip
 
 

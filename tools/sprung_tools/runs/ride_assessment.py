@@ -20,6 +20,7 @@ from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import sampling_step
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
+    RUNNING,
     WD,
     WE,
     WK,
@@ -33,6 +34,7 @@ from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import calc_third_octaves
 
 PITCH = 0.4  # m/rad
+ROUNDING = 1e-9  # relative, of times
 # Annex C, C.2.3: from, up to [m/s²], words. The ranges overlap.
 REACTIONS = (
     (0.0, 0.315, "not uncomfortable"), (0.315, 0.63, "a little uncomfortable"), (0.5, 1.0, "fairly uncomfortable"),
@@ -79,10 +81,18 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
     return f"'{dataset}' is not stored at every output" if results.file.every(dataset) > 1 else ""
 
 
-def list_pitch_gaps(results: ResultsFile, points: Sequence[str]) -> list[str]:
-    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why."""
+def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
+    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why; and
+    whether the run is too short for the MTVV."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
-    return [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
+    remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
+    length = float(results.time[samples_between(results, *window)][-1] - results.time[0])
+    if points and length < RUNNING * (1.0 - ROUNDING):
+        remarks.append(
+            f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the run has only {length:.3g} s until the end of "
+            "the span: what is missing counts as 0, so that the MTVV is too low"
+        )
+    return remarks
 
 
 def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:

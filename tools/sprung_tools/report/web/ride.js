@@ -38,9 +38,9 @@ function fillRide() {
   if (byId("ride").hidden) return;
   fillStatistics(byId("ride-table"), [...collectRide("points", MEASURES), ...collectRide("travel", TRAVEL), ...collectRide("tyres", TYRE)]);
   const problems = data.runs.filter((run) => run.ride && run.ride.problem).map((run) => `${run.label}: ${run.ride.problem}`);
-  const gaps = data.runs.flatMap((run) => (run.ride ? run.ride.gaps.map((gap) => `${run.label}, ${gap}`) : []));
-  byId("ride-problem").textContent = [problems.length ? `The vibration is not judged. ${problems.join("; ")}` : "", gaps.join("; ")].filter(Boolean).join(" ");
-  byId("ride-problem").hidden = !problems.length && !gaps.length;
+  const remarks = data.runs.flatMap((run) => (run.ride ? run.ride.remarks.map((one) => `${run.label}: ${one}`) : []));
+  byId("ride-problem").textContent = [problems.length ? `The vibration is not judged. ${problems.join("; ")}` : "", remarks.join("; ")].filter(Boolean).join(" ");
+  byId("ride-problem").hidden = !problems.length && !remarks.length;
   const spans = new Set(data.runs.filter((run) => run.ride).map((run) => run.ride.window.map((time) => `${format(time)} s`).join(" to ")));
   const seats = data.runs.some((run) => run.ride && run.ride.points.some((one) => one.name.endsWith(".seat")));
   byId("ride-note").textContent = (seats ? "" : "No point is called seat: the points of the summary are judged. ") + `Over ${[...spans].join(" and ")}. ISO 2631-1 judges vibration by weighted accelerations, Wk, Wd and ` +

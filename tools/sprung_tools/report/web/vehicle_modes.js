@@ -41,7 +41,7 @@ function moveNodes(equilibrium, shape, size) {
 /** The view that shows a mode wherever it moves to, and the scene's height, px. */
 function fitMode(vehicle, equilibrium, shape, size, width) {
   const [x0, y0, x1, y1] = boxAround(vehicle, equilibrium, moveNodes(equilibrium, shape, size), moveNodes(equilibrium, shape, -size));
-  const inside = width - 2 * MODE_EDGE, wide = Math.max(x1 - x0, 1e-6), tall = Math.max(y1 - y0, 1e-6);
+  const inside = Math.max(width - 2 * MODE_EDGE, 1), wide = Math.max(x1 - x0, 1e-6), tall = Math.max(y1 - y0, 1e-6);
   const height = Math.round(Math.min(MODE_HEIGHT, Math.max(LEAST_MODE_HEIGHT, inside * tall / wide + 2 * MODE_EDGE)));
   const scale = Math.min(inside / wide, (height - 2 * MODE_EDGE) / tall);
   return {
