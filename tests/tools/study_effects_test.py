@@ -51,6 +51,7 @@ class Effects(unittest.TestCase):
             lowest = min(one for one, number in zip(values, groups) if number == group + 1)
             self.assertLess(highest, lowest)
         self.assertEqual((len(names), names[0], names[-1]), (5, "0 to 2", "8 to 10"))
+        self.assertEqual(make_groups(list(np.linspace(1234.5, 2345.6, 50)))[1][0], "1230 to 1460")
 
     def test_texts_make_groups_in_the_order_in_which_they_come(self):
         groups, names = make_groups(["bdf", "adams", "bdf", True])

@@ -29,6 +29,18 @@ name = "method <script>"
 key = "integrator.method"
 values = ["exponential", "no </script> method"]
 """
+# Parameters with many digits, whose names and values have little room.
+CROWDED = f"""
+run = "{MODELS}/examples/quarter_car_run.toml"
+measures = ["tyres/tyre/dynamic_load_rms"]
+set.duration = 0.05
+[sampling]
+method = "METHOD"
+"""
+RANGES = {
+    "vehicle.forces.suspension.damper.coefficient": (750.0, 3000.0), "road.height": (0.01, 0.05), "speed": (1.0, 9.0),
+    "road.start": (0.101, 0.203),
+}  # fmt: skip
 NAME = "one.id || one.getAttribute('href')"
 
 
@@ -41,10 +53,15 @@ class StudyPage(unittest.TestCase):
         run_program([TOOLS / "study", "damper <b>.toml", "-o", "out"], cwd=cls.folder, check=True)
         with open(cls.folder / "out/table.csv", encoding="utf-8", newline="") as file:
             cls.rows = list(csv.DictReader(file))
+        ranges = [f'[[parameters]]\nkey = "{key}"\nfrom = {low}\nto = {high}\n' for key, (low, high) in RANGES.items()]
+        grid = "".join(one + 'spacing = "logarithmic"\nnumber = 3\n' for one in ranges)
+        for method, text in (("sobol", "number = 64\n" + "".join(ranges)), ("grid", grid)):
+            (cls.folder / f"{method}.toml").write_text(CROWDED.replace("METHOD", method) + text, encoding="utf-8")
+            run_program([TOOLS / "study", f"{method}.toml", "-o", method], cwd=cls.folder, check=True)
         cls.browser = cls.enterClassContext(Browser())
 
-    def open(self, size="desktop", dark=False):
-        page = self.browser.open(self.folder / "out/study.html", *SIZES[size], dark=dark, touch=size == "phone")
+    def open(self, size="desktop", dark=False, folder="out"):
+        page = self.browser.open(self.folder / folder / "study.html", *SIZES[size], dark=dark, touch=size == "phone")
         self.addCleanup(page.close)
         self.addCleanup(lambda: self.assertEqual(page.problems(), []))
         self.assertEqual(page.evaluate("document.documentElement.dataset.ready"), "true")
@@ -83,6 +100,46 @@ class StudyPage(unittest.TestCase):
         )
         self.assertIn("6 failed", page.evaluate("document.getElementById('subtitle').textContent"))
         self.assertEqual(page.evaluate("parameterColumns[2].name"), "method <script>")
+
+    def test_the_names_of_values_are_short_and_do_not_run_into_each_other(self):
+        for folder in ("sobol", "grid"):
+            for size in SIZES:
+                with self.subTest(folder, size=size):
+                    page = self.open(size, folder=folder)
+                    marks = page.evaluate("effectMarks")
+                    self.assertEqual(len(marks), 2 * len(RANGES))
+                    for one in marks:
+                        self.assertNotRegex(one["text"], "…|e[+−]|[0-9.]{7,}")
+                    for row in (0, 1):
+                        spans = sorted((one["from"], one["to"]) for one in marks if one["row"] == row)
+                        for (_, end), (begin, _) in zip(spans, spans[1:]):
+                            self.assertLess(end + 4.0, begin)
+                    page.picture(PICTURES / f"effects_{folder}_{size}.png", "#effects")
+                    page.evaluate("drawHeatMap()")
+                    named = page.evaluate(
+                        "(() => { const c = byId('heat-plot').getContext('2d'); c.font = '12px system-ui, sans-serif';"
+                        "return diagrams.named.map((one) => c.measureText(one).width); })()"
+                    )
+                    width = page.box("#heat-plot")[2]
+                    self.assertGreater(len(named), 1)
+                    self.assertLess(sum(named) + 6.0 * (len(named) - 1), width - 84.0)
+
+    def test_the_numbers_of_an_axis_up_are_whole(self):
+        page = self.open("phone", folder="grid")
+        widest = page.evaluate(
+            "(() => { const c = byId('heat-plot').getContext('2d'); c.font = '12px system-ui, sans-serif';"
+            "const up = [{place: 0.5, text: '0.022361'}], none = {title: '', marks: []};"
+            "return [drawAxes(c, 338, 380, none, {title: '', marks: up}).left, c.measureText('0.022361').width]; })()"
+        )
+        self.assertGreaterEqual(widest[0], widest[1] + 30.0)
+
+    def test_the_table_of_failures_fits_the_telephone(self):
+        page = self.open("phone")
+        inside, around = page.evaluate(
+            "(() => { const one = document.querySelector('#failures .scroll');"
+            "return [one.scrollWidth, one.clientWidth]; })()"
+        )
+        self.assertLessEqual(inside, around)
 
     def test_the_best_runs_are_in_order_of_the_measure_chosen(self):
         page = self.open()

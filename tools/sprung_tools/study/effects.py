@@ -47,8 +47,13 @@ def make_groups(values: list[Any]) -> tuple[Integers, list[str]]:
     numbers = np.array(values, dtype=float)
     limits = np.quantile(numbers, np.linspace(0.0, 1.0, PARTS + 1))
     groups = np.clip(np.searchsorted(limits, numbers, side="right") - 1, 0, PARTS - 1)
-    names = [f"{low:.3g} to {high:.3g}" for low, high in zip(limits[:-1], limits[1:])]
+    names = [f"{round_number(low)} to {round_number(high)}" for low, high in zip(limits[:-1], limits[1:])]
     return groups, names
+
+
+def round_number(value: float) -> str:
+    """A number with three digits, without an exponent where that is short."""
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def calc_effects(finished: Finished, columns: list[Column]) -> list[Effect]:

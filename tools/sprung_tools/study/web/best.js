@@ -7,11 +7,14 @@ function findBest(measure, order) {
   return runsWith(measure).sort((a, b) => order * (measure.numbers[a] - measure.numbers[b])).slice(0, MOST_BEST);
 }
 
+/** A name that may be broken after its slashes, dots and underscores. */
+const breakable = (name) => name.split(/(?<=[/._])/).flatMap((part, k) => (k ? [element("wbr"), part] : [part]));
+
 function fillBest() {
   const measure = columnOf(byId("best-measure"));
   if (!measure) return;
   const shown = [...parameterColumns, measure, ...measureColumns.filter((one) => one !== measure)];
-  const head = element("tr", {}, element("th", {}, "run"), ...shown.map((one) => element("th", {class: "number"}, titleOf(one))));
+  const head = element("tr", {}, element("th", {}, "run"), ...shown.map((one) => element("th", {class: "number"}, ...breakable(titleOf(one)))));
   const rows = findBest(measure, Number(byId("best-order").value)).map((run) => {
     const mark = data.rows[run].exit === 1 ? " !" : "";
     const row = element("tr", {class: run === chosen.run ? "chosen" : "", "data-run": run}, element("th", {scope: "row"}, `${run + 1}${mark}`),

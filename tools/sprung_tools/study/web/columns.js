@@ -49,6 +49,7 @@ const shareOf = (column, value) => (column.high > column.low ? (value - column.l
 const colourOfRun = (column, run) => (column && column.numbers[run] !== null ? colourAt(shareOf(column, column.numbers[run])) : style("--soft"));
 
 const chosen = {run: null, listeners: []};
+const diagrams = {named: []};  // the marks of the last axis across that are named
 
 /** Chooses a run in all diagrams; null for none. */
 function choose(run) {
@@ -65,21 +66,26 @@ const runsWith = (...some) => data.rows.map((_, run) => run).filter((run) => som
 
 /** A frame with marks and titles of both axes, so far below the top of the canvas. Returns the area inside. */
 function drawAxes(context, width, height, across, up, top = 14) {
-  const area = {left: 70, top, right: width - 14, bottom: height - 46};
   context.font = "12px system-ui, sans-serif";
+  const widest = Math.max(0, ...up.marks.map(({text}) => context.measureText(text).width));
+  const area = {left: Math.min(Math.max(70, 30 + widest), 0.4 * width), top, right: width - 14, bottom: height - 46};
   context.strokeStyle = style("--grid");
   context.fillStyle = style("--soft");
   context.textBaseline = "middle";
-  for (const {place, text} of across.marks) {
-    const x = area.left + place * (area.right - area.left);
+  const length = area.right - area.left;
+  const marks = across.marks.map(({place, text}) => ({place, text: cutEnd(context, text, Math.max(length / across.marks.length, 80))}));
+  const named = thinMarks(context, marks, length);
+  for (const {place, text} of marks) {
+    const x = area.left + place * length;
     context.textAlign = "center";
-    context.fillText(text, x, area.bottom + 14);
+    if (named.some((one) => one.place === place)) context.fillText(text, x, area.bottom + 14);
     if (across.lines) strokeLine(context, x, area.top, x, area.bottom);
   }
+  diagrams.named = named.map(({text}) => text);
   for (const {place, text} of up.marks) {
     const y = area.bottom - place * (area.bottom - area.top);
     context.textAlign = "right";
-    context.fillText(shorten(context, text, area.left - 24), area.left - 6, y);
+    context.fillText(cutEnd(context, text, area.left - 30), area.left - 6, y);
     if (up.lines) strokeLine(context, area.left, y, area.right, y);
   }
   context.strokeStyle = style("--line");
@@ -121,12 +127,32 @@ function strokeLine(context, x1, y1, x2, y2) {
   context.stroke();
 }
 
-/** The end of a text that is too wide. */
+/** The end of a text that is too wide: of a name, whose end says what it is. */
 function shorten(context, text, width) {
   if (context.measureText(text).width <= width) return text;
   let end = text;
   while (end && context.measureText(`…${end}`).width > width) end = end.slice(1);
   return `…${end}`;
+}
+
+/** The beginning of a text that is too wide: of a value. */
+function cutEnd(context, text, width) {
+  if (context.measureText(text).width <= width) return text;
+  let begin = text;
+  while (begin && context.measureText(`${begin}…`).width > width) begin = begin.slice(0, -1);
+  return `${begin}…`;
+}
+
+/** Of marks [{place, text}] along a length in px those that do not run into each other: every one, every second one … */
+function thinMarks(context, marks, length) {
+  let shown = marks;
+  for (let every = 2; every <= marks.length; ++every) {
+    const isFree = shown.every(({place, text}, k) => k === 0 || length * (place - shown[k - 1].place) >
+      0.5 * (context.measureText(text).width + context.measureText(shown[k - 1].text).width) + 6);
+    if (isFree) return shown;
+    shown = marks.filter((_, k) => k % every === 0);
+  }
+  return shown;
 }
 
 const axisOf = (column) => ({title: titleOf(column), lines: true,
