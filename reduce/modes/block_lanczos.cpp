@@ -80,7 +80,8 @@ class Lanczos {
     projected_.block(begin, begin, width, width) = 0.5 * (own + own.transpose());
     block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd first = orthonormalize(block, kDependent * largest_);
-    remove_from(block);
+    block.vectors.noalias() -=
+        vectors_.leftCols(size_) * (vectors_.leftCols(size_).transpose() * block.momenta);
     block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd second = orthonormalize(block, 1e-3);
     coupling_ = second * first;
@@ -111,25 +112,6 @@ class Lanczos {
   Index num_pairs() const { return num_pairs_; }
 
  private:
-  // What a block has of the vectors before it. Eigen's products of matrices would copy all of those for each
-  // block; pieces of all that fit in the cache need no copy.
-  void remove_from(Block& block) const {
-    constexpr Index kRows = 128;
-    MatrixXd shares = MatrixXd::Zero(size_, block.vectors.cols());
-    const auto for_each_piece = [&](const auto& use) {
-      for (Index begin = 0; begin < vectors_.rows(); begin += kRows) {
-        const Index count = std::min(kRows, vectors_.rows() - begin);
-        use(vectors_.block(begin, 0, count, size_), begin, count);
-      }
-    };
-    for_each_piece([&](const auto& piece, Index begin, Index count) {
-      shares += piece.transpose().lazyProduct(block.momenta.middleRows(begin, count));
-    });
-    for_each_piece([&](const auto& piece, Index begin, Index count) {
-      block.vectors.middleRows(begin, count) -= piece.lazyProduct(shares);
-    });
-  }
-
   void append() {
     const Index width = next_.vectors.cols(), end = size_ + width;
     if (end > vectors_.cols()) vectors_.conservativeResize(Eigen::NoChange, end + end / 2);
