@@ -150,7 +150,8 @@ def make_json(
     packed: list[dict[str, Any]] = []
     for run, window in zip(runs, windows):
         objects = list_objects(run.results, window, points, superelements)
-        packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window, points),
+        packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
+                       "remarks": list_remarks(run.results, find_points(run.results, points), window),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
         packed.append({"label": response.label, "file": response.file.filename, **describe_response(response),

@@ -26,7 +26,7 @@ from sprung_tools.runs.largest_loads import (
     find_bending,
     find_best_peak,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, list_remarks
+from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
@@ -252,14 +252,13 @@ def is_converged(results: ResultsFile) -> bool:
     return read_real(results.file, "summary", "energy_closure") <= ALARMING_CLOSURE
 
 
-def describe_run(results: ResultsFile, window: Span, points: Sequence[str] = ()) -> dict[str, Any]:
-    """What stands beside the measures of a run in JSON. points: as list_objects() takes them."""
+def describe_run(results: ResultsFile, window: Span) -> dict[str, Any]:
+    """What stands beside the measures of a run in JSON."""
     warnings = [{"concerns": one.section, "of": one.of, "text": one.text} for one in list_warnings(results)]
     return {
         "kind": "run", "title": results.title, "set": read_overrides(results.file),
         "span": {"from": window[0], "to": window[1], "unit": "s"},
         "converged": is_converged(results), "warnings": warnings, "not_stored": list_gaps(results),
-        "remarks": list_remarks(results, find_points(results, points), window),
     }  # fmt: skip
 
 
