@@ -1,9 +1,12 @@
 #include "reduce/modes/dense_eigen_solver.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <string>
+#include <string_view>
 
+#include "reduce/modes/stiffness_factor.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/dense/orthogonal_factors.h"
 #include "tools/support/errors/numerical_error.h"
@@ -12,15 +15,18 @@ namespace sprung::reduce {
 
 namespace {
 
+constexpr std::string_view kStiffness = "stiffness";
 constexpr double kSmallestMass = 1e-12;  // of a mass matrix scaled to unit diagonal
 
-Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, const char* name) {
+Eigen::LLT<Eigen::MatrixXd> factor(const Eigen::MatrixXd& matrix, std::string_view name) {
   Eigen::LLT<Eigen::MatrixXd> factors(matrix);
   if (factors.info() != Eigen::Success) {
-    throw support::NumericalError(
-        std::string("modes: the ") + name +
-        " matrix is not positive definite to rounding; refine the mesh less, or look for "
-        "sections that differ by many orders of magnitude");
+    const std::string message = fmt::format(
+        "modes: the {} matrix is not positive definite to rounding; refine the mesh less, or look for "
+        "sections that differ by many orders of magnitude",
+        name);
+    if (name == kStiffness) throw IndefiniteStiffness(message);
+    throw support::NumericalError(message);
   }
   return factors;
 }
@@ -38,7 +44,7 @@ EigenPairs solve_semidefinite(const Eigen::MatrixXd& stiffness, const Eigen::Mat
   }
   const Eigen::MatrixXd G =
       scale.asDiagonal() * pairs->vectors.rightCols(rank) * pairs->values.tail(rank).cwiseSqrt().asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> L = factor(stiffness, "stiffness");
+  const Eigen::LLT<Eigen::MatrixXd> L = factor(stiffness, kStiffness);
   const support::SingularPairs singular = support::calc_right_singular_pairs(L.matrixL().solve(G));
   EigenPairs result;
   result.omega_squared = singular.values.cwiseAbs2().cwiseInverse();
@@ -63,7 +69,7 @@ EigenPairs solve_dense(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& 
   const Eigen::VectorXi order = order_by_mass(mass);
   const Eigen::Index num_modes = mass.rows() - num_massless;
   const Eigen::VectorXi massive = order.tail(num_modes);
-  const Eigen::LLT<Eigen::MatrixXd> of_stiffness = factor(stiffness(order, order), "stiffness");
+  const Eigen::LLT<Eigen::MatrixXd> of_stiffness = factor(stiffness(order, order), kStiffness);
   const Eigen::LLT<Eigen::MatrixXd> of_mass = factor(mass(massive, massive), "mass");
   const Eigen::MatrixXd L = of_stiffness.matrixL(), G = of_mass.matrixL();
   const auto L_massive = L.bottomRightCorner(num_modes, num_modes).triangularView<Eigen::Lower>();

@@ -191,12 +191,16 @@ BodyMatrices make_body_matrices(const Design& design) {
   matrices.full = make_full_matrices(design);
   matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
                    .mass = remove_node(matrices.full.mass, design.reference_node)};
-  matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
-  matrices.held.factor = matrices.factor.get();
   matrices.held.num_massless = (matrices.held.mass.diagonal().array() == 0.0).count();
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   matrices.rigid = calc_rigid_motions(matrices.node_positions, matrices.full.mass, design.reference_node);
+  try {
+    matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
+  } catch (const IndefiniteStiffness& error) {
+    refuse_indefinite(design, matrices, error.what());
+  }
+  matrices.held.factor = matrices.factor.get();
   matrices.free = make_free_problem(matrices.held, matrices.rigid);
   matrices.free.num_massless = (matrices.full.mass.diagonal().array() == 0.0).count();
   return matrices;
@@ -218,9 +222,13 @@ BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, co
   const HeldRounding held = estimate_held_rounding(matrices);
   if (held.is_of_soft_reference() && held.error > kMaxHeldRounding)
     throw support::NumericalError(describe_soft_reference(design, matrices));
-  return design.reduction.basis == BasisKind::kClamped
-             ? make_clamped_basis(design, matrices, factor, frame, held, options)
-             : make_interface_basis(design, matrices, factor, frame, held, options);
+  try {
+    return design.reduction.basis == BasisKind::kClamped
+               ? make_clamped_basis(design, matrices, factor, frame, held, options)
+               : make_interface_basis(design, matrices, factor, frame, held, options);
+  } catch (const IndefiniteStiffness& error) {
+    refuse_indefinite(design, matrices, error.what());
+  }
 }
 
 Eigen::VectorXd calc_frequencies(const BodyBasis& basis) {

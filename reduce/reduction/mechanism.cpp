@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "fem/beam_element.h"
 #include "fem/coupling.h"
+#include "reduce/matrices/matrix_body.h"
 #include "reduce/modes/held_node.h"
 #include "reduce/modes/rounding_error.h"
+#include "reduce/reduction/held_rounding.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -24,6 +28,68 @@ Eigen::VectorXd calc_energies(const fem::BeamModel& model, const Eigen::MatrixXd
     energies(e) = ends.dot(fem::calc_stiffness(fem::make_element(model, e)) * ends);
   }
   return energies;
+}
+
+// Squares of what the ends of each element do that is no rigid motion, as displacements.
+Eigen::VectorXd calc_deformations(const fem::Mesh& mesh, const Eigen::VectorXd& shape) {
+  Eigen::VectorXd deformations(mesh.num_elements());
+  for (int e = 0; e < mesh.num_elements(); ++e) {
+    const fem::Mesh::Element& nodes = mesh.elements[static_cast<std::size_t>(e)];
+    const Eigen::Vector2d along =
+        mesh.node_positions.col(nodes.second) - mesh.node_positions.col(nodes.first);
+    const Eigen::Vector3d first = shape.segment<3>(3 * nodes.first),
+                          second = shape.segment<3>(3 * nodes.second);
+    const Eigen::Vector2d carried(-first(2) * along.y(), first(2) * along.x());
+    deformations(e) = (second.head<2>() - first.head<2>() - carried).squaredNorm() +
+                      std::pow((second(2) - first(2)) * along.norm(), 2);
+  }
+  return deformations;
+}
+
+// The motion that nothing holds: by inverse iteration on K + τ diag(K), scaled to a largest entry of 1. Empty
+// where even that has no factors, or something holds all motions.
+Eigen::VectorXd find_loose_motion(const Eigen::SparseMatrix<double>& stiffness) {
+  constexpr double kShift = 1e-10;
+  constexpr int kIterations = 12;
+  constexpr double kHeld = 1e-9;  // of the stiffness without the parts of opposite sign
+  const Eigen::VectorXd diagonal = stiffness.diagonal().cwiseAbs();
+  const Eigen::VectorXd scale = (diagonal.array() > 0.0).select(diagonal, diagonal.maxCoeff());
+  Eigen::SparseMatrix<double> shifted = stiffness;
+  shifted.diagonal() += kShift * scale;
+  const auto factor = make_sparse_factor(shifted, true);
+  if (factor == nullptr) return {};
+  Eigen::VectorXd motion(scale.size());
+  for (Eigen::Index i = 0; i < motion.size(); ++i) motion(i) = 1.0 + 0.5 * std::sin(static_cast<double>(i));
+  for (int i = 0; i < kIterations; ++i) {
+    motion = factor->solve(scale.cwiseProduct(motion)).col(0).eval();
+    const double largest = motion.lpNorm<Eigen::Infinity>();
+    if (!(largest > 0.0) || !std::isfinite(largest)) return {};
+    motion /= largest;
+  }
+  if (motion.dot(stiffness * motion) > kHeld * motion.dot(scale.cwiseProduct(motion))) return {};
+  return motion;
+}
+
+// The node that moves most, and how: where only rotations move, in rotation.
+std::string describe_motion(const Design& design, const Eigen::VectorXd& shape) {
+  constexpr double kNoDisplacement = 1e-6;
+  const fem::Mesh& mesh = design.model.mesh;
+  Eigen::Index largest[3], freedom = 0;
+  double amplitude[3];
+  for (Eigen::Index f = 0; f < 3; ++f)
+    amplitude[f] = shape(Eigen::seqN(f, mesh.num_nodes(), 3)).cwiseAbs().maxCoeff(&largest[f]);
+  freedom = amplitude[1] >= amplitude[0] ? 1 : 0;
+  if (amplitude[freedom] <= kNoDisplacement * amplitude[2] * fem::calc_extent(mesh)) freedom = 2;
+  const Eigen::VectorXd others = shape.tail(shape.size() - 3 * mesh.num_nodes());
+  if (others.size() > 0 && others.cwiseAbs().maxCoeff() > std::max(amplitude[freedom], amplitude[2])) {
+    Eigen::Index row = 0;
+    others.cwiseAbs().maxCoeff(&row);
+    return describe_freedom(*design.matrices, 3 * mesh.num_nodes() + row);
+  }
+  return fmt::format("{} {}", fem::describe_node(mesh, static_cast<int>(largest[freedom])),
+                     freedom == 2   ? "in rotation"
+                     : freedom == 1 ? "along y"
+                                    : "along x");
 }
 
 }  // namespace
@@ -62,6 +128,31 @@ double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& s
       "is {:.0e}; refine the mesh less{} (the error grows with the fourth power of the number of elements)",
       worst == 0 ? "the lowest mode" : fmt::format("mode {}", worst + 1), frequency_hz, error,
       kMaxRoundingError, worst == 0 ? "" : " where this mode bends"));
+}
+
+void refuse_indefinite(const Design& design, const BodyMatrices& matrices, const std::string& reason) {
+  constexpr double kAllOfTheBody = 1e-3;
+  const Eigen::VectorXd held = find_loose_motion(matrices.held.stiffness);
+  if (held.size() == 0) throw support::NumericalError(reason);
+  const Eigen::MatrixXd moved =
+      fem::move_followers(design.model.couplings, insert_node(held, design.reference_node));
+  const Eigen::VectorXd shape = moved.col(0), bent = remove_momentum(matrices.rigid, moved).col(0);
+  if (bent.dot(matrices.full.mass * bent) < kAllOfTheBody * shape.dot(matrices.full.mass * shape))
+    throw support::NumericalError(describe_soft_reference(design, matrices));
+  const fem::Mesh& mesh = design.model.mesh;
+  const std::string motion = describe_motion(design, shape);
+  Eigen::Index loosest = 0;
+  const Eigen::VectorXd deformations = calc_deformations(mesh, shape);
+  if (deformations.size() > 2 && deformations.maxCoeff(&loosest) > kMostOfTheEnergy * deformations.sum()) {
+    const fem::Mesh::Element& element = mesh.elements[static_cast<std::size_t>(loosest)];
+    throw support::NumericalError(fmt::format(
+        "the body has an internal mechanism: it gives way without force in the element of section "
+        "'{}' from {} to {}, and moves most at {}; make it two bodies with a joint, or stiffen the "
+        "section",
+        mesh.section_names[static_cast<std::size_t>(element.section)],
+        fem::describe_node(mesh, element.first), fem::describe_node(mesh, element.second), motion));
+  }
+  throw support::NumericalError(fmt::format("{}; what nothing holds moves most at {}", reason, motion));
 }
 
 }  // namespace sprung::reduce

@@ -2,6 +2,7 @@
 
 #include "reduce/design/design.h"
 #include "reduce/modes/eigen_pairs.h"
+#include "reduce/reduction/body_basis.h"
 
 namespace sprung::reduce {
 
@@ -16,5 +17,16 @@ namespace sprung::reduce {
 /// Checked by tests/reduce/reduction/mechanism_test.cpp
 double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& stiffness,
                       const EigenPairs& modes);
+
+/// Refuses a body whose held stiffness is not positive definite to rounding. The message names the node and
+/// freedom that move most where nothing holds the body, and the element that gives way if it is one alone.
+/// Where all of the body moves rigidly, the reference node is the cause.
+///
+/// @param matrices  all but the factor
+/// @param reason    what the factorisation says
+/// @throws support::NumericalError
+/// Checked by tests/reduce/reduction/mechanism_test.cpp
+[[noreturn]] void refuse_indefinite(const Design& design, const BodyMatrices& matrices,
+                                    const std::string& reason);
 
 }  // namespace sprung::reduce

@@ -28,6 +28,18 @@ TEST_CASE("an element that gives way without force is named as an internal mecha
   CHECK_THAT(message, Contains("internal mechanism"));
 }
 
+// The right half slides across the hinge and turns about it, so that what moves most moves along y. With the
+// first bending the held frame still has factors, but its modes have none.
+TEST_CASE("of a hinge without stiffness the message names what moves, and the element that gives way") {
+  for (const double bending : {1e-16, 1e-20}) {
+    const std::string message =
+        testing::message_of<support::NumericalError>([&] { make_superelement(make_hinged(bending)); });
+    CHECK_THAT(message, Contains("internal mechanism") && Contains("moves most at node") &&
+                            Contains(" along y") && Contains("gives way without force in the element") &&
+                            Contains("at (1, 0)") && Contains("at (1.05, 0)"));
+  }
+}
+
 TEST_CASE("a mode that rounding spoils is refused where the lowest one is sound") {
   fem::BeamModel model = testing::make_model({testing::make_section(), testing::make_section()});
   model.sections[1].bending_rigidity *= 0.01;
