@@ -1,6 +1,7 @@
 #include "reduce/design/design.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -184,6 +185,7 @@ support::TomlDocument read_with_overrides(const DesignSource& source) {
   for (std::size_t i = 0; i < source.overrides.size(); ++i) {
     document.set(source.overrides[i], fmt::format("--set {}", i + 1));
   }
+  if (!source.varied.empty()) document.set(source.varied, "--vary");
   return document;
 }
 
@@ -219,6 +221,50 @@ void insert_parameters(const support::TomlDocument& walked, support::TomlDocumen
   }
 }
 
+// Names of the parameters that a value and what it contains name.
+void list_used(const TomlValue& value, std::vector<std::string>& used) {
+  if (value.is_table()) {
+    for (const auto& [name, entry] : value.table().entries()) list_used(entry, used);
+  } else if (value.is_array()) {
+    for (const TomlValue& item : value.items()) list_used(item, used);
+  } else if (value.is_string() && value.string().starts_with('=')) {
+    used.push_back(value.string().substr(1));
+  }
+}
+
+std::vector<std::string> list_used(const support::TomlDocument& document) {
+  std::vector<std::string> used;
+  const TomlTable root = document.root();
+  for (const auto& [name, value] : root.entries()) {
+    if (name != "parameters" && name != "name") list_used(value, used);
+  }
+  return used;
+}
+
+// A parameter that nothing names is mistyped. One may replace all texts that name another one, so that those
+// of the file count, too.
+void check_parameters_are_used(const DesignSource& source) {
+  const support::TomlDocument document = read_with_overrides(source);
+  const auto parameters = document.root().find_table("parameters");
+  if (!parameters) return;
+  const support::TomlDocument file = support::TomlDocument::read(source.path);
+  std::vector<std::string> used = list_used(document), known;
+  for (std::string& name : list_used(file)) used.push_back(std::move(name));
+  if (const auto table = file.root().find_table("parameters"))
+    for (const auto& [name, value] : table->entries()) known.push_back(name);
+  for (const auto& [name, value] : parameters->entries()) {
+    if (std::find(used.begin(), used.end(), name) != used.end()) continue;
+    if (std::find(known.begin(), known.end(), name) != known.end()) {
+      throw value.error(fmt::format(
+          "is used by nothing; write \"={}\" in place of a number of the design, or leave it out", name));
+    }
+    throw value.error(known.empty()
+                          ? "is no parameter of the design, which has no [parameters]"
+                          : fmt::format("is no parameter of the design; it has '{}'{}",
+                                        fmt::join(known, "', '"), support::nearest_name_hint(name, known)));
+  }
+}
+
 }  // namespace
 
 std::string read_source_text(const DesignSource& source) {
@@ -233,7 +279,9 @@ std::string calc_file_hash(const std::filesystem::path& path) {
 
 support::TomlDocument read_document(const DesignSource& source) {
   support::TomlDocument document = read_with_overrides(source);
-  if (document.root().has("parameters")) insert_parameters(read_with_overrides(source), document);
+  if (!document.root().has("parameters")) return document;
+  insert_parameters(read_with_overrides(source), document);
+  check_parameters_are_used(source);
   return document;
 }
 

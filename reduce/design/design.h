@@ -43,12 +43,15 @@ Design read_design(const std::filesystem::path& path);
 struct DesignSource {
   std::filesystem::path path;
   std::vector<std::string> overrides = {};  ///< as `--set` takes them: "sections.rail.height=0.12"
+  std::string varied = {};                  ///< a last one, which `--vary` gives; or ""
 };
 /// @throws support::InputError as read_design, faults of an override at `--set N`
 Design read_design(const DesignSource& source);
 /// The document with its overrides, and with numbers in place of the names of its parameters
 /// ("=rail_height").
-/// @throws support::InputError if it is not TOML, or names a parameter that is not there
+/// @throws support::InputError if it is not TOML, names a parameter that is not there, or has one that
+/// nothing
+///         names in it or in the file without its overrides
 support::TomlDocument read_document(const DesignSource& source);
 /// The text that provenance keeps: that of the file, and a comment for each override.
 /// @throws support::InputError if it cannot be read

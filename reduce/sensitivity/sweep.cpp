@@ -31,7 +31,7 @@ struct SweptBody {
 
 SweptBody make_body(const SweepOptions& options, double value) {
   DesignSource source = options.design;
-  source.overrides.push_back(fmt::format("{}={:.17g}", options.key, value));
+  source.varied = fmt::format("{}={:.17g}", options.key, value);
   const Design design = read_design(source);
   SweptBody body{.value = value, .matrices = make_body_matrices(design), .free = {}, .clamped = {}};
   const int computed = (options.is_preview ? kPreviewModes : 1) * options.num_modes + kGuards;
@@ -61,7 +61,7 @@ BodyModes calc_ritz_modes(const fem::AssembledMatrices& full, const Eigen::Matri
 // A body for another value, by the modes of the first one.
 SweptBody preview_body(const SweepOptions& options, const SweptBody& first, double value) {
   DesignSource source = options.design;
-  source.overrides.push_back(fmt::format("{}={:.17g}", options.key, value));
+  source.varied = fmt::format("{}={:.17g}", options.key, value);
   const Design design = read_design(source);
   SweptBody body{.value = value, .matrices = {}, .free = {}, .clamped = {}};
   body.matrices.full = make_full_matrices(design);

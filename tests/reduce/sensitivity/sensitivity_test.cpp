@@ -7,6 +7,7 @@
 
 #include "reduce/reduction/reduction.h"
 #include "reduce/sensitivity/sensitivity_tables.h"
+#include "reduce/sensitivity/sweep.h"
 #include "tests/catch.h"
 #include "tests/reduce/sensitivity/two_cantilevers.h"
 #include "tests/reduce/test_bodies.h"
@@ -288,6 +289,28 @@ TEST_CASE("a parameter that is not there is an error where it is named, and so i
       Contains("wrong.toml:8:10: error: ") &&
           Contains("names the parameter 'lang', which [parameters] does not have (did you mean 'long'?)"));
   CHECK_THAT(message("[parameters]\nlang = \"two\"\n"), Contains("parameters.lang"));
+}
+
+TEST_CASE("a parameter that nothing uses is an error where it is given, with the names of those there are") {
+  std::string text = make_cantilevers(0.04, 0.04);
+  text.replace(text.find("height = 0.04"), 13, "height = \"=high\"");
+  const auto message = [](const DesignSource& source) {
+    return testing::message_of<support::InputError>([&] { read_design(source); });
+  };
+  DesignSource source = write_design("used.toml", text + "[parameters]\nhigh = 0.04\n");
+  source.overrides = {"parameters.high=0.05", "parameters.hih=0.05"};
+  CHECK_THAT(message(source), Contains("--set 2: error: 'parameters.hih' is no parameter of the design; it "
+                                       "has 'high' (did you mean 'high'?)"));
+  source.overrides = {"sections.first.height=0.05"};  // takes the place of the only text that names 'high'
+  CHECK(read_design(source).name == "used");
+  const SweepOptions sweep{.design = source, .key = "parameters.hih", .values = {0.04, 0.05}, .num_modes = 2};
+  CHECK_THAT(testing::message_of<support::InputError>([&] { calc_sweep(sweep); }),
+             Contains("--vary: error: 'parameters.hih' is no parameter of the design"));
+  CHECK_THAT(message(write_design("spare.toml", text + "[parameters]\nhigh = 0.04\nk = 3.0\n")),
+             Contains("spare.toml:") && Contains("'parameters.k' is used by nothing"));
+  source = write_design("none.toml", make_cantilevers(0.04, 0.04));
+  source.overrides = {"parameters.high=0.05"};
+  CHECK_THAT(message(source), Contains("--set 1: error: ") && Contains("which has no [parameters]"));
 }
 
 }  // namespace
