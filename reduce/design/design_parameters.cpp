@@ -110,15 +110,18 @@ double calc_derivative(const std::array<double, 4>& f, double h, double scale) {
 
 // None without effect, with other nodes, or at the end of a range, where there is no such design any more.
 std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, ModelReader read,
-                                              const Number& number, double h) {
+                                              const Number& number, double h, std::string& reason) {
   std::vector<fem::BeamModel> at;
   fem::BeamModelRates rates = variation.make_rates();
   try {
     for (const double step : {h, -h, 2.0 * h, -2.0 * h}) {
       at.push_back((variation.*read)(number, number.value + step));
-      if (at.back().mesh.num_nodes() != rates.node_positions.cols()) return std::nullopt;
+      if (at.back().mesh.num_nodes() == rates.node_positions.cols()) continue;
+      reason = "another point is at its place or on its line, and stays behind when it moves";
+      return std::nullopt;
     }
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    reason = fmt::format("there is no such design any more where it changes ({})", error.what());
     return std::nullopt;
   }
   double largest = 0.0;
@@ -153,15 +156,24 @@ std::optional<fem::BeamModelRates> calc_rates(const DesignVariation& variation, 
   return rates;
 }
 
+struct Listed {
+  std::vector<DesignParameter> parameters;
+  std::vector<LeftOutNumber> left_out;
+};
+
 void add_parameter(const DesignVariation& variation, ModelReader read, const Number& number, double h,
-                   std::vector<DesignParameter>& parameters) {
-  auto rates = calc_rates(variation, read, number, h);
-  if (!rates) return;
-  parameters.push_back({.key = number.key,
-                        .value = number.value,
-                        .unit = number.unit,
-                        .is_coordinate = read == &DesignVariation::read_changed_nodes,
-                        .rates = std::move(*rates)});
+                   Listed& listed) {
+  std::string reason;
+  auto rates = calc_rates(variation, read, number, h, reason);
+  if (!rates) {
+    if (!reason.empty()) listed.left_out.push_back({.key = number.key, .reason = reason});
+    return;
+  }
+  listed.parameters.push_back({.key = number.key,
+                               .value = number.value,
+                               .unit = number.unit,
+                               .is_coordinate = read == &DesignVariation::read_changed_nodes,
+                               .rates = std::move(*rates)});
 }
 
 double choose_difference(double value) {
@@ -169,13 +181,12 @@ double choose_difference(double value) {
 }
 
 // Of [parameters], which may change anything; of materials and sections.
-void add_numbers(const DesignVariation& variation, const TomlTable& root,
-                 std::vector<DesignParameter>& parameters) {
+void add_numbers(const DesignVariation& variation, const TomlTable& root, Listed& listed) {
   if (const auto table = root.find_table("parameters")) {
     for (const auto& [name, value] : table->entries()) {
       const Number number{value.key(), "", value.number(support::any(""))};
       add_parameter(variation, &DesignVariation::read_changed_model, number, choose_difference(number.value),
-                    parameters);
+                    listed);
     }
   }
   std::vector<Number> numbers;
@@ -183,19 +194,19 @@ void add_numbers(const DesignVariation& variation, const TomlTable& root,
   list_numbers(root, "sections", numbers);
   for (const Number& number : numbers) {
     add_parameter(variation, &DesignVariation::read_changed_sections, number, choose_difference(number.value),
-                  parameters);
+                  listed);
   }
 }
 
 // Of the points that lines end at; those of a mesh file are no numbers of the design.
 void add_coordinates(const DesignVariation& variation, const TomlTable& root, const fem::Mesh& mesh,
-                     std::vector<DesignParameter>& parameters) {
+                     Listed& listed) {
   if (root.has("mesh")) return;
   for (const auto& [name, point] : root.at("points").table().entries()) {
     for (const TomlValue& coordinate : point.items()) {
       add_parameter(variation, &DesignVariation::read_changed_nodes,
                     {coordinate.key(), "m", coordinate.number(support::any("m"))},
-                    kStep * fem::calc_extent(mesh), parameters);
+                    kStep * fem::calc_extent(mesh), listed);
     }
   }
 }
@@ -222,7 +233,8 @@ void add_point_masses(const DesignVariation& variation, const TomlTable& root,
 
 }  // namespace
 
-std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design) {
+std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design,
+                                             std::vector<LeftOutNumber>* left_out) {
   const TomlDocument document = read_document(source);
   const TomlTable root = document.root();
   for (const char* key : {"rigid_offsets", "averages", "foundations"}) {
@@ -230,11 +242,12 @@ std::vector<DesignParameter> list_parameters(const DesignSource& source, const D
       throw found->error("stands in a design whose derivatives are not computed; take 'sprung-reduce sweep'");
   }
   const DesignVariation variation(source, design);
-  std::vector<DesignParameter> parameters;
-  add_numbers(variation, root, parameters);
-  add_coordinates(variation, root, design.model.mesh, parameters);
-  add_point_masses(variation, root, parameters);
-  return parameters;
+  Listed listed;
+  add_numbers(variation, root, listed);
+  add_coordinates(variation, root, design.model.mesh, listed);
+  add_point_masses(variation, root, listed.parameters);
+  if (left_out != nullptr) *left_out = std::move(listed.left_out);
+  return std::move(listed.parameters);
 }
 
 }  // namespace sprung::reduce

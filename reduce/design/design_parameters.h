@@ -17,6 +17,11 @@ struct DesignParameter {
   fem::BeamModelRates rates;
 };
 
+/// A number of a design that cannot be changed a little both ways as the frame has the same nodes.
+struct LeftOutNumber {
+  std::string key, reason;
+};
+
 /// The parameters of a design that its frame depends on: numbers of materials, sections and point masses, and
 /// coordinates of the points that lines end at. Numbers without effect are left out, and so are points that
 /// only name a node, and numbers at the end of their range.
@@ -25,9 +30,12 @@ struct DesignParameter {
 /// areas and second moments, which are polynomials of the fourth degree at most. Nodes move in proportion to
 /// points.
 ///
-/// @param design  as read from the source
+/// @param design    as read from the source
+/// @param left_out  gets the numbers that have an effect, but no derivative, in the order of the design; or
+/// null
 /// @throws support::InputError as read_design
 /// Checked by tests/reduce/sensitivity/sensitivity_test.cpp
-std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design);
+std::vector<DesignParameter> list_parameters(const DesignSource& source, const Design& design,
+                                             std::vector<LeftOutNumber>* left_out = nullptr);
 
 }  // namespace sprung::reduce

@@ -57,11 +57,12 @@ int run_sensitivity(const SensitivityOptions& options) {
   if (const auto matrices = document.root().find("matrices"))
     throw matrices->error("gives the body; sensitivities are those of beams");
   const Design design = read_design(options.design);
+  std::vector<LeftOutNumber> left_out;
   const DesignSensitivity sensitivity =
-      calc_sensitivity(design, list_parameters(options.design, design), options.num_modes);
-  support::print(
-      stdout, "{}",
-      options.json ? format_sensitivity_json(design, sensitivity) : format_sensitivity(design, sensitivity));
+      calc_sensitivity(design, list_parameters(options.design, design, &left_out), options.num_modes);
+  support::print(stdout, "{}",
+                 options.json ? format_sensitivity_json(design, sensitivity)
+                              : format_sensitivity(design, sensitivity) + format_left_out(left_out));
   return support::kGood;
 }
 

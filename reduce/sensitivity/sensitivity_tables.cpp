@@ -142,6 +142,12 @@ std::string format_sensitivity(const Design& design, const DesignSensitivity& se
          format_others(design, sensitivity);
 }
 
+std::string format_left_out(const std::vector<LeftOutNumber>& left_out) {
+  std::string text;
+  for (const LeftOutNumber& one : left_out) text += fmt::format("{} is left out: {}\n", one.key, one.reason);
+  return text.empty() ? text : "\n" + text;
+}
+
 std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity) {
   Json interface = Json::array(), parameters = Json::array();
   for (std::size_t j = 0; j < design.reduction.interface.size(); ++j)

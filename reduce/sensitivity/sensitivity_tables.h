@@ -11,6 +11,9 @@ double choose_step(const DesignParameter& parameter);
 
 /// For people: what each parameter changes by a step of it, in %; lines end in '\n'.
 std::string format_sensitivity(const Design& design, const DesignSensitivity& sensitivity);
+
+/// The numbers that have no row, and why; "" where there is none.
+std::string format_left_out(const std::vector<LeftOutNumber>& left_out);
 /// All derivatives in SI units, and the shares of the elements.
 std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity);
 

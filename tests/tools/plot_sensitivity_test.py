@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 from tool_test_case import ROOT, ToolTestCase, run_program
 
-from sprung_tools.plots.sensitivity_picture import read_elements
+from sprung_tools.plots.sensitivity_picture import make_sensitivity_figure, read_elements
 
 
 class PlotSensitivity(ToolTestCase):
@@ -34,6 +34,21 @@ class PlotSensitivity(ToolTestCase):
         text = (self.folder / "out.svg").read_text(encoding="utf-8")
         for part in ("free mode 1, 9.722 Hz", "free mode 3, 52.57 Hz", "Where steel moves chassis"):
             self.assertIn(part, text)
+
+    def test_all_words_are_in_the_picture(self):
+        # A frame of such a height that an aspect of the panels that changes their limits gives them wider tick labels.
+        elements = read_elements(self.folder / "chassis.json")
+        for height in (0.0, 0.5, 1.1, 4.0):
+            points = np.linspace([0.0, 0.0], [4.5, 0.0], 13)
+            points[:, 1] = height * np.sin(np.linspace(0.0, np.pi, 13))
+            frame = elements._replace(ends=np.stack([points[:-1], points[1:]], axis=1))
+            for modes in ([1], [1, 2], [1, 2, 3]):
+                figure = make_sensitivity_figure(frame, modes)
+                figure.savefig(self.folder / "out.png")
+                box = figure.get_tightbbox()
+                self.assertGreaterEqual(min(box.x0, box.y0), 0.0)
+                self.assertLessEqual(box.x1, figure.get_figwidth())
+                self.assertLessEqual(box.y1, figure.get_figheight())
 
     def test_other_files_and_modes_are_refused(self):
         process = self.run_tool("plot_sensitivity", "-o", "out.svg", "chassis.json", "--modes", "7")

@@ -275,7 +275,6 @@ class Warnings(VerificationCase):
                 missed = [line for line in found if "its modes miss" in line]
                 self.assertEqual(bool(missed), expected, (superelement, modes, found))
 
-
     def test_rounding_errors_are_no_missing_moments(self):
         # Free fall has no moments, and pure tension has none either.
         free = CANTILEVER.format(wall="origin", held="left", loaded="right").replace("-10.0", "0.0")

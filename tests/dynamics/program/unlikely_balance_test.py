@@ -82,8 +82,11 @@ class Tyres(DynamicsTestCase):
         process = self.run_program("--set", "vehicle.forces.front_tyre.spring.polynomial=[0.0, 200.0]",
                                    verb="equilibrium")  # fmt: skip
         self.assertEqual(process.returncode, 2, process.stderr)
-        self.assertRegex(process.stderr, r"vehicle\.toml:\d+:\d+: error: in static equilibrium 'forces\.front_tyre' is "
-                         r"pressed in by [\d.]+ m of its radius of 0\.6 m; stiffnesses are in N/m, not in N/mm\n")  # fmt: skip
+        self.assertRegex(
+            process.stderr,
+            r"vehicle\.toml:\d+:\d+: error: in static equilibrium 'forces\.front_tyre' is pressed in by [\d.]+ m of its "
+            r"radius of 0\.6 m; stiffnesses are in N/m, not in N/mm\n",
+        )
 
     def test_a_tyre_pressed_in_by_more_than_half_of_it_is_remarked_on(self):
         # Two tyres carry about 71 kN, which press in a linear one of 9e4 N/m by 0.39 m.

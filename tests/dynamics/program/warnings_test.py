@@ -113,9 +113,12 @@ class Warnings(DynamicsTestCase):
             far = ("--set", "vehicle.bodies.body.position=[3000.0, 0.9]")
             process = run_program([PROGRAM, verb, run, "--quiet", *far], cwd=self.folder)
             self.assertEqual(process.returncode, 3, process.stderr)
-            self.assertRegex(process.stderr, r"error: no static equilibrium after .*; as drawn, 'forces\.\w+' is 3000 m long: "
-                             r"check .*; to close the joints, of which '\w+' was \S+ m open, \S+ was moved by \S+ m, farther "
-                             "than any point is from its body's")  # fmt: skip
+            self.assertRegex(
+                process.stderr,
+                r"error: no static equilibrium after .*; as drawn, 'forces\.\w+' is 3000 m long: check .*; "
+                r"to close the joints, of which '\w+' was \S+ m open, \S+ was moved by \S+ m, farther than any point "
+                "is from its body's",
+            )
 
     def test_wall_time_and_the_times_of_program_and_integration_are_told_apart(self):
         _, _, printed = self.run_to_json("duration=0.2")

@@ -241,6 +241,19 @@ TEST_CASE("numbers at the end of their range, points on lines and fixed values a
   }
 }
 
+// The second point at the right end stays where it is when the end moves, and then is a node of its own.
+TEST_CASE("coordinates that another point ties are told, and the others are not") {
+  std::string text = make_cantilevers(0.04, 0.04);
+  text.insert(text.find("right ="), "copy = [2.0, 0.0]\n");
+  const DesignSource source = write_design("tied.toml", text);
+  std::vector<LeftOutNumber> left_out;
+  list_parameters(source, read_design(source), &left_out);
+  const std::string told = format_left_out(left_out);
+  CHECK_THAT(told, Contains("points.right.0 is left out: ") && Contains("points.right.1 is left out: "));
+  CHECK(told.find("left.") == std::string::npos);
+  CHECK(format_left_out({}).empty());
+}
+
 TEST_CASE("an override of a design is read in its place, and its faults are located") {
   DesignSource source = write_design("pair.toml", make_cantilevers(0.04, 0.04));
   source.overrides = {"sections.first.height=0.08", "sections.first.width=-1"};

@@ -16,6 +16,8 @@ from sprung_tools.plots.picture_file import make_figure
 
 PANEL_HEIGHT = 2.6  # inches
 LINE_WIDTH = 5.0  # points
+MARGIN = 0.05  # of the frame's extent, on each side
+FLATTEST = 0.4  # height of what a panel shows over its width, about as that of the panel, or width over height
 
 
 class Elements(NamedTuple):
@@ -60,9 +62,13 @@ def draw_mode(axes: Axes, elements: Elements, mode: int) -> LineCollection:
     lines = LineCollection(list(elements.ends), array=density, cmap="RdBu_r", linewidths=LINE_WIDTH)
     lines.set_clim(-largest, largest)
     axes.add_collection(lines)
-    axes.autoscale()
-    axes.margins(0.05)
-    axes.set_aspect("equal", adjustable="datalim")
+    # An aspect that changed the limits would do so after the layout, which would not leave room for other tick labels.
+    lowest, highest = elements.ends.min(axis=(0, 1)), elements.ends.max(axis=(0, 1))
+    middle, half = 0.5 * (lowest + highest), (0.5 + MARGIN) * (highest - lowest)
+    half = np.maximum(half, FLATTEST * half.max())
+    axes.set_xlim(middle[0] - half[0], middle[0] + half[0])
+    axes.set_ylim(middle[1] - half[1], middle[1] + half[1])
+    axes.set_aspect("equal", adjustable="box")
     axes.set_ylabel("y in m")
     axes.set_title(f"free mode {mode + 1}, {elements.frequency[mode]:.4g} Hz")
     return lines
