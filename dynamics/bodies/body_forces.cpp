@@ -13,7 +13,8 @@ double BodyForces::add(const BodyMass& mass, const FrameRotation& rotation, cons
                        const double* q, const double* v, double* Q) {
   const int n = body_->num_modes();
   const double rate = v[2];
-  const Eigen::Vector2d gravity_B = rotation.transposed_times(gravity), moment = mass.first_moment();
+  const Eigen::Vector2d gravity_B = rotation.transposed_times(gravity);
+  const Eigen::Vector2d& moment = mass.first_moment();
   Eigen::Vector2d bending = Eigen::Vector2d::Zero();  // P η̇
   double about = 0.0;                                 // (d + ηᵀM_tt) η̇
   const double* P = body_->P.data();

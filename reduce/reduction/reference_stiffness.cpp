@@ -38,7 +38,7 @@ std::vector<Eigen::MatrixXd> calc_inertia_stiffness(
         model, displacements.col(static_cast<Eigen::Index>(i)), accelerations[i], origin);
     const Eigen::MatrixXd K =
         shapes.transpose() * multiply(fem::assemble_geometric_stiffness(model, forces), shapes);
-    stiffness.push_back(0.5 * (K + K.transpose()));
+    stiffness.emplace_back(0.5 * (K + K.transpose()));
   }
   return stiffness;
 }

@@ -84,8 +84,8 @@ class Tyres(DynamicsTestCase):
         self.assertEqual(process.returncode, 2, process.stderr)
         self.assertRegex(
             process.stderr,
-            r"vehicle\.toml:\d+:\d+: error: in static equilibrium 'forces\.front_tyre' is pressed in by [\d.]+ m of its "
-            r"radius of 0\.6 m; stiffnesses are in N/m, not in N/mm\n",
+            r"vehicle\.toml:\d+:\d+: error: in static equilibrium 'forces\.front_tyre' is pressed in by [\d.]+ m of "
+            r"its radius of 0\.6 m; stiffnesses are in N/m, not in N/mm\n",
         )
 
     def test_a_tyre_pressed_in_by_more_than_half_of_it_is_remarked_on(self):
