@@ -9,8 +9,8 @@
 
 namespace sprung::dynamics {
 
-/// A position from which Newton steps are taken although neither potential energy nor forces decrease at
-// first.
+/// A position from which Newton steps are taken, although at first neither potential energy nor forces
+/// decrease.
 struct Watch {
   Eigen::VectorXd q;  ///< nq
   double potential, force;
