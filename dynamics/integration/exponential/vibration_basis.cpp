@@ -13,7 +13,7 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr Eigen::Index kMostCoupled = 80;  // modes; the effort grows with the cube
+constexpr Eigen::Index kMostCoupled = 200;  // modes; the effort grows with the cube: 1 s for 200
 constexpr double kFree = 1e-6;  // frequency, of the highest, below which a mode counts as free motion
 constexpr double kSlowlyDamped =
     10.0;  // 1/s; free modes that are damped more slowly are not coupled to others

@@ -36,8 +36,8 @@ struct VibrationBasis {
 
 /// Modes with a frequency are coupled by damping; their pairs are the complex modes of that part, in real
 /// form. A free motion stays a pair of coordinate and velocity. Where the complex modes are nearly defective,
-/// or too many to be worth finding, the undamped modes are taken, each with its own damping: damping that
-/// couples them is then left out.
+/// or more than 200, the undamped modes are taken, each with its own damping: damping that couples them is
+/// then left out.
 /// @throws support::NumericalError if there are no undamped modes: M is not positive definite
 VibrationBasis make_vibration_basis(const SmallMotion& motion);
 

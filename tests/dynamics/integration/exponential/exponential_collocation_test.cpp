@@ -178,3 +178,13 @@ TEST_CASE("A Lobatto step is exact for forces of third degree, and its error est
     CHECK((basis.T * u)[0] == Approx(1.0 + t - 2.0 * t * t + 3.0 * t * t * t + t * t * t * t).epsilon(1e-13));
   }
 }
+
+TEST_CASE("Many modes that damping couples become pairs, too: nothing of the damping is left out", "[analysis]") {
+  std::mt19937 random(96);
+  const Eigen::Index f = 96;
+  const dynamics::SmallMotion motion{random_positive(f, random), 0.1 * random_positive(f, random),
+                                     100.0 * random_positive(f, random)};
+  const dynamics::VibrationBasis basis = dynamics::make_vibration_basis(motion);
+  const Eigen::MatrixXd A = first_order(motion);
+  CHECK((A * basis.T - basis.T * block_matrix(basis.blocks)).norm() < 1e-9 * (A * basis.T).norm());
+}
