@@ -30,11 +30,11 @@ class VerificationCase(ProgramTestCase):
         self.assertEqual(process.returncode, 0, process.stderr)
         return json.loads(process.stdout)
 
-    def run_to_results(self, run_file, *arguments, **options):
+    def run_to_results(self, run_file, *arguments, violation=1e-10, **options):
         """Runs; returns the open results file, with the printed summary as `.summary`."""
         path = self.folder / "results.h5"
         summary = self.program("run", run_file, *arguments, "-o", str(path), **options)
-        self.assertLess(summary["constraint_violation"], 1e-10)
+        self.assertLess(summary["constraint_violation"], violation)
         results = Results(path, summary)
         self.addCleanup(results.file.close)
         return results

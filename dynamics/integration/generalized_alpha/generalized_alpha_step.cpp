@@ -176,14 +176,14 @@ bool GeneralizedAlphaStep::solve(double length) {
 
 // The part of an error in the coordinates that counts, by Newton's matrix: without what the constraints take
 // away again, that is M⁻¹φ_qᵀ times anything, and without what stiff modes damp.
-void GeneralizedAlphaStep::filter_error(const Vector& error, Vector& filtered) {
+void GeneralizedAlphaStep::filter_error(const Vector& error, const Vector& scaled_phi, Vector& filtered) {
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
     const int first = model_->bodies[b].first_coordinate, size = model_->bodies[b].num_coordinates();
     error_force_.segment(first, size).noalias() = residual_.terms().mass(b) * error.segment(first, size);
   }
   error_force_.tail(model_->num_states()) = error.tail(model_->num_states());
   error_force_ *= -(1.0 - method_.alpha_m) / (1.0 - method_.alpha_f);
-  newton_.solve(error_force_, no_violation_, filtered, error_lambda_);
+  newton_.solve(error_force_, scaled_phi, filtered, error_lambda_);
 }
 
 // Root mean square over q, v and the energies of the step's errors, each divided by the error that is allowed
@@ -192,10 +192,10 @@ double GeneralizedAlphaStep::calc_error(double length) {
   const double between = 0.5 * (length + begin_.step_before);  // of the middles of this step and the last
   const double cubed = std::pow(length, 3);
   error_ = (method_.position_error() * length * length) * (auxiliary_end_ - auxiliary_begin_);
-  filter_error(error_, error_q_);
+  filter_error(error_, no_violation_, error_q_);
   error_ = (method_.velocity_error() * cubed / between) *
            ((auxiliary_end_ - auxiliary_begin_) / length - begin_.jerk);
-  filter_error(error_, error_v_);
+  filter_error(error_, no_violation_, error_v_);
   double sum = 0.0;
   for (int i = 0; i < model_->num_coordinates; ++i) {
     sum += std::pow(error_q_[i] / allowed_position(i), 2) +
@@ -223,6 +223,15 @@ void GeneralizedAlphaStep::interpolate_motion(double time, Vector& q, Vector& v)
   const HermiteWeights w(a.time, b.time, time);
   q = w.begin * a.q + w.end * b.q + w.begin_rate * a.v + w.end_rate * b.v;
   v = w.begin * a.v + w.end * b.v + w.begin_rate * a.v_dot + w.end_rate * b.v_dot;
+}
+
+void GeneralizedAlphaStep::remove_vibration(double time, const Vector& v_dot, const Vector& phi, Vector& q) {
+  const ConstrainedMotion &a = begin_.motion, &b = end_.motion;
+  const double share = (time - a.time) / (b.time - a.time);
+  error_ = v_dot - (1.0 - share) * a.v_dot - share * b.v_dot;
+  scaled_phi_ = factored_weights_.acceleration / factored_weights_.position * phi;
+  filter_error(error_, scaled_phi_, error_q_);
+  q += factored_weights_.position / factored_weights_.acceleration * error_q_;
 }
 
 // Accelerations and multipliers between those of the ends, less those of the equations.

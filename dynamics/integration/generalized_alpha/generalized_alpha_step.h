@@ -59,6 +59,10 @@ class GeneralizedAlphaStep {
   /// Positions and velocities within the step.
   void interpolate_motion(double time, Vector& q, Vector& v) const;
   Pair interpolate_energy(double time) const;  ///< likewise [J]
+  /// Moves positions within the step to where the joints close and the accelerations of the equations lack
+  /// the vibration that the step does not resolve (integration/generalized_alpha, eq. 6).
+  /// @param v_dot, phi  accelerations of the equations and residuals of the constraints at q
+  void remove_vibration(double time, const Vector& v_dot, const Vector& phi, Vector& q);
   /// How far accelerations, multipliers and their rates within the step are from those that the equations
   /// give at the positions and velocities there.
   void calc_departure(const End& exact, End& departure) const;
@@ -78,7 +82,7 @@ class GeneralizedAlphaStep {
   double allowed_position(int i) const;
   double allowed_velocity(int i, double length) const;
   double calc_iteration_norm(double length) const;
-  void filter_error(const Vector& error, Vector& filtered);
+  void filter_error(const Vector& error, const Vector& scaled_phi, Vector& filtered);
 
   const Model* model_;
   const SmoothPiece* piece_;
@@ -100,7 +104,7 @@ class GeneralizedAlphaStep {
   Vector auxiliary_begin_, auxiliary_end_;  // a, nq
   Vector delta_;                            // of the accelerations, by the last iteration, nq
   Vector delta_lambda_, scaled_phi_;        // m
-  // Of calc_error: errors as they are and without the parts that do not count, and Newton's right-hand side
+  // Of filter_error: errors as they are and without the parts that do not count, and Newton's right-hand side
   // and multipliers for these.
   Vector error_, error_q_, error_v_, error_force_;  // nq
   Vector error_lambda_, no_violation_;              // m

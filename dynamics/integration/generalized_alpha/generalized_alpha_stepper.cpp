@@ -24,6 +24,8 @@ constexpr double kProbe = 1e-5;             // of a step, for rates at a start
 constexpr int kSuspicious =
     5;  // failures of steps much longer than the last one, until a change point is suspected
 constexpr double kSafety = 0.85, kOrder = 3.0, kLeastFactor = 0.2, kLargestFactor = 2.0;
+constexpr int kMaxRemovals = 4;    // of vibration from accelerations that are put out
+constexpr double kRemoved = 0.01;  // change of the accelerations by the last one
 // The length of steps is kept where a better one would hardly be longer: equal steps give smoother
 // multipliers.
 constexpr double kWorthwhile = 1.2;
@@ -31,6 +33,11 @@ constexpr double kWorthwhile = 1.2;
 // Errors in the multipliers change their sign from step to step, and do not decay where the radius is 1.
 const char* remark_on_radius(double spectral_radius) {
   return spectral_radius > 0.995 ? "; nothing damps the joints' forces at that spectral_radius: try 0.9" : "";
+}
+
+[[noreturn]] void throw_open_joints(double time) {
+  throw support::NumericalError(fmt::format(
+      "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
 }
 
 }  // namespace
@@ -48,6 +55,7 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double rela
       passage_(model),
       exact_(model, piece_.num_switches()),
       departure_(exact_),
+      has_modes_(std::ranges::any_of(model.bodies, [](const Body& body) { return body.num_modes() > 0; })),
       probe_(model),
       switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()),
@@ -144,8 +152,9 @@ void GeneralizedAlphaStepper::calc_exact(GeneralizedAlphaStep::End& end, double 
 // Accelerations of stiff modes, which a step does not resolve, differ from those of the equations by the
 // error of a position times stiffness over mass. A restart from the latter would make a vibration of that
 // error. So what jumps from one piece to the next is added to the accelerations of the method.
-void GeneralizedAlphaStepper::leave_piece() {
-  evaluate(time_, Level::kAccelerations);
+void GeneralizedAlphaStepper::leave_piece(bool at_switch) {
+  // Positions at a switch have to be those at which it was located.
+  if (!evaluate_within_step(time_) || !(at_switch || remove_vibration(time_))) throw_open_joints(time_);
   calc_exact(exact_, -kProbe * next_length_);
   step_.calc_departure(exact_, departure_);
   has_departure_ = true;
@@ -211,7 +220,7 @@ Integrator::StepResult GeneralizedAlphaStepper::step(double longest_step) {
   finish_step(length);
   const bool has_switched = piece_.num_switches() > 0 && locate_switch();
   if (!has_switched && time_ < end_time_) return Integrator::StepResult::kStepped;
-  leave_piece();
+  leave_piece(has_switched);
   return has_switched ? Integrator::StepResult::kSwitched : Integrator::StepResult::kEnded;
 }
 
@@ -294,6 +303,30 @@ bool GeneralizedAlphaStepper::evaluate_closed(double time, const Vector& q, cons
   return std::isfinite(violation) && equations_.update_accelerations(piece_.branches());
 }
 
+bool GeneralizedAlphaStepper::evaluate_within_step(double time) {
+  step_.interpolate_motion(time, probe_.q, probe_.v);
+  energy_ = step_.interpolate_energy(time);
+  probe_.time = piece_.evaluation_time(time);
+  return evaluate_closed(probe_.time, probe_.q, probe_.v);
+}
+
+// After evaluate_within_step. Closing the joints moves stiff modes by a part of the violation, and stiffness
+// over mass makes accelerations of that. A few passes remove them, also where Newton's matrix is of a
+// position some way off.
+bool GeneralizedAlphaStepper::remove_vibration(double time) {
+  if (!has_modes_) return true;
+  probe_.q = equations_.q();
+  probe_.v = equations_.v();
+  for (int pass = 0; pass < kMaxRemovals; ++pass) {
+    probe_.v_dot = equations_.v_dot();
+    equations_.terms().calc_residual(probe_.lambda);
+    step_.remove_vibration(time, probe_.v_dot, probe_.lambda, probe_.q);
+    if (!probe_.q.allFinite() || !evaluate_equations(probe_)) return false;
+    if ((equations_.v_dot() - probe_.v_dot).norm() <= kRemoved * probe_.v_dot.norm()) break;
+  }
+  return true;
+}
+
 void GeneralizedAlphaStepper::evaluate(double time, Level level) {
   bool is_evaluated = true;
   if (passage_.contains(time)) {
@@ -302,18 +335,13 @@ void GeneralizedAlphaStepper::evaluate(double time, Level level) {
     energy_ = step_.interpolate_energy(time);
     is_evaluated = evaluate_equations(exact_.motion);
   } else if (has_step_) {
-    step_.interpolate_motion(time, interpolated_q_, interpolated_v_);
-    energy_ = step_.interpolate_energy(time);
-    is_evaluated = evaluate_closed(piece_.evaluation_time(time), interpolated_q_, interpolated_v_);
+    is_evaluated = evaluate_within_step(time) && remove_vibration(time);
   } else {
     const ConstrainedMotion& motion = step_.begin().motion;
     energy_ = step_.begin().energy;
     is_evaluated = evaluate_closed(piece_.evaluation_time(time), motion.q, motion.v);
   }
-  if (!is_evaluated) {
-    throw support::NumericalError(fmt::format(
-        "the joints cannot be closed at t = {:.9g} s: a singular position; try a smaller step", time));
-  }
+  if (!is_evaluated) throw_open_joints(time);
   if (level == Level::kAllMarkers) equations_.terms().update_all_markers();
 }
 

@@ -50,12 +50,14 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   bool evaluate_equations(const ConstrainedMotion& motion);
   Pair calc_power();
   bool update_end_power();
+  bool evaluate_within_step(double time);
+  bool remove_vibration(double time);
   bool evaluate_closed(double time, const Vector& q, const Vector& v);
   bool pass_change_point_if_near(double longest_step);
   bool pass_change_point(double longest_step);
   Integrator::StepResult end_passage() const;
   void evaluate_passage(double time);
-  void leave_piece();
+  void leave_piece(bool at_switch);
   void calc_exact(GeneralizedAlphaStep::End& end, double shift);
 
   const Model* model_;
@@ -78,7 +80,8 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   Vector interpolated_q_, interpolated_v_;
   GeneralizedAlphaStep::End exact_, departure_;  // where the last piece ended
   bool has_departure_ = false;
-  ConstrainedMotion probe_;   // a little after or before a start
+  bool has_modes_;
+  ConstrainedMotion probe_;   // a little after or before a start; within a step
   Eigen::MatrixXd switches_;  // num_switches × 2: at the start and at the end of a step
   SwitchSearch switch_search_;
   TouchSearch touch_search_;
