@@ -148,12 +148,14 @@ class TransientRun {
       const double longest = std::min(options_.largest_step, stepper_->calc_longest_step());
       const Integrator::StepResult result = stepper_->step(longest);
       const double time = stepper_->time();
+      const bool at_break = result == Integrator::StepResult::kEnded && smooth_end_ < options_.end_time;
       ++work_;
-      write_outputs(time);
+      write_outputs(at_break ? time - 2.0 * output_tolerance() : time);
       if (options_.on_step && !options_.on_step(time)) return;
       if (result == Integrator::StepResult::kEnded) {
-        if (smooth_end_ >= options_.end_time) break;
+        if (!at_break) break;
         continue_from(smooth_end_);
+        write_outputs(time);  // a function that jumps has its later value
       } else if (result == Integrator::StepResult::kSwitched) {
         count_switch(time);
         continue_from(time);
@@ -191,14 +193,17 @@ class TransientRun {
     ++reached_.statistics.switches;
   }
 
-  // Writes every output time up to `time`, which the stepper has reached; the last one exactly at the end.
+  double output_tolerance() const { return 1e-9 * options_.output_step; }
+
+  // Writes every output time up to `time`, which the stepper has reached; one that is meant to be there
+  // exactly there.
   void write_outputs(double time) {
-    const double tolerance = 1e-9 * options_.output_step;
+    const double tolerance = output_tolerance();
     while (true) {
       const double next =
           reached_.start.time + static_cast<double>(reached_.next_output) * options_.output_step;
       if (next > options_.end_time + tolerance || next > time + tolerance) return;
-      write_output(std::min(next, time));
+      write_output(next < time - tolerance ? next : time);
       ++reached_.next_output;
     }
   }

@@ -83,6 +83,17 @@ class FunctionsOfTime(VerificationCase):
                     inside = (t > 0.1037) & (t < 0.4011)
                     self.assert_close(results["forces/hand/torque"], np.where(inside, 30.0, 0.0))
 
+    def test_an_output_at_a_jump_has_the_value_behind_it(self):
+        torque = "{ table = [[0.1, 0.0], [0.1, 30.0], [0.3, 30.0], [0.3, 0.0]] }"
+        for method in METHODS:
+            with self.subTest(method=method):
+                results = self.turn(torque, "duration = 0.5\noutput_step = 0.05\n", method)
+                self.assertEqual(len(results.time), 11)
+                self.assert_close(results["forces/hand/torque"], [0, 0, 30, 30, 30, 30, 0, 0, 0, 0, 0])
+                spring = 80.0 * results["bodies/disc/position"][:, 2]
+                acceleration = (results["forces/hand/torque"] - spring) / 0.5
+                self.assert_close(results["bodies/disc/acceleration"][:, 2], acceleration, absolute=1e-9)
+
     def test_order_of_convergence_is_kept_across_jumps(self):
         # Generalized-α is of second order, with a part of a step before each jump: four times smaller errors with
         # half the step. A step across a jump would be of first order.
