@@ -42,18 +42,22 @@ Eigen::VectorXd calc_coordinate_rounding(const Model& model, const Partition& pa
   return rounding;
 }
 
-// DᵀM D ρ̈_i at the state that the equations were last evaluated at.
-Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const Eigen::MatrixXd& directions,
+Eigen::VectorXd select_independent(const PartitionedEquations& equations, const Eigen::VectorXd& x) {
+  return x(equations.partition().independent);
+}
+
+// DᵀM D ρ̈_i at the state that the equations were last evaluated at, with more generalized forces: of
+// DᵀM q̈ = Dᵀ Q, in which Dᵀφ_qᵀ λ = 0, all but the part of q̈ that follows ρ̈_i is brought to the right.
+// @param forces  Q and the additional ones, nq
+Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const Eigen::VectorXd& forces,
                                     const SteadyMotion& motion) {
-  Eigen::VectorXd force = equations.calc_reduced_force(directions);
-  if (motion.is_rest()) return force;
-  const Eigen::VectorXd carried =
-      motion.calc_acceleration(equations.terms().model(), equations.q(), equations.v());
-  Eigen::VectorXd independent(force.size());
-  for (Eigen::Index k = 0; k < force.size(); ++k) {
-    independent[k] = carried[equations.partition().independent[static_cast<std::size_t>(k)]];
+  Eigen::VectorXd relative = select_independent(equations, equations.v_dot());
+  if (!motion.is_rest()) {
+    relative -= select_independent(equations, motion.calc_acceleration(equations.terms().model(),
+                                                                       equations.q(), equations.v()));
   }
-  return force - equations.calc_reduced_mass(directions) * independent;
+  const Eigen::VectorXd others = equations.v_dot() - equations.calc_free_motion(relative);
+  return equations.calc_reduced(forces - equations.apply_mass(others));
 }
 
 }  // namespace
@@ -76,7 +80,7 @@ Eigen::VectorXd calc_static_force(PartitionedEquations& equations, double time,
     const Energy energy = calc_energy(equations.terms(), branches);
     *potential = energy.total() - 2.0 * energy.kinetic;
   }
-  Eigen::VectorXd force = calc_relative_force(equations, equations.calc_directions(), motion);
+  Eigen::VectorXd force = calc_relative_force(equations, equations.terms().forces(), motion);
   force.tail(equations.terms().model().num_states()).setZero();
   return force;
 }
@@ -94,10 +98,9 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
   const Eigen::MatrixXd derivative = differentiate_by_position(
       equations, time, q_i,
       [&](const PartitionedEquations& at, auto) {
-        const Eigen::MatrixXd D = at.calc_directions();
-        const Eigen::VectorXd modal = apply_modal_stiffness(model, at.q() - q);
+        const Eigen::VectorXd without_modal = at.terms().forces() + apply_modal_stiffness(model, at.q() - q);
         Eigen::VectorXd values(f + n);
-        values << calc_relative_force(at, D, motion) + D.transpose() * modal, at.terms().forces() + modal;
+        values << calc_relative_force(at, without_modal, motion), without_modal;
         return values;
       },
       motion);
@@ -138,11 +141,10 @@ LinearisedSystem linearise(PartitionedEquations& equations, double time, const E
   system.directions = equations.calc_directions();
   system.mass = equations.calc_reduced_mass(system.directions);
 
-  // The directions depend on positions alone, so they are the same at all velocities.
   system.damping = -differentiate_by_velocity(
       equations,
       [&](const PartitionedEquations& at, auto) {
-        return calc_relative_force(at, system.directions, motion);
+        return calc_relative_force(at, at.terms().forces(), motion);
       },
       motion);
   calc_static_force(equations, time, q_i, nullptr, motion);

@@ -25,22 +25,21 @@ namespace {
 constexpr double kUnresolved = 1e-7;
 
 // Sum of the works of all weights, strains and force elements over the natural sizes [J].
-// no_multipliers: zeros; loads: overwritten.
-double calc_work_of_loads(const SystemTerms& terms, const Eigen::VectorXd& no_multipliers,
-                          std::vector<Wrench>& loads) {
+double calc_work_of_loads(const SystemTerms& terms) {
   const Model& model = terms.model();
   double work = 0.0;
   for (const Body& body : model.bodies) {
     work += body.mass * model.gravity.norm() * model.length_scale;
-    if (body.num_modes() == 0) continue;
-    const Eigen::VectorXd strains =
-        body.stiffness * terms.q().segment(body.first_coordinate + 3, body.num_modes());
     for (int k = 0; k < body.num_modes(); ++k) {
-      work += std::abs(strains[k]) * model.coordinate_scale(body.first_coordinate + 3 + k);
+      const double strain =
+          body.stiffness.col(k).dot(terms.q().segment(body.first_coordinate + 3, body.num_modes()));
+      work += std::abs(strain) * model.coordinate_scale(body.first_coordinate + 3 + k);
     }
   }
-  terms.calc_loads(no_multipliers, loads);
-  for (const Wrench& load : loads) work += load.force.norm() * model.length_scale + std::abs(load.torque);
+  for (const int marker : model.acting_markers) {
+    const Wrench& load = terms.force_loads()[static_cast<std::size_t>(marker)];
+    work += load.force.norm() * model.length_scale + std::abs(load.torque);
+  }
   return work;
 }
 
@@ -53,9 +52,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
       from_(from),
       to_(to),
       sections_(sections),
-      phi_(Eigen::VectorXd::Zero(model.num_constraints)),
-      no_multipliers_(phi_),
-      loads_(model.markers.size()) {
+      phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
   SystemTerms terms(model);
   terms.update_positions(0.0, reference_q);
   for (const std::string& name : points) {
@@ -90,7 +87,7 @@ void RunStatistics::add(const Snapshot& snapshot) {
   const double size =
       std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
   largest_change_ = std::max({largest_change_, change, 1e-9 * size, 0.01 * now.kinetic,
-                              kUnresolved * calc_work_of_loads(terms, no_multipliers_, loads_)});
+                              kUnresolved * calc_work_of_loads(terms)});
   // Term by term, so that a large potential far from the origin causes no cancellation.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
                            (now.gravity - first_.gravity) + (now.spring - first_.spring) +

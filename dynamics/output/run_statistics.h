@@ -83,8 +83,7 @@ class RunStatistics {
   std::vector<CertifiedError> certified_;
   long num_samples_ = 0;
   double constraint_violation_ = 0.0;
-  Eigen::VectorXd phi_, no_multipliers_;  // constraint residual; zeros
-  std::vector<Wrench> loads_;             // by marker, overwritten at each output
+  Eigen::VectorXd phi_;  // constraint residual
   bool has_first_ = false;
   Energy first_;
   double largest_imbalance_ = 0.0, largest_change_ = 0.0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/support/dense/wide_product.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -65,14 +67,14 @@ BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelem
 
 void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd& q) {
   const auto eta = q.segment(first_, num_modes_);
-  displacement_.noalias() = shapes_ * eta;
+  support::multiply(shapes_, eta.data(), displacement_.data());
   double largest = 0.0;  // squared
   for (Eigen::Index node = 0; node < displacement_.size(); node += 2)
     largest = std::max(largest, displacement_.segment<2>(node).squaredNorm());
   if (largest > deflection_.value * deflection_.value) deflection_ = {std::sqrt(largest), time};
   const Eigen::Index m = half_.size();
   if (m == 0) return;
-  present_.noalias() = geometric_ * loads.coefficients();
+  support::multiply(geometric_, loads.coefficients().data(), present_.data());
   half_.noalias() = Eigen::Map<const Eigen::MatrixXd>(present_.data(), m, m) * eta.head(m);
   stiffening_ += eta.head(m).dot(half_);
   strain_ += stiffness_.dot(eta.cwiseAbs2());

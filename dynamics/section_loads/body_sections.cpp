@@ -1,13 +1,16 @@
 #include "dynamics/section_loads/body_sections.h"
 
 #include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/wide_product.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
-Eigen::Map<Eigen::VectorXd> as_vector(Eigen::Matrix3Xd& values) {
-  return {values.data(), values.size()};
+Eigen::MatrixXd join_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
+  Eigen::MatrixXd joined(left.rows(), left.cols() + right.cols());
+  joined << left, right;
+  return joined;
 }
 
 }  // namespace
@@ -39,7 +42,7 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
   from_modes_ = from_loads_ = Eigen::Matrix3Xd::Zero(3, stations);
   if (!superelement.section_loads) return;
   by_load_ = combine(*superelement.section_loads, columns);
-  accelerations_ = Eigen::VectorXd::Zero(by_load_.cols());
+  causes_ = Eigen::VectorXd::Zero(by_load_.cols() + num_modes_);
   if (has_modes()) prepare_missing(moving, superelement, columns);
   if (moving.stiffening) by_load_.resize(0, 0);
 }
@@ -54,22 +57,22 @@ Eigen::MatrixXd BodySections::combine(const reduce::UnitLoads& unit, const std::
 void BodySections::prepare_missing(const Body& body, const reduce::Superelement& superelement,
                                    const std::vector<int>& columns) {
   const Eigen::Index num_elements = superelement.elements.cols();
-  missing_by_load_.resize(num_elements, by_load_.cols());
-  mean_moment_.resize(num_elements, num_modes_);
+  Eigen::MatrixXd by_load(num_elements, by_load_.cols()), by_mode(num_elements, num_modes_);
   for (Eigen::Index e = 0; e < num_elements; ++e) {
     const double length = (positions_.row(2 * e + 1) - positions_.row(2 * e)).norm();
-    missing_by_load_.row(e) = 0.5 * (by_load_.row(6 * e + 2) + by_load_.row(6 * e + 5)) -
-                              length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
-    mean_moment_.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
+    by_load.row(e) = 0.5 * (by_load_.row(6 * e + 2) + by_load_.row(6 * e + 5)) -
+                     length / 12.0 * (by_load_.row(6 * e + 1) - by_load_.row(6 * e + 4));
+    by_mode.row(e) = 0.5 * (by_mode_.row(6 * e + 2) + by_mode_.row(6 * e + 5));
   }
+  missing_moment_by_ = join_columns(by_load, -by_mode);
   delay_ = body.damping.diagonal().cwiseQuotient(body.stiffness.diagonal());
   if (body.stiffening) {
     amplitude_by_load_ =
         support::solve_positive_definite(body.stiffness, calc_modal_load(body, superelement, columns));
   }
+  amplitudes_ = Eigen::VectorXd::Zero(num_modes_);
   missing_moment_ = Eigen::VectorXd::Zero(num_elements);
   const auto num_points = static_cast<Eigen::Index>(superelement.points.size());
-  deflection_by_load_ = combine(*superelement.point_deflections, columns);
   deflection_by_mode_.resize(3 * num_points, num_modes_);
   for (Eigen::Index p = 0; p < num_points; ++p) {
     const reduce::NamedPoint& point = superelement.points[static_cast<std::size_t>(p)];
@@ -79,6 +82,8 @@ void BodySections::prepare_missing(const Body& body, const reduce::Superelement&
           superelement.shapes.block<3, 1>(3 * point.node, columns[static_cast<std::size_t>(k)]);
     }
   }
+  missing_deflection_by_ =
+      join_columns(combine(*superelement.point_deflections, columns), -deflection_by_mode_);
   deflections_ = missing_deflections_ = Eigen::Matrix3Xd::Zero(3, num_points);
 }
 
@@ -102,29 +107,24 @@ void BodySections::update(std::span<const Wrench> loads, const Eigen::VectorXd& 
   const auto eta = q.segment(first_ + 3, num_modes_), eta_dot = v.segment(first_ + 3, num_modes_),
              eta_ddot = v_dot.segment(first_ + 3, num_modes_);
   loads_.update(loads, q, v, v_dot);
-  if (has_modes()) as_vector(from_modes_).noalias() = by_mode_ * eta;
+  if (has_modes()) support::multiply(by_mode_, eta.data(), from_modes_.data());
   if (!has_loads() && !has_missing()) return;
   const double rate = v[first_ + 2], turning = v_dot[first_ + 2];
-  accelerations_.head(loads_.size()) = loads_.coefficients();
-  accelerations_.segment(loads_.size(), num_modes_) = eta_ddot - rate * rate * eta;
-  accelerations_.tail(num_modes_) = turning * eta + 2.0 * rate * eta_dot;
-  if (has_loads()) as_vector(from_loads_).noalias() = by_load_ * accelerations_;
+  causes_.head(loads_.size()) = loads_.coefficients();
+  causes_.segment(loads_.size(), num_modes_) = eta_ddot - rate * rate * eta;
+  causes_.segment(loads_.size() + num_modes_, num_modes_) = turning * eta + 2.0 * rate * eta_dot;
+  if (has_loads()) support::multiply(by_load_, causes_.data(), from_loads_.data());
   if (!has_missing()) return;
   if (amplitude_by_load_.size() > 0) {
-    amplitudes_.noalias() = amplitude_by_load_ * accelerations_;
+    support::multiply(amplitude_by_load_, causes_.data(), amplitudes_.data());
   } else {
     amplitudes_ = eta + delay_.cwiseProduct(eta_dot);
   }
-  update_missing();
-  as_vector(deflections_).noalias() = deflection_by_mode_ * eta;
+  causes_.tail(num_modes_) = amplitudes_;
+  support::multiply(missing_moment_by_, causes_.data(), missing_moment_.data());
+  support::multiply(missing_deflection_by_, causes_.data(), missing_deflections_.data());
+  support::multiply(deflection_by_mode_, eta.data(), deflections_.data());
   deflections_ += missing_deflections_;
-}
-
-void BodySections::update_missing() {
-  missing_moment_.noalias() = missing_by_load_ * accelerations_;
-  missing_moment_.noalias() -= mean_moment_ * amplitudes_;
-  as_vector(missing_deflections_).noalias() = deflection_by_load_ * accelerations_;
-  as_vector(missing_deflections_).noalias() -= deflection_by_mode_ * amplitudes_;
 }
 
 }  // namespace sprung::dynamics

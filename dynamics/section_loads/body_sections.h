@@ -42,7 +42,7 @@ class BodySections {
   const Eigen::Matrix3Xd& from_modes() const { return from_modes_; }
   const Eigen::Matrix3Xd& from_loads() const { return from_loads_; }
   /// Whether it is known what the modes lack.
-  bool has_missing() const { return missing_by_load_.size() > 0; }
+  bool has_missing() const { return missing_moment_by_.size() > 0; }
   /// What the modes lack of the mean bending moment of each element (section_loads, eqs. 3, 5) [N·m].
   const Eigen::VectorXd& missing_moment() const { return missing_moment_; }
   /// Names of the superelement's points, "body.point".
@@ -58,7 +58,6 @@ class BodySections {
                        const std::vector<int>& columns);
   Eigen::MatrixXd calc_modal_load(const Body& body, const reduce::Superelement& superelement,
                                   const std::vector<int>& columns) const;
-  void update_missing();
 
   std::string name_;
   std::size_t body_;
@@ -69,17 +68,16 @@ class BodySections {
   std::optional<reduce::SectionSizes> sizes_;
   Eigen::MatrixXd by_mode_;        // 3 stations × modes
   Eigen::MatrixXd by_load_;        // 3 stations × coefficients of the loads, modes, modes turned
-  Eigen::VectorXd accelerations_;  // by these
+  Eigen::VectorXd causes_;         // these coefficients and accelerations, then the amplitudes below
   Eigen::Matrix3Xd from_modes_, from_loads_;
-  Eigen::MatrixXd missing_by_load_;    // mean moment of each element by the columns of by_load_
-  Eigen::MatrixXd mean_moment_;        // of each element by mode
   Eigen::VectorXd delay_;              // damping over stiffness of each mode
-  Eigen::MatrixXd amplitude_by_load_;  // with stiffening: K⁻¹ times the modal load, modes × columns
+  Eigen::MatrixXd amplitude_by_load_;  // with stiffening: K⁻¹ times the modal load, modes × columns of by_load_
   Eigen::VectorXd amplitudes_;         // that the loads have: η + delay η̇, with stiffening by the above
+  Eigen::MatrixXd missing_moment_by_;  // mean moment of each element by causes_
   Eigen::VectorXd missing_moment_;
   std::vector<std::string> points_;
-  Eigen::MatrixXd deflection_by_load_;  // 3 points × columns of by_load_
-  Eigen::MatrixXd deflection_by_mode_;  // 3 points × modes
+  Eigen::MatrixXd deflection_by_mode_;      // 3 points × modes
+  Eigen::MatrixXd missing_deflection_by_;  // 3 points × causes_
   Eigen::Matrix3Xd deflections_, missing_deflections_;
 };
 

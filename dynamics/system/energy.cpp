@@ -1,5 +1,7 @@
 #include "dynamics/system/energy.h"
 
+#include "tools/support/dense/wide_product.h"
+
 namespace sprung::dynamics {
 
 Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
@@ -11,15 +13,13 @@ Energy calc_energy(const SystemTerms& terms, std::span<const int> branches) {
     const auto q = terms.q().segment(body.first_coordinate, body.num_coordinates());
     const auto v = terms.v().segment(body.first_coordinate, body.num_coordinates());
     const auto eta = q.tail(body.num_modes());
-    auto momentum = products.head(body.num_coordinates());
-    momentum.noalias() = terms.mass(b) * v;
-    energy.kinetic += 0.5 * v.dot(momentum);
+    support::multiply(terms.mass(b), v.data(), products.data());
+    energy.kinetic += 0.5 * v.dot(products.head(v.size()));
     if (body.num_modes() > 0) {
-      auto elastic = products.head(body.num_modes());
-      elastic.noalias() = body.stiffness * eta;
-      energy.strain += 0.5 * eta.dot(elastic);
+      support::multiply(body.stiffness, eta.data(), products.data());
+      energy.strain += 0.5 * eta.dot(products.head(eta.size()));
     }
-    const Eigen::Vector2d moment = FrameRotation::from_angle(q[2]) * calc_first_moment(body, eta);
+    const Eigen::Vector2d moment = terms.rotation(b) * calc_first_moment(body, eta);
     energy.gravity -= model.gravity.dot(body.mass * q.head<2>() + moment);
   }
   for (std::size_t f = 0; f < model.forces.size(); ++f) {

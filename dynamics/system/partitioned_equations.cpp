@@ -213,42 +213,56 @@ Eigen::MatrixXd PartitionedEquations::calc_reduced_mass(const Eigen::MatrixXd& d
   return reduced;
 }
 
-// Dᵀ x = x_i − φ_iᵀ φ_d⁻ᵀ x_d.
 void PartitionedEquations::calc_mass_columns(const std::vector<int>& freedoms,
                                              Eigen::MatrixXd& columns) const {
   columns.resize(num_freedoms_, static_cast<Eigen::Index>(freedoms.size()));
   for (std::size_t k = 0; k < freedoms.size(); ++k) {
     calc_direction(static_cast<std::size_t>(freedoms[k]), direction_);
-    momentum_ = direction_;
-    for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-      const int first = model_->bodies[b].first_coordinate;
-      support::multiply(terms().mass(b), direction_.data() + first, momentum_.data() + first);
-    }
-    double* column = columns.col(static_cast<Eigen::Index>(k)).data();
-    for (std::size_t i = 0; i < partition_.independent.size(); ++i)
-      column[i] = momentum_[partition_.independent[i]];
-    for (std::size_t d = 0; d < partition_.dependent.size(); ++d)
-      column_[static_cast<Eigen::Index>(d)] = momentum_[partition_.dependent[d]];
-    dependents_.solve_transposed(column_, dependent_column_);
-    dependents_.subtract_transposed_product(dependent_column_, {column, partition_.independent.size()});
+    apply_mass(direction_, momentum_);
+    reduce(momentum_, columns.col(static_cast<Eigen::Index>(k)).data());
   }
 }
 
-Eigen::VectorXd PartitionedEquations::calc_reduced_force(const Eigen::MatrixXd& directions) const {
-  // Dᵀφ_qᵀ = 0: multipliers do no work along the free directions.
-  Eigen::VectorXd force = terms().forces();
-  Eigen::VectorXd alpha = v_dot();  // q̈ without the part D q̈_i that follows the independent coordinates
-  Eigen::VectorXd independent(num_freedoms_);
-  for (std::size_t k = 0; k < partition_.independent.size(); ++k) {
-    independent[static_cast<Eigen::Index>(k)] = v_dot()[partition_.independent[k]];
-  }
-  alpha -= directions * independent;
+void PartitionedEquations::apply_mass(const Eigen::VectorXd& x, Eigen::VectorXd& product) const {
+  product = x;
   for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
-    const Body& body = model_->bodies[b];
-    force.segment(body.first_coordinate, body.num_coordinates()) -=
-        terms().mass(b) * alpha.segment(body.first_coordinate, body.num_coordinates());
+    const int first = model_->bodies[b].first_coordinate;
+    support::multiply(terms().mass(b), x.data() + first, product.data() + first);
   }
-  return directions.transpose() * force;
+}
+
+Eigen::VectorXd PartitionedEquations::apply_mass(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd product;
+  apply_mass(x, product);
+  return product;
+}
+
+// Dᵀ x = x_i − φ_iᵀ φ_d⁻ᵀ x_d.
+void PartitionedEquations::reduce(const Eigen::VectorXd& x, double* reduced) const {
+  for (std::size_t i = 0; i < partition_.independent.size(); ++i) reduced[i] = x[partition_.independent[i]];
+  for (std::size_t d = 0; d < partition_.dependent.size(); ++d)
+    column_[static_cast<Eigen::Index>(d)] = x[partition_.dependent[d]];
+  dependents_.solve_transposed(column_, dependent_column_);
+  dependents_.subtract_transposed_product(dependent_column_, {reduced, partition_.independent.size()});
+}
+
+Eigen::VectorXd PartitionedEquations::calc_reduced(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd reduced(num_freedoms_);
+  reduce(x, reduced.data());
+  return reduced;
+}
+
+// D x_i = x_i and −φ_d⁻¹ φ_i x_i.
+Eigen::VectorXd PartitionedEquations::calc_free_motion(const Eigen::VectorXd& x_independent) const {
+  Eigen::VectorXd motion(model_->num_coordinates);
+  for (std::size_t i = 0; i < partition_.independent.size(); ++i)
+    motion[partition_.independent[i]] = x_independent[static_cast<Eigen::Index>(i)];
+  column_.setZero();
+  dependents_.add_independent_product({x_independent.data(), partition_.independent.size()}, column_);
+  dependents_.solve(column_, dependent_column_);
+  for (std::size_t d = 0; d < partition_.dependent.size(); ++d)
+    motion[partition_.dependent[d]] = -dependent_column_[static_cast<Eigen::Index>(d)];
+  return motion;
 }
 
 }  // namespace sprung::dynamics

@@ -90,8 +90,12 @@ class PartitionedEquations {
   void calc_mass_columns(const std::vector<int>& freedoms, Eigen::MatrixXd& columns) const;
   /// Accelerations that additional forces would cause, see ConstrainedEquations.
   void calc_response(const Eigen::VectorXd& force, Eigen::VectorXd& x) { full_.calc_response(force, x); }
-  /// DᵀM D q̈_i: the force that the independents feel, f, after update_accelerations.
-  Eigen::VectorXd calc_reduced_force(const Eigen::MatrixXd& directions) const;
+  /// D x_i, nq, without D. @param x_independent  f
+  Eigen::VectorXd calc_free_motion(const Eigen::VectorXd& x_independent) const;
+  /// Dᵀ x, f, without D: the part of a force that constraints do not take. @param x  nq
+  Eigen::VectorXd calc_reduced(const Eigen::VectorXd& x) const;
+  /// M x, nq, after update_mass.
+  Eigen::VectorXd apply_mass(const Eigen::VectorXd& x) const;
 
   /// Entries of the factors that an evaluation computes: its work grows with them.
   int num_factor_entries() const { return dependents_.num_factor_entries() + full_.num_factor_entries(); }
@@ -106,6 +110,8 @@ class PartitionedEquations {
   SystemTerms& mutable_terms() { return full_.terms(); }
   bool solve_dependents(double time);
   void calc_direction(std::size_t freedom, Eigen::Ref<Eigen::VectorXd> direction) const;
+  void apply_mass(const Eigen::VectorXd& x, Eigen::VectorXd& product) const;
+  void reduce(const Eigen::VectorXd& x, double* reduced) const;
   bool has_lost_turns() const;
   void refactor();
 

@@ -102,6 +102,11 @@ class SystemTerms {
   /// Forces and torques of force elements, and of joints under multipliers λ, on each marker; after
   /// `update_jacobian` and `update_forces`. @param[out] loads  of all markers, world axes
   void calc_loads(const Eigen::VectorXd& lambda, std::span<Wrench> loads) const;
+  /// Of force elements alone, after `update_forces`.
+  std::span<const Wrench> force_loads() const {
+    assert(has(Term::kForces));
+    return forces_.wrenches();
+  }
   /// Says that ConstrainedEquations has found accelerations and multipliers from the present terms.
   void set_has_accelerations() { set(Term::kAccelerations); }
 
@@ -111,6 +116,10 @@ class SystemTerms {
   std::span<const MarkerState> markers() const {
     assert(has(Term::kPositions));
     return markers_;
+  }
+  const FrameRotation& rotation(std::size_t body) const {
+    assert(has(Term::kJointPositions));
+    return rotations_[body];
   }
   Instant instant() const { return {time_, markers()}; }
   /// With the states of force element f; after update_velocities.
