@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/support/dense/wide_product.h"
+
 namespace sprung::dynamics {
 
 namespace {
@@ -46,11 +48,10 @@ void ReferenceSizes::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                             const Eigen::VectorXd& v_dot) {
   for (std::size_t b = 0; b < full_->bodies.size(); ++b) {
     if (shapes_[b].cols() == 0) continue;
-    auto deflections = deflections_.head(shapes_[b].rows());
-    deflections.noalias() = shapes_[b] * q.segment(full_->bodies[b].first_coordinate + 3, shapes_[b].cols());
+    support::multiply(shapes_[b], q.data() + full_->bodies[b].first_coordinate + 3, deflections_.data());
     double square = 0.0;
-    for (Eigen::Index i = 0; i < deflections.size(); i += 2)
-      square = std::max(square, deflections.segment<2>(i).squaredNorm());
+    for (Eigen::Index i = 0; i < shapes_[b].rows(); i += 2)
+      square = std::max(square, deflections_.segment<2>(i).squaredNorm());
     deflection_ = std::max(deflection_, std::sqrt(square));
   }
   for (std::size_t i = 0; i < points_.size(); ++i) {

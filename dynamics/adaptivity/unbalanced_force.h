@@ -31,9 +31,17 @@ class UnbalancedForce {
   const Eigen::VectorXd& force() const { return force_; }
 
  private:
+  // A body with modes. Its coefficients are Aᵀ(g − R̈), θ̈, θ̇², then AᵀF and T of each marker.
+  struct FlexibleBody {
+    std::size_t body;
+    std::vector<std::size_t> markers;  // at which something acts
+    Eigen::MatrixXd by_coefficient;    // n × coefficients
+    Eigen::VectorXd coefficients;
+  };
+
   const Model* full_;
-  std::vector<std::vector<int>> acting_;  // markers by body, of those with modes
-  std::vector<Wrench> loads_;             // of each marker
+  std::vector<FlexibleBody> bodies_;
+  std::vector<Wrench> loads_;  // of each marker
   Eigen::VectorXd force_;
 };
 

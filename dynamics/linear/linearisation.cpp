@@ -53,8 +53,8 @@ Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const
                                     const SteadyMotion& motion) {
   Eigen::VectorXd relative = select_independent(equations, equations.v_dot());
   if (!motion.is_rest()) {
-    relative -= select_independent(equations, motion.calc_acceleration(equations.terms().model(),
-                                                                       equations.q(), equations.v()));
+    relative -= select_independent(
+        equations, motion.calc_acceleration(equations.terms().model(), equations.q(), equations.v()));
   }
   const Eigen::VectorXd others = equations.v_dot() - equations.calc_free_motion(relative);
   return equations.calc_reduced(forces - equations.apply_mass(others));

@@ -86,8 +86,8 @@ void RunStatistics::add(const Snapshot& snapshot) {
   // errors of the integration.
   const double size =
       std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
-  largest_change_ = std::max({largest_change_, change, 1e-9 * size, 0.01 * now.kinetic,
-                              kUnresolved * calc_work_of_loads(terms)});
+  largest_change_ = std::max(
+      {largest_change_, change, 1e-9 * size, 0.01 * now.kinetic, kUnresolved * calc_work_of_loads(terms)});
   // Term by term, so that a large potential far from the origin causes no cancellation.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
                            (now.gravity - first_.gravity) + (now.spring - first_.spring) +
