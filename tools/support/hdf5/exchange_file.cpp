@@ -62,8 +62,12 @@ void ExchangeFile::write_array(const std::string& name, std::int64_t file_type, 
                                const void* values, const std::vector<std::uint64_t>& shape) {
   attempt([&] {
     const std::vector<hsize_t> extents(shape.begin(), shape.end());
+    const std::string parent = hdf5::parent_path(name);
+    const Hdf5Handle group =
+        hdf5::own(H5Oopen(file_.get(), parent.empty() ? "/" : parent.c_str(), H5P_DEFAULT), H5Oclose,
+                  "dataset '" + name + "' cannot be made");
     const Hdf5Handle dataset =
-        hdf5::make_dataset(file_.get(), name, file_type, extents,
+        hdf5::make_dataset(group.get(), name, file_type, extents,
                            hdf5::chunk_shape(extents, H5Tget_size(file_type)), hdf5::Storage::kFixed);
     hdf5::check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
                 "dataset '" + name + "' cannot be written");

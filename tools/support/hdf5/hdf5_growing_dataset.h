@@ -23,8 +23,8 @@ class Hdf5GrowingDataset {
  public:
   static constexpr std::size_t kMostChunkRows = 1024;
 
-  /// @param parent      file or group identifier
-  /// @param path        of the dataset; its group exists
+  /// @param parent      identifier of its group, or of the file
+  /// @param path        of the dataset, from the root
   /// @param columns     0 for rank 1
   /// @param compressor  null for doubles that are not compressed; otherwise it has to outlive this
   /// @param chunk_rows  the most rows of a chunk

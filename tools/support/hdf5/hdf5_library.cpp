@@ -90,6 +90,10 @@ std::string parent_path(const std::string& path) {
   return slash == std::string::npos ? std::string{} : path.substr(0, slash);
 }
 
+const char* leaf_name(const std::string& path) {
+  return path.c_str() + (path.find_last_of('/') + 1);
+}
+
 std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t element_size) {
   constexpr hsize_t kLargest = 1U << 20U;
   std::vector<hsize_t> chunk(shape.begin(), shape.end());
@@ -101,7 +105,7 @@ std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t ele
   return chunk;
 }
 
-Hdf5Handle make_dataset(hid_t file, const std::string& path, hid_t type, std::span<const hsize_t> shape,
+Hdf5Handle make_dataset(hid_t group, const std::string& path, hid_t type, std::span<const hsize_t> shape,
                         std::span<const hsize_t> chunk, Storage storage) {
   const std::string what = fmt::format("dataset '{}' cannot be made", path);
   const int rank = static_cast<int>(shape.size());
@@ -115,8 +119,9 @@ Hdf5Handle make_dataset(hid_t file, const std::string& path, hid_t type, std::sp
     check(H5Pset_shuffle(properties.get()), what);
     check(H5Pset_deflate(properties.get(), 1), what);
   }
-  return own(H5Dcreate2(file, path.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-             H5Dclose, what);
+  return own(
+      H5Dcreate2(group, leaf_name(path), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+      H5Dclose, what);
 }
 
 Hdf5Handle make_string_type(std::size_t size) {

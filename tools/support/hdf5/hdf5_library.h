@@ -52,6 +52,9 @@ bool exists(hid_t file, const std::string& path);
 /// The path up to the last '/', "" for the file itself.
 std::string parent_path(const std::string& path);
 
+/// The part of the path behind the last '/'.
+const char* leaf_name(const std::string& path);
+
 /// Chunk of a dataset: whole rows, at most about 1 MiB, at least one element.
 std::vector<hsize_t> chunk_shape(std::span<const hsize_t> shape, std::size_t element_size);
 
@@ -62,8 +65,9 @@ enum class Storage {
 };
 
 /// A dataset with checksums.
+/// @param group  that it belongs to   @param path  from the root, of which the last part is its name
 /// @param chunk  as many numbers as `shape`
-Hdf5Handle make_dataset(hid_t file, const std::string& path, hid_t type, std::span<const hsize_t> shape,
+Hdf5Handle make_dataset(hid_t group, const std::string& path, hid_t type, std::span<const hsize_t> shape,
                         std::span<const hsize_t> chunk, Storage storage);
 
 /// Fixed-length UTF-8, padded with NUL.

@@ -94,20 +94,30 @@ bool Hdf5Writer::has(const std::string& path) const {
   return objects_.contains(from_root(path));
 }
 
+// An object that is there. It stays open until another one is asked for: most attributes and datasets follow
+// others of the same group, and the way from the root to it costs more than they.
+std::int64_t Hdf5Writer::open(const std::string& path) {
+  if (path.empty() || path == "/") return file_.get();
+  if (path != open_path_ || open_object_.get() < 0) {
+    open_object_ = hdf5::own(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), H5Oclose,
+                             fmt::format("'{}' cannot be opened", path));
+    open_path_ = path;
+  }
+  return open_object_.get();
+}
+
 // Makes each group of the path that is missing.
 void Hdf5Writer::make_groups(const std::string& path) {
-  if (path.empty() || path == "/") return;
-  for (std::size_t end = path.find('/', 1); true; end = path.find('/', end + 1)) {
-    const std::string prefix = path.substr(0, end);
-    if (!has(prefix)) {
-      const std::string what = fmt::format("group '{}' cannot be made", prefix);
-      const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
-      hdf5::own(H5Gcreate2(file_.get(), prefix.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
-                what);
-      objects_.insert(from_root(prefix));
-    }
-    if (end == std::string::npos) return;
-  }
+  if (path.empty() || path == "/" || has(path)) return;
+  const std::string parent = hdf5::parent_path(path);
+  make_groups(parent);
+  const std::string what = fmt::format("group '{}' cannot be made", path);
+  const Hdf5Handle properties = hdf5::make_properties(H5P_GROUP_CREATE);
+  open_object_ =
+      hdf5::own(H5Gcreate2(open(parent), hdf5::leaf_name(path), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                H5Gclose, what);
+  open_path_ = path;
+  objects_.insert(from_root(path));
 }
 
 void Hdf5Writer::prepare_dataset(const std::string& path) {
@@ -118,12 +128,11 @@ void Hdf5Writer::prepare_dataset(const std::string& path) {
   objects_.insert(from_root(path));
 }
 
-Hdf5Handle Hdf5Writer::prepare_attribute(const std::string& object, const std::string& name) {
+std::int64_t Hdf5Writer::prepare_attribute(const std::string& object) {
   if (object != "/" && !has(object)) {
     throw std::invalid_argument(fmt::format("Hdf5Writer::attribute: there is no '{}'", object));
   }
-  return hdf5::own(H5Oopen(file_.get(), object.c_str(), H5P_DEFAULT), H5Oclose,
-                   fmt::format("attribute '{}' of '{}' cannot be written", name, object));
+  return open(object);
 }
 
 void Hdf5Writer::write(const std::string& dataset, const Eigen::MatrixXd& matrix, std::string_view unit) {
@@ -191,8 +200,8 @@ void Hdf5Writer::write_array(const std::string& dataset, const Array& array) {
   attempt([&] {
     prepare_dataset(dataset);
     const std::vector<hsize_t> chunk = hdf5::chunk_shape(array.shape, array.element_size);
-    Hdf5Handle handle =
-        hdf5::make_dataset(file_.get(), dataset, array.file_type, array.shape, chunk, hdf5::Storage::kFixed);
+    Hdf5Handle handle = hdf5::make_dataset(open(hdf5::parent_path(dataset)), dataset, array.file_type,
+                                           array.shape, chunk, hdf5::Storage::kFixed);
     if (array.unit) hdf5::write_string_attribute(handle.get(), "unit", *array.unit);
     const std::string what = fmt::format("dataset '{}' cannot be written", dataset);
     if (count > 0) {
@@ -211,23 +220,21 @@ void Hdf5Writer::make_group(const std::string& group) {
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::string_view value) {
   reject_nul(value, name);
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(object, name);
-    hdf5::remove_attribute(handle.get(), name);
-    hdf5::write_string_attribute(handle.get(), name, value);
+    const hid_t id = prepare_attribute(object);
+    hdf5::remove_attribute(id, name);
+    hdf5::write_string_attribute(id, name, value);
   });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(object, name);
-    hdf5::write_scalar_attribute(handle.get(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+    hdf5::write_scalar_attribute(prepare_attribute(object), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
   });
 }
 
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
   attempt([&] {
-    const Hdf5Handle handle = prepare_attribute(object, name);
-    hdf5::write_scalar_attribute(handle.get(), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+    hdf5::write_scalar_attribute(prepare_attribute(object), name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
   });
 }
 
@@ -241,7 +248,8 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
       if (!compressor_) compressor_ = std::make_unique<ChunkCompressor>();
       compressor = compressor_.get();
     }
-    growing_.try_emplace(dataset, file_.get(), dataset, columns, unit, compressor, chunk_rows);
+    growing_.try_emplace(dataset, open(hdf5::parent_path(dataset)), dataset, columns, unit, compressor,
+                         chunk_rows);
   });
   return growing_.at(dataset);
 }
@@ -249,7 +257,7 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
 Hdf5GrowingDataset& Hdf5Writer::make_growing_texts(const std::string& dataset, std::size_t text_size) {
   attempt([&] {
     prepare_dataset(dataset);
-    growing_.try_emplace(dataset, file_.get(), dataset, text_size);
+    growing_.try_emplace(dataset, open(hdf5::parent_path(dataset)), dataset, text_size);
   });
   return growing_.at(dataset);
 }
@@ -304,6 +312,7 @@ void Hdf5Writer::overwrite(const std::string& dataset, std::span<const double> v
 }
 
 void Hdf5Writer::remove(const std::string& object) {
+  open_object_.reset();
   attempt([&] {
     hdf5::check(H5Ldelete(file_.get(), object.c_str(), H5P_DEFAULT),
                 fmt::format("'{}' cannot be removed", object));
@@ -343,6 +352,7 @@ void Hdf5Writer::close() {
   });
   flush();
   growing_.clear();
+  open_object_.reset();
   attempt([this] {
     const hid_t id = file_.release();  // after a failed close it must not be touched again
     hdf5::check(H5Fclose(id), "cannot be written");
@@ -375,6 +385,7 @@ void Hdf5Writer::abandon() noexcept {
     fs::remove(name_, ignored);
   }
   growing_.clear();
+  open_object_.reset();
   file_.reset();
 }
 

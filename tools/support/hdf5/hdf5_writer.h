@@ -113,7 +113,8 @@ class Hdf5Writer {
   bool has(const std::string& path) const;
   void make_groups(const std::string& path);
   void prepare_dataset(const std::string& path);
-  Hdf5Handle prepare_attribute(const std::string& object, const std::string& name);
+  std::int64_t open(const std::string& path);
+  std::int64_t prepare_attribute(const std::string& object);
   void write_full(Hdf5GrowingDataset& dataset);
   void write_pending();
   void replace(const std::string& dataset, std::span<const std::uint8_t> bytes);
@@ -124,6 +125,8 @@ class Hdf5Writer {
   std::filesystem::path target_, temporary_, partial_;
   std::filesystem::path name_;  // of the file as it is now: the temporary or the partial one
   Hdf5Handle file_;
+  Hdf5Handle open_object_;  // at open_path_, if it is open
+  std::string open_path_;
   std::set<std::string> objects_;                // paths of the groups and datasets made
   std::unique_ptr<ChunkCompressor> compressor_;  // where a dataset needs it
   std::map<std::string, Hdf5GrowingDataset> growing_;
