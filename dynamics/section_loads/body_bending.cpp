@@ -11,6 +11,8 @@ namespace {
 
 // Axial forces change the lowest modes of a body most; more of them would cost more than they tell.
 constexpr Eigen::Index kMostModes = 12;
+// Squares of deflections above the largest by less than this are the same: a body at rest stays at its first.
+constexpr double kBeyondRounding = 1.0 + 1e-12;
 
 double calc_length(const Eigen::Matrix2Xd& nodes) {
   return (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
@@ -71,7 +73,8 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
   double largest = 0.0;  // squared
   for (Eigen::Index node = 0; node < displacement_.size(); node += 2)
     largest = std::max(largest, displacement_.segment<2>(node).squaredNorm());
-  if (largest > deflection_.value * deflection_.value) deflection_ = {std::sqrt(largest), time};
+  if (largest > kBeyondRounding * deflection_.value * deflection_.value)
+    deflection_ = {std::sqrt(largest), time};
   const Eigen::Index m = half_.size();
   if (m == 0) return;
   support::multiply(geometric_, loads.coefficients().data(), present_.data());
