@@ -1,5 +1,7 @@
 #include "fem/geometric_stiffness.h"
 
+#include <cmath>
+
 #include "fem/gauss_points.h"
 
 namespace sprung::fem {
@@ -21,6 +23,17 @@ Matrix6 calc_local_geometric_stiffness(double length, const BeamProperties& prop
     K += weight * length * axial_force.at(xi) * slope.transpose() * slope;
   }
   return K;
+}
+
+Eigen::Matrix<double, 4, 6> calc_scaled_slopes(const BeamElement& element) {
+  const double length = calc_length(element);
+  const std::array<GaussPoint, 4> points = make_gauss_points();
+  Eigen::Matrix<double, 4, 6> slopes;
+  for (int i = 0; i < 4; ++i) {
+    const auto& [xi, weight] = points[static_cast<std::size_t>(i)];
+    slopes.row(i) = std::sqrt(weight * length) * calc_slope(length, element.properties, xi);
+  }
+  return slopes * calc_rotation(element);
 }
 
 Matrix6 calc_geometric_stiffness(const BeamElement& element, const AxialForce& axial_force) {

@@ -23,6 +23,12 @@ Eigen::Matrix<double, 1, 6> calc_slope(double length, const BeamProperties& prop
 Matrix6 calc_local_geometric_stiffness(double length, const BeamProperties& properties,
                                        const AxialForce& axial_force);
 
+/// Slopes S of an element per displacement of its ends in mesh axes, each scaled with the root of the length
+/// that it stands for: under an axial force N that is constant along it, Kᴳ = N SᵀS.
+/// @return 4×6 [1/√m, √m]
+/// Checked by tests/fem/geometric_stiffness_test.cpp
+Eigen::Matrix<double, 4, 6> calc_scaled_slopes(const BeamElement& element);
+
 /// Geometric stiffness in mesh axes, Tᵀ Kᴳ T [N/m, N, N·m].
 Matrix6 calc_geometric_stiffness(const BeamElement& element, const AxialForce& axial_force);
 

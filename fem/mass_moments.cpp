@@ -2,23 +2,17 @@
 
 #include <array>
 #include <stdexcept>
-#include <vector>
+#include <utility>
 
+#include "fem/frame_sums.h"
 #include "fem/gauss_points.h"
 
 namespace sprung::fem {
 
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
 using Row6 = Eigen::Matrix<double, 1, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-// The triplets of the four matrices; the vectors are summed in place.
-struct Sums {
-  MassMoments moments;
-  Triplets NxNx, NxNy, NyNy, rotary_NN;
-};
 
 std::array<int, 6> get_dofs(const Mesh::Element& nodes) {
   return {3 * nodes.first,  3 * nodes.first + 1,  3 * nodes.first + 2,
@@ -27,15 +21,6 @@ std::array<int, 6> get_dofs(const Mesh::Element& nodes) {
 
 void add(Eigen::VectorXd& vector, const std::array<int, 6>& dofs, const Vector6& values) {
   for (int i = 0; i < 6; ++i) vector[dofs[static_cast<std::size_t>(i)]] += values[i];
-}
-
-void add(Triplets& triplets, const std::array<int, 6>& dofs, const Matrix6& values) {
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      triplets.emplace_back(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)],
-                            values(i, j));
-    }
-  }
 }
 
 // Adds a mass dm with rotary inertia dI at position r to the moments without shape functions.
@@ -48,13 +33,12 @@ void add_piece(MassMoments& moments, const Eigen::Vector2d& r, double dm, double
   moments.rotary += dI;
 }
 
-void add_element(Sums& sums, const BeamElement& element, const std::array<int, 6>& dofs,
+void add_element(MassMoments& moments, const BeamElement& element, const Mesh::Element& nodes,
                  const Eigen::Vector2d& origin) {
   static const std::array<GaussPoint, 4> kGaussPoints = make_gauss_points();
   const double length = calc_length(element);
   const Matrix6 T = calc_rotation(element);
   const Eigen::Matrix2d R = T.topLeftCorner<2, 2>().transpose();  // own axes → mesh axes
-  MassMoments& moments = sums.moments;
   Vector6 N_x = Vector6::Zero(), N_y = Vector6::Zero(), rotary_N = Vector6::Zero();
   Vector6 x_N_x = Vector6::Zero(), x_N_y = Vector6::Zero(), y_N_x = Vector6::Zero(), y_N_y = Vector6::Zero();
   Matrix6 NxNx = Matrix6::Zero(), NxNy = Matrix6::Zero(), NyNy = Matrix6::Zero(), rotary_NN = Matrix6::Zero();
@@ -79,6 +63,7 @@ void add_element(Sums& sums, const BeamElement& element, const std::array<int, 6
     NyNy += dm * Y.transpose() * Y;
     rotary_NN += dI * Psi.transpose() * Psi;
   }
+  const std::array<int, 6> dofs = get_dofs(nodes);
   add(moments.N_x, dofs, N_x);
   add(moments.N_y, dofs, N_y);
   add(moments.x_N_x, dofs, x_N_x);
@@ -86,17 +71,16 @@ void add_element(Sums& sums, const BeamElement& element, const std::array<int, 6
   add(moments.y_N_x, dofs, y_N_x);
   add(moments.y_N_y, dofs, y_N_y);
   add(moments.rotary_N, dofs, rotary_N);
-  add(sums.NxNx, dofs, NxNx);
-  add(sums.NxNy, dofs, NxNy);
-  add(sums.NyNy, dofs, NyNy);
-  add(sums.rotary_NN, dofs, rotary_NN);
+  add_at_element(moments.NxNx, nodes, NxNx);
+  add_at_element(moments.NxNy, nodes, NxNy);
+  add_at_element(moments.NyNy, nodes, NyNy);
+  add_at_element(moments.rotary_NN, nodes, rotary_NN);
 }
 
-void add_point_mass(Sums& sums, const PointMass& point, const Eigen::Vector2d& r) {
+void add_point_mass(MassMoments& moments, const PointMass& point, const Eigen::Vector2d& r) {
   const int x = 3 * point.node;
   const int y = x + 1;
   const int psi = x + 2;
-  MassMoments& moments = sums.moments;
   add_piece(moments, r, point.mass, point.inertia);
   moments.N_x[x] += point.mass;
   moments.N_y[y] += point.mass;
@@ -105,17 +89,15 @@ void add_point_mass(Sums& sums, const PointMass& point, const Eigen::Vector2d& r
   moments.y_N_x[x] += point.mass * r.y();
   moments.y_N_y[y] += point.mass * r.y();
   moments.rotary_N[psi] += point.inertia;
-  sums.NxNx.emplace_back(x, x, point.mass);
-  sums.NxNy.emplace_back(x, y, point.mass);
-  sums.NyNy.emplace_back(y, y, point.mass);
-  sums.rotary_NN.emplace_back(psi, psi, point.inertia);
-}
-
-Eigen::SparseMatrix<double> make_matrix(Eigen::Index size, const Triplets& triplets) {
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  matrix.makeCompressed();
-  return matrix;
+  const auto add_entry = [&](Eigen::SparseMatrix<double>& sum, int row, int column, double value) {
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    matrix(row, column) = value;
+    add_at_node(sum, point.node, matrix);
+  };
+  add_entry(moments.NxNx, 0, 0, point.mass);
+  add_entry(moments.NxNy, 0, 1, point.mass);
+  add_entry(moments.NyNy, 1, 1, point.mass);
+  add_entry(moments.rotary_NN, 2, 2, point.inertia);
 }
 
 }  // namespace
@@ -124,31 +106,26 @@ MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& ori
   check_beam_model(model, "calc_mass_moments");
   if (!origin.allFinite()) throw std::invalid_argument("calc_mass_moments: origin is not finite");
   const Eigen::Index num_dofs = 3 * model.mesh.num_nodes();
-  Sums sums;
-  MassMoments& moments = sums.moments;
+  MassMoments moments;
   for (Eigen::VectorXd* vector : {&moments.N_x, &moments.N_y, &moments.x_N_x, &moments.x_N_y, &moments.y_N_x,
                                   &moments.y_N_y, &moments.rotary_N}) {
     vector->setZero(num_dofs);
   }
-  for (Triplets* triplets : {&sums.NxNx, &sums.NxNy, &sums.NyNy, &sums.rotary_NN})
-    triplets->reserve(36 * model.mesh.elements.size() + model.point_masses.size());
+  moments.NxNx = moments.NxNy = moments.NyNy = moments.rotary_NN = make_frame_sum(model.mesh);
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
-    add_element(sums, make_element(model, e), get_dofs(model.mesh.elements[static_cast<std::size_t>(e)]),
-                origin);
+    add_element(moments, make_element(model, e), model.mesh.elements[static_cast<std::size_t>(e)], origin);
   }
   for (const PointMass& point : model.point_masses) {
-    add_point_mass(sums, point, model.mesh.node_positions.col(point.node) - origin);
+    add_point_mass(moments, point, model.mesh.node_positions.col(point.node) - origin);
   }
-  for (const auto& [matrix, triplets] :
-       {std::pair(&moments.NxNx, &sums.NxNx), std::pair(&moments.NxNy, &sums.NxNy),
-        std::pair(&moments.NyNy, &sums.NyNy), std::pair(&moments.rotary_NN, &sums.rotary_NN)}) {
-    *matrix = eliminate_followers(model.couplings, make_matrix(num_dofs, *triplets));
-  }
+  for (Eigen::SparseMatrix<double>* matrix :
+       {&moments.NxNx, &moments.NxNy, &moments.NyNy, &moments.rotary_NN})
+    *matrix = eliminate_followers(model.couplings, std::move(*matrix));
   for (Eigen::VectorXd* vector : {&moments.N_x, &moments.N_y, &moments.x_N_x, &moments.x_N_y, &moments.y_N_x,
                                   &moments.y_N_y, &moments.rotary_N}) {
     *vector = move_loads_to_leaders(model.couplings, *vector);
   }
-  return std::move(moments);
+  return moments;
 }
 
 }  // namespace sprung::fem

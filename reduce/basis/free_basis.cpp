@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "reduce/certificate/band_errors.h"
+#include "reduce/modes/sparse_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -15,7 +16,7 @@ namespace sprung::reduce {
 namespace {
 
 constexpr double kTie = 1e-6;           // shares nearer than this count as equal: the first load is taken
-constexpr Eigen::Index kFewLoads = 60;  // up to which residual vectors are chosen one by one
+constexpr Eigen::Index kFewLoads = 60;  // up to which a small body's residual vectors are chosen one by one
 constexpr double kSmallestStaticShare = 1e-3;  // below which vectors chosen together depend on each other
 constexpr double kNegligibleMissing = 1e-10;   // share at rest below which a load adds no direction
 
@@ -107,7 +108,8 @@ FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor
   if (!std::isinf(modes.next_omega_squared)) {
     if (request.all_residual) add_all(residual, basis.residuals);
     const double highest = std::pow(2.0 * std::numbers::pi * request.highest_hz, 2);
-    if (residual.num_loads() > kFewLoads && residual.num_vectors() == 0)
+    const bool is_large = residual.size() > kMostSimplicial || residual.num_loads() > kFewLoads;
+    if (is_large && residual.num_loads() > 0 && residual.num_vectors() == 0)
       add_static(residual, std::max(request.tolerance, kSmallestStaticShare), basis.residuals);
     add_until_certified(residual, highest, calc_cutoff(certificate), request.tolerance, problem.size() - k,
                         request.progress, basis.residuals);

@@ -54,8 +54,9 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
   const Eigen::Index n = problem.size(), b = loads.cols();
   if (exact_.cols() == 0) exact_.resize(n, 0);
   exact_momenta_ = exact_.cols() > 0 ? problem.times_mass(exact_) : exact_;
-  const Eigen::MatrixXd share = exact_.transpose() * loads;
-  loads_ = loads - exact_momenta_ * share;
+  const Eigen::MatrixXd share = multiply_transposed(exact_, loads);
+  loads_ = loads;
+  add_combinations(exact_momenta_, -share, loads_);
   flexible_ = b > 0 ? factor.solve(loads_) : Eigen::MatrixXd(n, 0);
   load_work_ = loads_.cwiseProduct(flexible_).colwise().sum();
   static_flexibility_ = load_work_;
@@ -70,24 +71,25 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
 }
 
 void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
-  Eigen::MatrixXd added = vectors - exact_ * (exact_momenta_.transpose() * vectors);
-  Eigen::MatrixXd forces = multiply(problem_->stiffness, added);
+  Eigen::MatrixXd added = vectors;
+  add_combinations(exact_, -multiply_transposed(exact_momenta_, vectors), added);
+  Eigen::MatrixXd forces = multiply_transposed(problem_->stiffness, added);
   normalise(added, forces);
   for (int pass = 0; pass < 2 && num_vectors() > 0; ++pass) {  // what is new of them; twice, against rounding
-    const Eigen::MatrixXd coupling = this->vectors().transpose() * forces;
-    added -= this->vectors() * support::solve_positive_definite(UKU_, coupling);
-    forces = multiply(problem_->stiffness, added);
+    const Eigen::MatrixXd coupling = multiply_transposed(this->vectors(), forces);
+    add_combinations(this->vectors(), -support::solve_positive_definite(UKU_, coupling), added);
+    forces = multiply_transposed(problem_->stiffness, added);
   }
   normalise(added, forces);
   const Eigen::MatrixXd momenta = problem_->times_mass(added);
   const Eigen::MatrixXd second = factor_->solve(momenta);
   const Eigen::Index old = num_vectors(), width = added.cols();
   // Long vectors are read once for two products.
-  const Eigen::MatrixXd of_vectors = this->vectors().transpose() * join(forces, momenta);
-  const Eigen::MatrixXd of_loads = loads_.transpose() * join(added, second);
-  border(UKU_, of_vectors.leftCols(width), added.transpose() * forces);
-  border(UMU_, of_vectors.rightCols(width), added.transpose() * momenta);
-  border(TMU_, this->second().transpose() * momenta, second.transpose() * momenta);
+  const Eigen::MatrixXd of_vectors = multiply_transposed(this->vectors(), join(forces, momenta));
+  const Eigen::MatrixXd of_loads = multiply_transposed(loads_, join(added, second));
+  border(UKU_, of_vectors.leftCols(width), multiply_transposed(added, forces));
+  border(UMU_, of_vectors.rightCols(width), multiply_transposed(added, momenta));
+  border(TMU_, multiply_transposed(this->second(), momenta), multiply_transposed(second, momenta));
   append_columns(BU_, of_loads.leftCols(width));
   append_columns(BT_, of_loads.rightCols(width));
   make_room(room_for_vectors_, old + width);
@@ -150,7 +152,7 @@ Eigen::VectorXd InterfaceResidual::calc_damped_errors(double s, double loss_fact
 }
 
 Eigen::MatrixXd InterfaceResidual::calc_load_work() const {
-  return symmetrise(loads_.transpose() * flexible_);
+  return symmetrise(multiply_transposed(loads_, flexible_));
 }
 
 Eigen::MatrixXd InterfaceResidual::calc_error_matrix(const Eigen::MatrixXd& load_work, double s,
@@ -165,7 +167,10 @@ Eigen::MatrixXd InterfaceResidual::calc_error_matrix(const Eigen::MatrixXd& load
 Eigen::VectorXd InterfaceResidual::make_vector(Eigen::Index load, double s) const {
   if (num_vectors() == 0) return flexible_.col(load);
   const Eigen::VectorXd y = rotation_ * calc_amplitudes(s).col(load);
-  return flexible_.col(load) - vectors() * y + s * (second() * y);
+  Eigen::VectorXd vector = flexible_.col(load);
+  add_combinations(vectors(), -y, vector);
+  if (s > 0.0) add_combinations(second(), s * y, vector);
+  return vector;
 }
 
 }  // namespace sprung::reduce

@@ -33,7 +33,7 @@ struct Block {
 // Makes a block M-orthonormal and leaves out directions that hardly exist: V = W S, and gives R with W = V R.
 MatrixXd orthonormalize(Block& block, double smallest) {
   if (block.vectors.cols() == 0) return MatrixXd(0, 0);
-  const MatrixXd product = block.vectors.transpose() * block.momenta;
+  const MatrixXd product = multiply_transposed(block.vectors, block.momenta);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(0.5 * (product + product.transpose()));
   const Eigen::VectorXd length = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   const auto kept = static_cast<Index>((length.array() > smallest).count());
@@ -73,15 +73,15 @@ class Lanczos {
     append();
     Block block{.vectors = scale_ * factor_->solve(next_.momenta), .momenta = {}};
     if (coupling_.size() > 0)
-      block.vectors.noalias() -=
-          vectors_.middleCols(begin - coupling_.cols(), coupling_.cols()) * coupling_.transpose();
-    const MatrixXd own = next_.momenta.transpose() * block.vectors;
-    block.vectors.noalias() -= next_.vectors * own;
+      add_combinations(vectors_.middleCols(begin - coupling_.cols(), coupling_.cols()),
+                       -coupling_.transpose(), block.vectors);
+    const MatrixXd own = multiply_transposed(next_.momenta, block.vectors);
+    add_combinations(next_.vectors, -own, block.vectors);
     projected_.block(begin, begin, width, width) = 0.5 * (own + own.transpose());
     block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd first = orthonormalize(block, kDependent * largest_);
-    block.vectors.noalias() -=
-        vectors_.leftCols(size_) * (vectors_.leftCols(size_).transpose() * block.momenta);
+    const auto before = vectors_.leftCols(size_);
+    add_combinations(before, -multiply_transposed(before, block.momenta), block.vectors);
     block.momenta = problem_->times_mass(block.vectors);
     const MatrixXd second = orthonormalize(block, 1e-3);
     coupling_ = second * first;
@@ -104,8 +104,10 @@ class Lanczos {
       if (residual.col(i).norm() > (i < num_exact ? kRitzResidual : kRoughResidual) * theta(i))
         return std::nullopt;
     }
-    return EigenPairs{.omega_squared = scale_ * theta.cwiseInverse(),
-                      .vectors = vectors_.leftCols(size_) * ritz};
+    EigenPairs pairs{.omega_squared = scale_ * theta.cwiseInverse(),
+                     .vectors = MatrixXd::Zero(vectors_.rows(), num_pairs_)};
+    add_combinations(vectors_.leftCols(size_), ritz, pairs.vectors);
+    return pairs;
   }
 
   // As far as is known: of all below a value those that were found.

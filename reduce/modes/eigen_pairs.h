@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/modes/row_major.h"
+#include "reduce/modes/tall_products.h"
 
 namespace sprung::reduce {
 
@@ -30,8 +30,8 @@ struct ModalProblem {
 
   /// (M − Q Qᵀ) x.  @param x  n×k
   Eigen::MatrixXd times_mass(const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd y = multiply(mass, x);
-    if (is_free()) y -= rigid_share * (rigid_share.transpose() * x);
+    Eigen::MatrixXd y = multiply_transposed(mass, x);
+    if (is_free()) add_combinations(rigid_share, -multiply_transposed(rigid_share, x), y);
     return y;
   }
 };

@@ -1,15 +1,14 @@
-#include "reduce/modes/cholmod_factor.h"
+#include "reduce/modes/supernodes.h"
 
-// In place of cholmod_factor.cpp where CHOLMOD is not there.
+// In place of cholmod_supernodes.cpp where CHOLMOD is not there.
 namespace sprung::reduce {
 
 bool has_cholmod() {
   return false;
 }
 
-std::unique_ptr<SparseFactor> make_cholmod_factor(const SparseMatrix& /*matrix*/, bool /*is_definite*/,
-                                                  std::span<const int> /*order*/) {
-  return nullptr;
+Supernodes find_supernodes(const SparseMatrix& /*matrix*/) {
+  return {};
 }
 
 }  // namespace sprung::reduce

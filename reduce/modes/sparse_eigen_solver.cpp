@@ -77,11 +77,14 @@ double estimate_lowest(const StiffnessFactor& factor, const ModalProblem& proble
 EigenPairs polish(const StiffnessFactor& factor, const ModalProblem& problem, const EigenPairs& rough) {
   const Eigen::MatrixXd loads = problem.times_mass(rough.vectors * rough.omega_squared.asDiagonal());
   const Eigen::MatrixXd Y = factor.solve(loads);
-  const Eigen::MatrixXd stiffness = Y.transpose() * loads;
-  const Eigen::MatrixXd mass = Y.transpose() * problem.times_mass(Y);
+  const Eigen::MatrixXd stiffness = multiply_transposed(Y, loads);
+  const Eigen::MatrixXd mass = multiply_transposed(Y, problem.times_mass(Y));
   const EigenPairs ritz =
       solve_dense(0.5 * (stiffness + stiffness.transpose()), 0.5 * (mass + mass.transpose()));
-  return {.omega_squared = ritz.omega_squared, .vectors = Y * ritz.vectors};
+  EigenPairs pairs{.omega_squared = ritz.omega_squared,
+                   .vectors = Eigen::MatrixXd::Zero(Y.rows(), ritz.vectors.cols())};
+  add_combinations(Y, ritz.vectors, pairs.vectors);
+  return pairs;
 }
 
 // That of the problem, or one that is made for it.

@@ -3,8 +3,8 @@
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
-#include "reduce/modes/cholmod_factor.h"
 #include "reduce/modes/row_major.h"
+#include "reduce/modes/supernodal_factor.h"
 
 namespace sprung::reduce {
 
@@ -36,9 +36,8 @@ class SimplicialFactor final : public SparseFactor {
 
   int num_negative() const override { return static_cast<int>((factor_.vectorD().array() < 0.0).count()); }
 
-  std::span<const int> order() const override {
-    const auto& indices = factor_.permutationPinv().indices();
-    return {indices.data(), static_cast<std::size_t>(indices.size())};
+  std::unique_ptr<SparseFactor> factor_like(const SparseMatrix& matrix) const override {
+    return make_sparse_factor(matrix, false, FactorMethod::kSimplicial);
   }
 
  private:
@@ -65,13 +64,13 @@ class SimplicialFactor final : public SparseFactor {
 }  // namespace
 
 std::unique_ptr<SparseFactor> make_sparse_factor(const SparseMatrix& matrix, bool is_definite,
-                                                 std::span<const int> order, FactorMethod method) {
-  if (method == FactorMethod::kCholmod && !has_cholmod()) {
+                                                 FactorMethod method) {
+  if (method == FactorMethod::kSupernodal && !has_cholmod()) {
     throw std::invalid_argument("make_sparse_factor: this program was built without CHOLMOD");
   }
   const bool is_large = method == FactorMethod::kAutomatic && matrix.rows() > kMostSimplicial;
-  if (method == FactorMethod::kCholmod || (is_large && has_cholmod())) {
-    return make_cholmod_factor(matrix, is_definite, order);
+  if (method == FactorMethod::kSupernodal || (is_large && has_cholmod())) {
+    return make_supernodal_factor(matrix, is_definite, find_supernodes(matrix));
   }
   auto factor = std::make_unique<SimplicialFactor>(matrix);
   if (!factor->is_usable(is_definite)) return nullptr;

@@ -20,8 +20,11 @@ class StiffnessFactor {
 
   /// K⁻¹ x.  @param x  n×k, best of all columns at once
   Eigen::MatrixXd solve(const Eigen::MatrixXd& x) const { return factor_->solve(x); }
-  /// The order of elimination, which serves K − σM as well.
-  std::span<const int> order() const { return factor_->order(); }
+  /// Factors of K − σM where M has no entries but where K has some, in the same order of elimination.
+  /// @return null where a pivot vanishes
+  std::unique_ptr<SparseFactor> factor_like(const SparseMatrix& shifted) const {
+    return factor_->factor_like(shifted);
+  }
 
  private:
   std::unique_ptr<SparseFactor> factor_;

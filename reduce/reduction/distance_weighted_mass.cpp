@@ -1,7 +1,8 @@
 #include "reduce/reduction/distance_weighted_mass.h"
 
 #include <array>
-#include <vector>
+
+#include "fem/frame_sums.h"
 
 namespace sprung::reduce {
 
@@ -33,26 +34,15 @@ fem::Matrix6 calc_element(const fem::BeamElement& element, const Eigen::Vector2d
 Eigen::SparseMatrix<double> calc_distance_weighted_mass(const fem::BeamModel& model,
                                                         const Eigen::Vector2d& origin) {
   fem::check_beam_model(model, "calc_distance_weighted_mass");
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(36 * model.mesh.elements.size() + 2 * model.point_masses.size());
+  Eigen::SparseMatrix<double> result = fem::make_frame_sum(model.mesh);
   for (int e = 0; e < model.mesh.num_elements(); ++e) {
-    const fem::Matrix6 matrix = calc_element(fem::make_element(model, e), origin);
-    const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) {
-        triplets.emplace_back(3 * (i < 3 ? nodes.first : nodes.second) + i % 3,
-                              3 * (j < 3 ? nodes.first : nodes.second) + j % 3, matrix(i, j));
-      }
-    }
+    fem::add_at_element(result, model.mesh.elements[static_cast<std::size_t>(e)],
+                        calc_element(fem::make_element(model, e), origin));
   }
   for (const fem::PointMass& point : model.point_masses) {
     const double moment = point.mass * (model.mesh.node_positions(0, point.node) - origin.x());
-    triplets.emplace_back(3 * point.node, 3 * point.node, moment);
-    triplets.emplace_back(3 * point.node + 1, 3 * point.node + 1, moment);
+    fem::add_at_node(result, point.node, Eigen::Vector3d(moment, moment, 0.0).asDiagonal());
   }
-  const Eigen::Index size = 3 * model.mesh.num_nodes();
-  Eigen::SparseMatrix<double> result(size, size);
-  result.setFromTriplets(triplets.begin(), triplets.end());
   return fem::eliminate_followers(model.couplings, result);
 }
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "reduce/modes/row_major.h"
+#include "reduce/modes/tall_products.h"
 
 namespace sprung::reduce {
 
@@ -12,10 +12,6 @@ namespace {
 
 Eigen::MatrixXd symmetrise(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
-}
-
-Eigen::MatrixXd project(const Eigen::SparseMatrix<double>& product, const Eigen::MatrixXd& shapes) {
-  return shapes.transpose() * multiply(product, shapes);
 }
 
 }  // namespace

@@ -6,24 +6,25 @@
 #include "fem/axial_force.h"
 #include "fem/geometric_stiffness.h"
 #include "reduce/modes/held_node.h"
+#include "reduce/modes/tall_products.h"
 
 namespace sprung::reduce {
 
 namespace {
 
 constexpr Eigen::Index kLoadsAtOnce = 96;
-constexpr Eigen::Index kValuesAtOnce = 1'000'000;  // of the elements' matrices: 8 MB
+constexpr Eigen::Index kValuesAtOnce = 60'000;  // of the elements' matrices: they stay in the cache
 
-// The lower triangle of a symmetric m×m matrix as a column, and back.
+// The lower triangle of a symmetric m×m matrix as a column: SᵀS of four rows S, and back.
 Eigen::Index count_entries(Eigen::Index m) {
   return m * (m + 1) / 2;
 }
-void pack(const Eigen::MatrixXd& matrix, Eigen::Ref<Eigen::VectorXd> column) {
-  Eigen::Index at = 0;
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const Eigen::Index height = matrix.cols() - j;
-    column.segment(at, height) = matrix.col(j).tail(height);
-    at += height;
+void pack_square(const Eigen::Matrix<double, 4, Eigen::Dynamic>& S, double* column) {
+  const Eigen::Matrix<double, Eigen::Dynamic, 4> rows = S.transpose();
+  const Eigen::Index m = rows.rows();
+  const double *a = rows.data(), *b = a + m, *c = b + m, *d = c + m;
+  for (Eigen::Index j = 0; j < m; ++j) {
+    for (Eigen::Index i = j; i < m; ++i) *column++ = a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + d[i] * d[j];
   }
 }
 Eigen::MatrixXd unpack(const Eigen::VectorXd& column, Eigen::Index m) {
@@ -41,13 +42,14 @@ Eigen::MatrixXd unpack(const Eigen::VectorXd& column, Eigen::Index m) {
 Eigen::MatrixXd calc_element_stiffness(const fem::BeamModel& model, const Eigen::MatrixXd& shapes,
                                        Eigen::Index begin, Eigen::Index count) {
   Eigen::MatrixXd packed(count_entries(shapes.cols()), count);
-  Eigen::MatrixXd ends(6, shapes.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> ends(6, shapes.cols());
+  Eigen::Matrix<double, 4, Eigen::Dynamic> slopes(4, shapes.cols());
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto e = static_cast<int>(begin + i);
     const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
     ends << shapes.middleRows<3>(3 * nodes.first), shapes.middleRows<3>(3 * nodes.second);
-    const fem::Matrix6 K = fem::calc_geometric_stiffness(fem::make_element(model, e), {.constant = 1.0});
-    pack(ends.transpose() * (K * ends), packed.col(i));
+    slopes.noalias() = fem::calc_scaled_slopes(fem::make_element(model, e)).lazyProduct(ends);
+    pack_square(slopes, packed.col(i).data());
   }
   return packed;
 }
@@ -84,7 +86,8 @@ PointStiffness calc_by_loads(const fem::BeamModel& model, int reference_node, co
       std::max<Eigen::Index>(1, kValuesAtOnce / std::max<Eigen::Index>(1, packed.rows()));
   for (Eigen::Index begin = 0; begin < num_elements && forces.cols() > 0; begin += at_once) {
     const Eigen::Index count = std::min(at_once, num_elements - begin);
-    packed.noalias() += calc_element_stiffness(model, shapes, begin, count) * forces.middleRows(begin, count);
+    add_combinations(calc_element_stiffness(model, shapes, begin, count), forces.middleRows(begin, count),
+                     packed);
   }
   PointStiffness stiffness;
   for (Eigen::Index load = 0; load < forces.cols(); load += 3) {

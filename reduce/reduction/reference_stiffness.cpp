@@ -6,7 +6,7 @@
 #include "fem/axial_force.h"
 #include "fem/geometric_stiffness.h"
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/row_major.h"
+#include "reduce/modes/tall_products.h"
 #include "reduce/reduction/point_stiffness.h"
 
 namespace sprung::reduce {
@@ -36,8 +36,7 @@ std::vector<Eigen::MatrixXd> calc_inertia_stiffness(
   for (std::size_t i = 0; i < accelerations.size(); ++i) {
     const std::vector<fem::AxialForce> forces = fem::calc_axial_forces(
         model, displacements.col(static_cast<Eigen::Index>(i)), accelerations[i], origin);
-    const Eigen::MatrixXd K =
-        shapes.transpose() * multiply(fem::assemble_geometric_stiffness(model, forces), shapes);
+    const Eigen::MatrixXd K = project(fem::assemble_geometric_stiffness(model, forces), shapes);
     stiffness.emplace_back(0.5 * (K + K.transpose()));
   }
   return stiffness;

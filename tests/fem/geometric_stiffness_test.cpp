@@ -34,6 +34,16 @@ double calc_cantilever_buckling(int num_elements, const BeamProperties& properti
 
 }  // namespace
 
+// Expected: the stiffness by its own quadrature.
+TEST_CASE("Scaled slopes give the geometric stiffness under a constant axial force") {
+  for (const BeamProperties& properties : {test::make_thick_properties(), test::make_thin_properties()}) {
+    const BeamElement element{.first = {0.3, -0.2}, .second = {0.9, 0.7}, .properties = properties};
+    const Eigen::Matrix<double, 4, 6> slopes = calc_scaled_slopes(element);
+    const Matrix6 expected = calc_geometric_stiffness(element, {.constant = -2.5});
+    CHECK(test::calc_difference(-2.5 * slopes.transpose() * slopes, expected) < kRounding);
+  }
+}
+
 TEST_CASE("The slope is the derivative of the shape functions") {
   for (const BeamProperties& properties : {test::make_thick_properties(), test::make_thin_properties()}) {
     for (const double xi : {0.1, 0.37, 0.82}) {

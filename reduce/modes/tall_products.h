@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace sprung::reduce {
+
+/// Products of matrices with many rows and few columns, which read long columns from memory once where a
+/// product of Eigen's packs them first.
+using TallMatrix = Eigen::Ref<const Eigen::MatrixXd>;
+
+/// Aᵀ B.  @param A  n×a   @param B  n×b   @return a×b
+Eigen::MatrixXd multiply_transposed(const TallMatrix& A, const TallMatrix& B);
+
+/// Y += A C.  @param A  n×a   @param C  a×b   @param Y  n×b
+void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<Eigen::MatrixXd> Y);
+
+/// Aᵀ X, in which each entry of A is read once for eight columns.  @param A  m×n   @param X  m×k   @return
+/// n×k
+Eigen::MatrixXd multiply_transposed(const Eigen::SparseMatrix<double>& A, const TallMatrix& X);
+
+/// Vᵀ A V.  @param A  n×n   @param V  n×k   @return k×k
+Eigen::MatrixXd project(const Eigen::SparseMatrix<double>& A, const TallMatrix& V);
+
+}  // namespace sprung::reduce
