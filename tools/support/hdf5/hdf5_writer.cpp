@@ -74,7 +74,12 @@ Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
   check_target(target_);
   check_temporary(target_, temporary_);
   if (!partial_.empty()) check_temporary(target_, partial_);
-  attempt([this] { file_ = hdf5::create_file(temporary_); });
+  try {
+    attempt([this] { file_ = hdf5::create_file(temporary_); });
+  } catch (const InputError&) {
+    remove_left_over(target_);  // on a full disk an empty file was made
+    throw;
+  }
 }
 
 Hdf5Writer::~Hdf5Writer() {
