@@ -125,10 +125,10 @@ TEST_CASE("a text that is not TOML is refused at the fault") {
                  Catch::Matchers::EndsWith(
                      "error: 99999999999999999999 is too large for an integer, which has 64 bits; a number "
                      "is written as 1e+20"));
-  CHECK_THAT(parse_error("a = 1\nb = [-1e400]\n"),
+  CHECK_THAT(parse_error("a = 1\nb = [1e400]\n"),
              Catch::Matchers::StartsWith("v.toml:2:") &&
                  Catch::Matchers::EndsWith(
-                     "error: -1e400 is too large for double precision, whose largest number is 1.8e+308"));
+                     "error: 1e400 is too large for double precision, whose largest number is 1.8e+308"));
 }
 
 TEST_CASE("dates and times are refused") {
