@@ -59,8 +59,8 @@ class Templates(ToolTestCase):
                     self.assertEqual(flexible["warnings"], [])
 
     def test_each_has_one_rigid_body_mode_and_a_proved_bracket_of_every_other_up_to_60_hz(self):
-        # 60 Hz is the end of the band of both frames; 1 % is above twice their tolerance, 0.005, of flexibilities. Nothing but
-        # the motion along the road is without stiffness: internal states of air springs and bushings are no modes.
+        # 60 Hz is the end of the band of both frames; 1 % is twice their tolerance of flexibilities. Nothing but the
+        # motion along the road is without stiffness: internal states of air springs and bushings are no modes.
         for name in FREEDOMS:
             with self.subTest(name):
                 printed = {}

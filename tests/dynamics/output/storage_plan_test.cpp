@@ -42,8 +42,9 @@ StoragePlan make_plan(const OutputSettings& settings) {
                       .stiffened_bodies = {"blade"}});
 }
 
-// A column of 10,001 rows [MB]. In double precision they fill 10 chunks of 1024 rows. In single precision they take
-// 2.9 bytes each, and 0.3 of an unfinished chunk of 4 bytes each stays empty; coarse rows come in chunks of 256.
+// A column of 10,001 rows [MB]. In double precision they fill 10 chunks of 1024 rows. In single precision
+// they take 2.9 bytes each, and 0.3 of an unfinished chunk of 4 bytes each stays empty; coarse rows come in
+// chunks of 256.
 constexpr double kDouble = 10240 * 8e-6, kSingle = (10001 * 2.9 + 0.3 * 1024 * 4) * 1e-6;
 constexpr double kCoarse = (1000.1 * 2.9 + 0.3 * 256 * 4) * 1e-6, kCoarseDouble = 1024 * 8e-6;
 constexpr double kDataset = 1.1e-3;  // [MB]
@@ -98,7 +99,8 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   CHECK(plan.every(history("/bodies/frame/position")) == 10);
   CHECK(plan.every(history("/bodies/frame/acceleration")) == 1);
   CHECK(plan.every(history("/points/frame.seat/acceleration")) == 1);
-  CHECK_THAT(plan.size(), WithinRel(kDouble + kCoarseDouble + 70 * kSingle + 90 * kCoarse + 10 * kDataset, 1e-9));
+  CHECK_THAT(plan.size(),
+             WithinRel(kDouble + kCoarseDouble + 70 * kSingle + 90 * kCoarse + 10 * kDataset, 1e-9));
   CHECK(describe_storage(plan, settings) ==
         "about 2.51 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
         "single precision; stress resultants every 10 ms; reactions of joints and loads of force elements "

@@ -78,7 +78,7 @@ spring = { polynomial = [0.0, 1e5] }
         self.assertRegex(process.stderr, r"'forces\.(helper|front_suspension)\.free_length\.static'")
 
     def test_the_error_stands_at_the_spring_whose_length_is_mistaken(self):
-        # A length in another unit, 3 m in place of 0.25 m, lets the other spring of the half car turn upside down, or makes
+        # A length of 3 m in place of 0.25 m lets the other spring of the half car turn upside down, or makes
         # a spring within one body push without end: the one that is named is the one that was changed.
         template = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8")
         run = (TEMPLATES / "half_car_run.toml").read_text(encoding="utf-8")
