@@ -76,7 +76,7 @@ class Storage(DynamicsTestCase):
             small.check_every_output("forces/front_tyre/force")
 
     def test_the_size_of_the_file_is_said_and_kept(self):
-        # In double precision it follows from the numbers of rows and columns. Compressed, it is that of rough roads, and
+        # In double precision it follows from the numbers of rows and columns. Compressed, it is of rough roads, and
         # this run over a bump takes less. The file has 0.35 MB that are no histories.
         for size, least in ((20.0, 0.98), (1.2, 0.4), (0.7, 0.4)):
             said = self.run_with("some.h5", f"output.size={size}", verbose=True)
