@@ -53,6 +53,7 @@ Body make_flexible_body(const std::string& name, const reduce::Superelement& sup
   Body body;
   body.name = name;
   body.mode_numbers = mode_numbers;
+  body.num_available_modes = superelement.num_modes();
   body.mass = inertia.mass;
   body.first_moment = inertia.first_moment;
   body.second_moment = inertia.second_moment;

@@ -19,6 +19,7 @@ struct Body {
   std::string name;
   int first_coordinate = 0;       ///< of the body's 3 + n in q
   std::vector<int> mode_numbers;  ///< 1-based numbers of the active modes in the superelement, ascending
+  int num_available_modes = 0;    ///< of its superelement; 0 without one
 
   double mass = 0.0;                                       ///< [kg]
   Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< S₀ = ∫r dm [kg·m]

@@ -84,7 +84,10 @@ BodyDescription read_body(const std::string& name, const support::TomlValue& val
     body.inertia_location = table.at("inertia").location();
   }
   body.position = read_vector(table.at("position"), "m");
-  body.angle = table.number_or("angle", 0.0, support::any("rad"));
+  if (const std::optional<support::TomlValue> angle = table.find("angle")) {
+    body.angle = angle->number(support::any("rad"));
+    body.angle_location = angle->location();
+  }
   if (const std::optional<support::TomlTable> points = table.find_table("points")) {
     body.points = read_points(*points, !body.superelement.empty());
   }

@@ -5,21 +5,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kEarth = 9.80665;         // m/s²
 constexpr double kLongest = 100.0;         // m, of a vehicle
 constexpr double kLargestWheel = 10.0;     // m
 constexpr double kLargestGyration = 50.0;  // m
 constexpr double kFastest = 70.0;          // m/s, of a road vehicle
 // A body whose points are this much nearer than its radius of gyration, which is longer than kLongGyration.
 constexpr double kWideGyration = 10.0;
-constexpr double kLongGyration = 3.0;        // m
-constexpr double kLargestDeflection = 10.0;  // m, of a spring under a body's own weight
-constexpr double kLeastDamping = 1e-3;       // of critical, of the lighter body on the spring
-constexpr double kHighestBump = 5.0;         // m
+constexpr double kLongGyration = 3.0;                    // m
+constexpr double kLargestDeflection = 10.0;              // m, of a spring under a body's own weight
+constexpr double kLeastDamping = 1e-3;                   // of critical, of the lighter body on the spring
+constexpr double kHighestBump = 5.0;                     // m
+constexpr double kStrongestGravity = 1000.0;             // m/s², more than 100 g: a centrifuge has less
+constexpr double kLargestTurn = 2.0 * std::numbers::pi;  // rad, of a body as drawn
 
 std::string remark_at(const support::SourceLocation& location, const std::string& text) {
   return fmt::format("{}: {}", support::format_place(location), text);
@@ -52,6 +56,13 @@ void remark_on_body(const BodyDescription& body, std::vector<std::string>& remar
     remarks.push_back(remark_at(
         point.location, fmt::format("'bodies.{}.points.{}' is {:.4g} m away; lengths are in m, not in mm",
                                     body.name, point.name, point.position.norm())));
+  }
+  if (std::abs(body.angle) > kLargestTurn) {
+    remarks.push_back(remark_at(
+        body.angle_location,
+        fmt::format(
+            "'bodies.{}.angle' is {:.4g} rad, more than a full turn; angles are in rad, not in degrees",
+            body.name, body.angle)));
   }
   remark_on_inertia(body, remarks);
 }
@@ -136,6 +147,12 @@ std::vector<std::string> list_unit_remarks(const Run& run, const Vehicle& vehicl
     remarks.push_back(
         remark_at(run.road.location,
                   fmt::format("'road.height' is {:.4g} m; heights are in m, not in mm", run.road.height)));
+  }
+  if (vehicle.gravity.norm() > kStrongestGravity) {
+    remarks.push_back(remark_at(
+        vehicle.gravity_location,
+        fmt::format("'gravity' is {:.4g} m/s², {:.4g} times that of the Earth; it is in m/s², not in mm/s²",
+                    vehicle.gravity.norm(), vehicle.gravity.norm() / kEarth)));
   }
   for (const BodyDescription& body : vehicle.bodies) remark_on_body(body, remarks);
   for (const ForceDescription& force : vehicle.forces) {

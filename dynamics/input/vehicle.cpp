@@ -228,6 +228,7 @@ Vehicle read_vehicle(const support::TomlDocument& document, const std::filesyste
   if (const std::optional<support::TomlValue> gravity = root.find("gravity")) {
     const std::vector<double> g = gravity->numbers(support::any("m/s²"), 2);
     vehicle.gravity = {g[0], g[1]};
+    vehicle.gravity_location = gravity->location();
   }
   vehicle.bodies = read_bodies(root.at("bodies").table());
   if (const std::optional<support::TomlTable> ground = root.find_table("ground")) {

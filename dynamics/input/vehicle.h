@@ -33,7 +33,8 @@ struct BodyDescription {
   std::string name;
   support::SourceLocation location;
   support::SourceLocation mass_location, inertia_location;  ///< of a rigid body
-  double mass = 0.0;                                        ///< ≥ 0 [kg]; 0 with a superelement
+  support::SourceLocation angle_location;
+  double mass = 0.0;         ///< ≥ 0 [kg]; 0 with a superelement
   double inertia = 0.0;      ///< ≥ 0, about the centre of mass [kg·m²]; 0 with a superelement
   std::string superelement;  ///< name, empty if there is none
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of the body frame [m]
@@ -47,6 +48,7 @@ struct Vehicle {
   std::string text;                        ///< the file as read
   double direction = 1.0;                  ///< of travel: +1 towards +x, −1 towards −x
   Eigen::Vector2d gravity{0.0, -9.80665};  ///< [m/s²]
+  support::SourceLocation gravity_location;
   std::vector<BodyDescription> bodies;
   std::vector<PointDescription> ground_points;
   std::vector<JointDescription> joints;

@@ -59,10 +59,10 @@ std::string name_constraints(const Model& model, const std::vector<int>& constra
 }
 
 // Flexible bodies that dependent constraints load by forces in equilibrium at several points, without work on
-// the active modes. With more modes the forces would do work, and the constraints would be independent.
+// the active modes, of which there may be none. With more modes the forces would do work, and the constraints
+// would be independent.
 // @param terms  after update_jacobian   @param dependent  from find_dependent_constraints
-std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
-                                                    const std::vector<int>& dependent) {
+std::vector<int> find_bodies_short_of_modes(const SystemTerms& terms, const std::vector<int>& dependent) {
   const Model& model = terms.model();
   const BlockJacobian& jacobian = terms.jacobian();
   const Eigen::MatrixXd rows = Eigen::MatrixXd(jacobian.sparse())(dependent, Eigen::all);
@@ -82,14 +82,13 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
       load += lambda[block.row + i] * Eigen::Map<const Eigen::Vector3d>(row);
     }
   }
-  std::vector<std::string> found;
+  std::vector<int> found;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const auto is_loaded = [&](const auto& entry) {
       return std::get<0>(entry.first) == static_cast<int>(b) && entry.second.norm() > kLoaded;
     };
-    if (model.bodies[b].num_modes() > 0 && std::count_if(loads.begin(), loads.end(), is_loaded) > 1) {
-      found.push_back(fmt::format("'{}'", model.bodies[b].name));
-    }
+    if (model.bodies[b].num_available_modes > 0 && std::count_if(loads.begin(), loads.end(), is_loaded) > 1)
+      found.push_back(static_cast<int>(b));
   }
   return found;
 }
@@ -99,13 +98,25 @@ std::vector<std::string> find_bodies_short_of_modes(const SystemTerms& terms,
   const support::SourceLocation& location =
       model.joints[joint_of_constraint(model, dependent.back())]->location;
   const std::string names = name_constraints(model, dependent);
-  const std::vector<std::string> bodies = find_bodies_short_of_modes(terms, dependent);
+  const std::vector<int> bodies = find_bodies_short_of_modes(terms, dependent);
   if (!bodies.empty()) {
+    std::vector<std::string> counts;
+    bool has_more = false;
+    for (const int b : bodies) {
+      const Body& body = model.bodies[static_cast<std::size_t>(b)];
+      counts.push_back(
+          fmt::format("'{}' has ({} of {})", body.name, body.num_modes(), body.num_available_modes));
+      has_more |= body.num_modes() < body.num_available_modes;
+    }
     throw support::InputError(
         location,
-        fmt::format("too few modes: with those that {} has, it cannot deform as {} require, so that "
-                    "their reactions have no unique value; take more modes of it",
-                    fmt::join(bodies, " or "), names));
+        fmt::format("too few modes: with those that {}, it cannot deform as {} require, so that "
+                    "their reactions have no unique value; {}",
+                    fmt::join(counts, " or "), names,
+                    has_more
+                        ? "take more modes of it"
+                        : "reduce it with more vectors: with these points in its [interface], or up to a "
+                          "higher frequency"));
   }
   throw support::InputError(
       location,

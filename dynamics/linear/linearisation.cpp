@@ -106,16 +106,22 @@ void add_stiffness(PartitionedEquations& equations, double time, const Eigen::Ve
       motion);
   const Eigen::MatrixXd& D = system.directions;
   system.stiffness = D.transpose() * apply_modal_stiffness(model, D) - derivative.topRows(f);
+  // Internal states are rates: neither they nor forces depend on the coordinates that belong to them.
   system.stiffness.bottomRows(model.num_states()).setZero();
+  system.stiffness.rightCols(model.num_states()).setZero();
 
   const Eigen::MatrixXd sizes = D.cwiseAbs();
+  // Rounding errors of the dependent rows of D grow as the smallest pivot that they were solved with falls.
+  Eigen::MatrixXd errors = sizes;
+  for (const int i : system.partition.dependent)
+    errors.row(i) /= std::min(1.0, system.partition.smallest_pivot);
   // All entries of D, zeros too, have rounding errors in natural sizes, and so does the work of each force.
   Eigen::VectorXd scales(n);
   for (int i = 0; i < model.num_coordinates; ++i) scales[i] = model.coordinate_scale(i);
   const double work = scales.dot(forces.cwiseAbs());
   const Eigen::VectorXd by_scale = scales(system.partition.independent).cwiseInverse();
   system.stiffness_rounding =
-      kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, sizes, true) +
+      kRoundingUnit * (sizes.transpose() * (apply_modal_stiffness(model, errors, true) +
                                             derivative.bottomRows(n).cwiseAbs() / kPositionStep) +
                        work / kPositionStep * by_scale * by_scale.transpose());
   const Eigen::VectorXd moved = calc_coordinate_rounding(model, system.partition, q);

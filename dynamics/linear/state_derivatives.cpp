@@ -51,6 +51,8 @@ std::vector<int> set_shifted_rest(PartitionedEquations& equations, double time, 
         fmt::format("linearise: the constraints cannot be satisfied at a distance of {} along {}", distance,
                     model_of(equations).coordinate_name(coordinate_of(equations, k))));
   }
+  // Joints open by 1e-12 of the length scale would shift a stiffness by 1e-8 of the largest one.
+  equations.refine_positions();
   return set_velocities(equations, Eigen::VectorXd::Zero(q_independent.size()), motion);
 }
 

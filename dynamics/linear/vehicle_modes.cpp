@@ -1,12 +1,11 @@
 #include "dynamics/linear/vehicle_modes.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <complex>
 #include <numbers>
 
+#include "dynamics/bodies/body_equations.h"
 #include "dynamics/linear/first_order_form.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
@@ -17,7 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSameShape = 1e-9;  // difference of modal assurance criteria that counts as none
+constexpr double kSameShape = 1e-9;   // difference of modal assurance criteria that counts as none
+constexpr double kLeastNamed = 0.05;  // of the kinetic energy, of a body that is named
 
 // Eigenvalues of the damped system with Im ≥ 0, and the positions of their eigenvectors in the undamped
 // modes.
@@ -95,36 +95,36 @@ std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
   return modes;
 }
 
-// The bodies' shares of the kinetic energy of a shape, largest first, with a body's main mode in brackets.
-std::string describe_participants(const Model& model, const SystemTerms& terms,
-                                  const Eigen::VectorXd& shape) {
-  struct Share {
-    std::string text;
-    double value;
-  };
-  std::vector<Share> shares;
+// The bodies with the most kinetic energy, the largest share first. A body whose own modes have more than a
+// tenth of its energy has a main mode.
+std::vector<Participant> find_participants(const Model& model, const SystemTerms& terms,
+                                           const Eigen::VectorXd& q, const Eigen::VectorXd& shape) {
+  std::vector<Participant> participants;
   double total = 0.0;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const Eigen::VectorXd v = shape.segment(body.first_coordinate, body.num_coordinates());
     const double energy = v.dot(terms.mass(b) * v);
     total += energy;
-    shares.push_back({body.name, energy});
+    Participant one{.body = static_cast<int>(b), .share = energy, .motion = v.head<3>()};
+    if (body.mass > 0.0) {
+      const Eigen::Vector2d arm =
+          Eigen::Rotation2Dd(q[body.first_coordinate + 2]) * body.first_moment / body.mass;
+      one.motion.head<2>() += v[2] * turned(arm);
+    }
     const Eigen::VectorXd modal = v.tail(body.num_modes());
-    const double bending = modal.dot(body.M_ff * modal);
-    if (bending <= 0.1 * energy) continue;
-    Eigen::Index largest = 0;
-    modal.cwiseAbs().maxCoeff(&largest);
-    shares.back().text += fmt::format(" (mode {})", body.mode_numbers[static_cast<std::size_t>(largest)]);
+    if (modal.dot(body.M_ff * modal) > 0.1 * energy) {
+      Eigen::Index largest = 0;
+      modal.cwiseAbs().maxCoeff(&largest);
+      one.main_mode = body.mode_numbers[static_cast<std::size_t>(largest)];
+    }
+    participants.push_back(one);
   }
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const Share& a, const Share& b) { return a.value > b.value; });
-  std::vector<std::string> words;
-  for (const Share& share : shares) {
-    if (share.value < 0.05 * total) break;
-    words.push_back(fmt::format("{} {:.0f} %", share.text, 100.0 * share.value / total));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
+  std::stable_sort(participants.begin(), participants.end(),
+                   [](const Participant& a, const Participant& b) { return a.share > b.share; });
+  std::erase_if(participants, [&](const Participant& one) { return one.share < kLeastNamed * total; });
+  for (Participant& one : participants) one.share /= total;
+  return participants;
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
     mode.shape = system.directions * (form.V * one.shape.real().normalized());
     // An internal state of a force element is no mode, but it damps and stiffens the others.
     if (mode.shape.head(model.first_state()).isZero(0.0)) continue;
-    mode.participants = describe_participants(model, terms, mode.shape);
+    mode.participants = find_participants(model, terms, equilibrium.q, mode.shape);
     mode.is_rigid_body = one.omega == 0.0;
     if (!mode.is_rigid_body) {
       mode.undamped_frequency_hz = one.omega / (2.0 * pi);
@@ -177,7 +177,10 @@ Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::Vecto
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   const LinearisedSystem system = linearise(equations, 0.0, q);
-  const auto pairs = support::solve_undamped(system.stiffness, system.mass);
+  // Internal states, the last coordinates, have no stiffness and are no modes.
+  const Eigen::Index n = system.mass.rows() - model.num_states();
+  const auto pairs = support::solve_undamped(system.stiffness.topLeftCorner(n, n).eval(),
+                                             system.mass.topLeftCorner(n, n).eval());
   if (!pairs) throw support::NumericalError("modes: the undamped eigenvalue problem does not converge");
   return pairs->values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }

@@ -1,12 +1,20 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "dynamics/linear/equilibrium.h"
 
 namespace sprung::dynamics {
+
+/// A body with at least 5 % of the kinetic energy of a mode.
+struct Participant {
+  int body = 0;
+  double share = 0.0;  ///< of the mode's kinetic energy
+  int main_mode = 0;   ///< number of the body's own mode with the largest amplitude; 0: it moves as a whole
+  Eigen::Vector3d motion =
+      Eigen::Vector3d::Zero();  ///< of the undeformed body: its centre of mass x, y; turning
+};
 
 /// One vibration of the assembled vehicle about its equilibrium.
 struct VehicleMode {
@@ -14,8 +22,8 @@ struct VehicleMode {
   double damped_frequency_hz = 0.0;    ///< 0 where the mode does not oscillate
   double damping_ratio = 0.0;  ///< −Re s/|s|; where the mode does not oscillate, −s/ω of the larger s
   bool is_rigid_body = false;
-  Eigen::VectorXd shape;     ///< nq, undamped, mass-normalised
-  std::string participants;  ///< bodies with the most kinetic energy: "chassis 62 % (mode 1: 40 %), …"
+  Eigen::VectorXd shape;                  ///< nq, undamped, mass-normalised
+  std::vector<Participant> participants;  ///< the bodies that move, that with the most kinetic energy first
 };
 
 /// Modes of the linearised vehicle: undamped ones from M̂ and K̂, each with the eigenvalue of the damped system
@@ -26,7 +34,7 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
 
 /// Undamped frequencies of a vehicle linearised about rest at q, also where q is no equilibrium, ascending;
 /// those of rigid-body modes are 0 to rounding.
-/// @return one for each freedom [Hz]
+/// @return one for each freedom of the motion, without internal states [Hz]
 /// @throws support::NumericalError as linearise
 Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::VectorXd& q);
 

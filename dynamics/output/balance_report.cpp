@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/output/moving_bodies.h"
 #include "dynamics/output/section_report.h"
 #include "dynamics/section_loads/body_remarks.h"
 #include "dynamics/system/system_terms.h"
@@ -151,12 +152,13 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
   int number = 0;
   for (const VehicleMode& mode : modes) {
     ++number;
+    const std::string movers = describe_moving_bodies(model, vehicle, mode);
     if (mode.is_rigid_body) {
-      table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + mode.participants});
+      table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + movers});
     } else {
       table.add_row({fmt::format("{}", number), fmt::format("{:.4f}", mode.undamped_frequency_hz),
                      support::format_fixed(mode.damped_frequency_hz, 4),
-                     support::format_fixed(mode.damping_ratio, 4), mode.participants});
+                     support::format_fixed(mode.damping_ratio, 4), movers});
     }
   }
   text += table.str();
@@ -185,15 +187,16 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
       band, table.str());
 }
 
-Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
-                     const std::vector<RunWarning>& warnings, const FrequencyBracket* bracket) {
+Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
+                     const SectionStatistics& sections, const std::vector<RunWarning>& warnings,
+                     const FrequencyBracket* bracket) {
   Json list = Json::array();
   for (const VehicleMode& mode : modes) {
     list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
                     {"damped_frequency", mode.damped_frequency_hz},
                     {"damping_ratio", mode.damping_ratio},
                     {"rigid_body", mode.is_rigid_body},
-                    {"participants", mode.participants}});
+                    {"participants", describe_moving_bodies(model, vehicle, mode)}});
     if (bracket != nullptr && bracket->holds(modes, list.size() - 1)) {
       list.back()["bracket"] = {bracket->lower_hz[static_cast<Eigen::Index>(list.size()) - 1],
                                 mode.undamped_frequency_hz};

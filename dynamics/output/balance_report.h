@@ -49,7 +49,8 @@ support::Json make_equilibrium_json(const BalanceReport& report);
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
                          const std::vector<RunWarning>& warnings, bool is_steady = false);
 /// @param sections  at the equilibrium   @param bracket  null: none
-support::Json make_modes_json(const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
+support::Json make_modes_json(const Model& model, const Vehicle& vehicle,
+                              const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
                               const std::vector<RunWarning>& warnings,
                               const FrequencyBracket* bracket = nullptr);
 std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);

@@ -1,6 +1,7 @@
 #include "dynamics/output/results_model.h"
 
 #include "dynamics/output/choice_report.h"
+#include "dynamics/output/moving_bodies.h"
 #include "dynamics/output/resolved_model.h"
 
 #include <fmt/format.h>
@@ -107,7 +108,7 @@ void write_modes(support::Hdf5Writer& file, const ResultsHeader& header) {
     undamped.push_back(mode.undamped_frequency_hz);
     damped.push_back(mode.damped_frequency_hz);
     ratio.push_back(mode.damping_ratio);
-    participants.push_back(mode.participants);
+    participants.push_back(describe_moving_bodies(header.model, header.vehicle, mode));
     shapes.col(static_cast<Eigen::Index>(k)) = mode.shape;
   }
   std::vector<std::string> coordinates;

@@ -61,8 +61,8 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   if (output.bracket) bracket = calc_bracket(prepared);
   if (output.json) {
     support::print(request.streams.out, "{}",
-                   format_report_json(request, make_modes_json(modes, resting.loads, warnings,
-                                                               bracket ? &*bracket : nullptr)));
+                   format_report_json(request, make_modes_json(model, prepared.vehicle, modes, resting.loads,
+                                                               warnings, bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
   support::print(

@@ -192,7 +192,8 @@ Eigen::VectorXd find_balance(const Flexibility& flexibility, Preparation prepara
   return prepared.equilibrium->q;
 }
 
-// The same; where there is no balance, the error tells of bodies that are drawn far from each other.
+// The same; where there is no balance, the error tells of wheels that are drawn under the road, or of bodies
+// that are drawn far from each other.
 Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparation preparation,
                                         const RunRequest& request, PreparedRun& prepared) {
   try {
@@ -200,6 +201,7 @@ Eigen::VectorXd find_balance_or_explain(const Flexibility& flexibility, Preparat
   } catch (const support::NumericalError& error) {
     const Model model = make_balance_model(flexibility, prepared);
     Eigen::VectorXd q = make_start_positions(model, prepared.vehicle);
+    reject_wheels_under_road(prepared.vehicle, model, q);
     const std::string far = describe_far_element(prepared.vehicle, model, q),
                       moved = describe_far_movement(model, assemble_positions(model, q));
     if (far.empty() && moved.empty()) throw;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "dynamics/input/make_model.h"
@@ -12,14 +13,17 @@
 #include "dynamics/program/turned_springs.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
 
 constexpr int kMostIterations = 50;
-constexpr double kTolerance = 1e-9;     // relative to the static length
-constexpr double kSmallestShare = 0.2;  // of a free length that one step leaves of it
+constexpr double kTolerance = 1e-9;      // relative to the static length
+constexpr double kSmallestShare = 0.2;   // of a free length that one step leaves of it
+constexpr double kNearlyReached = 0.01;  // relative error of lengths
+constexpr double kRedrawn = 0.5;         // |log| of a length over that of the drawing, which is hardly meant
 
 // A linear spring in the place of an air spring, about as stiff as one that carries a vehicle.
 SpringDamper::Parameters make_stand_in(const AirSpring::Parameters& air) {
@@ -107,33 +111,58 @@ Eigen::VectorXd find_targets(const Vehicle& vehicle, const StaticSprings& spring
   return targets;
 }
 
+// The iterate whose lengths are closest to the targets. There the springs that can reach theirs have nearly
+// done so.
+struct ClosestLengths {
+  Eigen::VectorXd lengths;
+  double error = std::numeric_limits<double>::infinity();  // norm of the relative errors
+
+  void update(const Eigen::VectorXd& found, const Eigen::VectorXd& targets) {
+    const double found_error = ((found - targets).array() / targets.array()).matrix().norm();
+    if (!(found_error < error)) return;
+    lengths = found;
+    error = found_error;
+  }
+};
+
 [[noreturn]] void throw_not_reached(const Vehicle& vehicle, const StaticSprings& springs,
-                                    const Eigen::VectorXd& targets, const Eigen::VectorXd& lengths) {
+                                    const Eigen::VectorXd& targets, const Eigen::VectorXd& lengths,
+                                    int iterations) {
   Eigen::Index worst = 0;
-  (lengths - targets).cwiseAbs().maxCoeff(&worst);
+  ((lengths - targets).array() / targets.array()).abs().maxCoeff(&worst);
   const ForceDescription& force = vehicle.forces[springs.force(worst)];
   throw support::InputError(
       force.static_length->location,
       fmt::format(
           "'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
-          "lengths: after {} iterations it is {:.6g} m; check that the spring carries load, and that its "
+          "lengths: in {} iterations it comes to {:.6g} m; check that the spring carries load, and that its "
           "stops are out of reach",
-          force.name, force.static_length->key, targets[worst], kMostIterations, lengths[worst]));
+          force.name, force.static_length->key, targets[worst], iterations, lengths[worst]));
 }
 
-// The lengths alone would also fit a vehicle that has fallen through its springs.
-void check_directions(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn,
-                      const Eigen::VectorXd& found) {
-  for (const std::size_t f : find_turned_springs(vehicle, model, drawn, found)) {
-    const ForceDescription& force = vehicle.forces[f];
-    if (!force.static_length) continue;
-    throw support::InputError(
-        force.static_length->location,
-        fmt::format(
-            "'forces.{}.{}': where the length is reached, the spring points the other way than as drawn; "
-            "check that it carries its load",
-            force.name, force.static_length->key));
-  }
+// The lengths alone would also fit a vehicle that has fallen through its springs. The one to blame is that
+// whose length is farthest from the drawing, which may have turned another one; as drawn, the one that has
+// turned.
+void check_directions(const Vehicle& vehicle, const Model& model, const StaticSprings& springs,
+                      const Eigen::VectorXd& drawn, const Eigen::VectorXd& found) {
+  std::vector<std::size_t> turned = find_turned_springs(vehicle, model, drawn, found);
+  std::erase_if(turned, [&](std::size_t f) { return !vehicle.forces[f].static_length; });
+  if (turned.empty()) return;
+  const Eigen::ArrayXd change =
+      (springs.calc_lengths(model, found).array() / springs.calc_lengths(model, drawn).array()).log().abs();
+  Eigen::Index farthest = 0;
+  const bool is_redrawn = change.maxCoeff(&farthest) > kRedrawn;
+  const ForceDescription& force = vehicle.forces[is_redrawn ? springs.force(farthest) : turned.front()];
+  const bool has_turned =
+      std::any_of(turned.begin(), turned.end(), [&](std::size_t f) { return &vehicle.forces[f] == &force; });
+  throw support::InputError(
+      force.static_length->location,
+      fmt::format(
+          "'forces.{}.{}': where the length is reached, {} the other way than as drawn; check that it "
+          "carries its load{}",
+          force.name, force.static_length->key,
+          has_turned ? "the spring points" : "'" + vehicle.forces[turned.front()].name + "' points",
+          has_turned ? "" : ", and that the length is right"));
 }
 
 }  // namespace
@@ -149,16 +178,23 @@ std::vector<StaticLengthResult> solve_static_lengths(
   const Eigen::VectorXd drawn = q;
   const Eigen::VectorXd targets = find_targets(vehicle, springs, springs.calc_lengths(model, q));
   Eigen::VectorXd free_lengths = targets, lengths, error, step;
+  ClosestLengths closest;
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(springs.size(), springs.size());  // of the inverse Jacobian
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     for (Eigen::Index i = 0; i < springs.size(); ++i) springs.free_length(vehicle, i) = free_lengths[i];
     model = make_balance(vehicle);
-    q = find_equilibrium(model, q).q;
+    try {
+      q = find_equilibrium(model, q).q;
+    } catch (const support::NumericalError&) {
+      if (iteration == 0 || closest.error < kNearlyReached) throw;  // not by the free lengths that were tried
+      throw_not_reached(vehicle, springs, targets, closest.lengths, iteration);
+    }
     lengths = springs.calc_lengths(model, q);
+    closest.update(lengths, targets);
     const Eigen::VectorXd before = error;
     error = lengths - targets;
     if ((error.array().abs() <= kTolerance * targets.array()).all()) {
-      check_directions(vehicle, model, drawn, q);
+      check_directions(vehicle, model, springs, drawn, q);
       std::vector<StaticLengthResult> results;
       for (Eigen::Index i = 0; i < springs.size(); ++i)
         results.push_back(springs.place_back(vehicle, i, lengths[i]));
@@ -175,7 +211,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
     step *= std::min(1.0, shrink);
     free_lengths += step;
   }
-  throw_not_reached(vehicle, springs, targets, lengths);
+  throw_not_reached(vehicle, springs, targets, closest.lengths, kMostIterations);
 }
 
 }  // namespace sprung::dynamics

@@ -64,6 +64,27 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
   return remarks;
 }
 
+void reject_wheels_under_road(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {
+  SystemTerms terms(model);
+  terms.update_positions(0.0, drawn);
+  const ForceDescription* deepest = nullptr;
+  double lowest = 0.0;
+  for (std::size_t f = 0; f < vehicle.forces.size(); ++f) {
+    if (!vehicle.forces[f].on_road) continue;
+    const double height = terms.markers()[static_cast<std::size_t>(model.forces[f]->markers().front())].r.y();
+    if (!(height < lowest)) continue;
+    lowest = height;
+    deepest = &vehicle.forces[f];
+  }
+  if (deepest == nullptr) return;
+  throw support::InputError(
+      deepest->location,
+      fmt::format(
+          "no static equilibrium: as drawn, the centre of the wheel of 'forces.{}' is {:.4g} m under the "
+          "road; check the positions of the bodies",
+          deepest->name, -lowest));
+}
+
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn) {
   SystemTerms terms(model);
   terms.update_positions(0.0, drawn);

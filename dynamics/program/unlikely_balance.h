@@ -20,4 +20,9 @@ std::vector<std::string> list_unlikely_balance(const Vehicle& vehicle, const Mod
 /// Names the force element that is drawn far longer than the vehicle's bodies are large; "" if there is none.
 std::string describe_far_element(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn);
 
+/// Refuses a vehicle of which no equilibrium was found where its wheels are drawn under the road.
+/// @param drawn  num_coordinates
+/// @throws support::InputError at the deepest of the tyres whose wheel centre is below level ground
+void reject_wheels_under_road(const Vehicle& vehicle, const Model& model, const Eigen::VectorXd& drawn);
+
 }  // namespace sprung::dynamics

@@ -11,6 +11,17 @@ constexpr double kTooMuchMissing = 0.05;   // of the largest bending moment or d
 constexpr double kLargeDeflection = 0.1;   // over the length of the body
 constexpr double kLargeAxialEffect = 0.1;  // work of axial forces in bending over that of the stiffness
 
+// What a body can have besides its modes.
+std::string advise_on_basis(const BodySections& body) {
+  if (!body.has_whole_basis()) {
+    return body.is_certified()
+               ? fmt::format("take more modes, modes.{} = \"certified\" takes all", body.name())
+               : "take more modes or a certified basis";
+  }
+  return body.is_certified() ? "reduce it with a smaller tolerance, or up to a higher frequency"
+                             : "reduce it to a certified basis, with more vectors";
+}
+
 }  // namespace
 
 std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
@@ -35,10 +46,8 @@ std::vector<BodyRemark> list_missing_parts(const SectionStatistics& statistics,
     }
     if (parts.empty()) continue;
     remarks.push_back(
-        {body.name(),
-         fmt::format(
-             "{}: its modes miss {}; take more modes or a certified basis, and moments from the loads",
-             body.name(), fmt::join(parts, " and "))});
+        {body.name(), fmt::format("{}: its modes miss {}; {}, and take moments from the loads", body.name(),
+                                  fmt::join(parts, " and "), advise_on_basis(body))});
   }
   return remarks;
 }

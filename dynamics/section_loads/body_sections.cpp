@@ -22,6 +22,8 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
   name_ = moving.name;
   first_ = moving.first_coordinate;
   num_modes_ = moving.num_modes();
+  has_whole_basis_ = num_modes_ == superelement.num_modes();
+  is_certified_ = superelement.certificate && superelement.certificate->is_bounded();
   const Eigen::Index stations = 2 * superelement.elements.cols();
   positions_.resize(stations, 2);
   for (Eigen::Index station = 0; station < stations; ++station) {

@@ -30,6 +30,10 @@ class BodySections {
   /// Area [m²] and section modulus [m³] at each station, 0: not known; none where the superelement has none.
   const std::optional<reduce::SectionSizes>& sizes() const { return sizes_; }
   bool has_modes() const { return num_modes_ > 0; }
+  /// Whether all vectors of the superelement are among the modes.
+  bool has_whole_basis() const { return has_whole_basis_; }
+  /// Whether the superelement has a certificate with a bound.
+  bool is_certified() const { return is_certified_; }
   /// Whether there are values from loads. There are none of a body with stiffening, whose equilibrium is that
   /// of its deformed shape, and none where the superelement has no section loads.
   bool has_loads() const { return by_load_.size() > 0; }
@@ -62,6 +66,7 @@ class BodySections {
   std::string name_;
   std::size_t body_;
   int first_, num_modes_;
+  bool has_whole_basis_, is_certified_;
   BodyLoads loads_;
   Eigen::MatrixXd positions_;
   double length_, weight_;

@@ -150,6 +150,19 @@ PartitionedEquations::Outcome PartitionedEquations::update_positions(double time
   return Outcome::kNotAssembled;
 }
 
+void PartitionedEquations::refine_positions() {
+  if (num_constraints_ == 0) return;
+  trial_q_ = q();
+  terms().calc_residual(residual_);
+  dependents_.solve(residual_, correction_);
+  for (std::size_t k = 0; k < partition_.dependent.size(); ++k) {
+    trial_q_[partition_.dependent[k]] -= correction_[static_cast<Eigen::Index>(k)];
+  }
+  mutable_terms().place_joints(terms().time(), trial_q_);
+  mutable_terms().place_others();
+  refactor();
+}
+
 void PartitionedEquations::update_velocities(std::span<const double> v_independent) {
   for (std::size_t k = 0; k < partition_.independent.size(); ++k)
     trial_v_[partition_.independent[k]] = v_independent[k];

@@ -46,6 +46,9 @@ class PartitionedEquations {
   /// Positions: dependents from independents, Jacobian and its factors. Where it fails, the positions are
   /// those of the accepted motion, without velocities.
   Outcome update_positions(double time, std::span<const double> q_independent);
+  /// One more Newton step for the dependent coordinates, after update_positions: the joints are then closed
+  /// as exactly as rounding allows. Differences over short distances need it.
+  void refine_positions();
   /// Velocities, after update_positions.
   void update_velocities(std::span<const double> v_independent);
   /// Positions and velocities. They are refused, too, where a dependent angle has turned by half a turn more

@@ -61,7 +61,7 @@ int run_sensitivity(const SensitivityOptions& options) {
   const DesignSensitivity sensitivity =
       calc_sensitivity(design, list_parameters(options.design, design, &left_out), options.num_modes);
   support::print(stdout, "{}",
-                 options.json ? format_sensitivity_json(design, sensitivity)
+                 options.json ? format_sensitivity_json(design, sensitivity, left_out)
                               : format_sensitivity(design, sensitivity) + format_left_out(left_out));
   return support::kGood;
 }

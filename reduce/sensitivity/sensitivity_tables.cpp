@@ -148,8 +148,10 @@ std::string format_left_out(const std::vector<LeftOutNumber>& left_out) {
   return text.empty() ? text : "\n" + text;
 }
 
-std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity) {
-  Json interface = Json::array(), parameters = Json::array();
+std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity,
+                                    const std::vector<LeftOutNumber>& left_out) {
+  Json interface = Json::array(), parameters = Json::array(), without = Json::array();
+  for (const LeftOutNumber& one : left_out) without.push_back({{"key", one.key}, {"reason", one.reason}});
   for (std::size_t j = 0; j < design.reduction.interface.size(); ++j)
     interface.push_back(format_freedom(design, j));
   for (const ParameterSensitivity& one : sensitivity.parameters) {
@@ -162,6 +164,7 @@ std::string format_sensitivity_json(const Design& design, const DesignSensitivit
                                {"interface", interface},
                                {"value", make_quantities(sensitivity.value)},
                                {"parameters", parameters},
+                               {"left_out", without},
                                {"elements", make_elements(design.model, sensitivity.shares)}});
 }
 

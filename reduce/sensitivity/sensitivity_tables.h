@@ -14,7 +14,8 @@ std::string format_sensitivity(const Design& design, const DesignSensitivity& se
 
 /// The numbers that have no row, and why; "" where there is none.
 std::string format_left_out(const std::vector<LeftOutNumber>& left_out);
-/// All derivatives in SI units, and the shares of the elements.
-std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity);
+/// All derivatives in SI units, the numbers without derivatives, and the shares of the elements.
+std::string format_sensitivity_json(const Design& design, const DesignSensitivity& sensitivity,
+                                    const std::vector<LeftOutNumber>& left_out);
 
 }  // namespace sprung::reduce

@@ -1,10 +1,12 @@
 // The truck at rest: published and independently calculated numbers of the reference vehicle.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "dynamics/forces/point_contact_tyre.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/vehicle_modes.h"
+#include "dynamics/output/moving_bodies.h"
 #include "tests/catch.h"
 #include "tests/dynamics/random_numbers.h"
 #include "tests/dynamics/truck.h"
@@ -77,6 +79,29 @@ TEST_CASE("The truck is neutral along x, and its freedoms are 5, 7 and 9", "[tru
     CHECK(modes[0].undamped_frequency_hz == 0.0);
     CHECK_FALSE(modes[1].is_rigid_body);
   }
+}
+
+// The mode at 9.67 Hz is the first bending of the chassis on its axles; the other words follow from the
+// motions that are put in, by their energies m v² and J ω² about the centre of mass.
+TEST_CASE("Who moves in a mode of the truck stands in words", "[truck]") {
+  const test::TruckAtRest truck(2);
+  const auto modes = dynamics::calc_vehicle_modes(truck.model, truck.equilibrium);
+  const auto describe = [&](const dynamics::VehicleMode& mode) {
+    return dynamics::describe_moving_bodies(truck.model, truck.vehicle, mode);
+  };
+  CHECK_THAT(describe(modes[3]), Catch::Matchers::StartsWith("chassis bending, 95 %"));
+  CHECK_THAT(describe(modes[0]), Catch::Matchers::StartsWith("chassis fore-aft, "));
+  const int chassis = truck.model.find_body("chassis"), axle = truck.model.find_body("front_axle");
+  REQUIRE(std::min(chassis, axle) >= 0);
+  const dynamics::Body& body = truck.model.bodies[static_cast<std::size_t>(chassis)];
+  const double radius =
+      std::sqrt(body.second_moment / body.mass - body.first_moment.squaredNorm() / (body.mass * body.mass));
+  dynamics::VehicleMode mode;
+  mode.participants = {{.body = chassis, .share = 0.6, .motion = {0.0, 1.0, 1.1 / radius}},
+                       {.body = axle, .share = 0.4, .motion = {0.1, 1.0, 0.0}}};
+  CHECK(describe(mode) == "chassis pitch and heave, 60 %; front_axle hop, 40 %");
+  mode.participants = {{.body = chassis, .share = 1.0, .motion = {0.0, 0.5, 1.0 / radius}}};
+  CHECK(describe(mode) == "chassis pitch, 100 %");
 }
 
 // Expected frequencies: an independent calculation with the same data, undamped, linearised about static

@@ -58,6 +58,31 @@ class Templates(ToolTestCase):
                     self.assertGreater(flexible["freedoms"], freedoms)
                     self.assertEqual(flexible["warnings"], [])
 
+    def test_each_has_one_rigid_body_mode_and_a_proved_bracket_of_every_other_up_to_60_hz(self):
+        # 60 Hz is the end of the band of both frames; 1 % is twice their tolerance of flexibilities. Nothing but the
+        # motion along the road is without stiffness: internal states of air springs and bushings are no modes.
+        for name in FREEDOMS:
+            with self.subTest(name):
+                printed = {}
+                for command, *options in (("equilibrium",), ("modes", "--bracket")):
+                    process = run_program(
+                        [os.environ["SPRUNG_DYNAMICS"], command, TEMPLATES / f"{name}_run.toml", "--superelements",
+                         self.made, "--json", *options],
+                    )  # fmt: skip
+                    self.assertEqual((process.returncode, process.stderr), (0, ""))
+                    printed[command] = json.loads(process.stdout)
+                self.assertEqual(printed["equilibrium"]["neutral"], ["all bodies along x"])
+                self.assertTrue(printed["equilibrium"]["stable"])
+                modes = printed["modes"]["modes"]
+                self.assertEqual([mode["rigid_body"] for mode in modes], [True] + [False] * (len(modes) - 1))
+                for mode in modes[1:]:
+                    frequency = mode["undamped_frequency"]
+                    self.assertEqual("bracket" in mode, name not in FLEXIBLE or frequency < 60.0)
+                    if "bracket" in mode:
+                        lower, upper = mode["bracket"]
+                        self.assertEqual(upper, frequency)
+                        self.assertTrue(0.99 * upper < lower < (1.0 + 1e-9) * upper, mode)
+
     def test_each_stands_as_it_is_drawn_with_its_wheels_on_the_ground(self):
         for name in FREEDOMS:
             with self.subTest(name):

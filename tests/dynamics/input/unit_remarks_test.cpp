@@ -39,6 +39,19 @@ TEST_CASE("Masses in tonnes are remarked on where inertia and points contradict 
   CHECK(remarks_on("mass = 4.0", "mass = 0.04").empty());  // 4.2 m, seven times as far as the points
 }
 
+TEST_CASE("Gravity in mm/s² and angles in degrees are remarked on, a centrifuge and a full turn are not") {
+  // |(0, −9810)| / 9.80665 = 1000.3
+  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -9810.0]").front() ==
+        "cart.toml:3:11: 'gravity' is 9810 m/s², 1000 times that of the Earth; it is in m/s², not in mm/s²");
+  CHECK(remarks_on("position = [3.5, 0.9]", "position = [3.5, 0.9]\nangle = -30.0") ==
+        std::vector<std::string>{
+            "cart.toml:17:9: 'bodies.arm.angle' is -30 rad, more than a full turn; angles are "
+            "in rad, not in degrees"});
+  CHECK(remarks_on("position = [3.5, 0.9]", "position = [3.5, 0.9]\nangle = 6.28").empty());
+  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -25.0]").empty());       // Jupiter
+  CHECK(remarks_on("gravity = [0.5, -9.0]", "gravity = [0.0, -900.0]").size() <= 1);  // 92 g
+}
+
 TEST_CASE("A speed that no road vehicle reaches is remarked on") {
   const dynamics::Vehicle cart = test::read_cart(test::cart_text());
   dynamics::Run run;

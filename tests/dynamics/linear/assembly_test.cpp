@@ -168,6 +168,13 @@ TEST_CASE("A flexible body with too few modes for its pins is told to take more 
   const std::vector<int> all{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   const std::string message = error_message<support::InputError>([&] { assemble({1, 2, 3}, {1, 2, 4}); });
   CHECK_THAT(message, Contains("too few modes") && Contains("'beam'") && Contains("take more modes of it"));
+  CHECK_THAT(message, Contains("'beam' has (3 of 12)"));
+  // Likewise without any mode.
+  CHECK_THAT(
+      error_message<support::InputError>([&] {
+        assemble({}, {1, 2, 4});
+      }),
+      Contains("too few modes") && Contains("'beam' has (0 of 12)") && Contains("take more modes of it"));
   CHECK_NOTHROW(assemble(all, {1, 2, 4}));
   // Two pins on one node stay redundant, whatever its modes.
   CHECK_THAT(error_message<support::InputError>([&] {

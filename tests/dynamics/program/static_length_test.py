@@ -6,9 +6,10 @@ import re
 import unittest
 
 import h5py
-from dynamics_test_case import DynamicsTestCase
+from dynamics_test_case import ROOT, DynamicsTestCase
 
 AXLES = ("front", "rear")
+TEMPLATES = ROOT / "dynamics/models/templates"
 FREE_LENGTH = 0.458  # of the truck's springs, m
 
 
@@ -75,6 +76,36 @@ spring = { polynomial = [0.0, 1e5] }
         process = self.run_to_results()
         self.assert_refused(process, "vehicle.toml:", "cannot be reached together with the other static lengths")
         self.assertRegex(process.stderr, r"'forces\.(helper|front_suspension)\.free_length\.static'")
+
+    def test_the_error_stands_at_the_spring_whose_length_is_mistaken(self):
+        # A length of 3 m in place of 0.25 m lets the other spring of the half car turn upside down, or makes
+        # a spring within one body push without end: the one that is named is the one that was changed.
+        template = (TEMPLATES / "half_car.toml").read_text(encoding="utf-8")
+        run = (TEMPLATES / "half_car_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("half_car.toml", "vehicle.toml"), encoding="utf-8")
+        given = "free_length = { static = 0.25 }"
+        front, rear = template.index(given), template.rindex(given)
+        within = """
+[[forces]]
+name = "within"
+type = "spring-damper"
+a = "body.front"
+b = "body.seat"
+free_length = { static = 1.0 }
+spring = { polynomial = [0.0, 2e5] }
+damper = { coefficient = 1e3 }
+"""
+        for name, text in (
+            ("front_suspension", template[:front] + given.replace("0.25", "10.0") + template[front + len(given) :]),
+            ("rear_suspension", template[:rear] + given.replace("0.25", "3.0") + template[rear + len(given) :]),
+            ("within", template + within),
+        ):
+            with self.subTest(name):
+                (self.folder / "vehicle.toml").write_text(text, encoding="utf-8")
+                lines = text.splitlines()
+                line = next(k for k in range(lines.index(f'name = "{name}"'), len(lines)) if "static" in lines[k]) + 1
+                process = self.run_program(verb="equilibrium")
+                self.assert_refused(process, f"vehicle.toml:{line}:", f"'forces.{name}.free_length.static'")
 
 
 if __name__ == "__main__":

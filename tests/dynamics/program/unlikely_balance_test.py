@@ -1,9 +1,28 @@
 #!/usr/bin/python3
 """Static equilibria that no vehicle has: fallen through its springs or tyres, or drawn far apart."""
 
+import re
 import unittest
 
-from dynamics_test_case import DynamicsTestCase
+from dynamics_test_case import ROOT, DynamicsTestCase
+
+
+class WheelsUnderTheRoad(DynamicsTestCase):
+    def test_the_deepest_wheel_and_its_depth_are_named(self):
+        # The half car 30 m too low, on wheels with a length of contact: the centres of the wheels are at 0.3 − 30 m.
+        templates = ROOT / "dynamics/models/templates"
+        text = (templates / "half_car.toml").read_text(encoding="utf-8")
+        text = re.sub(r"(position = \[\S+,) (\S+)\]", lambda found: f"{found[1]} {float(found[2]) - 30}]", text)
+        text = text.replace("free_length = { static = 0.25 }", "free_length = 0.5")
+        text = text.replace("damping = 50.0", 'damping = 50.0\ncontact = "distributed"')
+        (self.folder / "vehicle.toml").write_text(text, encoding="utf-8")
+        run = (templates / "half_car_run.toml").read_text(encoding="utf-8")
+        (self.folder / "bump.toml").write_text(run.replace("half_car.toml", "vehicle.toml"), encoding="utf-8")
+        line = text.splitlines().index('name = "front_tyre"') + 1
+        process = self.run_program(verb="equilibrium")
+        self.assert_refused(process, f"vehicle.toml:{line}:",
+                            "the centre of the wheel of 'forces.front_tyre' is 29.7 m under the road")  # fmt: skip
+        self.assertNotIn("gravity", process.stderr)
 
 
 class TurnedSprings(DynamicsTestCase):

@@ -52,6 +52,17 @@ class Warnings(DynamicsTestCase):
             self.assertEqual((warning["concerns"], warning["of"]), ("sections", ["chassis"]))
             self.assertTrue(warning["text"].startswith("chassis: its modes miss "), warning)
 
+    def test_a_certified_body_is_not_told_to_take_a_certified_basis(self):
+        # Both superelements have a certificate with a bound; with two of their vectors the remedy is to take all.
+        for superelement in ("chassis", "chassis_certified"):
+            with self.subTest(superelement):
+                process = self.run_program("--set", f"vehicle.bodies.chassis.superelement={superelement}", "--set",
+                                           "modes.chassis=2", "--json", "--quiet", verb="equilibrium")  # fmt: skip
+                (warning,) = json.loads(process.stdout)["warnings"]
+                advice = '; take more modes, modes.chassis = "certified" takes all, and take moments from the loads'
+                self.assertIn(advice, warning["text"])
+                self.assertNotIn("a certified basis", warning["text"])
+
     def test_a_run_prints_what_it_was_asked_for(self):
         _, _, printed = self.run_to_json("duration=0.2", "modes.chassis=2", "speed=4.5")
         found = printed["parameters"]

@@ -222,7 +222,7 @@ TEST_CASE("tables speak of steps of 1 %, of 1 cm of a coordinate and of 1 of a z
   CHECK(choose_step({.key = "", .value = 0.0, .unit = "kg", .rates = {}}) == 1.0);
   CHECK(choose_step({.key = "", .value = 2.0, .unit = "m", .rates = {}}) == 0.02);
   CHECK(choose_step({.key = "", .value = 2.0, .unit = "m", .is_coordinate = true, .rates = {}}) == 0.01);
-  CHECK_THAT(format_sensitivity_json(design, sensitivity), Contains("\"strain_energy_share\""));
+  CHECK_THAT(format_sensitivity_json(design, sensitivity, {}), Contains("\"strain_energy_share\""));
 }
 
 // The tube is a solid bar: its wall cannot grow.
@@ -252,6 +252,16 @@ TEST_CASE("coordinates that another point ties are told, and the others are not"
   CHECK_THAT(told, Contains("points.right.0 is left out: ") && Contains("points.right.1 is left out: "));
   CHECK(told.find("left.") == std::string::npos);
   CHECK(format_left_out({}).empty());
+  // The same in JSON: a list of keys with their reasons.
+  const Design design = read_design(source);
+  const std::string json =
+      format_sensitivity_json(design, calc_sensitivity(design, list_parameters(source, design), 1), left_out);
+  REQUIRE(left_out.size() == 2);
+  for (const LeftOutNumber& one : left_out) {
+    CHECK_THAT(json,
+               Contains("\"key\": \"" + one.key + "\"") && Contains("\"reason\": \"" + one.reason + "\""));
+  }
+  CHECK_THAT(json, Contains("\"left_out\": ["));
 }
 
 TEST_CASE("an override of a design is read in its place, and its faults are located") {

@@ -126,7 +126,7 @@ int write_limited(const TemporaryFolder& folder, rlim_t limit, void (*write)(Hdf
 }  // namespace
 
 TEST_CASE("a write that fails is an input error, leaves nothing behind and does not harm the process") {
-  const rlim_t limit = GENERATE(100, 2000, 20000, 300000, 1000000, 2000000, 4700000);
+  const rlim_t limit = GENERATE(0, 100, 2000, 20000, 300000, 1000000, 2000000, 4700000);
   const auto write =
       GENERATE(write_growing, write_at_once, write_flushing, write_checkpoints, write_and_keep);
   const TemporaryFolder folder;

@@ -37,6 +37,16 @@ void write_file(const std::filesystem::path& path) {
 
 }  // namespace
 
+TEST_CASE("a link to a file that does not exist is refused, and stays") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("elsewhere.h5", folder / "a.h5");
+  CHECK(error_message<InputError>([&] { Hdf5Writer(folder / "a.h5"); }) ==
+        (folder / "a.h5").string() +
+            ": error: cannot be written: it is a link to 'elsewhere.h5', which does not exist");
+  CHECK(std::filesystem::is_symlink(folder / "a.h5"));
+  CHECK_FALSE(std::filesystem::exists(folder / "elsewhere.h5"));
+}
+
 TEST_CASE("equal calls give equal bytes") {
   const TemporaryFolder folder;
   write_file(folder / "a.h5");

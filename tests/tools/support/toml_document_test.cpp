@@ -120,7 +120,15 @@ TEST_CASE("a text that is not TOML is refused at the fault") {
   CHECK_THAT(parse_error("a = [1, 2\n"), Contains("error: is not TOML: "));
   CHECK_THAT(parse_error("[=]\n"), Contains("v.toml:1:2: error: is not TOML: "));  // found by toml_fuzz
   CHECK_THAT(parse_error("a = \"\xFF\"\n"), Catch::Matchers::StartsWith("v.toml:1:"));
-  CHECK_THAT(parse_error("a = 99999999999999999999\n"), Catch::Matchers::StartsWith("v.toml:1:"));
+  CHECK_THAT(parse_error("a = 99999999999999999999\n"),
+             Catch::Matchers::StartsWith("v.toml:1:") &&
+                 Catch::Matchers::EndsWith(
+                     "error: 99999999999999999999 is too large for an integer, which has 64 bits; a number "
+                     "is written as 1e+20"));
+  CHECK_THAT(parse_error("a = 1\nb = [1e400]\n"),
+             Catch::Matchers::StartsWith("v.toml:2:") &&
+                 Catch::Matchers::EndsWith(
+                     "error: 1e400 is too large for double precision, whose largest number is 1.8e+308"));
 }
 
 TEST_CASE("dates and times are refused") {

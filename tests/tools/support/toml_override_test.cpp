@@ -122,6 +122,17 @@ TEST_CASE("a value that begins like TOML but is not is refused") {
   CHECK(override_error("speed=1\nmodes=2") == "--set 1: error: '1\nmodes=2' is not a TOML value");
 }
 
+TEST_CASE("a number that double precision or 64 bits cannot hold is called so") {
+  CHECK(override_error("speed=1e400") ==
+        "--set 1: error: 1e400 is too large for double precision, whose largest number is 1.8e+308");
+  CHECK(override_error("speed=-1_0.5E+999") ==
+        "--set 1: error: -1_0.5E+999 is too large for double precision, whose largest number is 1.8e+308");
+  CHECK(override_error("speed=99999999999999999999") ==
+        "--set 1: error: 99999999999999999999 is too large for an integer, which has 64 bits; a number is "
+        "written as 1e+20");
+  CHECK_NOTHROW(overridden("name=1e400x"));
+}
+
 TEST_CASE("a path that runs through a plain value is refused") {
   CHECK(override_error("speed.x=1") ==
         "--set 1: error: 'speed' is a number 3.0, not a table: it has no key 'x'");

@@ -69,6 +69,10 @@ void check_target(const fs::path& target) {
     }
   }
   const fs::file_status status = fs::status(target, ignored);
+  if (!fs::exists(status) && fs::is_symlink(fs::symlink_status(target, ignored))) {
+    throw cannot_be_written(target, fmt::format("it is a link to '{}', which does not exist",
+                                                fs::read_symlink(target, ignored).string()));
+  }
   if (fs::is_directory(status)) throw cannot_be_written(target, "it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw cannot_be_written(target, "it is not a regular file");

@@ -26,7 +26,12 @@ ExchangeFile::ExchangeFile(std::filesystem::path target)
   check_target(target_);
   check_temporary(target_, temporary_);
   // MBSim's reader takes objects in the order in which they were made.
-  attempt([this] { file_ = hdf5::create_file(temporary_, true); });
+  try {
+    attempt([this] { file_ = hdf5::create_file(temporary_, true); });
+  } catch (const InputError&) {
+    remove_left_over(target_);  // on a full disk an empty file was made
+    throw;
+  }
 }
 
 ExchangeFile::~ExchangeFile() {

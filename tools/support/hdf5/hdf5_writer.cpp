@@ -74,7 +74,12 @@ Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
   check_target(target_);
   check_temporary(target_, temporary_);
   if (!partial_.empty()) check_temporary(target_, partial_);
-  attempt([this] { file_ = hdf5::create_file(temporary_); });
+  try {
+    attempt([this] { file_ = hdf5::create_file(temporary_); });
+  } catch (const InputError&) {
+    remove_left_over(target_);  // on a full disk an empty file was made
+    throw;
+  }
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -343,6 +348,11 @@ void Hdf5Writer::checkpoint(const std::string& dataset, std::span<const std::uin
   flush();
   attempt([this] { hdf5::clear_open_mark(file_.get()); });
   move_to(partial_);
+}
+
+std::size_t Hdf5Writer::size() const {
+  hsize_t bytes = 0;
+  return H5Fget_filesize(file_.get(), &bytes) < 0 ? 0 : static_cast<std::size_t>(bytes);
 }
 
 void Hdf5Writer::close() {

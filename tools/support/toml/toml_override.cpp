@@ -98,6 +98,8 @@ TomlNode parse_value(std::string_view text, const SourceLocation& location) {
     auto& entries = std::get<TomlNode::Table>(root.value).entries;
     if (entries.size() == 1 && entries.front().key == kName) return std::move(entries.front().node);
   } catch (const InputError&) {
+    if (const std::string number = describe_unreadable_number(text); !number.empty())
+      throw InputError(location, number);
     constexpr std::string_view kNotBare = "\"'[]{}\n";
     if (text.find_first_of(kNotBare) == std::string_view::npos) {
       TomlNode word;

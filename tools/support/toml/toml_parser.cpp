@@ -108,9 +108,15 @@ TomlNode parse_toml(std::string_view text, const std::string& name) {
     return root;
   } catch (const toml::parse_error& error) {
     const toml::source_position begin = error.source().begin;
+    const std::string_view what = error.description();
+    // The library quotes the number that it cannot read.
+    const std::size_t first = what.find('\'') + 1, last = what.find('\'', first);
+    const std::string number = first == 0 || last == std::string_view::npos
+                                   ? ""
+                                   : describe_unreadable_number(what.substr(first, last - first));
     throw InputError(
         {.path = name, .line = static_cast<int>(begin.line), .column = static_cast<int>(begin.column)},
-        fmt::format("is not TOML: {}", error.description()));
+        number.empty() ? fmt::format("is not TOML: {}", what) : number);
   }
 }
 

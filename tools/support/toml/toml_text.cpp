@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace sprung::support {
 
@@ -52,6 +55,28 @@ std::string describe(const TomlNode& node) {
     std::string operator()(const TomlNode::Table&) const { return "a table"; }
   };
   return std::visit(Describe{}, node.value);
+}
+
+std::string describe_unreadable_number(std::string_view text) {
+  std::string digits(text);
+  std::erase(digits, '_');
+  const char* begin = digits.data() + (digits.starts_with('+') ? 1 : 0);
+  const char* end = digits.data() + digits.size();
+  double value = 0.0;
+  const std::from_chars_result as_double = std::from_chars(begin, end, value);
+  if (as_double.ptr != end) return "";
+  if (as_double.ec == std::errc::result_out_of_range) {
+    const bool is_small = digits.find("e-") != std::string::npos || digits.find("E-") != std::string::npos;
+    return is_small ? fmt::format("{} is too small for double precision, whose smallest number is {:.2g}",
+                                  text, std::numeric_limits<double>::min())
+                    : fmt::format("{} is too large for double precision, whose largest number is {:.2g}",
+                                  text, std::numeric_limits<double>::max());
+  }
+  std::int64_t integer = 0;
+  const std::from_chars_result as_integer = std::from_chars(begin, end, integer);
+  if (as_integer.ptr != end || as_integer.ec != std::errc::result_out_of_range) return "";
+  return fmt::format("{} is too large for an integer, which has 64 bits; a number is written as {:g}", text,
+                     value);
 }
 
 }  // namespace sprung::support

@@ -18,4 +18,8 @@ std::string describe(const TomlNode& node);
 /// The shortest text that reads back as the same number.
 std::string format_number(double value);
 
+/// Why a number cannot be read, though it is written as one: it is beyond double precision or, without point
+/// and exponent, beyond 64 bits. "" for all other text.
+std::string describe_unreadable_number(std::string_view text);
+
 }  // namespace sprung::support
