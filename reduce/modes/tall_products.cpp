@@ -11,6 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+constexpr Index kTall = 5000;       // rows from which on; with fewer, digits do not depend on the processor
 constexpr Index kRowsAtOnce = 128;  // of which some forty columns stay in the cache
 constexpr Index kTogether = 8;      // columns of a sparse product
 
@@ -105,6 +106,7 @@ void multiply_columns(const int* starts, const int* rows, const double* values, 
 }  // namespace
 
 MatrixXd multiply_transposed(const TallMatrix& A, const TallMatrix& B) {
+  if (A.rows() < kTall) return A.transpose() * B;
   MatrixXd result = MatrixXd::Zero(A.cols(), B.cols());
   for (Index row = 0; row < A.rows(); row += kRowsAtOnce) {
     add_inner_products({A.data() + row, A.outerStride()}, A.cols(), {B.data() + row, B.outerStride()},
@@ -114,6 +116,10 @@ MatrixXd multiply_transposed(const TallMatrix& A, const TallMatrix& B) {
 }
 
 void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<MatrixXd> Y) {
+  if (A.rows() < kTall) {
+    Y.noalias() += A * C;
+    return;
+  }
   for (Index row = 0; row < A.rows(); row += kRowsAtOnce) {
     add_column_combinations({A.data() + row, A.outerStride()}, A.cols(), {C.data(), C.outerStride()},
                             C.cols(), std::min(kRowsAtOnce, A.rows() - row), Y.data() + row, Y.outerStride());
@@ -122,7 +128,7 @@ void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<Matri
 
 MatrixXd multiply_transposed(const Eigen::SparseMatrix<double>& A, const TallMatrix& X) {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, kTogether, Eigen::RowMajor>;
-  if (X.cols() == 1) return A.transpose() * X;
+  if (X.cols() == 1 || A.rows() < kTall) return A.transpose() * X;
   MatrixXd result(A.cols(), X.cols());
   Rows x = Rows::Zero(A.rows(), kTogether), product(A.cols(), kTogether);
   for (Index begin = 0; begin < X.cols(); begin += kTogether) {

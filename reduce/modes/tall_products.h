@@ -5,8 +5,8 @@
 
 namespace sprung::reduce {
 
-/// Products of matrices with many rows and few columns, which read long columns from memory once where a
-/// product of Eigen's packs them first.
+/// Products of matrices with many rows and few columns. From 5000 rows on, long columns are read from memory
+/// once, where a product of Eigen's packs them first; below, these are Eigen's products.
 using TallMatrix = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Aᵀ B.  @param A  n×a   @param B  n×b   @return a×b
