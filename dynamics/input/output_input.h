@@ -36,8 +36,8 @@ struct StorageRequest {
 /// `[output]` of a run file.
 struct OutputSettings {
   std::vector<PointReference> points;  ///< reported in the summary; if empty, the vehicle's `monitor`
-  double size = 20.0;                  ///< that the file takes at most where nothing else is asked for [MB]
-  std::optional<bool> is_single;       ///< precision; none: by size
+  double size = 20.0;             ///< that the histories take at most where nothing else is asked for [MB]
+  std::optional<bool> is_single;  ///< precision; none: by size
   std::array<StorageRequest, kStoredGroupNames.size()> groups;
 
   const StorageRequest& of(StoredGroup group) const { return groups[static_cast<std::size_t>(group)]; }

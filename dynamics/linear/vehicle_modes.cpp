@@ -5,7 +5,6 @@
 #include <complex>
 #include <numbers>
 
-#include "dynamics/bodies/body_equations.h"
 #include "dynamics/linear/first_order_form.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
@@ -110,7 +109,7 @@ std::vector<Participant> find_participants(const Model& model, const SystemTerms
     if (body.mass > 0.0) {
       const Eigen::Vector2d arm =
           Eigen::Rotation2Dd(q[body.first_coordinate + 2]) * body.first_moment / body.mass;
-      one.motion.head<2>() += v[2] * turned(arm);
+      one.motion.head<2>() += v[2] * Eigen::Vector2d(-arm.y(), arm.x());
     }
     const Eigen::VectorXd modal = v.tail(body.num_modes());
     if (modal.dot(body.M_ff * modal) > 0.1 * energy) {

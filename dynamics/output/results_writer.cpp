@@ -66,7 +66,6 @@ void ResultsWriter::write_descriptions(const ResultsHeader& header) {
 void ResultsWriter::make_datasets(const ResultsHeader& header) {
   const double num_outputs = header.run.duration / header.run.output_step + 1.0;
   StorageConditions conditions{.num_outputs = num_outputs,
-                               .other_bytes = static_cast<double>(file_.size()),
                                .output_step = header.run.output_step,
                                .reported = header.output_points,
                                .stiffened_bodies = {}};
@@ -89,8 +88,7 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
     stored.dataset = &file_.make_growing(
         history.name, history.columns, history.unit,
         storage_->is_single(history) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
-        std::min({stored.num_rows(static_cast<std::size_t>(num_outputs)), most_rows,
-                  StoragePlan::chunk_rows(stored.every)}));
+        std::min(stored.num_rows(static_cast<std::size_t>(num_outputs)), most_rows));
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});
   }

@@ -15,25 +15,6 @@ void put(std::span<double> row, const Eigen::Ref<const Eigen::VectorXd>& values)
   std::copy(values.data(), values.data() + values.size(), row.begin());
 }
 
-// Bytes of a value in single precision, compressed. Means over the templates on a road of class C for 30 s:
-// of smooth motion few bits change between outputs, of accelerations and rates nearly all.
-constexpr double kPackedMotion = 2.65, kPackedModes = 3.3;
-
-double find_packed_size(const std::optional<StoredGroup>& group, const std::string& unit) {
-  if (!group) return sizeof(float);
-  if (unit.find("/s") != std::string::npos) return 3.35;
-  switch (*group) {
-    case StoredGroup::kWrenches:
-      return 2.1;  // some components are 0
-    case StoredGroup::kJoints:
-      return 3.05;
-    case StoredGroup::kRecovery:
-      return 3.1;
-    default:
-      return 2.5;
-  }
-}
-
 }  // namespace
 
 RunHistories::RunHistories(const Vehicle& vehicle, const Model& model, const VehicleSections& sections,
@@ -48,9 +29,8 @@ RunHistories::RunHistories(const Vehicle& vehicle, const Model& model, const Veh
   add_sections(sections);
   begin({}, "");
   const auto add_energy = [this](const std::string& name, auto value) {
-    add("/energy/" + name, 0, "J", [value](const Snapshot& now, std::span<double> row) {
-      row[0] = value(now.energy);
-    }).kind = StoredHistory::Kind::kEnergy;
+    add("/energy/" + name, 0, "J",
+        [value](const Snapshot& now, std::span<double> row) { row[0] = value(now.energy); });
   };
   add_energy("kinetic", [](const EnergyBook& book) { return book.stored.kinetic; });
   add_energy("strain", [](const EnergyBook& book) { return book.stored.strain; });
@@ -71,15 +51,12 @@ History& RunHistories::add(const std::string& name, std::size_t columns, const s
   const StoredHistory stored{
       .name = name, .row_size = std::max<std::size_t>(columns, 1), .group = group_, .object = object_};
   histories_.push_back({stored, columns, unit, std::move(fill)});
-  histories_.back().packed_size = find_packed_size(group_, unit);
   return histories_.back();
 }
 
 void RunHistories::add_motion(const std::string& name, std::size_t columns, const std::string& unit,
                               std::function<void(const Snapshot&, std::span<double>)> fill) {
-  History& history = add(name, columns, unit, std::move(fill));
-  history.kind = StoredHistory::Kind::kMotion;
-  history.packed_size = unit.starts_with("kg") ? kPackedModes : kPackedMotion;
+  add(name, columns, unit, std::move(fill)).kind = StoredHistory::Kind::kMotion;
 }
 
 void RunHistories::add_marker_motion(const std::string& group, std::size_t marker) {

@@ -6,18 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/support/hdf5/hdf5_growing_dataset.h"
-
 namespace sprung::dynamics {
 
 namespace {
 
 constexpr double kBytesOfDouble = 8.0;
-constexpr double kBytesOfDataset =
-    1100.0;  // its description, its share of groups, and the index of its chunks
-// Checkpoints write unfinished chunks without compression. What the last of them took stays empty in part.
-constexpr double kEmptyShare = 0.3;
-constexpr double kCoarseStep = 0.01;  // s
+constexpr double kBytesOfSingle = 2.9;  // compressed, measured on vehicles on rough roads
+constexpr double kCoarseStep = 0.01;    // s
 constexpr double kMegabyte = 1e6;
 
 }  // namespace
@@ -57,20 +52,11 @@ void StoragePlan::reduce(const OutputSettings& settings, const std::vector<Store
     if (joints || wrenches) accept("reactions of joints and loads of force elements " + interval);
   }
   if (too_large() && thin_out_motion(settings)) accept("positions and velocities " + interval);
-  if (too_large() && coarse_every() > 1) {
-    energy_every_ = coarse_every();
-    accept("energies " + interval);
-  }
-}
-
-// Outputs in kCoarseStep.
-long StoragePlan::coarse_every() const {
-  return std::lround(kCoarseStep / conditions_.output_step);
 }
 
 // Stores a group every kCoarseStep, unless the run file says how often. @return whether that changes anything
 bool StoragePlan::thin_out(const OutputSettings& settings, StoredGroup group) {
-  const long every = coarse_every();
+  const long every = std::lround(kCoarseStep / conditions_.output_step);
   if (settings.of(group).every || every <= 1) return false;
   choice(group).every = every;
   return true;
@@ -79,7 +65,7 @@ bool StoragePlan::thin_out(const OutputSettings& settings, StoredGroup group) {
 // Stores positions and velocities of points and bodies every kCoarseStep, unless the run file says how often.
 // @return whether that changes anything
 bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
-  const long every = coarse_every();
+  const long every = std::lround(kCoarseStep / conditions_.output_step);
   if (every <= 1) return false;
   for (const StoredGroup group : {StoredGroup::kPoints, StoredGroup::kBodies}) {
     if (!settings.of(group).every) choice(group).motion_every = every;
@@ -88,32 +74,18 @@ bool StoragePlan::thin_out_motion(const OutputSettings& settings) {
 }
 
 double StoragePlan::estimate(const std::vector<StoredHistory>& histories) const {
-  double bytes = conditions_.other_bytes;
+  double bytes = 0.0;
   for (const StoredHistory& history : histories) {
     const long rows_between = every(history);
-    if (rows_between == 0) continue;
-    bytes += kBytesOfDataset;
-    const double rows = conditions_.num_outputs / static_cast<double>(rows_between),
-                 chunk = static_cast<double>(chunk_rows(rows_between)),
-                 in_chunks = rows > chunk ? std::ceil(rows / chunk) * chunk : rows,
-                 columns = static_cast<double>(history.row_size);
-    if (!is_single(history)) {
-      bytes += in_chunks * columns * kBytesOfDouble;
-      continue;
-    }
-    if (rows > chunk) bytes += chunk * columns * kEmptyShare * sizeof(float);
-    if (history.kind != StoredHistory::Kind::kFlags) bytes += rows * columns * history.packed_size;
+    const bool takes_nothing = is_single(history) && history.kind == StoredHistory::Kind::kFlags;
+    if (rows_between == 0 || takes_nothing) continue;
+    bytes += conditions_.num_outputs / static_cast<double>(rows_between) *
+             static_cast<double>(history.row_size) * (is_single(history) ? kBytesOfSingle : kBytesOfDouble);
   }
   return bytes / kMegabyte;
 }
 
-std::size_t StoragePlan::chunk_rows(long every) {
-  constexpr std::size_t kMost = support::Hdf5GrowingDataset::kMostChunkRows, kCoarse = kMost / 4;
-  return every > 1 ? kCoarse : kMost;
-}
-
 long StoragePlan::every(const StoredHistory& history) const {
-  if (history.kind == StoredHistory::Kind::kEnergy) return energy_every_;
   if (!history.group) return 1;
   const Choice& choice = choices_[static_cast<std::size_t>(*history.group)];
   const bool is_motion = history.kind == StoredHistory::Kind::kMotion;
@@ -139,7 +111,7 @@ bool StoragePlan::is_single(const StoredHistory& history) const {
 }
 
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings) {
-  std::string text = plan.size() < 0.1 ? "less than 0.1 MB" : fmt::format("about {:.3g} MB", plan.size());
+  std::string text = plan.size() < 0.1 ? "less than 0.1 MB" : fmt::format("about {:.2g} MB", plan.size());
   if (plan.reductions().empty()) return text;
   return text +
          fmt::format("; for output.size = {:g} MB: {}", settings.size, fmt::join(plan.reductions(), "; "));

@@ -16,7 +16,6 @@ struct StoredHistory {
   enum class Kind {
     kOther,
     kMotion,  ///< a position, a velocity or a deflection: it is smooth
-    kEnergy,  ///< of the energy book, in double precision
     kFlags,   ///< it hardly ever changes, so that it takes nothing when it is compressed
   };
   std::string name;                       ///< of its dataset: "/points/chassis.seat/position"
@@ -24,14 +23,11 @@ struct StoredHistory {
   std::optional<StoredGroup> group = {};  ///< none: it is always stored
   std::string object = {};                ///< point, body, joint or force element that it belongs to
   Kind kind = Kind::kOther;
-  double packed_size =
-      2.9;  ///< of a value in single precision, compressed: mean of vehicles on rough roads [bytes]
 };
 
 /// What the choice of histories depends on, besides `[output]`.
 struct StorageConditions {
   double num_outputs = 0.0;
-  double other_bytes = 0.0;           ///< that the file holds besides the histories
   double output_step = 0.0;           ///< [s]
   std::vector<std::string> reported;  ///< points in the summary
   std::set<std::string>
@@ -42,7 +38,7 @@ struct StorageConditions {
 /// the rest all that fits into `output.size`. What does not fit is reduced in this order, until it does:
 /// single precision, compressed; only the points in the summary, of which the others follow from the motion
 /// of bodies and modes; stress resultants every 10 ms; reactions and wrenches every 10 ms; positions and
-/// velocities, which are smooth, every 10 ms; energies every 10 ms. Checked by
+/// velocities, which are smooth, every 10 ms. Checked by
 /// tests/dynamics/output/storage_plan_test.cpp
 class StoragePlan {
  public:
@@ -51,12 +47,9 @@ class StoragePlan {
 
   /// Outputs from one stored row of a history to the next; 0 if it is not stored.
   long every(const StoredHistory& history) const;
-  /// The most rows that are written at once of a history that is stored at every so many outputs. Rows that
-  /// are not full at a checkpoint take place in the file, so that those of coarse histories are fewer.
-  static std::size_t chunk_rows(long every);
   /// Whether a history is stored in single precision. Time and energies are not.
   bool is_single(const StoredHistory& history) const;
-  double size() const { return size_; }  ///< estimate for the whole file [MB]
+  double size() const { return size_; }  ///< estimate for all histories [MB]
   /// What was reduced to make it fit, in words.
   const std::vector<std::string>& reductions() const { return reductions_; }
 
@@ -71,12 +64,10 @@ class StoragePlan {
   void reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories);
   bool thin_out(const OutputSettings& settings, StoredGroup group);
   bool thin_out_motion(const OutputSettings& settings);
-  long coarse_every() const;
   double estimate(const std::vector<StoredHistory>& histories) const;
 
   StorageConditions conditions_;
   bool is_single_ = false;
-  long energy_every_ = 1;
   std::array<Choice, kStoredGroupNames.size()> choices_;
   double size_ = 0.0;
   std::vector<std::string> reductions_;

@@ -77,7 +77,6 @@ void GeneralizedAlphaStepper::start(const State& state) {
 
 // The equations at a motion that need not satisfy the constraints of the velocities.
 bool GeneralizedAlphaStepper::evaluate_equations(const ConstrainedMotion& motion) {
-  ++num_evaluations_;
   SystemTerms& terms = equations_.terms();
   terms.update_positions(motion.time, motion.q);
   terms.update_jacobian();
@@ -95,6 +94,7 @@ GeneralizedAlphaStepper::Pair GeneralizedAlphaStepper::calc_power() {
 // the step's length does.
 bool GeneralizedAlphaStepper::update_end_power() {
   if (model_->has_motions) {
+    ++num_evaluations_;
     if (!evaluate_equations(step_.end().motion)) return false;
     step_.end().power = calc_power();
     return true;
@@ -142,6 +142,7 @@ void GeneralizedAlphaStepper::calc_exact(GeneralizedAlphaStep::End& end, double 
   probe_.time = piece_.evaluation_time(motion.time + shift);
   probe_.q = motion.q + (shift * motion.v + 0.5 * shift * shift * motion.v_dot);
   probe_.v = motion.v + shift * motion.v_dot;
+  ++num_evaluations_;
   if (!evaluate_equations(probe_)) throw_stopped(time_, "no accelerations can be found there");
   end.jerk = (equations_.v_dot() - motion.v_dot) / shift;
   end.lambda_rate = (equations_.multipliers() - motion.lambda) / shift;

@@ -66,7 +66,7 @@ class GeneralizedAlphaStepper final : public SystemStepper {
   SmoothPiece piece_;
   ConstrainedEquations equations_;  // at the state evaluated last, until the next `step`
   Statistics statistics_;
-  long num_evaluations_ = 0;  // of the equations
+  long num_evaluations_ = 0;  // of the equations, without those for outputs
 
   GeneralizedAlphaStep step_;  // being made, or made last
   bool has_step_ = false;

@@ -350,11 +350,6 @@ void Hdf5Writer::checkpoint(const std::string& dataset, std::span<const std::uin
   move_to(partial_);
 }
 
-std::size_t Hdf5Writer::size() const {
-  hsize_t bytes = 0;
-  return H5Fget_filesize(file_.get(), &bytes) < 0 ? 0 : static_cast<std::size_t>(bytes);
-}
-
 void Hdf5Writer::close() {
   move_to(temporary_);
   attempt([this] {

@@ -100,9 +100,8 @@ class Hdf5Writer {
   void overwrite(const std::string& dataset, std::span<const double> values);
   void remove(const std::string& object);  ///< a group or dataset that was made before
 
-  std::size_t size() const;  ///< of the file, with what it keeps in memory yet [bytes]
-  void commit();             ///< closes, syncs and renames to the target
-  void keep_partial();       ///< closes the file and leaves it under the partial name (an interrupted run)
+  void commit();        ///< closes, syncs and renames to the target
+  void keep_partial();  ///< closes the file and leaves it under the partial name (an interrupted run)
   const std::filesystem::path& temporary() const { return temporary_; }
   const std::filesystem::path& partial() const { return partial_; }
 
