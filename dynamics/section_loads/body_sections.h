@@ -71,17 +71,18 @@ class BodySections {
   Eigen::MatrixXd positions_;
   double length_, weight_;
   std::optional<reduce::SectionSizes> sizes_;
-  Eigen::MatrixXd by_mode_;        // 3 stations × modes
-  Eigen::MatrixXd by_load_;        // 3 stations × coefficients of the loads, modes, modes turned
-  Eigen::VectorXd causes_;         // these coefficients and accelerations, then the amplitudes below
+  Eigen::MatrixXd by_mode_;  // 3 stations × modes
+  Eigen::MatrixXd by_load_;  // 3 stations × coefficients of the loads, modes, modes turned
+  Eigen::VectorXd causes_;   // these coefficients and accelerations, then the amplitudes below
   Eigen::Matrix3Xd from_modes_, from_loads_;
-  Eigen::VectorXd delay_;              // damping over stiffness of each mode
-  Eigen::MatrixXd amplitude_by_load_;  // with stiffening: K⁻¹ times the modal load, modes × columns of by_load_
-  Eigen::VectorXd amplitudes_;         // that the loads have: η + delay η̇, with stiffening by the above
+  Eigen::VectorXd delay_;  // damping over stiffness of each mode
+  Eigen::MatrixXd
+      amplitude_by_load_;       // with stiffening: K⁻¹ times the modal load, modes × columns of by_load_
+  Eigen::VectorXd amplitudes_;  // that the loads have: η + delay η̇, with stiffening by the above
   Eigen::MatrixXd missing_moment_by_;  // mean moment of each element by causes_
   Eigen::VectorXd missing_moment_;
   std::vector<std::string> points_;
-  Eigen::MatrixXd deflection_by_mode_;      // 3 points × modes
+  Eigen::MatrixXd deflection_by_mode_;     // 3 points × modes
   Eigen::MatrixXd missing_deflection_by_;  // 3 points × causes_
   Eigen::Matrix3Xd deflections_, missing_deflections_;
 };

@@ -63,7 +63,7 @@ FUNCTIONS = {
         "{ pieces = [{ until = 0.3, function = 0.1 }, { until = 0.6, function = { polynomial = [0.19, -0.6, 1.0] } },"
         " { function = { polynomial = [-0.17, 0.6] } }] }",
         lambda t: 0.1 + np.clip(t - 0.3, 0.0, 0.3) ** 2 + 0.6 * np.clip(t - 0.6, 0.0, None),
-        lambda t: np.where((t > 0.3) & (t <= 0.6), 2.0, 0.0),
+        lambda t: np.where((t > 0.3 - 1e-9) & (t < 0.6 - 1e-9), 2.0, 0.0),
     ),
 }
 

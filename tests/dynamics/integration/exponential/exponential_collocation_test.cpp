@@ -179,7 +179,8 @@ TEST_CASE("A Lobatto step is exact for forces of third degree, and its error est
   }
 }
 
-TEST_CASE("Many modes that damping couples become pairs, too: nothing of the damping is left out", "[analysis]") {
+TEST_CASE("Many modes that damping couples become pairs, too: nothing of the damping is left out",
+          "[analysis]") {
   std::mt19937 random(96);
   const Eigen::Index f = 96;
   const dynamics::SmallMotion motion{random_positive(f, random), 0.1 * random_positive(f, random),
