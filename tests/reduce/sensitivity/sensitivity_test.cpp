@@ -258,10 +258,9 @@ TEST_CASE("coordinates that another point ties are told, and the others are not"
       format_sensitivity_json(design, calc_sensitivity(design, list_parameters(source, design), 1), left_out);
   REQUIRE(left_out.size() == 4);  // of both points
   for (const LeftOutNumber& one : left_out) {
-    CHECK_THAT(json,
-               Contains("\"key\": \"" + one.key + "\"") && Contains("\"reason\": \"" + one.reason + "\""));
+    CHECK_THAT(json, Contains("{\"key\":\"" + one.key + "\",\"reason\":\""));
   }
-  CHECK_THAT(json, Contains("\"left_out\": ["));
+  CHECK_THAT(json, Contains("\"left_out\":["));
 }
 
 TEST_CASE("an override of a design is read in its place, and its faults are located") {
