@@ -2,7 +2,6 @@
 
 #include <array>
 #include <stdexcept>
-#include <utility>
 
 #include "fem/frame_sums.h"
 #include "fem/gauss_points.h"
@@ -120,7 +119,7 @@ MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& ori
   }
   for (Eigen::SparseMatrix<double>* matrix :
        {&moments.NxNx, &moments.NxNy, &moments.NyNy, &moments.rotary_NN})
-    *matrix = eliminate_followers(model.couplings, std::move(*matrix));
+    *matrix = eliminate_followers(model.couplings, *matrix);
   for (Eigen::VectorXd* vector : {&moments.N_x, &moments.N_y, &moments.x_N_x, &moments.x_N_y, &moments.y_N_x,
                                   &moments.y_N_y, &moments.rotary_N}) {
     *vector = move_loads_to_leaders(model.couplings, *vector);
