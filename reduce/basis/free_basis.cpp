@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "reduce/certificate/band_errors.h"
-#include "reduce/modes/sparse_factor.h"
+#include "reduce/factors/sparse_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {

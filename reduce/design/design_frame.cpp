@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-#include "fem/gmsh_mesher.h"
+#include "fem/gmsh/gmsh_mesher.h"
 #include "reduce/design/design.h"
 #include "reduce/design/design_couplings.h"
 #include "reduce/design/known_keys.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "fem/gmsh_mesher.h"
+#include "fem/gmsh/gmsh_mesher.h"
 #include "reduce/design/design.h"
 #include "reduce/design/known_keys.h"
 #include "reduce/design/sizes.h"

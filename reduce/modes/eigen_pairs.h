@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reduce/modes/tall_products.h"
+#include "reduce/factors/tall_products.h"
 
 namespace sprung::reduce {
 

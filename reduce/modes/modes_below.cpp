@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "reduce/factors/sparse_factor.h"
 #include "reduce/modes/clusters.h"
 #include "reduce/modes/eigenvalue_count.h"
 #include "reduce/modes/sparse_eigen_solver.h"
-#include "reduce/modes/sparse_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {

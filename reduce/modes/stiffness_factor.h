@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/modes/sparse_factor.h"
+#include "reduce/factors/sparse_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reduce/modes/row_major.h"
+#include "reduce/factors/row_major.h"
 
 namespace sprung::reduce {
 

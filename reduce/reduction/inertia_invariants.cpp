@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "reduce/modes/tall_products.h"
+#include "reduce/factors/tall_products.h"
 
 namespace sprung::reduce {
 

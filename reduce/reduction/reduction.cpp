@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "fem/assembly.h"
+#include "reduce/factors/row_major.h"
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/row_major.h"
 #include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/held_rounding.h"
 #include "reduce/reduction/inertia_invariants.h"

@@ -5,8 +5,8 @@
 #include "fem/assembly.h"
 #include "fem/axial_force.h"
 #include "fem/geometric_stiffness.h"
+#include "reduce/factors/tall_products.h"
 #include "reduce/modes/held_node.h"
-#include "reduce/modes/tall_products.h"
 #include "reduce/reduction/point_stiffness.h"
 
 namespace sprung::reduce {

@@ -2,8 +2,8 @@
 // and no other end.
 #include <string>
 
-#include "fem/gmsh_contents_bytes.h"
-#include "fem/msh_file.h"
+#include "fem/gmsh/gmsh_contents_bytes.h"
+#include "fem/gmsh/msh_file.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/bytes.h"
 

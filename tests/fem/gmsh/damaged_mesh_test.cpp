@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "fem/gmsh_mesher.h"
+#include "fem/gmsh/gmsh_mesher.h"
 #include "tests/catch.h"
 #include "tests/fem/frames.h"
 #include "tests/mutations.h"

@@ -1,8 +1,8 @@
-#include "reduce/modes/tall_products.h"
+#include "reduce/factors/tall_products.h"
 
 #include <algorithm>
 
-#include "reduce/modes/vectorised.h"
+#include "reduce/factors/vectorised.h"
 
 namespace sprung::reduce {
 

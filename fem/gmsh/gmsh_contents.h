@@ -48,7 +48,7 @@ struct GmshContents {
 /// @throws support::InputError for lines in no physical curve, in two, or in one without a name; for z not
 ///         constant; for a physical point of several points, or through which no line passes; for a node with
 ///         neither line nor point; and as check_mesh
-/// Checked by tests/fem/gmsh_contents_test.cpp
+/// Checked by tests/fem/gmsh/gmsh_contents_test.cpp
 Mesh make_mesh(GmshContents contents, const support::SourceLocation& where, bool may_have_parts = false);
 
 }  // namespace sprung::fem

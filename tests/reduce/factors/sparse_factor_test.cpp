@@ -1,4 +1,4 @@
-#include "reduce/modes/sparse_factor.h"
+#include "reduce/factors/sparse_factor.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -36,7 +36,7 @@ bool has_cholmod();
 /// @param is_definite  whether it has to be positive definite
 /// @return null where a pivot vanishes, or is not positive and has to be
 /// @throws std::invalid_argument if kSupernodal is asked for and CHOLMOD was not built in
-/// Checked by tests/reduce/modes/sparse_factor_test.cpp
+/// Checked by tests/reduce/factors/sparse_factor_test.cpp
 std::unique_ptr<SparseFactor> make_sparse_factor(const SparseMatrix& matrix, bool is_definite,
                                                  FactorMethod method = FactorMethod::kAutomatic);
 

@@ -1,10 +1,10 @@
-#include "reduce/modes/sparse_factor.h"
+#include "reduce/factors/sparse_factor.h"
 
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
 
-#include "reduce/modes/row_major.h"
-#include "reduce/modes/supernodal_factor.h"
+#include "reduce/factors/row_major.h"
+#include "reduce/factors/supernodal_factor.h"
 
 namespace sprung::reduce {
 

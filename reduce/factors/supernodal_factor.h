@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reduce/modes/supernodes.h"
+#include "reduce/factors/supernodes.h"
 
 namespace sprung::reduce {
 
@@ -9,7 +9,7 @@ namespace sprung::reduce {
 /// @param matrix, is_definite  as make_sparse_factor; the matrix has no entries outside the supernodes
 /// @return null as make_sparse_factor
 /// @throws support::NumericalError if the memory does not suffice
-/// Checked by tests/reduce/modes/sparse_factor_test.cpp
+/// Checked by tests/reduce/factors/sparse_factor_test.cpp
 std::unique_ptr<SparseFactor> make_supernodal_factor(const SparseMatrix& matrix, bool is_definite,
                                                      Supernodes supernodes);
 

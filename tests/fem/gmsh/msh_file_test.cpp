@@ -1,4 +1,4 @@
-#include "fem/msh_file.h"
+#include "fem/gmsh/msh_file.h"
 
 #include <fmt/format.h>
 

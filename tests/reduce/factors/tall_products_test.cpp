@@ -1,4 +1,4 @@
-#include "reduce/modes/tall_products.h"
+#include "reduce/factors/tall_products.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "fem/gmsh_contents_bytes.h"
+#include "fem/gmsh/gmsh_contents_bytes.h"
 
 #include "tools/support/files/bytes.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "fem/gmsh_contents.h"
+#include "fem/gmsh/gmsh_contents.h"
 
 namespace sprung::fem {
 
@@ -12,7 +12,7 @@ std::string pack(const GmshContents& contents);
 
 /// The contents that `pack` made bytes of.
 /// @throws support::DamagedBytes if the bytes are none of its: the process that sent them was damaged
-/// Checked by tests/fem/gmsh_contents_bytes_test.cpp
+/// Checked by tests/fem/gmsh/gmsh_contents_bytes_test.cpp
 GmshContents unpack(std::string_view bytes);
 
 }  // namespace sprung::fem

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reduce/modes/sparse_factor.h"
+#include "reduce/factors/sparse_factor.h"
 
 namespace sprung::reduce {
 

@@ -1,8 +1,8 @@
-#include "reduce/modes/supernode_columns.h"
+#include "reduce/factors/supernode_columns.h"
 
 #include <algorithm>
 
-#include "reduce/modes/vectorised.h"
+#include "reduce/factors/vectorised.h"
 
 namespace sprung::reduce {
 

@@ -1,4 +1,4 @@
-#include "fem/gmsh_mesher.h"
+#include "fem/gmsh/gmsh_mesher.h"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "fem/gmsh_contents.h"
-#include "fem/gmsh_contents_bytes.h"
-#include "fem/msh_file.h"
+#include "fem/gmsh/gmsh_contents.h"
+#include "fem/gmsh/gmsh_contents_bytes.h"
+#include "fem/gmsh/msh_file.h"
 #include "tools/support/files/bytes.h"
 #include "tools/support/files/read_text_file.h"
 

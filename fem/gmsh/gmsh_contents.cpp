@@ -1,4 +1,4 @@
-#include "fem/gmsh_contents.h"
+#include "fem/gmsh/gmsh_contents.h"
 
 #include <fmt/format.h>
 

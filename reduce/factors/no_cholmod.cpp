@@ -1,4 +1,4 @@
-#include "reduce/modes/supernodes.h"
+#include "reduce/factors/supernodes.h"
 
 // In place of cholmod_supernodes.cpp where CHOLMOD is not there.
 namespace sprung::reduce {

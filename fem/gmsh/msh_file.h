@@ -24,7 +24,7 @@ struct MshDeclaration {
 ///
 /// @throws support::InputError `path: error: …` if the file is missing, empty, not in format 2.2 or 4.1, a
 ///         section has no end (truncated), or a number in it cannot be
-/// Source: [gmsh 4.8], chapter "File formats" — checked by tests/fem/msh_file_test.cpp
+/// Source: [gmsh 4.8], chapter "File formats" — checked by tests/fem/gmsh/msh_file_test.cpp
 MshDeclaration read_msh_declaration(const std::filesystem::path& path);
 
 /// The same of a file's bytes. @param name  of the file, for messages

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "reduce/modes/supernodes.h"
+#include "reduce/factors/supernodes.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {

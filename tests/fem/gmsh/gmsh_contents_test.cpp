@@ -1,4 +1,4 @@
-#include "fem/gmsh_contents.h"
+#include "fem/gmsh/gmsh_contents.h"
 
 #include "tests/catch.h"
 #include "tests/fem/frames.h"

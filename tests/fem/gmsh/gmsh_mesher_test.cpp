@@ -1,4 +1,4 @@
-#include "fem/gmsh_mesher.h"
+#include "fem/gmsh/gmsh_mesher.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -18,7 +18,7 @@ namespace sprung::fem {
 /// line by line, from its beginning to its end. node_ids are 1 … N; every point is a named node.
 ///
 /// @throws support::InputError as check_frame_geometry and check_mesh do
-/// Checked by tests/fem/gmsh_mesher_test.cpp
+/// Checked by tests/fem/gmsh/gmsh_mesher_test.cpp
 Mesh mesh_lines(const FrameGeometry& geometry);
 
 /// Reads a `.geo` (meshed along its curves) or a `.msh` file, format 2.2 or 4.1, text or binary.
@@ -35,7 +35,7 @@ Mesh mesh_lines(const FrameGeometry& geometry);
 ///         which gmsh crashes or exceeds the limits; for a line in no physical curve, in two, or in one
 ///         without a name; for elements that are no lines, or of higher order; for z that is not constant;
 ///         for a physical point of several points, or through which no line passes; and as check_mesh
-/// Checked by tests/fem/gmsh_mesher_test.cpp
+/// Checked by tests/fem/gmsh/gmsh_mesher_test.cpp
 Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits = {});
 
 }  // namespace sprung::fem

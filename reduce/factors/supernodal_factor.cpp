@@ -1,4 +1,4 @@
-#include "reduce/modes/supernodal_factor.h"
+#include "reduce/factors/supernodal_factor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "reduce/modes/row_major.h"
-#include "reduce/modes/supernode_columns.h"
+#include "reduce/factors/row_major.h"
+#include "reduce/factors/supernode_columns.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
