@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What the tolerance of a run means: errors of the truck's runs over it, with any number of modes."""
 
+import math
 import os
 import unittest
 
@@ -23,18 +24,22 @@ class Tolerance(VerificationCase):
         return results["bodies/chassis/position"][:, 1], results["points/chassis.seat/acceleration"][:, 1]
 
     def test_height_and_acceleration_meet_it_with_any_number_of_modes(self):
-        """The height to a fifteenth of the tolerance times the length scale. The acceleration, r.m.s. of r.m.s., to
+        """The height to a twentieth of the tolerance times the length scale. The acceleration, r.m.s. of r.m.s., to
         five times the tolerance with a few modes and to 40 times with all: errors in stiff modes count by their
-        frequencies."""
+        frequencies. The largest error of the height scatters by a factor of ten between tolerances that differ by
+        1e-4 of themselves, so that its r.m.s. of eight runs counts."""
         for run in ("bump", "terrain"):
             for modes in (0, 2, 4, 36) if run == "bump" else (0, 36):
                 height, acceleration = self.run_truck(run, modes, 1e-7)
                 for tolerance in (1e-4, 1e-5):
                     with self.subTest(run=run, modes=modes, tolerance=tolerance):
-                        found = self.run_truck(run, modes, tolerance)
-                        self.assert_close(found[0], height, absolute=LENGTH * tolerance / 15.0)
-                        off = np.sqrt(np.mean((found[1] - acceleration) ** 2) / np.mean(acceleration**2))
-                        self.assertLess(off, (40.0 if modes == 36 else 5.0) * tolerance)
+                        squares = []
+                        for factor in 1.0 + 1e-4 * np.arange(8):
+                            found = self.run_truck(run, modes, factor * tolerance)
+                            squares.append(np.max(np.abs(found[0] - height)) ** 2)
+                            off = np.sqrt(np.mean((found[1] - acceleration) ** 2) / np.mean(acceleration**2))
+                            self.assertLess(off, (40.0 if modes == 36 else 5.0) * tolerance)
+                        self.assertLess(math.sqrt(np.mean(squares)), LENGTH * tolerance / 20.0)
 
 
 if __name__ == "__main__":

@@ -234,21 +234,33 @@ TEST_CASE("the rounding estimate follows the fourth power of the number of eleme
   CHECK(std::log2(fine / coarse) / 2.0 == Approx(3.5).margin(0.15));
 }
 
-// Beyond kMaxRoundingError, where designs are refused, by a factor of 2: there it is nearly as large as the
-// estimate, and changes with every change of the order of elimination.
+// Where designs are accepted it covers the error of every length. Errors of finer meshes scatter from one
+// length and one order of elimination to the next about a third of the estimate; of 78 lengths from 1680 to
+// 3000 elements and two orders the largest was 2.07 times it.
 TEST_CASE("the rounding estimate covers the error that rounding really makes") {
   const fem::BeamProperties section = testing::make_section();
   const double exact =
       std::pow(1.8751040687119611, 4) * section.bending_rigidity / section.mass_per_length / 81.0;
-  for (const int num_elements : {300, 600, 1000, 2000, 3000}) {
+  double sum_of_logarithms = 0.0;
+  int num_refused = 0;
+  for (const int num_elements :
+       {300, 350, 400, 450, 500, 550, 600, 650, 700, 800, 900, 1000, 1750, 2000, 2250, 2500, 2750, 3000}) {
     const ModalProblem problem = make_cantilever(num_elements);
     const EigenPairs pairs = solve_sparse(problem, 2, 1);
     const double estimate =
         estimate_rounding_error(problem.stiffness, pairs.vectors.col(0), pairs.omega_squared(0));
+    const double share = std::abs(pairs.omega_squared(0) / exact - 1.0) / estimate;
     CAPTURE(num_elements, estimate);
-    const double allowed = (estimate < kMaxRoundingError ? 1.0 : 2.0) * estimate;
-    CHECK(std::abs(pairs.omega_squared(0) / exact - 1.0) < allowed);
+    if (estimate <= kMaxRoundingError) {
+      CHECK(share < 1.0);
+    } else {
+      CHECK(share < 2.1);
+      sum_of_logarithms += std::log(share);
+      ++num_refused;
+    }
   }
+  REQUIRE(num_refused >= 6);
+  CHECK(std::exp(sum_of_logarithms / num_refused) < 0.8);
 }
 
 }  // namespace
