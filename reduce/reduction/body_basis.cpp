@@ -19,6 +19,7 @@
 #include "reduce/reduction/mechanism.h"
 #include "reduce/reduction/superelement_checks.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/processes/large_heap.h"
 
 namespace sprung::reduce {
 
@@ -27,6 +28,9 @@ namespace {
 constexpr double kResidualTolerance = 1e-6;
 // The band of a clamped basis that names none: up to this mode's frequency, by the margin of free modes.
 constexpr Eigen::Index kBandMode = 20;
+
+constexpr std::size_t kLargeFrame = 20'000;         // freedoms
+constexpr std::size_t kMemoryPerFreedom = 8 << 10;  // bytes, by measured builds
 
 // Displacements of all nodes, from vectors of the held frame.
 Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {
@@ -187,6 +191,8 @@ fem::AssembledMatrices make_full_matrices(const Design& design) {
 }
 
 BodyMatrices make_body_matrices(const Design& design) {
+  const auto num_freedoms = static_cast<std::size_t>(3 * design.model.mesh.num_nodes());
+  if (num_freedoms > kLargeFrame) support::prepare_large_heap(kMemoryPerFreedom * num_freedoms);
   BodyMatrices matrices;
   matrices.full = make_full_matrices(design);
   matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),

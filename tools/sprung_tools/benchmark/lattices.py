@@ -80,6 +80,7 @@ class BuildCost(NamedTuple):
     build: Cost
     outcome: str  # what the program said
     limit: Limit
+    cholmod: Limit | None  # with CHOLMOD's factors and solutions in place of ours
     scipy: Cost | None  # shift-invert Lanczos for NUM_MODES clamped modes
     calculix: Cost | None  # a whole run of ccx for as many modes
 
@@ -124,11 +125,16 @@ def run_measured(command: Sequence[str | Path], folder: Path) -> tuple[str, Cost
     return text, Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0)
 
 
-def measure_limit(program: str | Path, lattice: Lattice, folder: Path) -> Limit:
-    """Measures the steps of a lattice in a folder by tests/benchmark/factor_benchmark."""
-    command = [program, "lattice.toml", "--columns", f"{COLUMNS}", "--count-below", f"{1.5 * choose_band(lattice):.6g}"]
+def measure_limit(program: str | Path, lattice: Lattice, folder: Path, *flags: str) -> Limit | None:
+    """Measures the steps of a lattice in a folder by tests/benchmark/factor_benchmark. flags: its further options.
+    Returns None where it cannot do what they ask for."""
+    band = f"{1.5 * choose_band(lattice):.6g}"
+    command = [program, "lattice.toml", "--columns", f"{COLUMNS}", "--count-below", band, *flags]
     text, cost = run_measured(command, folder)
-    said = json.loads(text)
+    try:
+        said = json.loads(text)
+    except json.JSONDecodeError:
+        return None
     return Limit(said["factor"], said["solutions"], said["count"], cost.megabytes)
 
 
@@ -164,11 +170,15 @@ def measure_build(programs: Path, lattice: Lattice, folder: Path) -> BuildCost:
     text, build = run_measured([program, "build", "lattice.toml", "--force", "-o", "."], folder)
     said = [line for line in text.splitlines() if ": building" not in line and ": remark" not in line]
     outcome = said[0].split(": ", 1)[-1] if said else ""
-    limit = measure_limit(programs / "tests/benchmark/factor_benchmark", lattice, folder)
+    steps = programs / "tests/benchmark/factor_benchmark"
+    limit = measure_limit(steps, lattice, folder)
+    if limit is None:
+        raise RuntimeError(f"{steps} failed")
+    cholmod = measure_limit(steps, lattice, folder, "--cholmod")
     scipy = measure_scipy(program, lattice, folder) if lattice.freedoms <= MOST_SCIPY else None
     ccx = shutil.which("ccx") if lattice.freedoms <= MOST_CALCULIX else None
     calculix = measure_calculix(ccx, lattice, folder) if ccx else None
-    return BuildCost(lattice, build, outcome, limit, scipy, calculix)
+    return BuildCost(lattice, build, outcome, limit, cholmod, scipy, calculix)
 
 
 def format_cost(cost: Cost | None) -> str:
@@ -181,14 +191,16 @@ def format_builds(costs: Sequence[BuildCost]) -> str:
     has_calculix = shutil.which("ccx") is not None
     names = ("limit s", "factor", "solve", "count")
     heading = f"{'freedoms':>9}  {'points':>6}  {'CPU s':>8}  {'MB':>6}" + "".join(f"  {name:>8}" for name in names)
-    heading += f"  {'MB':>6}  {'scipy s':>8}  {'MB':>6}" + f"  {'ccx s':>8}  {'MB':>6}" * has_calculix
+    heading += f"  {'MB':>6}  {'CHOLMOD s':>9}  {'scipy s':>8}  {'MB':>6}" + f"  {'ccx s':>8}  {'MB':>6}" * has_calculix
     rows = [heading + "  outcome"]
     for cost in costs:
         limit = cost.limit
         cells = f"{cost.lattice.freedoms:>9}  {cost.lattice.points:>6}  {cost.build.seconds:>8.2f}"
         cells += f"  {cost.build.megabytes:>6.0f}"
         cells += "".join(f"  {one:>8.2f}" for one in (limit.total, limit.factor, limit.solutions, limit.counting))
-        cells += f"  {limit.megabytes:>6.0f}" + format_cost(cost.scipy)
+        cells += f"  {limit.megabytes:>6.0f}"
+        cells += f"  {cost.cholmod.total:>9.2f}" if cost.cholmod else f"  {'–':>9}"
+        cells += format_cost(cost.scipy)
         rows.append(cells + (format_cost(cost.calculix) if has_calculix else "") + f"  {cost.outcome}")
     if not has_calculix:
         rows.append("no column of CalculiX: ccx (Debian: calculix-ccx) is not in PATH")

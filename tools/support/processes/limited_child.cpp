@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 
 // The address sanitizer reserves far more address space than any limit would allow.
@@ -43,12 +44,22 @@ void limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
   ::setrlimit(resource, &limits);
 }
 
+#ifndef SPRUNG_ADDRESS_SANITIZER
+// Address space of this process [bytes]; 0 where the system does not say.
+rlim_t find_address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+#endif
+
 void apply_limits(const ChildLimits& limits) {
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_FSIZE, 0, 0);
   limit(RLIMIT_CPU, limits.processor_seconds, limits.processor_seconds + 1);
 #ifndef SPRUNG_ADDRESS_SANITIZER
-  limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes);
+  const rlim_t address_space = find_address_space() + limits.memory_bytes;
+  limit(RLIMIT_AS, address_space, address_space);
 #endif
 }
 

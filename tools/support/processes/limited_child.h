@@ -11,7 +11,7 @@ namespace sprung::support {
 /// What a child process may use.
 struct ChildLimits {
   unsigned processor_seconds = 120;  ///< the time limit by the wall's clock is ten times as long
-  std::size_t memory_bytes = std::size_t{4} << 30U;  ///< address space, the program itself included
+  std::size_t memory_bytes = std::size_t{4} << 30U;  ///< address space beyond what this process has
 };
 
 /// Why a child process gave no result: an exception of the work (its own words), a crash, or a limit.
