@@ -14,12 +14,17 @@ class ErrorScales {
 
   double position(int coordinate) const;                   ///< in the coordinate's unit
   double velocity(int coordinate, double velocity) const;  ///< in the coordinate's unit/s
-  double energy() const;                                   ///< [J]
+  /// Likewise such that vibration of a modal coordinate at its body's frequency has the tolerance in
+  /// accelerations, too, where errors of many steps add up.
+  double position_in_vibration(int coordinate) const;
+  double velocity_in_vibration(int coordinate, double velocity) const;
+  double energy() const;  ///< [J]
 
  private:
-  std::vector<double> natural_;  // of each coordinate
-  double velocity_scale_;        // [natural sizes/s]
-  double energy_scale_;          // [J]
+  std::vector<double> natural_;    // of each coordinate
+  std::vector<double> frequency_;  // of each modal coordinate alone, 0 of others [rad/s]
+  double velocity_scale_;          // [natural sizes/s]
+  double energy_scale_;            // [J]
 };
 
 }  // namespace sprung::dynamics

@@ -2,10 +2,11 @@
 
 namespace sprung::dynamics {
 
-SteppingMethod default_method(int num_freedoms) {
-  constexpr int kMostForFullMatrices = 100;
-  return num_freedoms > 0 && num_freedoms <= kMostForFullMatrices ? SteppingMethod::kExponential
-                                                                  : SteppingMethod::kAdams;
+SteppingMethod default_method(int num_freedoms, bool has_modes) {
+  constexpr int kMost = 100, kMostWithModes = 300;
+  return num_freedoms > 0 && num_freedoms <= (has_modes ? kMostWithModes : kMost)
+             ? SteppingMethod::kExponential
+             : SteppingMethod::kAdams;
 }
 
 std::optional<Integrator::Method> find_integrator(SteppingMethod method) {

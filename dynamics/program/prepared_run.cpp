@@ -250,7 +250,11 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, flexibility.damping,
                               MotionUse::kMoving, flexibility.stiffened);
   IntegratorSettings& integrator = prepared.run.integrator;
-  if (!integrator.names_method) integrator.options.method = default_method(prepared.model.num_freedoms());
+  if (!integrator.names_method) {
+    const bool has_modes = std::any_of(prepared.model.bodies.begin(), prepared.model.bodies.end(),
+                                       [](const Body& body) { return body.num_modes() > 0; });
+    integrator.options.method = default_method(prepared.model.num_freedoms(), has_modes);
+  }
   prepared.start = preparation == Preparation::kBalance
                        ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
                        : find_start_state(q, prepared);

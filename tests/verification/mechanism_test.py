@@ -351,6 +351,65 @@ class StiffModes(VerificationCase):
                     self.assert_close(found, expected, absolute=bound)
 
 
+class SwingingBeam(VerificationCase):
+    """An undamped beam on a hinge, with all of its vectors, released level. Its weight bends it, and nothing excites its
+    stiff vectors but errors of steps. Expected: the default method at 1e-8, which solves vibration exactly."""
+
+    DESIGN = """
+[materials.steel]
+youngs_modulus = 2.1e11
+density = 7850.0
+[sections.bar]
+material = "steel"
+shape = "rectangle"
+width = 0.02
+height = 0.02
+[points]
+hinge = [0.0, 0.0]
+middle = [1.0, 0.0]
+tip = [2.0, 0.0]
+[[lines]]
+through = ["hinge", "middle", "tip"]
+section = "bar"
+elements = 8
+[reference]
+point = "hinge"
+[reduction]
+highest_frequency = 400.0
+tolerance = 1e-4
+[modes]
+damping_ratio = 0.0
+"""
+    VEHICLE = """
+name = "swing"
+monitor = ["beam.tip"]
+[bodies.beam]
+superelement = "beam"
+position = [0.0, 0.0]
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "ground.origin"
+b = "beam.hinge"
+"""
+
+    def test_accelerations_by_multistep_methods(self):
+        (self.folder / "beam.toml").write_text(self.DESIGN, encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "beam.toml", "--output-dir", "."], cwd=self.folder,
+                    check=True)  # fmt: skip
+        found = {}
+        for method, tolerance in (("exponential", 1e-8), ("adams", 1e-3), ("adams", 1e-6), ("bdf", 1e-4)):
+            run = f'start = "as-given"\nduration = 0.4\n[modes]\nbeam = "all"\n[integrator]\nmethod = "{method}"\n' \
+                  f'relative_tolerance = {tolerance}\n'  # fmt: skip
+            results = self.run_to_results(self.write_model(self.VEHICLE, run), superelements=self.folder)
+            found[method, tolerance] = results["points/beam.tip/acceleration"][:, 1]
+        expected = found.pop(("exponential", 1e-8))
+        for key, acceleration in found.items():
+            with self.subTest(key=key):
+                error = np.sqrt(np.mean((acceleration - expected) ** 2) / np.mean(expected**2))
+                self.assertLess(error, 0.05)
+
+
 class UntrustedRun(VerificationCase):
     def test_a_run_whose_energies_do_not_close_ends_with_exit_code_1_and_its_results(self):
         # The pendulum with a step that is twenty times too long.

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dynamics/integration/attempt.h"
 #include "dynamics/integration/throw_stopped.h"
@@ -28,6 +29,7 @@ namespace sprung::dynamics {
 struct CvodeCallback {
   OdeSystem* system;
   double relative_tolerance;
+  std::vector<double> vibration_scales;
 };
 
 namespace {
@@ -36,6 +38,7 @@ namespace {
 // singular position for ever.
 constexpr double kShortestStep = 1e-12;     // s
 constexpr double kSwitchTolerance = 1e-12;  // s
+constexpr double kRounding = 1e-13;         // of a value; accelerations of vibration get no closer to theirs
 
 std::span<double> values(N_Vector vector) {
   return {N_VGetArrayPointer(vector), static_cast<std::size_t>(NV_LENGTH_S(vector))};
@@ -53,11 +56,15 @@ int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void*
 }
 
 int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
-  const auto* callback = static_cast<CvodeCallback*>(data);
+  auto* callback = static_cast<CvodeCallback*>(data);
+  const double tolerance = callback->relative_tolerance;
   callback->system->calc_error_scales(values(y), values(weights));
-  for (double& w : values(weights)) {
-    if (!(w > 0.0)) return -1;
-    w = 1.0 / (callback->relative_tolerance * w);
+  callback->system->calc_vibration_scales(values(y), callback->vibration_scales);
+  for (std::size_t i = 0; i < callback->vibration_scales.size(); ++i) {
+    double& weight = values(weights)[i];
+    if (!(weight > 0.0)) return -1;
+    const double allowed = tolerance * weight, rounding = kRounding * std::abs(values(y)[i]);
+    weight = 1.0 / std::max(tolerance * callback->vibration_scales[i], std::min(allowed, rounding));
   }
   return 0;
 }
@@ -145,7 +152,8 @@ struct CvodeIntegrator::Memory {
 CvodeIntegrator::CvodeIntegrator(OdeSystem& system, const Options& options)
     : memory_(std::make_unique<Memory>()) {
   Memory& memory = *memory_;
-  memory.callback = {&system, options.relative_tolerance};
+  memory.callback = {&system, options.relative_tolerance,
+                     std::vector<double>(static_cast<std::size_t>(system.size()))};
   memory.check(create_context(&memory.context), "SUNContext_Create");
   const bool adams = options.method == Method::kAdams;
   memory.y = memory.require(N_VNew_Serial(system.size(), memory.context), "N_VNew_Serial");
