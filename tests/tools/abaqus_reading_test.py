@@ -93,6 +93,25 @@ class Reading(ToolTestCase):
         self.assertEqual((material.youngs_modulus, material.density), (2.6, 7.8))
         self.assertAlmostEqual(material.poissons_ratio, 0.3)  # 2.6 / (2 · 1) − 1
 
+    def test_a_blank_line_of_a_section_stands_for_the_default_1_direction(self):
+        # Keywords Reference, *BEAM SECTION and *BEAM GENERAL SECTION: "Second line (optional; enter a blank line if the
+        # default values are to be used)". The default is (0, 0, -1); t × n₁ along y and along x is the height.
+        for section in (
+            "*BEAM SECTION, ELSET=A, SECTION=RECT, MATERIAL=S\n0.05, 0.2\n\n5, 5\n",
+            "*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT\n0.05, 0.2\n\n2.1e11, 8.0e10\n",
+            "*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT\n0.05, 0.2\n , ,\n** E, G\n2.1e11, 8.0e10\n\n\n",
+            "*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT\n\n0.05, 0.2\n0., 0., -1.\n2.1e11, 8.0e10\n",
+        ):
+            with self.subTest(section):
+                mesh = self.read(ABAQUS.replace("\n2, 1.", "\n\n2, 1.") + section)
+                self.assertEqual(mesh.node_ids.tolist(), [1, 2, 3])
+                np.testing.assert_allclose(np.abs(mesh.heights), [[0, 1, 0], [1, 0, 0]], atol=1e-15)
+                self.assertAlmostEqual(mesh.sections[0].shape.hh, 0.05 * 0.2**3 / 12, places=15)
+                if "GENERAL" in section:
+                    self.assertEqual([one.youngs_modulus for one in mesh.materials.values()], [2.1e11])
+                else:
+                    self.assertIn("that CalculiX passes over its blank line", " ".join(mesh.sections[0].left_out))
+
     def test_masses_and_moments_of_inertia_of_points(self):
         points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
         gifts = "*MASS, ELSET=P\n5.,\n*ROTARY INERTIA, ELSET=R\n1., 2., 3., 4., 5., 6.\n"

@@ -8,6 +8,9 @@ from typing import NamedTuple, NoReturn
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
 
+# Keyword → the first of its data lines that may be blank, which stands for the defaults. Other blank lines are nothing.
+FIRST_BLANK_LINE = {"BEAM SECTION": 1, "BEAM GENERAL SECTION": 1, "INSTANCE": 0}
+
 
 class Block(NamedTuple):
     """A keyword line and the data lines under it."""
@@ -49,6 +52,8 @@ def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
             pairs = [part.partition("=") for part in parameters if part]
             named = {" ".join(key.upper().split()): value.strip().strip("\"'") for key, _, value in pairs}
             blocks.append(Block(" ".join(keyword.upper().split()), named, [], path, number))
+        elif not line and not (blocks and may_be_blank(blocks[-1])):
+            continue
         elif not blocks:
             raise InputError(
                 f"{path}:{number}: error: '{line[:40]}' stands before the first keyword: not an Abaqus deck"
@@ -56,6 +61,11 @@ def read_blocks(path: str, including: tuple[str, ...] = ()) -> list[Block]:
         else:
             blocks[-1].data.append((number, [part.strip().strip("\"'") for part in line.split(",")]))
     return [found for block in blocks for found in follow_include(block, (*including, path))]
+
+
+def may_be_blank(block: Block) -> bool:
+    """Whether a blank line that follows is a data line of the block."""
+    return len(block.data) >= FIRST_BLANK_LINE.get(block.keyword, math.inf)
 
 
 def follow_include(block: Block, including: tuple[str, ...]) -> list[Block]:
@@ -72,12 +82,12 @@ def follow_include(block: Block, including: tuple[str, ...]) -> list[Block]:
 
 
 def join_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
-    """Yields (number, text) of the lines that are neither comments nor blank. A keyword line that ends with a comma is
-    joined with the next one."""
+    """Yields (number, text) of the lines that are no comments; the text of a blank line is empty. A keyword line that
+    ends with a comma is joined with the next one."""
     waiting: tuple[int, str] | None = None
     for number, line in enumerate(lines, start=1):
         line = line.strip()
-        if not line or line.startswith("**"):
+        if line.startswith("**") or (waiting and not line):
             continue
         if waiting:
             number, line = waiting[0], waiting[1] + line

@@ -53,6 +53,8 @@ def read_section(block: Block) -> tuple[Section, Floats, Material | None]:
     left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if is_offset(block, key)]
     left_out += ["its TAPER"] if "TAPER" in block.parameters else []
     width = read_row(block, 1)
+    if block.keyword == "BEAM SECTION" and not any(width) and any(read_row(block, 2)):
+        left_out.append("that CalculiX passes over its blank line: here it is the default 1-direction, as in Abaqus")
     direction = np.array((width + [0.0] * 3)[:3]) if any(width) else np.array(DEFAULT_WIDTH)
     text = f"{describe(block)}: {' × '.join(f'{one:g}' for one in dimensions)}"
     material = read_own_material(block) if block.keyword == "BEAM GENERAL SECTION" else None
