@@ -44,6 +44,25 @@ class Reading(ToolTestCase):
         np.testing.assert_allclose(np.abs(mesh.heights), [[0, 1, 0]] * 2 + [[1, 0, 0]] * 2, atol=1e-15)
         self.assertIn("which are now larger (L-2: 1000 and 1000)", " ".join(mesh.left_behind))
 
+    def test_a_blank_field_or_line_of_an_instance_is_zero_and_keeps_its_place(self):
+        up = [[0.0, 5.0, 0.0], [1.0, 5.0, 0.0], [2.0, 5.0, 0.0]]
+        turned = [[3.0, -3.0, 0.0], [3.0, -2.0, 0.0], [3.0, -1.0, 0.0]]  # (x, y) → (3 - y, x - 3), by 90° about (3, 0)
+        for data, expected in (
+            (", 5.\n", up),
+            (" , 5. ,\n\n , \n", up),
+            ("\n3., , , 3., , 1., 90.\n", turned),
+            ("0.,\n3., , , 3., , 1., 90.\n", turned),
+        ):
+            with self.subTest(data):
+                placed = ASSEMBLY.format(sets="").replace("3., 0., 0.\n3., 0., 0., 3., 0., 1., 90.\n", data)
+                np.testing.assert_allclose(self.read(PART + placed).positions[3:], expected, atol=1e-15)
+        (self.folder / "b.inp").write_text(PART + ASSEMBLY.format(sets="").replace(" 90.\n", "\n"), encoding="utf-8")
+        process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+        self.assertEqual(process.returncode, 0, process.stderr)  # a blank angle is one of 0°
+        (self.folder / "c.inp").write_text(PART + ASSEMBLY.format(sets="").replace(", 90.\n", "\n"), encoding="utf-8")
+        process = self.run_tool("convert_mesh", "c.inp", "a.msh")
+        self.assert_refuses(process, "turns its part by two points and an angle, which are seven numbers")
+
     def test_an_assembly_names_nodes_and_sets_of_its_instances(self):
         sets = "*NSET, NSET=A\nL-1.3, L-2.1\n*NSET, NSET=B, INSTANCE=L-2\n2, TIP\n*NSET, NSET=C\nL-1.TIP, A\n"
         sets += "*ELSET, ELSET=D, INSTANCE=L-2, GENERATE\n1, 2\n"

@@ -27,8 +27,11 @@ class Instance(NamedTuple):
 
 def read_placement(block: Block) -> tuple[Floats, Floats]:
     """The rotation and the translation that an *INSTANCE gives: a translation, then a turn about the line through two
-    points by an angle in degrees."""
-    rows = [[read_real(block, line, text) for text in fields if text] for line, fields in block.data]
+    points by an angle in degrees. A blank field is 0, and blank lines at the end are nothing."""
+    data = list(block.data)
+    while data and not any(data[-1][1]):
+        data.pop()
+    rows = [[read_real(block, line, text) if text else 0.0 for text in fields] for line, fields in data]
     translation = np.array((rows[0] + [0.0] * 3)[:3]) if rows else np.zeros(3)
     if len(rows) < 2:
         return np.eye(3), translation
