@@ -84,6 +84,23 @@ class Reading(ToolTestCase):
         self.assertEqual(mesh.lines.tolist(), [[0, 1], [1, 2], [2, 3], [3, 4]])
         self.assertEqual(mesh.element_sets["E"].tolist(), [0, 1, 2, 3])
 
+    def test_blank_increments_of_generated_nodes_and_elements_are_1(self):
+        # Keywords Reference: *NGEN, "The default is 1"; *ELGEN, both increments, "The default is one".
+        nodes = "*NODE\n1, 0., 0.\n4, 3., 0.\n*NGEN\n1, 4, ,\n*ELEMENT, TYPE=B31\n1, 1, 2\n"
+        mesh = self.read(nodes + "*ELGEN, ELSET=E\n1, 3, , 10\n*ELSET, ELSET=F, GENERATE\n1, 21, 10,\n")
+        self.assertEqual(mesh.node_ids.tolist(), [1, 2, 3, 4])
+        self.assertEqual(mesh.line_ids.tolist(), [1, 11, 21])
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [1, 2], [2, 3]])
+        self.assertEqual(mesh.element_sets["F"].tolist(), [0, 1, 2])
+        rows = "*NODE\n1, 0., 0.\n11, 0., 1.\n2, 1., 0.\n12, 1., 1.\n*ELEMENT, TYPE=B31\n1, 1, 2\n"
+        mesh = self.read(rows + "*ELGEN, ELSET=E\n1, , , , 2, 10, 10,\n")
+        self.assertEqual(mesh.line_ids.tolist(), [1, 11])
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [2, 3]])
+        for data in ("*NGEN\n1, , 4\n", "*NSET, NSET=S, GENERATE\n1, , 4\n"):
+            (self.folder / "b.inp").write_text(nodes + data, encoding="utf-8")
+            process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+            self.assert_refuses(process, "b.inp:9: error: *N", ": expects a number, but the field is blank")
+
     def test_a_line_of_three_nodes_is_two_lines_in_each_of_its_sets(self):
         text = ABAQUS[: ABAQUS.index("*ELEMENT")] + "*ELEMENT, TYPE=B32, ELSET=A\n5, 1, 2, 3\n*ELSET, ELSET=B\n5\n"
         mesh = self.read(text)

@@ -98,12 +98,15 @@ def join_lines(lines: Iterable[str]) -> Iterator[tuple[int, str]]:
             yield number, line
 
 
-def read_integer(block: Block, line: int, text: str) -> int:
-    """A whole number; InputError at its line if it is none, or too large."""
+def read_integer(block: Block, line: int, text: str, default: int | None = None) -> int:
+    """A whole number; the default if it is blank. InputError at its line if it is none, too large, or blank without a
+    default."""
+    if not text and default is not None:
+        return default
     try:
         number = int(text)
     except ValueError:
-        block.fail(f"'{text}' is not a number", line)
+        block.fail(f"'{text}' is not a number" if text else "expects a number, but the field is blank", line)
     if abs(number) > LARGEST_NUMBER:
         block.fail(f"'{text}' is not a number of a node or an element, which end at {LARGEST_NUMBER}", line)
     return number

@@ -152,18 +152,18 @@ class Part:
         """The members that the data lines of a set name: numbers, ranges, other sets."""
         members: list[int] = []
         for line, fields in block.data:
-            fields = [text for text in fields if text]
             if "GENERATE" in block.parameters:
-                row = [self.find_number(block, line, text, kind) for text in fields[:2]]
-                row += [read_integer(block, line, text) for text in fields[2:3]]
-                if len(row) not in (2, 3) or row[1] < row[0] or (len(row) == 3 and row[2] < 1):
+                fields = [*fields, "", ""]
+                first, last = (self.find_number(block, line, text, kind) for text in fields[:2])
+                step = read_integer(block, line, fields[2], 1)
+                if last < first or step < 1:
                     block.fail("GENERATE expects first, last and an increment > 0", line)
-                generated = range(row[0], row[1] + 1, row[2] if len(row) == 3 else 1)
+                generated = range(first, last + 1, step)
                 if len(members) + len(generated) > MOST_MEMBERS:
                     block.fail(f"generates more than {MOST_MEMBERS} members", line)
                 members += generated
                 continue
-            for text in fields:
+            for text in filter(None, fields):
                 is_number = text.rpartition(".")[2].lstrip("+-").isdecimal()
                 if is_number:
                     members.append(self.find_number(block, line, text, kind))
@@ -188,8 +188,9 @@ class Part:
             block.fail("along a curve is not followed; write the nodes out")
         ids: list[int] = []
         for line, fields in block.data:
-            row = [read_integer(block, line, text) for text in fields[:3] if text]
-            first, last, step = (*row, 1)[:3] if len(row) >= 2 else (0, 0, 0)
+            fields = [*fields, "", ""]
+            first, last = (read_integer(block, line, text) for text in fields[:2])
+            step = read_integer(block, line, fields[2], 1)
             ids += self.fill_between(block, line, first, last, step)
         if block.parameters.get("NSET"):
             self.node_sets.add(block.parameters["NSET"], ids)
@@ -227,10 +228,11 @@ class Part:
             self.node_sets.add(block.parameters["NSET"], ids)
 
     def generate_elements(self, block: Block) -> None:
-        """*ELGEN: master element, then up to three times number, increment of nodes, increment of elements."""
+        """*ELGEN: master element, then up to three times number, increment of nodes, increment of elements (1)."""
         ids: list[int] = []
         for line, fields in block.data:
-            master, *rest = (read_integer(block, line, text) for text in fields if text)
+            master = read_integer(block, line, fields[0])
+            rest = [read_integer(block, line, text, 1) for text in fields[1:]]
             if master not in self.elements:
                 block.fail(f"names element {master}, which is not there", line)
             made = {master: self.elements[master]}
