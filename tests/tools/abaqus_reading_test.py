@@ -108,6 +108,11 @@ class Reading(ToolTestCase):
         self.assertEqual(mesh.line_ids.tolist(), [5, 6])
         self.assertEqual([mesh.element_sets[name].tolist() for name in ("A", "B")], [[0, 1], [0, 1]])
 
+    def test_an_orientation_node_that_is_not_there_is_refused(self):
+        (self.folder / "b.inp").write_text(ABAQUS.replace("B21", "B31").replace("1, 1, 2", "1, 1, 2, 99"))
+        process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+        self.assert_refuses(process, "b.inp:6: error: *ELEMENT: element 1 names the orientation node 99, which is not")
+
     def test_shapes_of_beam_section(self):
         for section, expected in (
             # The width lies along the 1-direction; hh is I11.

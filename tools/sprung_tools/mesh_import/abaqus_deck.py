@@ -115,10 +115,13 @@ class Deck:
         lines_of: dict[int, list[int]] = {}
         for place, owner in enumerate(owners):
             lines_of.setdefault(owner, []).append(place)
+            element = whole.elements[owner]
             for node in ends[place]:
                 if node not in number:
-                    element = whole.elements[owner]
                     element.block.fail(f"element {owner} names node {node}, which is not there", element.line)
+            if element.orientation is not None and element.orientation not in number:
+                found = f"element {owner} names the orientation node {element.orientation}"
+                element.block.fail(f"{found}, which is not there", element.line)
         lines = np.array([[number[node] for node in pair] for pair in ends], dtype=int).reshape(-1, 2)
         element_sets, node_sets = whole.name_sets("E"), whole.name_sets("N")
         self.check_members(element_sets, whole.elements, "element")
@@ -189,7 +192,7 @@ class Deck:
         orientation = self.assembly.elements[element].orientation
         for place in places:
             begin, end = mesh.positions[mesh.lines[place]]
-            if orientation in number:
+            if orientation is not None:
                 width = mesh.positions[number[orientation]] - begin
             mesh.heights[place] = abaqus_properties.calc_height(end - begin, width)
 
