@@ -153,6 +153,17 @@ class Reading(ToolTestCase):
                 else:
                     self.assertIn("that CalculiX passes over its blank line", " ".join(mesh.sections[0].left_out))
 
+    def test_a_general_section_may_name_its_material(self):
+        # Keywords Reference 2024, *BEAM GENERAL SECTION: a DENSITY beside MATERIAL stands in place of the material's.
+        steel = "*MATERIAL, NAME=Steel\n*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7850.\n"
+        for density, expected in (("", 7850.0), (", DENSITY=8100.", 8100.0)):
+            with self.subTest(density):
+                section = f"*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT, MATERIAL=steel{density}\n2., 3.\n0., 0., 1.\n"
+                mesh = self.read(ABAQUS + section + steel)
+                material = mesh.materials[mesh.sections[0].material]
+                self.assertEqual((material.youngs_modulus, material.poissons_ratio, material.density),
+                                 (2.1e11, 0.3, expected))  # fmt: skip
+
     def test_masses_and_moments_of_inertia_of_points(self):
         points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
         gifts = "*MASS, ELSET=P\n5.,\n*ROTARY INERTIA, ELSET=R\n1., 2., 3., 4., 5., 6.\n"

@@ -173,7 +173,7 @@ class Deck:
             if not places:
                 self.left_behind.append(block.describe())
                 continue
-            section, width, material = abaqus_properties.read_section(block)
+            section, width, material = abaqus_properties.read_section(block, self.materials.found)
             if material is not None:
                 mesh.materials[material.name] = material
             mesh.section_of[places] = len(mesh.sections)

@@ -6,7 +6,7 @@ Source: Abaqus 2016, Keywords Reference Guide; Analysis User's Guide, "Beam cros
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -39,8 +39,11 @@ def read_row(block: Block, place: int) -> list[float]:
     return [read_real(block, line, text) if text else 0.0 for text in fields]
 
 
-def read_section(block: Block) -> tuple[Section, Floats, Material | None]:
-    """Reads a section. Returns (section, its 1-direction [3], the material if the section gives one itself)."""
+def read_section(block: Block, materials: Mapping[str, Material]) -> tuple[Section, Floats, Material | None]:
+    """Reads a section. Returns (section, its 1-direction [3], the material if the section gives one itself).
+
+    materials: name in capitals → material of the deck.
+    """
     if block.keyword == "SOLID SECTION":
         area = (read_row(block, 0) or [0.0])[0]
         shape = Shape(area, 0.0, 0.0) if area > 0.0 else None
@@ -57,7 +60,7 @@ def read_section(block: Block) -> tuple[Section, Floats, Material | None]:
         left_out.append("that CalculiX passes over its blank line: here it is the default 1-direction, as in Abaqus")
     direction = np.array((width + [0.0] * 3)[:3]) if any(width) else np.array(DEFAULT_WIDTH)
     text = f"{describe(block)}: {' × '.join(f'{one:g}' for one in dimensions)}"
-    material = read_own_material(block) if block.keyword == "BEAM GENERAL SECTION" else None
+    material = read_own_material(block, materials) if block.keyword == "BEAM GENERAL SECTION" else None
     name = material.name if material else block.parameters.get("MATERIAL", "").upper()
     return Section(text, name, shape, True, 0.0, tuple(left_out)), direction, material
 
@@ -97,15 +100,19 @@ def make_shape(kind: str, numbers: Sequence[float]) -> tuple[Shape | None, str]:
         return None, f"the shape {kind}, which {error}"
 
 
-def read_own_material(block: Block) -> Material:
-    """The material that a *BEAM GENERAL SECTION gives itself: E, G in the third data line, DENSITY, POISSON."""
+def read_own_material(block: Block, materials: Mapping[str, Material]) -> Material | None:
+    """The material that a *BEAM GENERAL SECTION gives itself: E, G in the third data line, DENSITY, POISSON; where it
+    names a MATERIAL, this one with the section's DENSITY, and None without a DENSITY."""
+    name, density = f"SECTION OF {block.parameters.get('ELSET', '').upper()}", read_parameter(block, "DENSITY")
+    if block.parameters.get("MATERIAL"):
+        named = materials.get(block.parameters["MATERIAL"].upper())
+        return named._replace(name=name, density=density) if named and density is not None else None
     row = read_row(block, 2)
     modulus = row[0] if row and row[0] > 0.0 else None
     ratio = read_parameter(block, "POISSON")
     if ratio is None and modulus and len(row) > 1 and row[1] > 0.0:
         ratio = modulus / (2.0 * row[1]) - 1.0
-    return Material(f"SECTION OF {block.parameters.get('ELSET', '').upper()}", modulus, ratio,
-                    read_parameter(block, "DENSITY"))  # fmt: skip
+    return Material(name, modulus, ratio, density)
 
 
 def read_parameter(block: Block, key: str) -> float | None:
