@@ -207,6 +207,18 @@ class OfDecks(StarterCase):
         self.assertEqual(text, "mine")
         self.assertIn("Design: frame.toml is there already and stays as it is", told)
 
+    def test_non_structural_mass_without_a_density_or_an_area_is_not_lost(self):
+        # Nastran's RHO is 0 unless given, so that a bar without it weighs its non-structural mass: 250 kg/m.
+        bar = "PBAR,1,1,2.-3,4.-6,1.-6,1.-6,250.\nMAT1,1,2.1+11,,.3{density}\nENDDATA"
+        _, text = self.convert_text("a.bdf", NASTRAN.replace("ENDDATA", bar.format(density="")))
+        self.assertIn("# the non-structural mass alone, since the source gives no density", text)
+        self.assertEqual(self.read(text)["sections"]["property_1"]["mass_per_length"], 250.0)
+        self.assertAlmostEqual(self.build("frame")["inertia/mass"][()], 250.0, places=9)  # the frame is 1 m long
+        (self.folder / "frame.toml").unlink()
+        no_area = bar.format(density=",7850.").replace("2.-3", "")
+        _, text = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", no_area))
+        self.assertIn("# mass_per_length =   # kg/m: density · area, and 250 of non-structural mass", text)
+
     def test_masses_that_cannot_be_taken_are_listed(self):
         masses = "CONM2,8,2,,5.,.1,,,\nCONM2,9,1,,7.\nENDDATA"
         _, text = self.convert_text("a.bdf", NASTRAN.replace("ENDDATA", masses))

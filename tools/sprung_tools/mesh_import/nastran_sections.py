@@ -92,7 +92,7 @@ def read_shaped_section(card: Card, text: str, material: str) -> Section:
     dimensions = [card.real(place, "dimension") for place in range(8, 8 + count)]
     text = f"{text}, {kind} {' × '.join(f'{one:g}' for one in dimensions)}".strip()
     if make is None:
-        return Section(text, material, None, left_out=(f"the shape {kind}",))
+        return Section(text, material, None, left_out=(f"the shape {kind}, and the mass per length behind it",))
     shape = make_shape(card, make, dimensions)
     rest = [one for one in card.fields[8 + count + 1 :] if one]
     left_out = ("its further stations: the section at end A is taken",) if card.name == "PBEAML" and rest else ()

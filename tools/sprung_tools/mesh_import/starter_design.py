@@ -114,12 +114,24 @@ def format_section(curve: str, section: PlaneSection, mesh: LineMesh, units: Uni
     moment = None if section.second_moment is None else units.length**4 * section.second_moment
     lines += [format_number("area", area, "m²"), format_number("second_moment", moment, "m⁴, for bending in the plane")]
     density = mesh.materials[section.material].density if known else None
-    if section.extra_mass and area is not None and density is not None:
-        whole = units.density * density * area + units.mass_per_length * section.extra_mass
-        lines.append(format_number("mass_per_length", whole, "kg/m"))
+    if section.extra_mass:
+        lines += format_mass_per_length(area, density, units.mass_per_length * section.extra_mass, units)
     if section.members != 1:
         lines.append(f"count = {section.members}")
     return lines
+
+
+def format_mass_per_length(area: float | None, density: float | None, extra: float, units: Units) -> list[str]:
+    """The mass per length of a section with non-structural mass. area [m²], extra [kg/m], density in the source's unit.
+
+    A source without a density has this mass alone, so the design has it, too. Without an area it is left open.
+    """
+    if density is None:
+        text = "the non-structural mass alone, since the source gives no density: with one, add density · area"
+        return [*make_comment(text), format_number("mass_per_length", extra, "kg/m")]
+    if area is None:
+        return [f"# mass_per_length =   # kg/m: density · area, and {extra:.9g} of non-structural mass"]
+    return [format_number("mass_per_length", units.density * density * area + extra, "kg/m")]
 
 
 def list_masses(
