@@ -167,6 +167,38 @@ class OfDecks(StarterCase):
         self.assertAlmostEqual(mass["mass"], 500.0)
         self.assertAlmostEqual(mass["inertia"], 3.0 * 1e3 * 1e-6)  # about z, t mm²
 
+    def test_wtmass_multiplies_all_masses_and_a_weight_in_place_of_a_density_is_remarked(self):
+        # A deck in inches and pounds: steel weighs 0.283 lbf/in³, and 1/g is 0.00259 s²/in. The unit of mass is
+        # 1 lbf s²/in = 4.4482216 / 0.0254 kg. Nastran multiplies densities, masses per length and point masses.
+        deck = NASTRAN.replace("GRID,2,,1.", "GRID,2,,100.").replace(
+            "ENDDATA", "PBAR,1,1,2.,3.,4.,,5.\nMAT1,1,3.+7,,.3,.283\nCONM2,9,2,,50.,,,,\n,1.,,2.,,,3.\nENDDATA"
+        )
+        in_bulk = deck.replace("ENDDATA", "PARAM,WTMASS,.00259\nPARAM,POST,-1\nENDDATA")
+        before = "CEND\nPARAM   WTMASS  2.59-3\n" + deck
+        for place, text in enumerate((in_bulk, before)):
+            with self.subTest(place):
+                told, found = self.convert_text(f"{place}.bdf", text, "--scale", "0.0254", "--force", "4.4482216")
+                (self.folder / "frame.toml").unlink()
+                self.assertNotIn("Remark", told)
+                self.assertNotIn("WTMASS", told)
+                design = self.read(found)
+                pound = 0.00259 * 4.4482216 / 0.0254  # kg
+                for value, expected in (
+                    (design["materials"]["material_1"]["density"], 0.283 * pound / 0.0254**3),
+                    (design["sections"]["property_1"]["mass_per_length"], (0.283 * 2.0 + 5.0) * pound / 0.0254),
+                    (design["point_masses"][0]["mass"], 50.0 * pound),
+                    (design["point_masses"][0]["inertia"], 3.0 * pound * 0.0254**2),
+                ):
+                    self.assertAlmostEqual(value / expected, 1.0, places=12)
+        told, _ = self.convert_text("weight.bdf", deck, "--scale", "0.0254", "--force", "4.4482216")
+        self.assertIn("Remark: the density of '1' is 3.02e+06 kg/m³: is it in units of mass, here of 175.127 kg", told)
+        for bad, message in (
+            ("PARAM,WTMASS,0.\n", "c.bdf:9: error: PARAM: WTMASS is 0, expected a factor > 0 of all masses"),
+            ("PARAM,WTMASS,2.\nPARAM,WTMASS,3.\n", "c.bdf:10: error: PARAM: WTMASS is 3 here and 2 elsewhere"),
+        ):
+            (self.folder / "c.bdf").write_text(deck.replace("ENDDATA", f"{bad}ENDDATA"), encoding="utf-8")
+            self.assert_refuses(self.run_tool("convert_mesh", "c.bdf", "c.msh"), message)
+
     def test_a_line_with_a_middle_node_becomes_two_and_keeps_its_bend(self):
         deck = "*NODE\n1, 0., 0.\n2, 1., 0.2\n3, 2., 0.\n4, 3., 0.\n5, 4., 0.\n"
         deck += "*ELEMENT, TYPE=B32R, ELSET=A\n1, 1, 2, 3\n"

@@ -56,8 +56,8 @@ class Card(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """What a deck holds. before: its lines before the bulk data that say something; has_end: whether ENDDATA ends
-    it."""
+    """What a deck holds. cards: those of the bulk data, and each PARAM before it; before: the other lines before the
+    bulk data that say something; has_end: whether ENDDATA ends it."""
 
     cards: list[Card]
     before: list[str]
@@ -96,7 +96,13 @@ def read_cards(path: str) -> Cards:
     has_end = add_cards(path, lines, begin, cards, [os.path.realpath(path)])
     if not cards:
         raise InputError(f"{path}: error: has no bulk data: not a Nastran deck, or truncated")
-    before = [line for line in lines[: max(begin - 1, 0)] if line.partition("$")[0].strip()]
+    before = []
+    for number, line in enumerate(lines[: max(begin - 1, 0)], start=1):
+        name, fields = split_fields(line)
+        if name.rstrip("*").upper() == "PARAM":
+            cards.append(Card("PARAM", fields, path, number))
+        elif line.partition("$")[0].strip():
+            before.append(line)
     return Cards(cards, before, has_end)
 
 

@@ -37,6 +37,8 @@ def read_nastran(path: str) -> LineMesh:
     if found.before:
         deck.left_behind.append(f"executive and case control ({len(found.before)} lines)")
     mesh = deck.make_mesh()
+    if deck.mass_factor is not None:
+        multiply_masses(mesh, deck.mass_factor)
     if not found.has_end:
         mesh.doubts.append("no ENDDATA ends the deck, as in punch files: is the file whole?")
     return mesh
@@ -56,6 +58,7 @@ class Deck:
         self.properties: dict[str, Card] = {}  # id → card
         self.materials: dict[str, Card] = {}  # id → card
         self.masses: list[Card] = []
+        self.mass_factor: float | None = None  # PARAM,WTMASS
         self.node_sets: dict[str, list[int]] = {}  # name → node ids
         self.others: dict[str, list[str]] = {}  # name of any other card → ids
         self.not_kept: dict[str, list[int]] = {"hinges (pin flags)": [], "offsets": []}  # element ids
@@ -79,6 +82,8 @@ class Deck:
             self.keep(card, self.materials)
         elif card.name in nastran_sections.MASS_CARDS:
             self.masses.append(card)
+        elif card.name == "PARAM" and card.field(0).upper() == "WTMASS":
+            self.read_mass_factor(card)
         elif card.name == "SET1":
             name = f"set_{card.integer(0, 'set number')}"
             if name in self.node_sets:
@@ -92,6 +97,15 @@ class Deck:
         if card.field(0) in kept and kept[card.field(0)].fields != card.fields:
             card.fail(f"{card.field(0)} is defined twice")
         kept[card.field(0)] = card
+
+    def read_mass_factor(self, card: Card) -> None:
+        """Reads PARAM,WTMASS. InputError if it is not positive, or differs from an earlier one."""
+        factor = card.real(1, "number")
+        if not factor > 0.0:
+            card.fail(f"WTMASS is {factor:g}, expected a factor > 0 of all masses")
+        if self.mass_factor not in (None, factor):
+            card.fail(f"WTMASS is {factor:g} here and {self.mass_factor:g} elsewhere")
+        self.mass_factor = factor
 
     def read_node(self, card: Card) -> None:
         node = card.integer(0, "node number")
@@ -219,6 +233,18 @@ class Deck:
         texts += [f"{what} of elements {shorten(found)}" for what, found in self.not_kept.items() if found]
         texts += [f"{name} {shorten(filter(None, found))}".rstrip() for name, found in self.others.items()]
         return texts + self.left_behind
+
+
+def multiply_masses(mesh: LineMesh, factor: float) -> None:
+    """Multiplies every density, mass per length and point mass, as PARAM,WTMASS does."""
+    for name, material in mesh.materials.items():
+        if material.density is not None:
+            mesh.materials[name] = material._replace(density=factor * material.density)
+    mesh.sections = [one._replace(extra_mass=factor * one.extra_mass) for one in mesh.sections]
+    mesh.point_masses = [
+        one._replace(mass=factor * one.mass, inertia=None if one.inertia is None else factor * one.inertia)
+        for one in mesh.point_masses
+    ]
 
 
 def read_members(card: Card) -> Iterator[int]:

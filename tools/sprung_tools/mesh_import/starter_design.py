@@ -23,6 +23,8 @@ ALL_MODES = 300  # freedoms up to which the starter design asks for all modes
 FEW_MODES = 12  # that it asks for beyond
 UNKNOWN = "unknown"  # name of the material of sections whose material the source does not say
 WIDTH = 118  # of a comment's lines
+LIKELY_MODULI = (1e8, 2e12)  # Pa, of materials of frames
+LIKELY_DENSITIES = (10.0, 3e4)  # kg/m³, from foam to what is heavier than any metal
 
 
 def format_design(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units, mesh_name: str) -> str:
@@ -187,7 +189,8 @@ def name_reference(frame: PlaneFrame, points: list[str]) -> str:
 
 
 def find_doubts(mesh: LineMesh, frame: PlaneFrame, units: Units) -> list[str]:
-    """What makes it doubtful that the source's units were given right: sizes and moduli that no vehicle's frame has."""
+    """What makes it doubtful that the source's units were given right: sizes, moduli and densities that no vehicle's
+    frame has."""
     doubts = []
     extent = float(np.max(np.ptp(frame.positions, axis=0)))
     if extent > 100.0:
@@ -196,10 +199,20 @@ def find_doubts(mesh: LineMesh, frame: PlaneFrame, units: Units) -> list[str]:
         doubts.append(f"the frame is {extent:g} m long: see --scale")
     used = {mesh.sections[k].material for k in np.unique(mesh.section_of) if k >= 0}
     for name in sorted(used & set(mesh.materials)):
-        modulus = mesh.materials[name].youngs_modulus
-        if modulus is not None and not 1e8 <= units.stress * modulus <= 2e12:
+        modulus, density = mesh.materials[name].youngs_modulus, mesh.materials[name].density
+        if modulus is not None and not is_within(LIKELY_MODULI, units.stress * modulus):
             doubts.append(
                 f"Young's modulus of '{name}' is {units.stress * modulus:.3g} Pa: are length and force in metres and "
                 "newtons? See --scale and --force"
             )
+        if density is not None and not is_within(LIKELY_DENSITIES, units.density * density):
+            doubts.append(
+                f"the density of '{name}' is {units.density * density:.3g} kg/m³: is it in units of mass, here of "
+                f"{units.mass:g} kg, and not of weight? See --scale and --force"
+            )
     return doubts
+
+
+def is_within(bounds: tuple[float, float], value: float) -> bool:
+    """Whether a value is between two bounds."""
+    return bounds[0] <= value <= bounds[1]
