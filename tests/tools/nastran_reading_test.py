@@ -70,6 +70,45 @@ class Reading(ToolTestCase):
         own = NASTRAN.replace("GRID,1,,0.,0.,0.\n", turned).replace("1,2,0.,1.,0.", "1,2,1.,0.,0.")
         np.testing.assert_allclose(self.read(own).heights, [[0.0, 1.0, 0.0]], atol=1e-15)
 
+    def test_an_orientation_in_the_basic_system_by_offt(self):
+        # Quick Reference Guide, CBAR: OFFT = "BGG" gives the orientation in the basic system, "GGG" (the default)
+        # in the displacement system of end A. The x axis of system 5 is the basic y, its y axis the basic z.
+        turned = "CORD2R,5,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nGRID,1,,0.,0.,0.,5\n"
+        for orientation, expected in (
+            ("CBAR,1,1,1,2,0.,1.,0.,BGG", [0.0, 1.0, 0.0]),
+            ("CBAR,1,1,1,2,0.,1.,0.,GGG", [0.0, 0.0, 1.0]),
+            ("BAROR,,,,,0.,1.,0.,bgo\nCBAR,1,1,1,2", [0.0, 1.0, 0.0]),
+            ("BAROR,,,,,,,,BGG\nCBAR,1,1,1,2,0.,1.,0.,GGG", [0.0, 0.0, 1.0]),
+        ):
+            with self.subTest(orientation):
+                deck = NASTRAN.replace("GRID,1,,0.,0.,0.\n", turned).replace("CBAR,1,1,1,2,0.,1.,0.", orientation)
+                np.testing.assert_allclose(self.read(deck).heights, [expected], atol=1e-15)
+
+    def test_a_mass_whose_position_is_in_the_basic_system(self):
+        # Quick Reference Guide, CONM2: with CID = -1, X1 to X3 are the position of the mass in the basic system, and
+        # its moments of inertia are about axes parallel to those of it. Node 3 is at (2, 90°) of a cylindrical system.
+        nodes = "CORD2C,2,0,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,3,2,2.,90.,0.\n"
+        inertia = "\n,1.,,2.,,,3."
+        for mass, left_out in (
+            ("CONM2,9,3,-1,10.,0.,2.,0.,", ""),
+            (f"CONM2,9,3,-1,10.,0.,2.,0.,{inertia}", ""),
+            ("CONM2,9,3,-1,10.,0.,0.,0.,", "it is away from its node by 0, -2, 0"),
+            ("CONM2,9,1,-1,10.", ""),
+            ("CONM2,9,3,,10.,0.,2.,0.,", "it is away from its node by 0, 2, 0"),
+            (f"CONM2,9,3,2,10.,,,,{inertia}", "its moments of inertia are in coordinate system 2"),
+        ):
+            with self.subTest(mass):
+                (one,) = self.read(NASTRAN.replace("ENDDATA", f"{nodes}{mass}\nENDDATA")).point_masses
+                self.assertEqual(one.left_out, left_out)
+
+    def test_the_taper_of_a_tube_is_listed(self):
+        for taper, left_out in (
+            ("", ()), (",.1", ()), (",.3", ("its taper to the diameter 0.3: the section at end A is taken",)),
+        ):  # fmt: skip
+            with self.subTest(taper):
+                deck = NASTRAN.replace("CBAR,1,1,1,2,0.,1.,0.", f"CTUBE,1,8,1,2\nPTUBE,8,3,.1,.005,{taper}")
+                self.assertEqual(self.read(deck).sections[0].left_out, left_out)
+
     def read_shape(self, card):
         """The shape of a property."""
         return self.read(NASTRAN.replace("ENDDATA", f"{card}\nENDDATA")).sections[0].shape

@@ -157,6 +157,10 @@ class Deck:
         if text.isdecimal() and not source.field(5) and not source.field(6):
             return self.find_node(source, int(text)) - begin
         vector = [source.real(place, "number") for place in (4, 5, 6)]
+        default = self.defaults.get(card.name)
+        frames = card.field(7) or (default.field(7) if default else "")  # OFFT: of the orientation, and of both offsets
+        if frames[:1].upper() == "B":  # the basic system
+            return np.array(vector)
         system = self.nodes[ends[0]].integer(5, "coordinate system", self.default_system(5))
         return self.systems.turn(card, max(system, 0), vector, begin)
 
@@ -191,7 +195,7 @@ class Deck:
             section_of=section_of,
             heights=np.array([self.find_height(*one) for one in self.elements.values()]).reshape(-1, 3),
             materials={name: nastran_sections.read_material(card) for name, card in self.materials.items()},
-            point_masses=[nastran_sections.read_mass(card, number) for card in self.masses],
+            point_masses=[nastran_sections.read_mass(card, number, self.find_node) for card in self.masses],
         )  # fmt: skip
 
     def read_sections(self) -> tuple[list[Section], np.ndarray]:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape
 from sprung_tools.mesh_import.nastran_cards import Card
 from sprung_tools.mesh_import.section_shapes import (
@@ -42,6 +43,7 @@ SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
 SECTION_CARDS = {"PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE"}
 MATERIAL_CARDS = {"MAT1"}
 MASS_CARDS = {"CONM2"}
+SAME_PLACE = 1e-9  # relative to the node's distance from the origin, within which a mass is at its node
 
 
 def read_section(card: Card) -> Section:
@@ -60,7 +62,9 @@ def read_section(card: Card) -> Section:
     if card.name == "PTUBE":
         diameter, wall = card.real(2, "diameter"), card.real(3, "wall")
         shape = make_shape(card, make_tube, [diameter / 2.0, max(diameter / 2.0 - wall, 0.0) if wall else 0.0])
-        return Section(text, material, shape, False, card.real(4, "mass per length"))
+        other = card.real(5, "diameter") if card.field(5) else diameter
+        taper = (f"its taper to the diameter {other:g}: the section at end A is taken",) if other != diameter else ()
+        return Section(text, material, shape, False, card.real(4, "mass per length"), taper)
     shape = make_general(card.real(2, "area"), [0.0, 0.0, 0.0])
     return Section(text, material, shape, False, card.real(5, "mass per length"))
 
@@ -130,18 +134,26 @@ def read_material(card: Card) -> Material:
     return Material(card.field(0), modulus or None, given_ratio, density or None)
 
 
-def read_mass(card: Card, number: Mapping[int, int]) -> PointMass:
-    """Reads a CONM2. number: id of a node → its 0-based number. InputError if the node is not there."""
+def read_mass(card: Card, number: Mapping[int, int], find_node: Callable[[Card, int], Floats]) -> PointMass:
+    """Reads a CONM2. InputError if its node is not there.
+
+    number: id of a node → its 0-based number; find_node: the position of a node in the basic system [3], by its id.
+    """
     node = card.integer(1, "node")
     if node not in number:
         card.fail(f"names node {node}, which is not there: truncated?")
-    offset = [card.real(place, "offset") for place in (4, 5, 6)]
+    offset = np.array([card.real(place, "offset") for place in (4, 5, 6)])
+    system = card.integer(2, "coordinate system", 0)
+    if system == -1:  # the numbers are the mass's position, and its axes are those of the basic system
+        position = find_node(card, node)
+        offset = offset - position
+        offset[np.abs(offset) <= SAME_PLACE * np.linalg.norm(position)] = 0.0
     i11, i21, i22, i31, i32, i33 = (card.real(place, "moment of inertia") for place in range(8, 14))
     inertia = np.array([[i11, -i21, -i31], [-i21, i22, -i32], [-i31, -i32, i33]])
     reason = ""
-    if any(offset):
+    if np.any(offset):
         reason = f"it is away from its node by {', '.join(f'{one:g}' for one in offset)}"
-    elif card.integer(2, "coordinate system", 0) != 0 and np.any(inertia):
+    elif system > 0 and np.any(inertia):
         reason = f"its moments of inertia are in coordinate system {card.field(2)}"
     mass = card.real(3, "mass")
     return PointMass(f"CONM2 {card.field(0)}, {mass:g} at node {node}", number[node], mass, inertia, reason)
