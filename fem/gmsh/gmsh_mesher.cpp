@@ -145,6 +145,13 @@ GmshContents get_contents() {
   return contents;
 }
 
+// gmsh applies this option of a script when it saves a mesh, not when it makes one.
+void scale_as_saved(GmshContents& contents) {
+  double factor = 1.0;
+  gmsh::option::getNumber("Mesh.ScalingFactor", factor);
+  for (GmshContents::Node& node : contents.nodes) node.position *= factor;
+}
+
 // gmsh's tags count from 1, so point p has tag p + 1 and line l has tag l + 1; sections are tagged by first
 // use.
 void build_lines(const FrameGeometry& geometry) {
@@ -253,7 +260,11 @@ Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimit
     gmsh::open(path.string());
     if (is_script) gmsh::model::mesh::generate(1);
     GmshContents read = get_contents();
-    if (!is_script) check_counts(declared, read);
+    if (is_script) {
+      scale_as_saved(read);
+    } else {
+      check_counts(declared, read);
+    }
     return read;
   });
   if (!is_script) replace_groups(declared, contents);

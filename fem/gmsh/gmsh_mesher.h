@@ -21,7 +21,8 @@ namespace sprung::fem {
 /// Checked by tests/fem/gmsh/gmsh_mesher_test.cpp
 Mesh mesh_lines(const FrameGeometry& geometry);
 
-/// Reads a `.geo` (meshed along its curves) or a `.msh` file, format 2.2 or 4.1, text or binary.
+/// Reads a `.geo` (meshed along its curves, and scaled by its Mesh.ScalingFactor) or a `.msh` file,
+/// format 2.2 or 4.1, text or binary.
 ///
 /// Sections are the names of the physical curves, named nodes those of the physical points. Nodes are in
 /// ascending order of the file's numbers, elements likewise, each in the direction that its physical curve

@@ -177,6 +177,17 @@ TEST_CASE("Both mesh formats, text and binary, give the mesh of the .geo file") 
   }
 }
 
+TEST_CASE("A .geo file is scaled by its Mesh.ScalingFactor, as gmsh scales the mesh that it saves") {
+  const std::string script =
+      "Point(1) = {100, 200, 50}; Point(2) = {1500, 900, 50}; Line(1) = {1, 2};"
+      "Transfinite Curve {1} = 3; Physical Curve(\"bar\") = {1};\n"
+      "Mesh.ScalingFactor = 0.001;\n";
+  const Mesh mesh = read_gmsh_file(test::write_file("millimetres.geo", script));
+  Eigen::Matrix<double, 2, 3> expected;  // [m], the middle last; gmsh 4.8 saves the same numbers
+  expected << 0.1, 1.5, 0.8, 0.2, 0.9, 0.55;
+  CHECK((mesh.node_positions - expected).lpNorm<Eigen::Infinity>() < kGmshPlacing);
+}
+
 TEST_CASE("Reading is repeatable, independent of earlier files") {
   const Mesh before = read_gmsh_file(test::get_data("portal.geo"));
   const std::string script =
