@@ -20,7 +20,8 @@ using support::TomlDocument;
 using support::TomlTable;
 using support::TomlValue;
 
-constexpr double kStep = 1e-3;  // of a number, or of the frame's extent
+constexpr double kStep = 1e-3;            // of a number
+constexpr double kCoordinateStep = 1e-4;  // of the frame's extent, small beside the length of a short spring
 
 struct Number {
   std::string key, unit;
@@ -206,7 +207,7 @@ void add_coordinates(const DesignVariation& variation, const TomlTable& root, co
     for (const TomlValue& coordinate : point.items()) {
       add_parameter(variation, &DesignVariation::read_changed_nodes,
                     {coordinate.key(), "m", coordinate.number(support::any("m"))},
-                    kStep * fem::calc_extent(mesh), listed);
+                    kCoordinateStep * fem::calc_extent(mesh), listed);
     }
   }
 }

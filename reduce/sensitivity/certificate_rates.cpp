@@ -17,7 +17,7 @@ namespace sprung::reduce {
 namespace {
 
 constexpr double kJustAbove = 1.0 + 1e-6;  // of the next mode's frequency: it is below
-constexpr double kSolved = 1e-13;          // relative residual of a mode's derivative
+constexpr double kSolved = 1e-13;          // residual of a mode's derivative, of the norms of its forces
 constexpr int kMostIterations = 2000;
 
 }  // namespace
@@ -27,8 +27,9 @@ struct CertificateRates::Tangent {
   const FrameRates& rates;
   const RigidMotions& rigid;
   const Eigen::MatrixXd& rigid_momenta;
-  Eigen::MatrixXd loads;    // B_X'
-  Eigen::MatrixXd vectors;  // U'
+  Eigen::MatrixXd mode_momenta;  // (M Φ)'
+  Eigen::MatrixXd loads;         // B_X'
+  Eigen::MatrixXd vectors;       // U'
 
   // (M − QQᵀ)' x.
   Eigen::MatrixXd times_mass(const Eigen::MatrixXd& x) const {
@@ -105,7 +106,8 @@ void CertificateRates::take_steps(const std::vector<ResidualSource>& sources) {
     const Eigen::VectorXd u =
         matrices_.factor->solve(calc_residual(step.source.load, step.source.omega_squared, step.amplitudes));
     step.overlap = forces_.leftCols(i).transpose() * u;
-    const Eigen::VectorXd fresh = u - vectors_.leftCols(i) * step.overlap;
+    Eigen::VectorXd fresh = u - vectors_.leftCols(i) * step.overlap;
+    fresh -= modes_.vectors * (mode_momenta_.transpose() * fresh);
     step.size = std::sqrt(fresh.dot(matrices_.held.stiffness * fresh));
     vectors_.col(i) = fresh / step.size;
     forces_.col(i) = matrices_.held.stiffness * vectors_.col(i);
@@ -131,27 +133,43 @@ void CertificateRates::set_bounds(const BandErrors& errors) {
 }
 
 // The part of Φ' that is not of Φ: (K − ω²M) x = −(K' − ω²M')φ there, by conjugate gradients with K as
-// preconditioner, which the bound (reduce/certificate, eq. 1) makes a good one. All modes at once.
+// preconditioner, which the bound (reduce/certificate, eq. 1) makes a good one. All modes at once. The matrix
+// is positive definite in the complement of Φ alone, where residuals and directions are kept.
 Eigen::MatrixXd CertificateRates::calc_mode_rates(const Tangent& tangent) const {
   const Eigen::MatrixXd& Phi = modes_.vectors;
   const auto diagonal = modes_.omega_squared.asDiagonal();
+  const StiffnessFactor& factor = *matrices_.factor;
   const auto project = [&](Eigen::MatrixXd& forces) { forces -= mode_momenta_ * (Phi.transpose() * forces); };
-  Eigen::MatrixXd r = tangent.times_mass(Phi) * diagonal - tangent.rates.stiffness * Phi;
+  const auto precondition = [&](const Eigen::MatrixXd& forces) {
+    Eigen::MatrixXd shapes = factor.solve(forces);
+    shapes -= Phi * (mode_momenta_.transpose() * shapes);
+    return shapes;
+  };
+  const auto calc_work = [](const Eigen::MatrixXd& forces,
+                            const Eigen::MatrixXd& shapes) -> Eigen::RowVectorXd {
+    return forces.cwiseProduct(shapes).colwise().sum();
+  };
+  const Eigen::MatrixXd inertia = tangent.times_mass(Phi) * diagonal,
+                        stiffness = tangent.rates.stiffness * Phi;
+  // Of forces that cancel, or that have no part outside of Φ, rounding is left.
+  const Eigen::RowVectorXd allowed =
+      kSolved * kSolved *
+      (calc_work(inertia, factor.solve(inertia)) + calc_work(stiffness, factor.solve(stiffness)));
+  Eigen::MatrixXd r = inertia - stiffness;
   project(r);
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(r.rows(), r.cols()), z = matrices_.factor->solve(r), p = z;
-  Eigen::RowVectorXd rz = r.cwiseProduct(z).colwise().sum();
-  const Eigen::RowVectorXd first = rz;
-  for (int iteration = 0; (rz.array() > kSolved * kSolved * first.array()).any(); ++iteration) {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(r.rows(), r.cols()), z = precondition(r), p = z;
+  Eigen::RowVectorXd rz = calc_work(r, z);
+  for (int iteration = 0; (rz.array() > allowed.array()).any(); ++iteration) {
     if (iteration == kMostIterations)
       throw support::NumericalError("sensitivity: the derivatives of the free modes do not converge");
     const Eigen::MatrixXd Ap = matrices_.free.stiffness * p - matrices_.free.times_mass(p) * diagonal;
-    const Eigen::RowVectorXd pAp = p.cwiseProduct(Ap).colwise().sum();
+    const Eigen::RowVectorXd pAp = calc_work(p, Ap);
     const Eigen::RowVectorXd step = (pAp.array() > 0.0).select(rz.cwiseQuotient(pAp), 0.0);
     x += p * step.asDiagonal();
     r -= Ap * step.asDiagonal();
     project(r);
-    z = matrices_.factor->solve(r);
-    const Eigen::RowVectorXd next = r.cwiseProduct(z).colwise().sum();
+    z = precondition(r);
+    const Eigen::RowVectorXd next = calc_work(r, z);
     const Eigen::RowVectorXd turn = (rz.array() > 0.0).select(next.cwiseQuotient(rz), 0.0);
     p = z + p * turn.asDiagonal();
     rz = next;
@@ -187,7 +205,8 @@ Eigen::VectorXd CertificateRates::calc_amplitude_rates(const Tangent& tangent, E
                            right);
 }
 
-// U', but for what is of U itself.
+// U', but for what is of U itself. That U holds nothing of Φ has to be kept: K⁻¹(K − sM) multiplies what
+// rounding leaves of a mode by 1 − s/ω², for each vector again.
 void CertificateRates::follow_vectors(Tangent& tangent) const {
   tangent.vectors.setZero(vectors_.rows(), vectors_.cols());
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -198,7 +217,10 @@ void CertificateRates::follow_vectors(Tangent& tangent) const {
     const Eigen::VectorXd u = step.size * vectors_.col(column) + vectors_.leftCols(column) * step.overlap;
     const Eigen::VectorXd rate = matrices_.factor->solve(
         calc_residual_rate(tangent, load, s, step.amplitudes, of_amplitudes) - tangent.rates.stiffness * u);
-    tangent.vectors.col(column) = (rate - tangent.vectors.leftCols(column) * step.overlap) / step.size;
+    Eigen::VectorXd fresh = (rate - tangent.vectors.leftCols(column) * step.overlap) / step.size;
+    fresh -= modes_.vectors *
+             (mode_momenta_.transpose() * fresh + tangent.mode_momenta.transpose() * vectors_.col(column));
+    tangent.vectors.col(column) = fresh;
   }
 }
 
@@ -206,8 +228,12 @@ Eigen::VectorXd CertificateRates::calc_rates(const FrameRates& rates,
                                              const Eigen::VectorXd& flexibility_rate) const {
   Eigen::VectorXd share_rates = Eigen::VectorXd::Zero(shares_.size());
   if (bounds_.empty()) return share_rates;
-  Tangent tangent{
-      .rates = rates, .rigid = matrices_.rigid, .rigid_momenta = rigid_momenta_, .loads = {}, .vectors = {}};
+  Tangent tangent{.rates = rates,
+                  .rigid = matrices_.rigid,
+                  .rigid_momenta = rigid_momenta_,
+                  .mode_momenta = mode_momenta_,
+                  .loads = {},
+                  .vectors = {}};
   const auto inverse = matrices_.rigid.mass.llt();
   const Eigen::MatrixXd motion = inverse.solve(rigid_work_);
   tangent.loads =
@@ -216,9 +242,8 @@ Eigen::VectorXd CertificateRates::calc_rates(const FrameRates& rates,
     const Eigen::MatrixXd Phi_rates = calc_mode_rates(tangent);
     const Eigen::MatrixXd share_of_modes =
         Phi_rates.transpose() * balanced_ + modes_.vectors.transpose() * tangent.loads;
-    tangent.loads -=
-        (tangent.times_mass(modes_.vectors) + matrices_.free.times_mass(Phi_rates)) * mode_loads_ +
-        mode_momenta_ * share_of_modes;
+    tangent.mode_momenta = tangent.times_mass(modes_.vectors) + matrices_.free.times_mass(Phi_rates);
+    tangent.loads -= tangent.mode_momenta * mode_loads_ + mode_momenta_ * share_of_modes;
   }
   follow_vectors(tangent);
   const double cutoff = next_.omega_squared.mean();
