@@ -14,6 +14,7 @@ namespace sprung::reduce {
 ///
 /// @param problem, modes  of the free body (free_body.h), and its modes below kBandMargin ·
 /// request.highest_hz
+/// @param rigid            its shapes are zero at nodes that follow others, which have no freedoms
 /// @param stiffness, mass  3N×3N, of the free frame
 /// @throws support::NumericalError if the interface freedoms do not hold the body, or no vector is left
 /// Checked by tests/reduce/basis/fixed_interface_basis_test.cpp

@@ -37,6 +37,13 @@ Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors
   return fem::move_followers(design.model.couplings, insert_node(vectors, design.reference_node));
 }
 
+// Rigid motions of the nodes that have freedoms of their own.
+RigidMotions make_leaders_motions(const Design& design, RigidMotions rigid) {
+  for (const fem::Coupling& coupling : design.model.couplings)
+    rigid.shapes.middleRows<3>(3 * coupling.node).setZero();
+  return rigid;
+}
+
 // Vectors of the held frame, in the canonical basis of their clusters.
 struct CanonicalVectors {
   Eigen::MatrixXd vectors;    // (3N−3)×n
@@ -156,10 +163,11 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
     throw support::NumericalError("no elastic mode of the free body was found, though the count has one");
   request.rounding = check_rounding(design, matrices.free.stiffness, lowest.pairs);
   const bool is_free = design.reduction.basis == BasisKind::kFree;
-  const FreeBodyBasis found =
-      is_free ? make_free_basis(matrices.free, factor, modes, request)
-              : make_fixed_interface_basis(matrices.free, factor, modes, request, matrices.rigid,
-                                           matrices.full.stiffness, matrices.full.mass);
+  const FreeBodyBasis found = is_free
+                                  ? make_free_basis(matrices.free, factor, modes, request)
+                                  : make_fixed_interface_basis(matrices.free, factor, modes, request,
+                                                               make_leaders_motions(design, matrices.rigid),
+                                                               matrices.full.stiffness, matrices.full.mass);
   BodyBasis basis;
   basis.cluster = find_clusters(found.vectors.omega_squared);
   std::vector<int> columns(found.kind.size());

@@ -187,6 +187,24 @@ point = "wall"
         np.testing.assert_allclose(moved, summed, rtol=1e-8, atol=1e-15)
         self.assertAlmostEqual(spread.sum(), 1.0, places=12)
 
+    def test_a_fixed_interface_takes_followers_along(self):
+        """The truth are the frequencies of the free body, which the basis holds the better the more of its modes it has.
+        A point that only follows changes nothing."""
+        interface = '[interface]\n{} = "xyr"\n{} = "xyr"\n'
+        fixed = FREE.replace("[reduction]", '[reduction]\nbasis = "fixed-interface"').replace("300.0", "3000.0")
+        eccentric = interface.format("wall", "tip")
+        with self.make_body(make_eccentric(8, ending=eccentric + FREE)) as file:
+            expected = file["modes/frequency"][()][:2]
+        with self.make_body(make_eccentric(8, ending=eccentric + fixed)) as file:
+            np.testing.assert_allclose(file["modes/frequency"][()][:2], expected, rtol=1e-4)
+        averaged = make_averaged(ending=interface.format("end0", "foot2") + fixed)
+        with self.make_body(averaged) as file:
+            frequencies = file["modes/frequency"][()]
+        start, end = averaged.index("[[averages]]"), averaged.index("[reference]")
+        alone = averaged[:start] + averaged[end:]
+        with self.make_body("\n".join(line for line in alone.splitlines() if not line.startswith("load ="))) as file:
+            np.testing.assert_allclose(frequencies, file["modes/frequency"][()], rtol=1e-7)
+
     def test_couplings_that_are_refused(self):
         eccentric, averaged = make_eccentric(2), make_averaged()
         again = '[[rigid_offsets]]\nfrom = "wall"\nto = "weight"\n[reference]'
