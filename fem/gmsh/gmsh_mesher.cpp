@@ -245,7 +245,8 @@ Mesh mesh_lines(const FrameGeometry& geometry) {
   return make_mesh(std::move(contents), where, geometry.may_have_parts);
 }
 
-Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits) {
+Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits,
+                    bool may_have_parts) {
   const support::SourceLocation where{.path = path.string()};
   const bool is_script = path.extension() == ".geo";
   MshDeclaration declared;
@@ -268,7 +269,7 @@ Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimit
     return read;
   });
   if (!is_script) replace_groups(declared, contents);
-  return make_mesh(std::move(contents), where);
+  return make_mesh(std::move(contents), where, may_have_parts);
 }
 
 }  // namespace sprung::fem

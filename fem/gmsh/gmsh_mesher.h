@@ -31,12 +31,14 @@ Mesh mesh_lines(const FrameGeometry& geometry);
 ///
 /// @param path    ends in .geo or .msh
 /// @param limits  of the process in which gmsh reads and meshes the file
+/// @param may_have_parts  as in check_mesh
 /// @throws support::InputError `path: error: …` for a file that is missing, empty, of another format or
 ///         version, truncated (fewer nodes or elements than it declares), that gmsh reports as wrong, or on
 ///         which gmsh crashes or exceeds the limits; for a line in no physical curve, in two, or in one
 ///         without a name; for elements that are no lines, or of higher order; for z that is not constant;
 ///         for a physical point of several points, or through which no line passes; and as check_mesh
 /// Checked by tests/fem/gmsh/gmsh_mesher_test.cpp
-Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits = {});
+Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits = {},
+                    bool may_have_parts = false);
 
 }  // namespace sprung::fem

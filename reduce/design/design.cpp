@@ -41,6 +41,16 @@ void read_point_masses(const TomlTable& root, fem::BeamModel& model) {
   }
 }
 
+// Parts that no line joins may be joined by springs, foundations and points that follow others.
+void check_joined(const fem::BeamModel& model, const support::SourceLocation& where) {
+  std::vector<std::pair<int, int>> links;
+  for (const fem::Coupling& coupling : model.couplings) {
+    for (const fem::Coupling::Leader& leader : coupling.leaders)
+      links.emplace_back(coupling.node, leader.node);
+  }
+  fem::check_connected(model.mesh, links, where);
+}
+
 // Files that a design names, and their hashes.
 struct InputFiles {
   std::vector<std::string> names, hashes;
@@ -55,6 +65,7 @@ InputFiles read_beams(const TomlTable& root, const std::filesystem::path& folder
     design.model.sections.push_back(sections.at(name));
   read_couplings(root, design.model);
   read_foundations(root, design.model);
+  check_joined(design.model, root.location());
   return {std::move(frame.input_names), std::move(frame.input_hashes)};
 }
 

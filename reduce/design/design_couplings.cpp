@@ -93,13 +93,6 @@ void read_couplings(const TomlTable& root, fem::BeamModel& model) {
     for (const TomlValue& item : averages->items()) read_average(item.table(), model);
   }
   check_leaders(model, root);
-  if (model.couplings.empty()) return;
-  std::vector<std::pair<int, int>> links;
-  for (const fem::Coupling& coupling : model.couplings) {
-    for (const fem::Coupling::Leader& leader : coupling.leaders)
-      links.emplace_back(coupling.node, leader.node);
-  }
-  fem::check_connected(model.mesh, links, root.location());
 }
 
 void expect_no_follower(const fem::BeamModel& model, int node, const TomlValue& value, const char* needs) {

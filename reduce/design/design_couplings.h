@@ -11,10 +11,9 @@ namespace sprung::reduce {
 /// Points that follow others by `[[rigid_offsets]]` and `[[averages]]`: no line needs to pass through them.
 std::set<std::string> list_followers(const support::TomlTable& root);
 
-/// Reads `[[rigid_offsets]]` and `[[averages]]` of a design whose mesh is made, and checks that lines and
-/// couplings connect all of it.
+/// Reads `[[rigid_offsets]]` and `[[averages]]` of a design whose mesh is made.
 /// @throws support::InputError for a key that is missing, unknown or has a bad value; for a point that
-/// follows twice, itself, or one that follows another; for a frame in parts
+/// follows twice, itself, or one that follows another
 /// Checked by tests/reduce/design/couplings_test.py
 void read_couplings(const support::TomlTable& root, fem::BeamModel& model);
 

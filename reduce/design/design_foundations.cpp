@@ -63,6 +63,8 @@ NodeLine find_facing_line(const fem::Mesh& mesh, const TomlValue& ends, const No
   if (names.size() != 2)
     throw ends.error(fmt::format("names {} points, expected the 2 ends of a line", names.size()));
   NodeLine other = find_line(mesh, names[0], names[1]);
+  // Either end may be named first: springs that cross would all act at one place.
+  if (other.direction.dot(line.direction) < 0.0) other = find_line(mesh, names[1], names[0]);
   bool fits = other.nodes.size() == line.nodes.size();
   for (std::size_t i = 0; fits && i < line.nodes.size(); ++i)
     fits = std::abs(other.places[i] - line.places[i]) <= kFacing && other.nodes[i] != line.nodes[i];

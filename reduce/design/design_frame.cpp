@@ -193,6 +193,11 @@ void assign_tapered_sections(const TomlTable& root, fem::Mesh& mesh) {
   }
 }
 
+// Whether a design has tables that may join parts of its frame beside lines.
+bool has_joining_tables(const TomlTable& root) {
+  return root.has("rigid_offsets") || root.has("averages") || root.has("foundations");
+}
+
 DesignFrame read_lines(const TomlTable& root, const Points& points, const Sections& sections) {
   fem::FrameGeometry geometry;
   std::vector<std::string> point_names;
@@ -202,7 +207,7 @@ DesignFrame read_lines(const TomlTable& root, const Points& points, const Sectio
   if (const auto springs = root.find("springs")) {
     for (const TomlValue& spring : springs->items()) read_spring_line(spring.table(), point_names, geometry);
   }
-  geometry.may_have_parts = root.has("rigid_offsets") || root.has("averages");
+  geometry.may_have_parts = has_joining_tables(root);
   if (geometry.lines.empty()) throw root.at("lines").error("is empty, expected at least one line");
   std::set<std::string> corners;
   for (const fem::FrameGeometry::Line& line : geometry.lines) corners.insert({line.from, line.to});
@@ -256,7 +261,7 @@ DesignFrame read_mesh(const TomlTable& root, const TomlValue& name, const Points
   frame.input_names = {name.string()};
   frame.input_hashes = {calc_file_hash(path)};
   check_self_contained(path);
-  frame.mesh = fem::read_gmsh_file(path);
+  frame.mesh = fem::read_gmsh_file(path, {}, has_joining_tables(root) || root.has("springs"));
   std::vector<std::string> names;
   for (const auto& [known, properties] : sections) names.push_back(known);
   for (const std::string& section : frame.mesh.section_names) {

@@ -135,6 +135,38 @@ damping_ratio = 0.01
         result = self.run_program("check", "out/body.h5")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
+    def test_two_beams_that_a_foundation_alone_joins(self):
+        """Out of phase, the middle of the foundation at rest: ω² = 2k/m for translation along and across. Either end of
+        the second beam may be named first. Without tangential stiffness one beam slides."""
+        stiffness, gap = 4.0e4, 0.3
+        ending = "[reduction]\nhighest_frequency = 40.0\n[modes]\ndamping_ratio = 0.01\n"
+        alone = make_sandwich(gap, stiffness, ending).replace(make_line("a", "c", 1, "stub"), "")
+        for text in (alone, alone.replace('["c", "d"]', '["d", "c"]')):
+            with self.make_body(text) as file:
+                found = file["modes/frequency"][()]
+                self.assertAlmostEqual(file["inertia/mass"][()].item(), 2 * RHO_A * LENGTH, places=9)
+            expected = math.sqrt(2 * stiffness / RHO_A) / (2 * math.pi)
+            np.testing.assert_allclose(found[:2], expected, rtol=1e-3)
+        (self.folder / "body.toml").write_text(alone.replace(f"tangential_stiffness = {stiffness}\n", ""))
+        self.assertRegex(self.build("body.toml", code=3).stderr, "what nothing holds moves most at node")
+        (self.folder / "body.toml").write_text(alone[: alone.index("[[found")] + alone[alone.index("[reference]") :])
+        self.assertIn("the frame falls into 2 parts", self.build("body.toml", code=2).stderr)
+
+    def test_beams_of_a_mesh_file_that_a_foundation_alone_joins(self):
+        """The same body as from lines."""
+        ending = "[reduction]\nhighest_frequency = 40.0\n[modes]\ndamping_ratio = 0.01\n"
+        text = make_sandwich(0.3, 4.0e4, ending).replace(make_line("a", "c", 1, "stub"), "")
+        with self.make_body(text) as file:
+            expected = file["modes/frequency"][()]
+        points = [place(0.0), place(LENGTH), place(0.0, 0.3), place(LENGTH, 0.3)]
+        geometry = [f"Point({i + 1}) = {{{x}, {y}, 0}};" for i, (x, y) in enumerate(points)]
+        geometry += ["Line(1) = {1, 2};", "Line(2) = {3, 4};", "Transfinite Curve {1, 2} = 41;"]
+        geometry += ['Physical Curve("bar") = {1, 2};']
+        (self.folder / "two.geo").write_text("\n".join(geometry) + "\n")
+        start, end = text.index("[[lines]]"), text.index("[[foundations]]")
+        with self.make_body('mesh = "two.geo"\n' + text[:start] + text[end:]) as file:
+            np.testing.assert_allclose(file["modes/frequency"][()], expected, rtol=1e-7)
+
     def read_flexibility(self):
         """Deflections of the points a and b under unit loads there, and the lowest frequency and the mass."""
         self.build("ladder_frame.toml", "--force")
