@@ -14,13 +14,21 @@ namespace {
 constexpr double kLeastShare = 0.5;    // of the nodes that must be common
 constexpr double kLeastOverlap = 0.5;  // mean cos²; below it clusters have nothing to do with each other
 
+// Of the vectors that are modes of the body, free or held at its reference node.
 std::vector<ModeRange> list_clusters(const Superelement& s) {
   std::vector<ModeRange> ranges;
   for (ModeRange range; range.begin < s.cluster.size(); range.begin = range.end) {
     range = find_cluster_of(s.cluster, range.begin);
-    ranges.push_back(range);
+    const std::string kind = s.kind_of(static_cast<int>(range.begin));
+    if (kind == kFreeVector || kind == kClampedVector) ranges.push_back(range);
   }
   return ranges;
+}
+
+Eigen::Index count_others(const Superelement& s, const std::vector<ModeRange>& modes) {
+  Eigen::Index num = s.cluster.size();
+  for (const ModeRange& range : modes) num -= range.size();
+  return num;
 }
 
 // Orthonormal basis of the displacements of a cluster; columns of zeros where it does not move at the places.
@@ -120,7 +128,9 @@ Comparison compare_modes(const Superelement& old_body, const Superelement& new_b
       .comparable = comparable,
       .matches = comparable ? pair_by_overlap(
                                   clusters, calc_overlaps(samples, clusters.old_ranges, clusters.new_ranges))
-                            : pair_in_order(clusters)};
+                            : pair_in_order(clusters),
+      .num_other_old = count_others(old_body, clusters.old_ranges),
+      .num_other_new = count_others(new_body, clusters.new_ranges)};
   for (ModeMatch& match : comparison.matches) {
     if (match.old_modes.size() > 0) match.old_hz = old_body.frequency_hz(match.old_modes.begin);
     if (match.new_modes.size() > 0) match.new_hz = new_body.frequency_hz(match.new_modes.begin);

@@ -133,7 +133,10 @@ std::string format_comparison_json(const Comparison& comparison) {
                      {"new_hz", match.new_modes.size() > 0 ? Json(match.new_hz) : Json()},
                      {"mac", match.mac}});
   }
-  return support::format_json({{"comparable", comparison.comparable}, {"modes", items}});
+  return support::format_json({{"comparable", comparison.comparable},
+                               {"modes", items},
+                               {"num_other_old", comparison.num_other_old},
+                               {"num_other_new", comparison.num_other_new}});
 }
 
 }  // namespace sprung::reduce

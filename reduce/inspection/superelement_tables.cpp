@@ -168,6 +168,11 @@ std::string format_comparison(const Comparison& comparison) {
   if (!comparison.comparable) {
     text += "The two bodies have too few places in common for a MAC; modes are paired by their order.\n";
   }
+  if (comparison.num_other_old + comparison.num_other_new > 0) {
+    text += fmt::format(
+        "Not compared: {} vectors of the old body and {} of the new one, which are no modes of it.\n",
+        comparison.num_other_old, comparison.num_other_new);
+  }
   return text;
 }
 

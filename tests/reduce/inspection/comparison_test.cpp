@@ -1,10 +1,12 @@
 #include "reduce/inspection/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reduce/inspection/superelement_tables.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
+#include "tests/reduce/free_body_truth.h"
 #include "tests/reduce/test_bodies.h"
 
 namespace sprung::reduce {
@@ -101,6 +103,34 @@ TEST_CASE("bodies without nodes at common positions are compared by frequency on
   REQUIRE(comparison.matches.size() == 3);
   CHECK(std::isnan(comparison.matches[0].mac));
   CHECK_THAT(format_comparison(comparison), Contains("too few places in common for a MAC"));
+}
+
+// A wider band adds free modes, and other residual vectors: the modes of the first band stay as they are.
+TEST_CASE("residual vectors are counted, and not compared as if they were modes") {
+  const auto reduce = [](double highest_hz) {
+    Design design = testing::make_random_design(0, 0.01);
+    design.reduction.highest_hz = highest_hz;
+    return make_superelement(design);
+  };
+  const double first_hz = reduce(1.0).certificate->cutoff_hz;
+  const Superelement narrow = reduce(1.0 * first_hz), wide = reduce(3.0 * first_hz);
+  const auto count = [](const Superelement& body) {
+    return static_cast<Eigen::Index>(std::count(body.kind.begin(), body.kind.end(), kFreeVector));
+  };
+  REQUIRE(count(wide) > count(narrow));
+  REQUIRE(count(narrow) < narrow.num_modes());
+  const Comparison comparison = compare_modes(narrow, wide);
+  CHECK(comparison.num_other_old == narrow.num_modes() - count(narrow));
+  CHECK(comparison.num_other_new == wide.num_modes() - count(wide));
+  Eigen::Index num_new = 0;
+  for (const ModeMatch& match : comparison.matches) {
+    num_new += match.new_modes.size();
+    if (match.old_modes.size() == 0) continue;
+    CHECK(match.new_hz == Approx(match.old_hz).epsilon(1e-9));
+    CHECK(match.new_modes.begin == match.old_modes.begin);
+  }
+  CHECK(num_new == count(wide));
+  CHECK_THAT(format_comparison(comparison), Contains("Not compared: ") && Contains("no modes of it"));
 }
 
 TEST_CASE("the MAC of two single modes is that of the formula") {
