@@ -34,18 +34,18 @@ std::string find_unit(const std::string& name) {
   if (name == "area") return "m²";
   if (name == "second_moment") return "m⁴";
   if (name == "mass_per_length") return "kg/m";
+  if (name == "axial_stiffness" || name == "transverse_stiffness") return "N/m";
+  if (name == "rotational_stiffness") return "N·m";
   if (name == "poissons_ratio" || name == "shear_coefficient") return "";
   return "m";
 }
 
-// Numbers of the tables in [materials] or [sections]. `count` is a whole number, and no parameter; on the
-// section modulus no frequency depends.
-void list_numbers(const TomlTable& root, const char* name, std::vector<Number>& numbers) {
-  for (const auto& [item, table] : root.at(name).table().entries()) {
-    for (const auto& [key, value] : table.table().entries()) {
-      if (!value.is_number() || key == "count" || key == "section_modulus") continue;
-      numbers.push_back({value.key(), find_unit(key), value.number(support::any(""))});
-    }
+// Numbers of a table. `count` is a whole number, and no parameter; on the section modulus no frequency
+// depends.
+void list_numbers(const TomlTable& table, std::vector<Number>& numbers) {
+  for (const auto& [key, value] : table.entries()) {
+    if (!value.is_number() || key == "count" || key == "section_modulus") continue;
+    numbers.push_back({value.key(), find_unit(key), value.number(support::any(""))});
   }
 }
 
@@ -181,7 +181,7 @@ double choose_difference(double value) {
   return kStep * (value == 0.0 ? 1.0 : std::abs(value));
 }
 
-// Of [parameters], which may change anything; of materials and sections.
+// Of [parameters], which may change anything; of materials, sections and springs.
 void add_numbers(const DesignVariation& variation, const TomlTable& root, Listed& listed) {
   if (const auto table = root.find_table("parameters")) {
     for (const auto& [name, value] : table->entries()) {
@@ -191,8 +191,12 @@ void add_numbers(const DesignVariation& variation, const TomlTable& root, Listed
     }
   }
   std::vector<Number> numbers;
-  list_numbers(root, "materials", numbers);
-  list_numbers(root, "sections", numbers);
+  for (const char* name : {"materials", "sections"}) {
+    for (const auto& [item, table] : root.at(name).table().entries()) list_numbers(table.table(), numbers);
+  }
+  if (const auto springs = root.find("springs")) {
+    for (const TomlValue& spring : springs->items()) list_numbers(spring.table(), numbers);
+  }
   for (const Number& number : numbers) {
     add_parameter(variation, &DesignVariation::read_changed_sections, number, choose_difference(number.value),
                   listed);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reduce/reduction/reduction.h"
 #include "reduce/sensitivity/sensitivity_tables.h"
@@ -281,6 +282,31 @@ TEST_CASE("the certificate of a uniform beam has derivatives by numbers that lea
   CHECK((modulus + relative("materials.steel.density")).cwiseAbs().maxCoeff() < 1e-8);
   const Eigen::VectorXd section = relative("sections.beam.area") + relative("sections.beam.second_moment");
   CHECK(section.cwiseAbs().maxCoeff() < 1e-8);
+}
+
+// The closed form for a rigid pair: two stiff beams on a soft spring along them have ω² = k (1/m₁ + 1/m₂).
+TEST_CASE("stiffnesses of springs are numbers of the frame") {
+  std::string text = kBeam;
+  text.replace(text.find("[[lines]]"), 9, "c = [4.5, 0.0]\nd = [7.5, 0.0]\n[[lines]]");
+  text.replace(text.find("[reference]"), 11, R"([[lines]]
+from = "c"
+to = "d"
+section = "beam"
+elements = 9
+[[springs]]
+from = "b"
+to = "c"
+axial_stiffness = 100.0
+rotational_stiffness = 1e8
+[reference])");
+  const DesignSensitivity sensitivity = calc_all(write_design("springs.toml", text), 1);
+  const double k = 100.0, first = 157.0, second = 117.75;
+  const double hz = std::sqrt(k * (1.0 / first + 1.0 / second)) / (2.0 * std::numbers::pi);
+  CHECK(sensitivity.value.free_hz(0) == Approx(hz).epsilon(1e-5));
+  const ParameterSensitivity& axial = find(sensitivity, "springs.0.axial_stiffness");
+  CHECK(axial.parameter.unit == "N/m");
+  CHECK(axial.derivative.free_hz(0) == Approx(0.5 * hz / k).epsilon(1e-5));
+  CHECK(find(sensitivity, "springs.0.rotational_stiffness").parameter.unit == "N·m");
 }
 
 // A clamped basis has free modes in its band, and so no bound.
