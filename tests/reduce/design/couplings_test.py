@@ -188,7 +188,7 @@ point = "wall"
         self.assertAlmostEqual(spread.sum(), 1.0, places=12)
 
     def test_a_fixed_interface_takes_followers_along(self):
-        """The truth are the frequencies of the free body, which the basis holds the better the more of its modes it has.
+        """The truth are the frequencies of the free body, which the basis holds the better the more modes it has.
         A point that only follows changes nothing."""
         interface = '[interface]\n{} = "xyr"\n{} = "xyr"\n'
         fixed = FREE.replace("[reduction]", '[reduction]\nbasis = "fixed-interface"').replace("300.0", "3000.0")
