@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/linear_algebra/column_pivoting.h"
 #include "tools/support/dense/orthogonal_factors.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kRankTolerance = 1e-9;  // of unit rows; assembled positions are good to 1e-12
 // A smallest pivot above this share of the largest leaves no singular value below kRankTolerance.
 constexpr double kSafePivot = 1e-6;
+constexpr int kTrials = 4;  // positions, so that not all of them are near a change point
 
 // φ_q with columns scaled by 1/√M_ii.
 Eigen::SparseMatrix<double> scaled_jacobian(const SystemTerms& terms) {
@@ -36,6 +38,23 @@ Partition choose_partition(const SystemTerms& terms) {
     (is_dependent[static_cast<std::size_t>(i)] ? partition.dependent : partition.independent).push_back(i);
   }
   return partition;
+}
+
+double calc_usual_pivot(const Model& model, double time, const Eigen::VectorXd& q) {
+  SystemTerms terms(model, SystemTerms::Markers::kActing);
+  Eigen::VectorXd turned = q;
+  double turns = 0.0, largest = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    for (const Body& body : model.bodies) {
+      turns += std::numbers::phi;
+      turned[body.first_coordinate + 2] = 2.0 * std::numbers::pi * (turns - std::floor(turns));
+    }
+    terms.update_positions(time, turned);
+    terms.update_jacobian();
+    terms.update_mass();
+    largest = std::max(largest, choose_partition(terms).smallest_pivot);
+  }
+  return largest;
 }
 
 std::vector<int> find_dependent_constraints(const SystemTerms& terms) {

@@ -21,6 +21,12 @@ struct Partition {
 /// Source: [Wehage & Haug 1982]
 Partition choose_partition(const SystemTerms& terms);
 
+/// Size that the smallest pivot of φ_q has where a mechanism is not near a change point: the largest of those
+/// at a few positions at which all bodies are turned at will, and the joints are not closed. It does not
+/// depend on the angles of the bodies.
+/// @param q  nq   @return share of the largest pivot
+double calc_usual_pivot(const Model& model, double time, const Eigen::VectorXd& q);
+
 /// Finds constraints that depend on each other linearly: rows of φ_q whose scaled pivots vanish. The assembly
 /// uses it for constraints that follow from others and for joints that cannot be satisfied together.
 /// @return indices of constraints that take part in a linear dependence, empty where φ_q has full row rank

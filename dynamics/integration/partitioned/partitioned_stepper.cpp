@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/integration/partitioned/make_integrator.h"
+#include "dynamics/system/partition.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -13,9 +14,10 @@ namespace {
 
 constexpr double kPartitionDecay = 3.0;  // partition_decay() at which another one is chosen
 constexpr double kSamePlace = 1e-9;      // s
-// Smallest pivot, of the largest that it had, at which a change point is passed: nearer to it rounding grows
+// Smallest pivot, of its usual size, at which a change point is passed: nearer to it rounding grows
 // in the dependent coordinates, farther from it the step is longer.
 constexpr double kChangePoint = 1e-3;
+constexpr double kSmallPivot = 0.1;  // likewise, at which a partition becomes better as the motion leads away
 constexpr double kUntilRenewal = 50.0;  // steps over a change point, until the partition is chosen well
 
 }  // namespace
@@ -36,7 +38,10 @@ std::optional<KnownMotion> PartitionedStepper::small_motion() const {
 void PartitionedStepper::start(const State& state) {
   ode_.set_state(state, 0.0, 0.0);
   last_pivot_ = best_pivot_ = ode_.equations().partition().smallest_pivot;
-  has_passed_ = false;
+  has_passed_ = may_improve_ = false;
+  usual_pivot_.reset();
+  renewal_time_ = std::numeric_limits<double>::infinity();
+  is_at_start_ = true;
   y_.assign(ode_.y().begin(), ode_.y().end());
   start_time_ = state.time;
   is_running_ = false;
@@ -53,14 +58,20 @@ void PartitionedStepper::resume(double time, double end_time) {
 Integrator::StepResult PartitionedStepper::step(double longest_step) {
   if (has_passed_) ode_.equations().return_to_accepted();
   has_passed_ = false;
+  bool is_near = false;
+  if (std::exchange(is_at_start_, false)) {
+    const double share = calc_pivot_share();
+    is_near = share < kChangePoint;
+    may_improve_ = may_improve_ || share < kSmallPivot;
+  }
   if (ode_.equations().partition_decay() > kPartitionDecay || time() >= renewal_time_) {
     const double before = last_pivot_;
     choose_partition();
-    const bool is_near = last_pivot_ < before && last_pivot_ < kChangePoint * best_pivot_;
-    if (is_near && pass_change_point(longest_step)) return end_passage();
+    is_near = last_pivot_ < before && calc_pivot_share() < kChangePoint;
   }
-  // A partition that was chosen behind a change point becomes better before it decays.
-  if (change_point_) ode_.equations().mark_if_best();
+  if (is_near && pass_change_point(longest_step)) return end_passage();
+  // A partition that was chosen beside a change point becomes better before it decays.
+  if (may_improve_) ode_.equations().mark_if_best();
   ode_.equations().accept_motion();
   try {
     return integrator_->step(longest_step);
@@ -73,6 +84,14 @@ Integrator::StepResult PartitionedStepper::step(double longest_step) {
     choose_partition();
     return Integrator::StepResult::kStepped;
   }
+}
+
+// Smallest pivot of the partition chosen last, of its usual size: the largest that it had in the run is
+// small, too, where the run starts beside a change point. 1 where it is not small.
+double PartitionedStepper::calc_pivot_share() {
+  if (last_pivot_ >= kSmallPivot) return 1.0;
+  if (!usual_pivot_) usual_pivot_ = calc_usual_pivot(*model_, equations().terms().time(), equations().q());
+  return last_pivot_ / std::max(best_pivot_, *usual_pivot_);
 }
 
 void PartitionedStepper::choose_partition() {
@@ -97,6 +116,7 @@ bool PartitionedStepper::pass_change_point(double longest_step) {
   } catch (const support::NumericalError&) {
     return false;
   }
+  may_improve_ = true;
   if (!change_point_) change_point_.emplace(*model_);
   change_point_->terms().set_fading_forces(state.fading);
   if (!change_point_->pass(equations(), ode_.equations().partition(), state.branches,

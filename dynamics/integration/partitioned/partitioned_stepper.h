@@ -39,6 +39,7 @@ class PartitionedStepper final : public SystemStepper {
   Statistics statistics() const override;
 
  private:
+  double calc_pivot_share();
   void choose_partition();
   bool pass_change_point(double longest_step);
   bool is_inside_passage(double time) const { return has_passed_ && change_point_->contains(time); }
@@ -51,12 +52,14 @@ class PartitionedStepper final : public SystemStepper {
   std::function<void(double)> on_repartition_;
   std::vector<double> y_;  // evaluated last
   double start_time_ = 0.0, end_time_ = 0.0;
-  bool is_running_ = false;
+  bool is_running_ = false, is_at_start_ = false;
   double last_rescue_ = -std::numeric_limits<double>::infinity();
   long repartitions_ = 0;
 
   double last_pivot_ = 1.0, best_pivot_ = 0.0;   // smallest ones of the partitions chosen
+  std::optional<double> usual_pivot_;            // found where a pivot is small
   std::optional<ChangePointStep> change_point_;  // made at the first
+  bool may_improve_ = false;                     // the partition, chosen beside a change point
   bool has_passed_ = false;                      // the last step was one over a change point
   ChangePointStep::End inside_;
   Eigen::Vector2d flow_before_ = Eigen::Vector2d::Zero();  // dissipated and put in [J]

@@ -170,3 +170,17 @@ TEST_CASE("Constraints that follow from others are found among many, too", "[sys
   CHECK(dynamics::find_dependent_constraints(terms_at(chain.model, chain.state.q)) ==
         std::vector<int>{80, 81, 160, 161});
 }
+
+// The pivot vanishes with the sine of the angle, and is largest where the bars are upright.
+TEST_CASE("the usual size of the smallest pivot does not depend on how near a change point is") {
+  const Model model = make_parallelogram(false);
+  const auto usual_at = [&](double angle) {
+    return dynamics::calc_usual_pivot(model, 0.0, place_parallelogram(model, angle));
+  };
+  const double usual = usual_at(1.0);
+  const double best =
+      dynamics::choose_partition(terms_at(model, place_parallelogram(model, 0.5 * 3.14159))).smallest_pivot;
+  CHECK(usual > 0.3 * best);
+  CHECK(usual < 3.0 * best);
+  for (const double angle : {0.1, 1e-3, 1e-6, 0.0}) CHECK(std::abs(usual_at(angle) / usual - 1.0) < 1e-12);
+}
