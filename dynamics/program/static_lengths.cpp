@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "dynamics/functions/find_zero.h"
 #include "dynamics/input/make_model.h"
 #include "dynamics/linear/assembly.h"
 #include "dynamics/linear/equilibrium.h"
@@ -23,6 +25,8 @@ constexpr int kMostIterations = 50;
 constexpr double kTolerance = 1e-9;      // relative to the static length
 constexpr double kSmallestShare = 0.2;   // of a free length that one step leaves of it
 constexpr double kNearlyReached = 0.01;  // relative error of lengths
+constexpr double kHeld = 1e-3;           // of a length, by which the whole weight compresses a held spring
+constexpr double kMostCompressed = 4.0;  // of a length: the largest deflection that is looked for
 constexpr double kRedrawn = 0.5;         // |log| of a length over that of the drawing, which is hardly meant
 
 // A linear spring in the place of an air spring, about as stiff as one that carries a vehicle.
@@ -34,6 +38,26 @@ SpringDamper::Parameters make_stand_in(const AirSpring::Parameters& air) {
           .multiplicity = air.multiplicity,
           .spring = PiecewisePolynomial({0.0, stiffness}),
           .damper = {}};
+}
+
+// A linear spring that nearly keeps a length, in the place of any spring.
+SpringDamper::Parameters make_held(double length, double weight) {
+  return {
+      .free_length = length, .spring = PiecewisePolynomial({0.0, weight / (kHeld * length)}), .damper = {}};
+}
+
+// Deflection nearest to 0 at which a spring of that length carries a load; 0 where none is found.
+double find_deflection(const PiecewisePolynomial& spring, double load, double length) {
+  const auto excess = [&](double deflection) { return spring.value(deflection) - load; };
+  const double at_free = excess(0.0);
+  for (double share = kTolerance; share <= 1.0; share *= 2.0) {
+    for (const double end : {share * kMostCompressed * length, -share * (1.0 - kSmallestShare) * length}) {
+      const double at_end = excess(end);
+      if (at_end * at_free <= 0.0)
+        return find_zero(excess, {0.0, at_free, end, at_end}, {.width = kTolerance * length});
+    }
+  }
+  return 0.0;
 }
 
 // The springs whose static length is given, and their lengths in a position of the vehicle.
@@ -59,6 +83,41 @@ class StaticSprings {
     ForceParameters& parameters = vehicle.forces[force(i)].parameters;
     if (auto* leaf = std::get_if<LeafSpring::Parameters>(&parameters)) return leaf->free_length;
     return std::get<SpringDamper::Parameters>(parameters).free_length;
+  }
+
+  // Free lengths at which the springs carry their loads in the balance of the vehicle whose springs are held
+  // at the targets, or the targets where it has none. A vehicle whose springs carry nothing as drawn may fall
+  // through them.
+  // @param[in,out] q  as drawn; in that balance
+  Eigen::VectorXd find_loaded(Vehicle& vehicle, const std::function<Model(const Vehicle&)>& make_balance,
+                              const Eigen::VectorXd& targets, Eigen::VectorXd& q) const {
+    double weight = 0.0;
+    for (const Body& body : make_balance(vehicle).bodies) weight += body.mass * vehicle.gravity.norm();
+    if (!(weight > 0.0)) return targets;
+    std::vector<ForceParameters> kept;
+    for (Eigen::Index i = 0; i < size(); ++i)
+      kept.push_back(std::exchange(vehicle.forces[force(i)].parameters, make_held(targets[i], weight)));
+    const Model held = make_balance(vehicle);
+    for (Eigen::Index i = 0; i < size(); ++i)
+      vehicle.forces[force(i)].parameters = std::move(kept[static_cast<std::size_t>(i)]);
+    try {
+      q = find_equilibrium(held, q).q;
+    } catch (const support::NumericalError&) {
+      return targets;
+    }
+    const Eigen::VectorXd lengths = calc_lengths(held, q);
+    Eigen::VectorXd free_lengths = targets;
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const double load = make_held(targets[i], weight).spring.value(targets[i] - lengths[i]);
+      const auto deflection_of = [&](const auto& law) {
+        return find_deflection(law.spring, load / law.multiplicity, targets[i]);
+      };
+      const ForceParameters& parameters = vehicle.forces[force(i)].parameters;
+      const auto* leaf = std::get_if<LeafSpring::Parameters>(&parameters);
+      free_lengths[i] +=
+          leaf ? deflection_of(*leaf) : deflection_of(std::get<SpringDamper::Parameters>(parameters));
+    }
+    return free_lengths;
   }
 
   // The result of spring i, which is written into the vehicle.
@@ -127,17 +186,16 @@ struct ClosestLengths {
 
 [[noreturn]] void throw_not_reached(const Vehicle& vehicle, const StaticSprings& springs,
                                     const Eigen::VectorXd& targets, const Eigen::VectorXd& lengths,
-                                    int iterations) {
+                                    const std::string& where) {
   Eigen::Index worst = 0;
   ((lengths - targets).array() / targets.array()).abs().maxCoeff(&worst);
   const ForceDescription& force = vehicle.forces[springs.force(worst)];
   throw support::InputError(
       force.static_length->location,
-      fmt::format(
-          "'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
-          "lengths: in {} iterations it comes to {:.6g} m; check that the spring carries load, and that its "
-          "stops are out of reach",
-          force.name, force.static_length->key, targets[worst], iterations, lengths[worst]));
+      fmt::format("'forces.{}.{}': a length of {:.6g} m cannot be reached together with the other static "
+                  "lengths: {} it comes to {:.6g} m; check that the spring carries load, and that its "
+                  "stops are out of reach",
+                  force.name, force.static_length->key, targets[worst], where, lengths[worst]));
 }
 
 // The lengths alone would also fit a vehicle that has fallen through its springs. The one to blame is that
@@ -177,7 +235,7 @@ std::vector<StaticLengthResult> solve_static_lengths(
   check_massless_bodies(vehicle, model, q);
   const Eigen::VectorXd drawn = q;
   const Eigen::VectorXd targets = find_targets(vehicle, springs, springs.calc_lengths(model, q));
-  Eigen::VectorXd free_lengths = targets, lengths, error, step;
+  Eigen::VectorXd free_lengths = springs.find_loaded(vehicle, make_balance, targets, q), lengths, error, step;
   ClosestLengths closest;
   Eigen::MatrixXd B = Eigen::MatrixXd::Identity(springs.size(), springs.size());  // of the inverse Jacobian
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
@@ -187,7 +245,8 @@ std::vector<StaticLengthResult> solve_static_lengths(
       q = find_equilibrium(model, q).q;
     } catch (const support::NumericalError&) {
       if (iteration == 0 || closest.error < kNearlyReached) throw;  // not by the free lengths that were tried
-      throw_not_reached(vehicle, springs, targets, closest.lengths, iteration);
+      throw_not_reached(vehicle, springs, targets, closest.lengths,
+                        fmt::format("in {} iterations", iteration));
     }
     lengths = springs.calc_lengths(model, q);
     closest.update(lengths, targets);
@@ -195,6 +254,12 @@ std::vector<StaticLengthResult> solve_static_lengths(
     error = lengths - targets;
     if ((error.array().abs() <= kTolerance * targets.array()).all()) {
       check_directions(vehicle, model, springs, drawn, q);
+      // The run looks for its balance from the drawing: that may be another one.
+      q = find_equilibrium(model, drawn).q;
+      check_directions(vehicle, model, springs, drawn, q);
+      const Eigen::VectorXd from_drawn = springs.calc_lengths(model, q);
+      if (((from_drawn - targets).array().abs() > kNearlyReached * targets.array()).any())
+        throw_not_reached(vehicle, springs, targets, from_drawn, "in the balance found from the drawing");
       std::vector<StaticLengthResult> results;
       for (Eigen::Index i = 0; i < springs.size(); ++i)
         results.push_back(springs.place_back(vehicle, i, lengths[i]));
@@ -211,7 +276,8 @@ std::vector<StaticLengthResult> solve_static_lengths(
     step *= std::min(1.0, shrink);
     free_lengths += step;
   }
-  throw_not_reached(vehicle, springs, targets, closest.lengths, kMostIterations);
+  throw_not_reached(vehicle, springs, targets, closest.lengths,
+                    fmt::format("in {} iterations", kMostIterations));
 }
 
 }  // namespace sprung::dynamics

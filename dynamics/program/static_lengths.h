@@ -19,9 +19,10 @@ struct StaticLengthResult {
 };
 
 /// Finds the free lengths of the springs whose length in static equilibrium the vehicle file gives, and the
-/// pressures of such air springs, and writes them into the vehicle. Broyden's method: the inverse Jacobian
-/// starts as the identity, which is exact where each spring carries a load that does not depend on the
-/// others. Linear springs stand in for air springs; their forces in equilibrium give the pressures.
+/// pressures of such air springs, and writes them into the vehicle. The search starts from the loads of the
+/// vehicle with these springs held at their lengths. Broyden's method: the inverse Jacobian starts as the
+/// identity, which is exact where each spring carries a load that does not depend on the others. Linear
+/// springs stand in for air springs; their forces in equilibrium give the pressures.
 /// @param make_balance  the model for the balance, of a vehicle with other free lengths
 /// @throws support::InputError at a force whose static length cannot be reached together with the others;
 ///         support::NumericalError if there is no equilibrium

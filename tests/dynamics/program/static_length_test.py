@@ -2,6 +2,7 @@
 """Springs whose length in static equilibrium is given: their free lengths, and the vehicle at its ride height."""
 
 import json
+import math
 import re
 import unittest
 
@@ -11,6 +12,87 @@ from dynamics_test_case import ROOT, DynamicsTestCase
 AXLES = ("front", "rear")
 TEMPLATES = ROOT / "dynamics/models/templates"
 FREE_LENGTH = 0.458  # of the truck's springs, m
+
+# A truck of rigid bodies. Its front axle is on an arm, its rear axle in a vertical slot, and its springs are inclined.
+HALF_TRUCK = """
+name = "half-truck"
+[bodies.frame]
+mass = 11950.0
+inertia = 58300.0
+points = { front = [-2.175, 0.0], rear = [2.175, 0.0], pivot = [-3.034, 0.0] }
+position = [0.0, 0.9]
+[bodies.axle_f]
+mass = 540.5601500061784
+inertia = 12.290846040803618
+position = [-2.175, 0.4]
+points = { pivot = [-0.859, 0.5], seat = [-0.1095685835431302, 0.05] }
+[bodies.axle_r]
+mass = 245.36888786391043
+inertia = 53.23890629544538
+position = [2.175, 0.4]
+points = { seat = [0.18767149383317444, 0.05] }
+[[joints]]
+name = "arm"
+type = "revolute"
+a = "frame.pivot"
+b = "axle_f.pivot"
+[[joints]]
+name = "slot"
+type = "translational"
+a = "frame.rear"
+b = "axle_r.origin"
+axis = [0.0, 1.0]
+[[forces]]
+name = "spring_f"
+type = "spring-damper"
+a = "axle_f.seat"
+b = "frame.front"
+free_length = { static = "as-drawn" }
+spring = { polynomial = [0.0, 493236.7933074339] }
+[[forces]]
+name = "spring_r"
+type = "spring-damper"
+a = "axle_r.seat"
+b = "frame.rear"
+free_length = { static = "as-drawn" }
+spring = { polynomial = [0.0, 316242.2965869789] }
+[[forces]]
+name = "tyre_f"
+type = "tyre"
+wheel = "axle_f.origin"
+radius = 0.45
+multiplicity = 2
+spring = { polynomial = [0.0, 1171157.724926968] }
+[[forces]]
+name = "tyre_r"
+type = "tyre"
+wheel = "axle_r.origin"
+radius = 0.45
+multiplicity = 2
+spring = { polynomial = [0.0, 1093480.780339047] }
+"""
+
+# A mass that a spring carries in a vertical slot.
+CARRIED = """
+name = "carried"
+[bodies.load]
+mass = 100.0
+inertia = 1.0
+position = [0.0, 0.5]
+[[joints]]
+name = "slot"
+type = "translational"
+a = "ground.origin"
+b = "load.origin"
+axis = [0.0, 1.0]
+[[forces]]
+name = "spring"
+type = "spring-damper"
+a = "ground.origin"
+b = "load.origin"
+free_length = { static = "as-drawn" }
+spring = { SPRING }
+"""
 
 
 class StaticLength(DynamicsTestCase):
@@ -60,6 +142,38 @@ class StaticLength(DynamicsTestCase):
         for verb in ("modes", "select-modes"):
             process = self.run_program("--quiet", "--set", 'modes.chassis="auto"', verb=verb)
             self.assertEqual(process.returncode, 0, process.stderr)
+
+    def find_free_lengths(self, vehicle):
+        """Lengths and free lengths of its springs in a balance that has to be stable."""
+        (self.folder / "vehicle.toml").write_text(vehicle, encoding="utf-8")
+        (self.folder / "bump.toml").write_text('vehicle = "vehicle.toml"\nduration = 1.0\n', encoding="utf-8")
+        process = self.run_program("--json", verb="equilibrium")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        found = json.loads(process.stdout)
+        self.assertTrue(found["stable"])
+        springs = [force for force in found["forces"].values() if "length" in force]
+        return [(spring["length"], spring["length"] + spring["deflection"]) for spring in springs]
+
+    def test_a_vehicle_that_its_springs_as_drawn_would_not_carry(self):
+        """Springs without load let it fall through, and it was refused as upside down. Free lengths: of balances with
+        given ones, iterated until they gave the distances drawn."""
+        (front, free_front), (rear, free_rear) = self.find_free_lengths(HALF_TRUCK)
+        self.assertAlmostEqual(front, math.hypot(0.1095685835431302, 0.45), delta=1e-9)
+        self.assertAlmostEqual(rear, math.hypot(0.18767149383317444, 0.45), delta=1e-9)
+        self.assertAlmostEqual(free_front, 0.58540018, delta=1e-8)
+        self.assertAlmostEqual(free_rear, 0.68832435, delta=1e-8)
+
+    def test_a_spring_compressed_by_more_than_its_length(self):
+        """Closed form: the deflections at which the laws give the weight, 980.665 N."""
+        weight = 980.665
+        for law, deflection in (("polynomial = [0.0, 1500.0]", weight / 1500.0),
+                                ("polynomial = [-50.0, 0.0, 0.0, 8000.0]", ((weight + 50.0) / 8000.0) ** (1 / 3)),
+                                ("table = [[-1.0, 0.0], [0.0, 0.0], [0.3, 400.0], [0.8, 1200.0]]",
+                                 0.3 + (weight - 400.0) / 1600.0)):  # fmt: skip
+            with self.subTest(law):
+                ((length, free),) = self.find_free_lengths(CARRIED.replace("SPRING", law))
+                self.assertAlmostEqual(length, 0.5, delta=1e-9)
+                self.assertAlmostEqual(free, 0.5 + deflection, delta=1e-8)
 
     def test_lengths_that_contradict_each_other_are_refused(self):
         self.ask_for([0.37, 0.39])
