@@ -11,13 +11,12 @@ from verification_case import VerificationCase
 
 
 def four_bars(number, angle=0.5 * math.pi):
-    """Cranks of 1 m, `number` + 1 of them 1 m apart, upright or at another angle, their heads joined by couplers of
-    1 m; bars of 1 kg."""
+    """Cranks of 1 m, `number` + 1 of them 1 m apart, at that angle, their heads joined by couplers of 1 m; of 1 kg."""
     bars, joints = [], []
     x, y = math.cos(angle), math.sin(angle)
     for i in range(number + 1):
-        bars.append(f'[bodies.crank{i}]\nmass = 1.0\ninertia = {1.0 / 12.0!r}\nposition = [{i + 0.5 * x!r}, {0.5 * y!r}]\n'
-                    f'angle = {angle!r}\npoints = {{ foot = [-0.5, 0.0], head = [0.5, 0.0] }}')
+        bars.append(f'[bodies.crank{i}]\nmass = 1.0\ninertia = {1.0 / 12.0!r}\nangle = {angle!r}\n'
+                    f'position = [{i + 0.5 * x!r}, {0.5 * y!r}]\npoints = {{ foot = [-0.5, 0.0], head = [0.5, 0.0] }}')
         joints.append((f"ground.p{i}", f"crank{i}.foot"))
     for i in range(number):
         bars.append(f'[bodies.coupler{i}]\nmass = 1.0\ninertia = {1.0 / 12.0!r}\nposition = [{i + 0.5 + x!r}, {y!r}]\n'
@@ -114,7 +113,8 @@ class ChangePoints(VerificationCase):
                     with self.subTest(start=start, rate=rate, method=method):
                         results = self.run_text(
                             four_bars(1, start),
-                            f'start = "as-given"\nduration = 1.0\noutput_step = 0.01\n[joint_rates]\npin0 = {rate}\n',
+                            'start = "as-given"\nduration = 1.0\noutput_step = 0.01\n'
+                            f"[joint_rates]\npin0 = {rate}\n",
                             "--set", f"integrator.method={method}", "--set", "integrator.relative_tolerance=1e-8",
                             "--set", "output.precision=double",
                         )  # fmt: skip
