@@ -66,7 +66,8 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
 }
 
 [[noreturn]] void throw_no_equilibrium(const Model& model, const LinearisedSystem& system,
-                                       const ModalForce& modal, double last_step) {
+                                       const ModalForce& modal, const SteadyMotion& motion,
+                                       double last_step) {
   const double least = std::max(modal.rounding_step, Equilibrium::kTolerance);
   Eigen::Index stiffest = 0;
   const double fastest =
@@ -77,7 +78,9 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
         "rounding hides the other forces; make it smaller, or put a joint in its place",
         fastest, describe(model, system.directions * modal.modes.vectors.col(stiffest)).description));
   }
-  if (!modal.is_falling && modal.rounding_step > kWorstRounding) {
+  const bool has_modes = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                     [](const Body& body) { return body.num_modes() > 0; });
+  if (has_modes && !modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
         "of up to {:.1e} of the natural size; take fewer of the highest modes",
@@ -89,8 +92,9 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
   throw support::NumericalError(
       fmt::format("no static equilibrium after {} iterations: the last step was {:.3g} of the natural size "
                   "(tolerance {:.0e}); what keeps moving: {}; check that something holds it against "
-                  "gravity, and the start position",
-                  kMaxNewtonIterations, last_step, least, direction.description));
+                  "{}, and the start position",
+                  kMaxNewtonIterations, last_step, least, direction.description,
+                  motion.is_rest() ? "gravity" : "the inertia forces of the steady motion"));
 }
 
 }  // namespace
@@ -135,7 +139,7 @@ Equilibrium find_equilibrium(const Model& model, const Eigen::VectorXd& q,
       equilibrium.linearised = std::move(system);
       return equilibrium;
     }
-    if (iteration == kMaxNewtonIterations) throw_no_equilibrium(model, system, modal, newton_step);
+    if (iteration == kMaxNewtonIterations) throw_no_equilibrium(model, system, modal, motion, newton_step);
     equilibrium.q = take_step(model, equations, system, modal, equilibrium.q, motion, search);
     ++equilibrium.iterations;
     if (search.damping == 0.0 && !search.watch && newton_step < kLargestStep && !modal.is_falling) {

@@ -71,10 +71,18 @@ Eigen::VectorXd take_step(const Model& model, PartitionedEquations& equations, c
     const Eigen::VectorXd trial_force =
         calc_static_force(equations, 0.0, q_i + step, &trial_potential, motion);
     const bool assembled = trial_force.size() == q_i.size();
-    if (assembled && (trial_potential < potential || (V.transpose() * trial_force).norm() < force)) {
+    bool is_predicted = false;
+    if (assembled && !modal.is_falling) {
       const Eigen::VectorXd change = V.transpose() * (system.stiffness * step),
                             error = V.transpose() * (trial_force - system.force) + change;
-      const bool is_predicted = !modal.is_falling && error.norm() < kPredictionError * change.norm();
+      is_predicted = error.norm() < kPredictionError * change.norm();
+    }
+    // Beside a maximum of the potential energy rounding hides how it decreases, but not the work of the
+    // forces.
+    const bool leaves_maximum =
+        is_predicted && !modal.is_held() && step.dot(system.force + trial_force) > 0.0;
+    if (assembled &&
+        (trial_potential < potential || leaves_maximum || (V.transpose() * trial_force).norm() < force)) {
       search.reach = is_cut && is_predicted ? 2.0 * search.reach : kLargestStep;
       search.damping = kLessDamping * damping;
       search.wait = std::max(0, search.wait - 1);

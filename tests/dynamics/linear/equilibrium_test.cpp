@@ -192,6 +192,25 @@ TEST_CASE("A body that nothing holds has no equilibrium, and is named", "[analys
   CHECK_THAT(named, Contains("what keeps moving: stone.y"));
 }
 
+// A bar on a hinge falls from the upright position however near to it it starts: at 1e-8 rad the potential
+// energy decreases by less than its rounding.
+TEST_CASE("An unstable equilibrium is left from beside it", "[analysis]") {
+  Model model;
+  model.gravity = {0.0, -9.81};
+  const int bar = test::add_body(model, dynamics::make_rigid_body("bar", 1.0, 0.1));
+  test::add_pin(model, "hinge", test::add_marker(model, dynamics::kGround, {0.0, 0.0}),
+                test::add_marker(model, bar, {-1.0, 0.0}));
+  dynamics::number_model(model);
+  for (const double away : {1e-3, 1e-6, 2.7e-8, 3e-9, -2.7e-8}) {
+    const double angle = 0.5 * std::numbers::pi - away;
+    VectorXd q(3);
+    q << std::cos(angle), std::sin(angle), angle;
+    const dynamics::Equilibrium rest = dynamics::find_equilibrium(model, q);
+    CHECK(rest.stable);
+    CHECK(rest.q[1] == Approx(-1.0).epsilon(1e-10));
+  }
+}
+
 TEST_CASE("Neutral directions are found, named and held where they start", "[analysis]") {
   SECTION("a free body without gravity: three") {
     Model model;
