@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
+constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
 constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
 constexpr const char* kModes = "modes";
@@ -97,20 +98,32 @@ bool is_balanced(const RunStatistics& statistics) {
 
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly) {
   if (!(assembly.largest_movement > model.length_scale)) return {};
+  const bool was_open = assembly.widest_gap > kClosed * assembly.largest_movement;
   return fmt::format(
-      "to close the joints, of which '{}' was {:.3g} m open, {} was moved by {:.3g} m, farther than any "
-      "point is "
-      "from its body's origin ({:.3g} m): check the positions of the bodies and the points of the joints",
-      assembly.open_joint, assembly.widest_gap, assembly.moved_marker, assembly.largest_movement,
-      model.length_scale);
+      "to {}, {} was moved by {:.3g} m, farther than any point is from its body's origin ({:.3g} m): check "
+      "{}",
+      was_open
+          ? fmt::format("close the joints, of which '{}' was {:.3g} m open", assembly.open_joint,
+                        assembly.widest_gap)
+          : "give the joints, which were closed, their angles and the values of their prescribed motions",
+      assembly.moved_marker, assembly.largest_movement, model.length_scale,
+      was_open ? "the positions of the bodies and the points of the joints"
+               : "the angles of the bodies, and the motions at the start");
 }
 
-std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly) {
+std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly,
+                                            const State& start, const Equilibrium* equilibrium) {
   std::vector<RunWarning> warnings;
   const auto warn = [&](std::string text) {
     warnings.push_back({kSummary, {std::string(kComputation)}, std::move(text)});
   };
   if (std::string moved = describe_far_movement(model, assembly); !moved.empty()) warn(std::move(moved));
+  if (equilibrium && !equilibrium->stable && start.q == equilibrium->q) {
+    warn(
+        "the run starts in an unstable equilibrium: without a disturbance it stays there, and any "
+        "disturbance grows; "
+        "draw it slightly away, and the stable one is found");
+  }
   if (model.length_scale < kSmallestScale) {
     warn(
         fmt::format("no point is farther than {:.1e} m from its body's origin; the dead band of switching "

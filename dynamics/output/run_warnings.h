@@ -6,6 +6,7 @@
 
 #include "dynamics/adaptivity/mode_adaptation.h"
 #include "dynamics/linear/assembly.h"
+#include "dynamics/linear/equilibrium.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/hdf5/hdf5_file.h"
@@ -30,8 +31,11 @@ bool is_balanced(const RunStatistics& statistics);
 
 /// Says which point the assembly has moved farther than the vehicle's bodies are large; "" if there is none.
 std::string describe_far_movement(const Model& model, const AssemblyReport& assembly);
-/// The warnings that need no run: of sizes, and of bodies that the assembly moved far.
-std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly);
+/// The warnings that need no run: of sizes, of bodies that the assembly moved far, and of a start in an
+/// unstable equilibrium.
+/// @param start  of the run   @param equilibrium  null if none was looked for
+std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyReport& assembly,
+                                            const State& start, const Equilibrium* equilibrium);
 /// The warnings about a run that has come to its end, the gravest first, without those of the model.
 /// @param adaptivity  null if no modes were left out
 /// Checked by tests/dynamics/program/warnings_test.py

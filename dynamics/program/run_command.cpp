@@ -216,7 +216,9 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     return support::kGood;
   }
   if (!output.json && !request.quiet) print_description(streams.out, prepared);
-  std::vector<RunWarning> model_warnings = list_model_warnings(prepared.model, prepared.assembly);
+  std::vector<RunWarning> model_warnings =
+      list_model_warnings(prepared.model, prepared.assembly, prepared.start,
+                          prepared.equilibrium ? &*prepared.equilibrium : nullptr);
   warn_of_missed_road(prepared, model_warnings);
   print_of_computation(streams.err, model_warnings);
   for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read

@@ -2,6 +2,8 @@
 """What a run warns of is in its results, with the numbers that it concerns, and in what --json prints."""
 
 import json
+import math
+import re
 import sys
 import unittest
 
@@ -129,6 +131,98 @@ class Warnings(DynamicsTestCase):
                 r"to close the joints, of which '\w+' was \S+ m open, \S+ was moved by \S+ m, farther than any point "
                 "is from its body's",
             )
+
+    def write_bar(self, angle, extra=""):
+        """A bar of 1 m on a hinge under gravity."""
+        (self.folder / "vehicle.toml").write_text(f"""
+name = "bar"
+[bodies.b]
+mass = 1.0
+inertia = 0.1
+position = [{math.cos(angle)!r}, {math.sin(angle)!r}]
+angle = {angle!r}
+points = {{ a = [-1.0, 0.0] }}
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "ground.origin"
+b = "b.a"
+{extra}""", encoding="utf-8")
+        (self.folder / "bump.toml").write_text('vehicle = "vehicle.toml"\nduration = 0.1\n', encoding="utf-8")
+
+    def test_a_start_in_an_unstable_equilibrium_is_warned_of(self):
+        for angle, is_unstable in ((0.5 * math.pi, True), (-0.5 * math.pi, False)):  # upright, hanging
+            self.write_bar(angle)
+            code, said, printed = self.run_to_json()
+            texts = [one["text"] for one in printed["warnings"]]
+            self.assertEqual((code, len(texts)), (0, int(is_unstable)), texts)
+            self.assertEqual([one["text"] for one in self.read_warnings()], texts)
+            for text in texts:
+                self.assertIn("starts in an unstable equilibrium", text)
+                self.assertIn(text, said)
+
+    def test_a_motion_that_moves_a_body_far_is_named_as_the_reason(self):
+        # Drawn at 0 rad, its motion prescribes 3 rad: the centre moves by 2 sin 1.5 m, and no joint was open.
+        motion = '[[motions]]\nname = "turn"\njoint = "hinge"\nfunction = { polynomial = [3.0] }\n'
+        self.write_bar(0.0, motion)
+        _, _, printed = self.run_to_json()
+        (warning,) = printed["warnings"]
+        expected = r"prescribed motions, b\.origin was moved by 1\.99 m, .* the motions at the start"
+        self.assertRegex(warning["text"], expected)
+        self.assertNotIn("''", warning["text"])
+
+    def test_samples_taken_in_another_unit_than_that_of_the_file_are_remarked_on(self):
+        (self.folder / "push.csv").write_text("t [s],f [kN]\n0,1\n1,2\n", encoding="utf-8")
+        for unit, is_other in (("N", True), ("kN", False)):
+            self.write_bar(0.0, '[[forces]]\nname = "push"\ntype = "applied"\npoint = "b.origin"\nforce = [0.0, '
+                           f'{{ history = {{ file = "push.csv", channel = "f", unit = "{unit}" }} }}]\n')  # fmt: skip
+            process = self.run_program("--set", 'start="as-given"')
+            self.assertEqual(process.returncode, 0, process.stderr)
+            remark = r"remark: vehicle.toml:\d+:\d+: '\S+' is taken in N, but its file gives it in kN"
+            self.assertEqual(re.search(remark, process.stderr) is not None, is_other, process.stderr)
+
+    def test_a_steady_motion_that_the_springs_do_not_hold_is_not_put_down_to_gravity_or_modes(self):
+        # A mass on a rotating arm: its spring holds it up to √(200/2) = 10 rad/s; the arm turns at 11 rad/s.
+        (self.folder / "vehicle.toml").write_text("""
+name = "arm"
+gravity = [0.0, 0.0]
+[bodies.arm]
+mass = 1.0
+inertia = 0.5
+position = [0.0, 0.0]
+[bodies.mass]
+mass = 2.0
+inertia = 0.1
+position = [0.55, 0.0]
+[[joints]]
+name = "hinge"
+type = "revolute"
+a = "ground.origin"
+b = "arm.origin"
+[[joints]]
+name = "slot"
+type = "translational"
+a = "arm.origin"
+b = "mass.origin"
+axis = [1.0, 0.0]
+[[motions]]
+name = "spin"
+joint = "hinge"
+function = { polynomial = [0.0, 11.0] }
+[[forces]]
+name = "spring"
+type = "spring-damper"
+a = "arm.origin"
+b = "mass.origin"
+free_length = 0.5
+spring = { polynomial = [0.0, 200.0] }
+""", encoding="utf-8")
+        run = 'vehicle = "vehicle.toml"\nduration = 1.0\nstart = "steady"\n'
+        (self.folder / "bump.toml").write_text(run, encoding="utf-8")
+        process = self.run_program(verb="equilibrium")
+        self.assertEqual(process.returncode, 3, process.stderr)
+        self.assertIn("keeps moving: mass.x; check that something holds it against the inertia forces", process.stderr)
+        self.assertNotIn("modes", process.stderr)
 
     def test_wall_time_and_the_times_of_program_and_integration_are_told_apart(self):
         _, _, printed = self.run_to_json("duration=0.2")
