@@ -207,6 +207,7 @@ TimeFunction HistoryFiles::read(const support::TomlTable& table, std::string_vie
   Samples samples = std::visit([&](const auto& one) { return read_samples(one, table); }, file);
   history.hash = std::visit([](const auto& one) { return one.hash(); }, file);
   history.channel = samples.channel.name;
+  history.file_unit = samples.channel.unit;
   history.unit = wanted_unit ? wanted_unit->string() : samples.channel.unit;
   if (const std::optional<KnownUnit> known = find_unit(history.unit)) history.si_unit = known->si_unit;
   scale_samples(table, unit, history, samples.value);
@@ -261,6 +262,11 @@ std::vector<std::string> list_history_remarks(std::span<const HistoryUse> histor
                                     support::format_place(history.location), history.key, history.to,
                                     need.to < to ? "its piece" : "the run", need.to,
                                     describe(history.after, "last")));
+    }
+    if (!history.file_unit.empty() && history.unit != history.file_unit) {
+      remarks.push_back(fmt::format("{}: '{}' is taken in {}, but its file gives it in {}",
+                                    support::format_place(history.location), history.key,
+                                    history.unit.empty() ? "SI units" : history.unit, history.file_unit));
     }
     if (history.interpolation == "smooth" && has_close_samples(history)) {
       remarks.push_back(fmt::format(

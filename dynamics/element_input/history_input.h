@@ -27,11 +27,12 @@ enum class TimeFunctionUse {
 struct HistoryUse {
   std::string key;  ///< full key in the vehicle file
   support::SourceLocation location;
-  std::string file;     ///< as the vehicle file names it
-  std::string channel;  ///< name in the file
-  std::string unit;     ///< the samples are taken to be in this unit; "" for SI
-  std::string si_unit;  ///< the SI unit of that one; "" if the unit is not known
-  std::string hash;     ///< SHA-256 of the file
+  std::string file;       ///< as the vehicle file names it
+  std::string channel;    ///< name in the file
+  std::string unit;       ///< the samples are taken to be in this unit; "" for SI
+  std::string file_unit;  ///< the unit that the file gives; "" if none
+  std::string si_unit;    ///< the SI unit of that one; "" if the unit is not known
+  std::string hash;       ///< SHA-256 of the file
   std::string interpolation;
   double scale = 1.0, offset = 0.0;
   double from = 0.0, to = 0.0;  ///< of the run, at the first and the last sample [s]
