@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <set>
 
 #include "dynamics/bodies/body_equations.h"
+#include "dynamics/input/uncovered_loads.h"
 #include "tools/support/toml/toml.h"
 
 namespace sprung::dynamics {
 
 namespace {
-
-using FreedomSet = std::set<std::pair<int, int>>;  // node, freedom
 
 [[noreturn]] void refuse_bracket(const BodyDescription& body, const std::string& reason) {
   throw support::InputError(
@@ -35,40 +33,6 @@ const reduce::Certificate& require_bound(const BodyDescription& description, con
       certificate.soft_loads.rows() == 0)
     refuse_bracket(description, "its certificate has no soft loads, because its interface is too large");
   return certificate;
-}
-
-// The markers that carry torque: those of joints and force elements that exert one.
-std::vector<bool> find_turned_markers(const Model& model) {
-  std::vector<bool> turned(model.markers.size(), false);
-  for (const auto& joint : model.joints) {
-    if (!joint->carries_torque()) continue;
-    turned[static_cast<std::size_t>(joint->marker_a)] = turned[static_cast<std::size_t>(joint->marker_b)] =
-        true;
-  }
-  for (const auto& force : model.forces) {
-    const auto channels = force->channels();
-    if (std::none_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.role == ChannelRole::kTorque; }))
-      continue;
-    for (const int marker : force->markers()) turned[static_cast<std::size_t>(marker)] = true;
-  }
-  return turned;
-}
-
-void require_interface(const BodyDescription& description, const reduce::Superelement& superelement,
-                       const VehiclePoint& point, bool turned) {
-  if (point.kind == VehiclePoint::Kind::kCenterOfMass) return;  // soft modes do not move it
-  FreedomSet freedoms;
-  for (const reduce::InterfaceError& one : superelement.certificate->interface)
-    freedoms.insert({superelement.points[static_cast<std::size_t>(one.point)].node, one.freedom});
-  Eigen::Index node = point.node;
-  if (point.kind == VehiclePoint::Kind::kFixed) superelement.node_positions.colwise().norm().minCoeff(&node);
-  for (int freedom = 0; freedom < (turned || !point.offset.isZero(0.0) ? 3 : 2); ++freedom) {
-    if (freedoms.contains({static_cast<int>(node), freedom})) continue;
-    refuse_bracket(description,
-                   fmt::format("{} takes loads, but '{}' is not in the interface of its superelement",
-                               point.name, reduce::freedom_name(freedom)));
-  }
 }
 
 // Shapes of the soft modes at a node: x, y and rotation, 3×q.
@@ -141,12 +105,18 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement,
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
   SoftTwin twin{.model = model, .highest_hz = std::numeric_limits<double>::infinity()};
   const std::vector<VehiclePoint> points = list_points(vehicle);
-  const std::vector<bool> carries_torque = find_turned_markers(model);
+  const std::vector<UncoveredLoad> uncovered = find_uncovered_loads(vehicle, model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (model.bodies[b].num_modes() == 0) continue;
     const BodyDescription& description = vehicle.bodies[b];
     const reduce::Superelement& superelement = *vehicle.superelement_of(description);
     const reduce::Certificate& certificate = require_bound(description, model.bodies[b], superelement);
+    for (const UncoveredLoad& load : uncovered) {
+      if (load.body != static_cast<int>(b)) continue;
+      refuse_bracket(description,
+                     fmt::format("{} takes loads, but '{}' is not in the interface of its superelement",
+                                 load.point, reduce::freedom_name(load.freedom)));
+    }
     twin.highest_hz = std::min(twin.highest_hz, certificate.highest_hz);
     Eigen::Index reference = 0;
     superelement.node_positions.colwise().norm().minCoeff(&reference);
@@ -155,9 +125,6 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const VehiclePoint& point = points[i];
       if (point.body != static_cast<int>(b)) continue;
-      const auto acting = static_cast<int>(i);
-      if (std::binary_search(model.acting_markers.begin(), model.acting_markers.end(), acting))
-        require_interface(description, superelement, point, carries_torque[i]);
       Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3, of_reference.cols());
       if (point.kind == VehiclePoint::Kind::kNode) {
         shapes = calc_soft_shapes(superelement, point.node) - of_reference;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/input/uncovered_loads.h"
 #include "dynamics/input/unit_remarks.h"
 #include "dynamics/output/run_warnings.h"
 #include "dynamics/program/automatic_modes.h"
@@ -249,6 +250,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
                           find_leading_position(prepared.balance_model, vehicle, terms.markers())};
   prepared.model = make_model(vehicle, prepared.available, prepared.placed_road, flexibility.damping,
                               MotionUse::kMoving, flexibility.stiffened);
+  for (std::string& remark : list_uncovered_loads(vehicle, prepared.model))
+    tell_remark(std::move(remark), request, prepared);
   IntegratorSettings& integrator = prepared.run.integrator;
   if (!integrator.names_method) {
     const bool has_modes = std::any_of(prepared.model.bodies.begin(), prepared.model.bodies.end(),

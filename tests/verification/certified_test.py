@@ -173,6 +173,17 @@ class Bound(VerificationCase):
         found = self.push("good", point="front_end").summary["certified"]["chassis"]
         self.assertEqual(found["outside_of_interface"], "chassis.front_end")
 
+    def test_joints_and_forces_outside_of_the_interface_are_warned_of_by_each_verb(self):
+        """The basis has no vectors for them, and the certificate says nothing about its error there."""
+        self.build(good=("= 60.0", "= 60.0"))
+        for point, warns in (("front_end", True), ("rear_spring", False)):
+            run = self.write_model(PUSHED.format(superelement="good", point=point), PUSHED_RUN)
+            for verb in ("run", "modes", "equilibrium"):
+                with self.subTest(point=point, verb=verb):
+                    warnings = self.program(verb, run, superelements=self.folder)["warnings"]
+                    told = [one["text"] for one in warnings if f"chassis.{point} takes loads, but 'x'" in one["text"]]
+                    self.assertEqual(bool(told), warns, warnings)
+
 
 class AllVectors(VerificationCase):
     """A vehicle does not depend on the basis of a body, nor on where the body is held, if the basis has all motions."""

@@ -1,0 +1,84 @@
+#include "dynamics/input/uncovered_loads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "tools/support/toml/toml.h"
+
+namespace sprung::dynamics {
+
+namespace {
+
+using FreedomSet = std::set<std::pair<int, int>>;  // node, freedom
+
+// The markers that carry torque: those of joints and force elements that exert one.
+std::vector<bool> find_turned_markers(const Model& model) {
+  std::vector<bool> turned(model.markers.size(), false);
+  for (const auto& joint : model.joints) {
+    if (!joint->carries_torque()) continue;
+    turned[static_cast<std::size_t>(joint->marker_a)] = turned[static_cast<std::size_t>(joint->marker_b)] =
+        true;
+  }
+  for (const auto& force : model.forces) {
+    const auto channels = force->channels();
+    if (std::none_of(channels.begin(), channels.end(),
+                     [](const Channel& channel) { return channel.role == ChannelRole::kTorque; }))
+      continue;
+    for (const int marker : force->markers()) turned[static_cast<std::size_t>(marker)] = true;
+  }
+  return turned;
+}
+
+// The first freedom of a loaded point that is not in the interface.
+std::optional<int> find_uncovered(const reduce::Superelement& superelement, const VehiclePoint& point,
+                                  bool turned) {
+  if (point.kind == VehiclePoint::Kind::kCenterOfMass) return {};  // soft modes do not move it
+  FreedomSet freedoms;
+  for (const reduce::InterfaceError& one : superelement.certificate->interface)
+    freedoms.insert({superelement.points[static_cast<std::size_t>(one.point)].node, one.freedom});
+  Eigen::Index node = point.node;
+  if (point.kind == VehiclePoint::Kind::kFixed) superelement.node_positions.colwise().norm().minCoeff(&node);
+  for (int freedom = 0; freedom < (turned || !point.offset.isZero(0.0) ? 3 : 2); ++freedom)
+    if (!freedoms.contains({static_cast<int>(node), freedom})) return freedom;
+  return {};
+}
+
+}  // namespace
+
+std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Model& model) {
+  std::vector<UncoveredLoad> loads;
+  const std::vector<VehiclePoint> points = list_points(vehicle);
+  const std::vector<bool> carries_torque = find_turned_markers(model);
+  for (const int marker : model.acting_markers) {
+    const auto i = static_cast<std::size_t>(marker);
+    if (i >= points.size() || points[i].body < 0) continue;
+    const auto body = static_cast<std::size_t>(points[i].body);
+    const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[body]);
+    if (model.bodies[body].num_modes() == 0 || !superelement || !superelement->certificate) continue;
+    if (const std::optional<int> freedom = find_uncovered(*superelement, points[i], carries_torque[i]))
+      loads.push_back({.body = points[i].body, .point = points[i].name, .freedom = *freedom});
+  }
+  return loads;
+}
+
+std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model) {
+  std::vector<std::string> remarks;
+  int last = -1;
+  for (const UncoveredLoad& load : find_uncovered_loads(vehicle, model)) {
+    const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(load.body)];
+    if (load.body == last || !vehicle.superelement_of(body)->certificate->is_bounded()) continue;
+    last = load.body;
+    remarks.push_back(fmt::format(
+        "{}: {} takes loads, but '{}' is not in the interface of its superelement: the basis was not made "
+        "for "
+        "them, and its certified error does not hold; name the point under [interface] in the design",
+        support::format_place(body.location), load.point, reduce::freedom_name(load.freedom)));
+  }
+  return remarks;
+}
+
+}  // namespace sprung::dynamics

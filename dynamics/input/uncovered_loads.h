@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/input/vehicle.h"
+#include "dynamics/system/model.h"
+
+namespace sprung::dynamics {
+
+/// A joint or a force element that acts on a flexible body at a freedom outside of the interface of its
+/// superelement. The certificate says nothing about the body's answer to such a load.
+struct UncoveredLoad {
+  int body = 0;
+  std::string point;  ///< "body.point"
+  int freedom = 0;    ///< 0 … 2: x, y, rotation
+};
+
+/// One load at most for each point of each body that has modes and a superelement with a certificate.
+/// @param model  of the vehicle
+std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Model& model);
+
+/// A remark for each body with such loads whose certificate has a bound, with the body's place.
+/// Checked by tests/dynamics/program/warnings_test.py
+std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
+
+}  // namespace sprung::dynamics
