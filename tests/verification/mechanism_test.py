@@ -352,8 +352,8 @@ class StiffModes(VerificationCase):
 
 
 class SwingingBeam(VerificationCase):
-    """An undamped beam on a hinge, with all of its vectors, released level. Its weight bends it, and nothing excites its
-    stiff vectors but errors of steps. Expected: the default method at 1e-8, which solves vibration exactly."""
+    """An undamped beam on a hinge, with all of its vectors, released level. Its weight bends it, and nothing excites
+    its stiff vectors but errors of steps. Expected: the default method at 1e-8, which solves vibration exactly."""
 
     DESIGN = """
 [materials.steel]
