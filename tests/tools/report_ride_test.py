@@ -41,6 +41,15 @@ class ReportRide(ToolTestCase):
         inside = (results.time >= WINDOW[0]) & (results.time <= WINDOW[1])
         self.assertAlmostEqual(np.max(channel.values[inside]), expected.mtvv)
 
+    def test_a_run_that_continues_another_one_has_no_values_in_equilibrium_and_says_why(self):
+        write_ride_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file["time"][:] += 0.25
+        ride = pack_ride(self.open(), {}, "")
+        self.assertEqual([one["compression"] for one in ride["travel"]], [None, None])
+        self.assertEqual([one["static"] for one in ride["tyres"]], [None])
+        self.assertIn("static loads and travel are not known", "; ".join(ride["remarks"]))
+
     def test_unequally_spaced_samples_are_told_as_the_reason_why_it_is_not_there(self):
         write_ride_results(self.folder / "a.h5")
         with h5py.File(self.folder / "a.h5", "a") as file:

@@ -1,5 +1,6 @@
 """runs/ride_measures.py: each measure of histories whose values are known."""
 
+import json
 import re
 import unittest
 
@@ -107,6 +108,41 @@ class RideMeasures(ToolTestCase):
             for judge in (read_window, lambda results: calc_travel(results, "suspension", WINDOW)):
                 with self.assertRaisesRegex(InputError, "b.h5: error: holds no 'model/resolved', the model as run"):
                     judge(results)
+
+
+class ContinuedRun(ToolTestCase):
+    """A run that begins at 0.25 s, where another one ended: the vehicle is in motion at its first sample."""
+
+    def setUp(self):
+        super().setUp()
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            file["time"][:] += 0.25
+            file.require_group("summary").attrs["energy_closure"] = 1e-9
+
+    def test_what_refers_to_static_equilibrium_is_not_known_and_the_rest_is(self):
+        with open_results(self.folder / "a.h5") as results:
+            travel, contact = calc_travel(results, "suspension", WINDOW), calc_contact(results, "tyre", WINDOW)
+        self.assertEqual((travel.compression, travel.rebound, travel.whole, travel.hits), (None, None, None, 2))
+        self.assertEqual((contact.static, contact.dynamic_rms), (None, None))
+        self.assertAlmostEqual(contact.greatest, 2.5 * STATIC_LOAD, delta=1.0)
+
+    def test_tables_and_json_say_so(self):
+        process = self.run_tool("ride", "truck=a.h5")
+        self.assert_succeeds(process)
+        rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
+        self.assertEqual(rows["suspension"][2:6], ["–", "–", "–", "2"])
+        self.assertEqual(rows["tyre"][2:6], ["–", "–", "–", "125.0"])
+        reason = "static loads and travel are not known: the run continues another one from 0.25 s on"
+        self.assertIn(f"note: truck: {reason}", process.stdout)
+        (run,) = json.loads(self.run_tool("ride", "a.h5", "--json").stdout)["runs"]
+        for name in ("tyres/tyre/static_load", "suspensions/suspension/way_to_stop", "suspensions/link/compression"):
+            self.assertIsNone(run["measures"][name]["value"], name)
+        self.assertEqual(sum(one.startswith(reason) for one in run["remarks"]), 1)
+
+    def test_the_filters_of_weighted_values_begin_at_rest(self):
+        for start, is_early in (("1", True), ("1.25", False)):  # 1 s after the begin of the file, the τ of the MTVV
+            printed = self.run_tool("ride", "truck=a.h5", "--from", start).stdout
+            self.assertEqual("the MTVV and the other weighted values hold from 1.25 s on" in printed, is_early)
 
 
 class Tool(ToolTestCase):

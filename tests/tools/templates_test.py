@@ -13,7 +13,7 @@ from tool_test_case import ROOT, ToolTestCase, make_class_folder, run_program
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.model.resolved_model import read_elements, read_point
-from sprung_tools.runs.ride_measures import find_suspensions
+from sprung_tools.runs.ride_measures import calc_contact, find_suspensions
 
 TEMPLATES = ROOT / "dynamics/models/templates"
 GUIDE = TEMPLATES / "README.md"
@@ -57,6 +57,20 @@ class Templates(ToolTestCase):
                     flexible = self.run_template(name)
                     self.assertGreater(flexible["freedoms"], freedoms)
                     self.assertEqual(flexible["warnings"], [])
+
+    def test_a_continued_run_has_the_measures_of_one_long_run_but_for_those_that_need_its_equilibrium(self):
+        self.run_template("half_car")
+        (self.folder / "half_car.h5").rename(self.folder / "long.h5")
+        self.run_template("half_car", "--set", "duration=0.25")
+        (self.folder / "half_car.h5").rename(self.folder / "first.h5")
+        self.run_template("half_car", "--set", f'continue_from="{self.folder / "first.h5"}"')
+        with open_results(self.folder / "long.h5") as long, open_results(self.folder / "half_car.h5") as continued:
+            window = (0.25, float(DURATION))
+            for name in ("front_tyre", "rear_tyre"):
+                expected, found = calc_contact(long, name, window), calc_contact(continued, name, window)
+                self.assertEqual((found.static, found.dynamic_rms), (None, None))
+                self.assertAlmostEqual(found.greatest / expected.greatest, 1.0, delta=1e-3)  # the run's tolerance
+                self.assertEqual(found.off_ground, expected.off_ground)
 
     def test_each_has_one_rigid_body_mode_and_a_proved_bracket_of_every_other_up_to_60_hz(self):
         # 60 Hz is the end of the band of both frames; 1 % is twice their tolerance of flexibilities. Nothing but the

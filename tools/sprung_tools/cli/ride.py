@@ -48,9 +48,8 @@ from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.runs.section_stress import FROM_MODES
 from sprung_tools.signals.spans import Span
 from sprung_tools.terminal.program import make_parser
-from sprung_tools.terminal.text_table import format_table
+from sprung_tools.terminal.text_table import MISSING, format_cell, format_table
 
-MISSING = "–"  # in a cell
 COMFORT = ("point", "run", "r.m.s. m/s²", "peak m/s²", "Wk r.m.s. m/s²", "VDV m/s^1.75", "MTVV m/s²", "crest factor",
            "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²", "absorbed W")  # fmt: skip
 LINEAR = ("point", "response", "r.m.s. m/s²", "Wk r.m.s. m/s²", "Wd fore-aft m/s²", "We pitch rad/s²", "total m/s²",
@@ -107,9 +106,9 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
         for run, window in zip(runs, windows):
             one = calc_travel(run.results, name, window)
             whole = one.whole or 0.0
-            share = f"{100 * one.compression / whole:.0f} %" if whole > 0.0 else MISSING
+            share = MISSING if one.compression is None or whole <= 0.0 else f"{100 * one.compression / whole:.0f} %"
             hits = (MISSING, MISSING) if one.hits is None else (str(one.hits), f"{one.stopped:.3f}")
-            compression, rebound = (f"{1e3 * value:.1f}" for value in (one.compression, one.rebound))
+            compression, rebound = (format_cell(value, 1, 1e3) for value in (one.compression, one.rebound))
             yield (name, run.label, compression, share, rebound, *hits)
 
 
@@ -119,9 +118,9 @@ def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[
         for run, window in zip(runs, windows):
             one = calc_contact(run.results, name, window)
             yield (
-                name, run.label, f"{1e-3 * one.static:.2f}", f"{1e-3 * one.dynamic_rms:.2f}",
-                f"{one.dynamic_rms / one.static:.3f}", f"{1e-3 * one.greatest:.1f}", f"{one.off_ground:.3f}",
-                f"{one.unloaded:.3f}",
+                name, run.label, *(format_cell(value, 2, 1e-3) for value in (one.static, one.dynamic_rms)),
+                format_cell(one.over_static(one.dynamic_rms), 3), f"{1e-3 * one.greatest:.1f}",
+                f"{one.off_ground:.3f}", f"{one.unloaded:.3f}",
             )  # fmt: skip
 
 

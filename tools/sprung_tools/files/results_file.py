@@ -90,9 +90,15 @@ class ResultsFile:
 
     @property
     def is_from_balance(self) -> bool:
-        """Whether the run starts from static equilibrium; displacements are counted from there."""
+        """Whether static equilibrium was sought. Displacements are counted from there, and the run starts there unless
+        it is continued."""
         group = "model/equilibrium"
         return self.file.has_group(group) and self.file.attribute(group, "is_static_equilibrium", int, 0) == 1
+
+    @property
+    def is_continued(self) -> bool:
+        """Whether the run continues another one (`continue_from`): only such a run starts later than at 0."""
+        return bool(self.time[0] > 0.0)
 
     def names(self, group: str) -> list[str]:
         """The names in a group, e.g. names("bodies"); empty if there is no such group. Joints and forces are in the

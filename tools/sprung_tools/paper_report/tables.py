@@ -21,7 +21,7 @@ from sprung_tools.runs.largest_loads import MOMENT, Peak, calc_peak, find_peak
 from sprung_tools.runs.ride_measures import calc_comfort, calc_contact, calc_travel, read_window
 from sprung_tools.runs.section_stress import FROM_MODES
 from sprung_tools.signals.spectra import calc_rms
-from sprung_tools.terminal.text_table import Rows, Table
+from sprung_tools.terminal.text_table import Rows, Table, format_cell
 
 PLACES = {"middle": MIDDLE, "centre of mass": CENTRE, "seat": SEAT}
 MODELS = {0: "rigid", 2: "2 modes", 4: "4 modes", 36: "36 modes"}
@@ -191,13 +191,14 @@ def make_ride_column(results: ResultsFile, superelements: Path, count: int) -> d
         column[f"{name}: vibration dose value m/s^1.75"] = f"{comfort.dose:.1f}"
     for axle in ("front", "rear"):
         travel = calc_travel(results, f"{axle}_suspension", window)
-        extremes = f"{1e3 * travel.compression:.0f}, {1e3 * travel.rebound:.0f}"
+        extremes = ", ".join(format_cell(value, 0, 1e3) for value in (travel.compression, travel.rebound))
         column[f"{axle} suspension: compression, rebound mm"] = extremes
         column[f"{axle} bump stops: hits, time on them s"] = f"{travel.hits}, {travel.stopped:.2f}"
     for axle in ("front", "rear"):
         contact = calc_contact(results, f"{axle}_tyre", window)
-        column[f"{axle} tyres: r.m.s. dynamic load over static"] = f"{contact.dynamic_rms / contact.static:.2f}"
-        column[f"{axle} tyres: greatest load over static"] = f"{contact.greatest / contact.static:.1f}"
+        variation = contact.over_static(contact.dynamic_rms)
+        column[f"{axle} tyres: r.m.s. dynamic load over static"] = format_cell(variation, 2)
+        column[f"{axle} tyres: greatest load over static"] = format_cell(contact.over_static(contact.greatest), 1)
         column[f"{axle} wheels: off the ground s"] = f"{contact.off_ground:.2f}"
         column[f"{axle} tyres: without load s"] = f"{contact.unloaded:.2f}"
     if count == 0:
@@ -229,7 +230,7 @@ def make_tyres_table(numbers: Numbers) -> Table:
                         f"{run.peak_acceleration(MIDDLE):.1f}",
                         f"{run.rms_acceleration(MIDDLE):.2f}",
                         f"{run.rms_acceleration(SEAT):.2f}",
-                        f"{load.greatest / load.static:.1f}",
+                        format_cell(load.over_static(load.greatest), 1),
                         f"{load.off_ground:.2f}",
                         f"{speed[-1]:.2f}",
                     )

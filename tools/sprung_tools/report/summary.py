@@ -159,7 +159,8 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
     facts.append(("integrator", describe_integrator(settings["integrator"])))
     changed = read_texts(results.file, "model/overrides") if results.file.has_dataset("model/overrides") else []
     facts.append(("changed by --set", ", ".join(changed) or "nothing"))
-    facts.append(("starts from", "static equilibrium" if results.is_from_balance else "the positions given"))
+    origin = "static equilibrium" if results.is_from_balance else "the positions given"
+    facts.append(("starts from", "the end of another run" if results.is_continued else origin))
     for name in results.names("model/superelements"):
         version, content = (
             read_text(results.file, f"model/superelements/{name}", attribute)

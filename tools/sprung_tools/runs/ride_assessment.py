@@ -17,7 +17,7 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_point
 from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.ride_measures import sampling_step
+from sprung_tools.runs.ride_measures import list_static_remarks, sampling_step
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
     RUNNING,
@@ -82,8 +82,9 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
 
 
 def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
-    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why; and
-    whether the run is too short for the MTVV."""
+    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why;
+    whether the run is too short for the MTVV, or its filters have just begun; and what is said of values in static
+    equilibrium."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
     remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     length = float(results.time[samples_between(results, *window)][-1] - results.time[0])
@@ -92,7 +93,13 @@ def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> l
             f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the run has only {length:.3g} s until the end of "
             "the span: what is missing counts as 0, so that the MTVV is too low"
         )
-    return remarks
+    settled = float(results.time[0]) + RUNNING
+    if points and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
+        remarks.append(
+            f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as 0: "
+            f"the MTVV and the other weighted values hold from {settled:.6g} s on (--from)"
+        )
+    return remarks + list_static_remarks(results)
 
 
 def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:

@@ -34,14 +34,15 @@ class Comfort(NamedTuple):
 
 
 class Travel(NamedTuple):
-    """How far a suspension moves: largest deflections from balance [m], compression is positive.
+    """How far a suspension moves: largest deflections from balance [m], compression is positive; None where the
+    deflection in balance is not known.
 
-    whole: the way from balance to the compression stop [m], None without a stop; hits: how often the stop was struck,
-    None without a stop; stopped: the time on it [s].
+    whole: the way from balance to the compression stop [m], None without a stop, too; hits: how often the stop was
+    struck, None without a stop; stopped: the time on it [s].
     """
 
-    compression: float
-    rebound: float
+    compression: float | None
+    rebound: float | None
     whole: float | None
     hits: int | None
     stopped: float
@@ -50,14 +51,18 @@ class Travel(NamedTuple):
 class Contact(NamedTuple):
     """A tyre's contact with the road: static and greatest load [N], r.m.s. of the difference from the static load [N],
     time off the ground [s], time without load [s]. A tyre is also without load where it still reaches the road but
-    rises faster than it springs back.
+    rises faster than it springs back. static and dynamic_rms are None where the static load is not known.
     """
 
-    static: float
+    static: float | None
     greatest: float
-    dynamic_rms: float
+    dynamic_rms: float | None
     off_ground: float
     unloaded: float
+
+    def over_static(self, load: float | None) -> float | None:
+        """A load over the static one; None where that is not known, or 0."""
+        return load / self.static if load is not None and self.static else None
 
 
 def read_window(results: ResultsFile, start: float | None = None, end: float | None = None) -> Span:
@@ -136,20 +141,37 @@ def calc_travel(results: ResultsFile, name: str, window: Span) -> Travel:
     struck = np.zeros(deflection.shape, dtype=bool) if stop is None else deflection > stop
     hits = int(np.count_nonzero(struck[1:] & ~struck[:-1]) + struck[0])
     return Travel(
-        float(deflection.max() - static),
-        float(deflection.min() - static),
-        None if stop is None else stop - static,
+        None if static is None else float(deflection.max() - static),
+        None if static is None else float(deflection.min() - static),
+        None if stop is None or static is None else stop - static,
         None if stop is None else hits,
         float(np.count_nonzero(struck) * sampling_step(results)),
     )
 
 
-def calc_static(results: ResultsFile, values: Floats, inside: Flags) -> float:
-    """A quantity's value in static equilibrium: its first value if the run starts from balance, else its mean over the
-    span."""
-    if results.is_from_balance:
-        return float(values[0])
-    return float(np.mean(values[inside]))
+def calc_static(results: ResultsFile, values: Floats, inside: Flags) -> float | None:
+    """A quantity's value in static equilibrium: its first value if the run starts there; its mean over the span if
+    equilibrium was not sought. None if the run continues another one: the file then holds no value in equilibrium."""
+    if not results.is_from_balance:
+        return float(np.mean(values[inside]))
+    return None if results.is_continued else float(values[0])
+
+
+def list_static_remarks(results: ResultsFile) -> list[str]:
+    """Why values in static equilibrium are not known, or what stands in their place; empty if they are known."""
+    if not find_tyres(results) and not find_suspensions(results):
+        return []
+    if not results.is_from_balance:
+        return [
+            "static equilibrium was not sought: static loads are mean values over the span, and travel counts from "
+            "mean deflections"
+        ]
+    if results.is_continued:
+        return [
+            f"static loads and travel are not known: the run continues another one from {results.time[0]:.6g} s on, "
+            "and its file holds neither loads nor deflections in static equilibrium; those of the first run do"
+        ]
+    return []
 
 
 def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
@@ -159,7 +181,8 @@ def calc_contact(results: ResultsFile, name: str, window: Span) -> Contact:
     force, _ = read_force_channel(results, name, FORCE)
     contact, _ = read_force_channel(results, name, CONTACT)
     static = calc_static(results, force, inside)
+    dynamic_rms = None if static is None else calc_rms(force[inside] - static)
     off_ground, unloaded = (
         float(np.count_nonzero(bare) * sampling_step(results)) for bare in (contact[inside] == 0, force[inside] <= 0.0)
     )
-    return Contact(static, float(force[inside].max()), calc_rms(force[inside] - static), off_ground, unloaded)
+    return Contact(static, float(force[inside].max()), dynamic_rms, off_ground, unloaded)

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 Rows = Sequence[Sequence[str]]
 Table = tuple[Sequence[str], Rows]  # headings, rows
+MISSING = "–"  # in a cell
 
 
 def is_number(cell: str) -> bool:
@@ -13,6 +14,11 @@ def is_number(cell: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def format_cell(value: float | None, digits: int, factor: float = 1.0) -> str:
+    """A number times a factor with so many digits after the point; MISSING for None."""
+    return MISSING if value is None else f"{factor * value:.{digits}f}"
 
 
 def format_table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

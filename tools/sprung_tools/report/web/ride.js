@@ -16,7 +16,7 @@ const TYRE = [
 /** Adds what the tables show and the data lack. */
 function completeRide(kind, one) {
   if (kind === "travel") {
-    const share = one.whole !== null && one.whole > 0 ? 100 * one.compression / one.whole : null;
+    const share = one.compression !== null && one.whole !== null && one.whole > 0 ? 100 * one.compression / one.whole : null;
     return {...one, share, stopped: one.hits === null ? null : one.stopped};
   }
   if (kind === "tyres") return {...one, variation: one.static ? one.dynamic_rms / one.static : null};
