@@ -173,6 +173,18 @@ class FatigueCommand(ToolTestCase):
             max(max(pair) for pair in along["damage"]), run["measures"]["fatigue/body/from_modes/damage"]["value"]
         )
 
+    def test_a_span_that_is_longer_than_the_run_does_not_lengthen_the_life(self):
+        # The damage of 4 s of run is repeated every 4 s, however long the span that was asked for.
+        write_loads(self.folder / "a.h5")
+        lives = []
+        for start, end in (("0", "4"), ("-5", "400")):
+            process = self.run_tool("fatigue", "a.h5", "--category", "71", "--from", start, "--to", end, "--json")
+            self.assert_succeeds(process)
+            (run,) = json.loads(process.stdout)["runs"]
+            self.assertEqual(run["span"], {"from": 0.0, "to": 4.0, "unit": "s"})
+            lives.append(run["measures"]["fatigue/body/from_modes/life"]["value"])
+        self.assertEqual(*lives)
+
     def test_what_cannot_be_is_refused(self):
         write_loads(self.folder / "a.h5")
         write_ride_results(self.folder / "bare.h5", with_moments=False)

@@ -51,6 +51,12 @@ class RideMeasures(ToolTestCase):
         self.assertEqual(read_window(self.open(), None, 2.0), (1.0, 2.0))
         self.assertEqual(read_window(self.open(settings={"statistics_to": 2.5})), (1.0, 2.5))
 
+    def test_the_window_is_the_part_that_the_run_has(self):
+        results = self.open(settings={"statistics_from": 0.0})
+        self.assertEqual(read_window(results, -5.0, 100.0), (0.0, 4.0))  # the run is from 0 to 4 s
+        results.time = results.time + 0.25  # it continues another one
+        self.assertEqual(read_window(results), (0.25, 3.0))
+
     def test_comfort_of_a_sine_is_its_weighted_amplitude(self):
         comfort = calc_comfort(self.open(), "points/body.seat", WINDOW)
         weighted = SEAT_AMPLITUDE * abs(calc_wk(SEAT_FREQUENCY))

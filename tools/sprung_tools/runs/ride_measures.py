@@ -66,12 +66,13 @@ class Contact(NamedTuple):
 
 
 def read_window(results: ResultsFile, start: float | None = None, end: float | None = None) -> Span:
-    """The span of time (from, to) [s] that is judged: as given, else the statistics window of the run."""
+    """The span of time (from, to) [s] that is judged: as given, else the statistics window of the run; only the part
+    that the run has."""
     if start is None or end is None:
         settings = read_settings(results)
         start = settings["statistics_from"] if start is None else start
         end = settings["statistics_to"] if end is None else end
-    return float(start), float(end)
+    return max(float(start), float(results.time[0])), min(float(end), float(results.time[-1]))
 
 
 def sampling_step(results: ResultsFile) -> float:
