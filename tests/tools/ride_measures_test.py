@@ -212,6 +212,31 @@ class Tool(ToolTestCase):
         self.assertNotIn("body.seat", process.stdout)
         self.assertNotIn("largest moment", process.stdout)
 
+    def test_what_only_some_runs_have_is_in_the_tables_of_all(self):
+        write_ride_results(self.folder / "a.h5")
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            file.move("forces/tyre", "forces/wheel")
+            file.move("model/resolved/forces/tyre", "model/resolved/forces/wheel")
+            for name in ("forces/link", "bodies/body", "recovery/body", "points/body.seat"):
+                del file[name]
+        for order in (("a=a.h5", "b=b.h5"), ("b=b.h5", "a=a.h5")):
+            process = self.run_tool("ride", *order)
+            self.assert_succeeds(process)
+            rows = [re.split(r"  +", line.strip()) for line in process.stdout.splitlines()]
+            cells = {}
+            for first, *others in rows:  # the name stands in the first row only
+                if first in ("a", "b"):
+                    cells[(name, first)] = others
+                elif others[:1] in (["a"], ["b"]):
+                    name = first
+                    cells[(name, others[0])] = others[1:]
+            for missing, there in ((("link", "b"), ("link", "a")), (("tyre", "b"), ("tyre", "a")),
+                                   (("wheel", "a"), ("wheel", "b"))):  # fmt: skip
+                self.assertEqual(set(cells[missing]), {"–"}, (order, missing))
+                self.assertNotEqual(set(cells[there]), {"–"}, (order, there))
+            self.assertEqual(cells[("body", "a")][0], "-3")
+            self.assertNotIn(("body", "b"), cells)
+
     def test_missing_quantities_are_refused(self):
         write_ride_results(self.folder / "a.h5")
         self.assert_refuses(self.run_tool("ride", "b.h5"), "b.h5: error: no such file")

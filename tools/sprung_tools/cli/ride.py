@@ -14,7 +14,7 @@ road (sprung-dynamics response), the tool prints the r.m.s. values and the absor
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from sprung_tools.files.errors import InputError
@@ -64,11 +64,16 @@ DIFFERENCE_NOTE = (
 )
 
 
+def join_names(listed: Iterable[Iterable[str]]) -> list[str]:
+    """All names of some lists, each once, in the order of their first appearance."""
+    return list(dict.fromkeys(name for names in listed for name in names))
+
+
 def make_comfort_rows(
     runs: Sequence[Run], points: Sequence[Sequence[str]], windows: Sequence[Span]
 ) -> Iterator[tuple[str, ...]]:
     """The rows of the table of vibration. points: of each run, as find_points() gives them."""
-    for point in dict.fromkeys(point for some in points for point in some):
+    for point in join_names(points):
         for run, some, window in zip(runs, points, windows):
             if point not in some:
                 continue
@@ -81,7 +86,7 @@ def make_comfort_rows(
 
 def make_linear_rows(responses: Sequence[Response], wanted: Sequence[str]) -> Iterator[tuple[str, ...]]:
     """The rows of the table of linear vehicles on a random road. wanted: points, all of the files if there is none."""
-    for point in wanted or list(dict.fromkeys(name for response in responses for name in list_points(response))):
+    for point in wanted or join_names(list_points(response) for response in responses):
         for response in responses:
             one = calc_linear_assessment(response, point)
             numbers = (one.rms, one.vertical, one.fore_aft, one.pitch, one.total, one.power)
@@ -102,8 +107,12 @@ def part_files(arguments: Sequence[str]) -> tuple[list[str], list[str]]:
 
 def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
     """The rows of the table of suspensions."""
-    for name in find_suspensions(runs[0].results):
-        for run, window in zip(runs, windows):
+    listed = [find_suspensions(run.results) for run in runs]
+    for name in join_names(listed):
+        for run, there, window in zip(runs, listed, windows):
+            if name not in there:
+                yield (name, run.label, *[MISSING] * len(TRAVEL[2:]))
+                continue
             one = calc_travel(run.results, name, window)
             whole = one.whole or 0.0
             share = MISSING if one.compression is None or whole <= 0.0 else f"{100 * one.compression / whole:.0f} %"
@@ -114,8 +123,12 @@ def make_travel_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[t
 
 def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[tuple[str, ...]]:
     """The rows of the table of tyres."""
-    for name in find_tyres(runs[0].results):
-        for run, window in zip(runs, windows):
+    listed = [find_tyres(run.results) for run in runs]
+    for name in join_names(listed):
+        for run, there, window in zip(runs, listed, windows):
+            if name not in there:
+                yield (name, run.label, *[MISSING] * len(CONTACT[2:]))
+                continue
             one = calc_contact(run.results, name, window)
             yield (
                 name, run.label, *(format_cell(value, 2, 1e-3) for value in (one.static, one.dynamic_rms)),
@@ -127,10 +140,11 @@ def make_contact_rows(runs: Sequence[Run], windows: Sequence[Span]) -> Iterator[
 def make_bending_rows(
     runs: Sequence[Run], windows: Sequence[Span], superelements: str | None
 ) -> Iterator[tuple[str, ...]]:
-    """The rows of the table of bending moments."""
-    for body in runs[0].results.names("bodies"):
-        for run, window in zip(runs, windows):
-            found = find_bending(run.results, body, window, superelements)
+    """The rows of the table of bending moments, of the runs that have some."""
+    listed = [run.results.names("bodies") for run in runs]
+    for body in join_names(listed):
+        for run, there, window in zip(runs, listed, windows):
+            found = find_bending(run.results, body, window, superelements) if body in there else None
             if not found:
                 continue
             from_modes = calc_peak(run.results, body, MOMENT, FROM_MODES, window)
