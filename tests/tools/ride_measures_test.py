@@ -204,6 +204,24 @@ class Tool(ToolTestCase):
         rows = [line.split() for line in self.run_tool("ride", "truck=a.h5").stdout.splitlines()]
         self.assertEqual([row[2:4] for row in rows if row[:1] == ["suspension"] and "truck" in row], [["100.0", "–"]])
 
+    def test_of_a_run_that_starts_as_given_static_values_are_called_mean_values(self):
+        remark = "static equilibrium was not sought: static loads are mean values over the span"
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            file["model/equilibrium"].attrs["is_static_equilibrium"] = 0
+        write_ride_results(self.folder / "b.h5")
+        for name, is_given in (("a.h5", True), ("b.h5", False)):
+            self.assertEqual(remark in self.run_tool("ride", name).stdout, is_given)
+
+    def test_a_tyre_without_load_has_no_load_over_static(self):
+        # A drop test before the wheel touches the road.
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            file["model/equilibrium"].attrs["is_static_equilibrium"] = 0
+            file["forces/tyre/force"][:] = 0.0
+        process = self.run_tool("ride", "truck=a.h5")
+        self.assert_succeeds(process)
+        (row,) = [line.split() for line in process.stdout.splitlines() if line.startswith("tyre ") and "truck" in line]
+        self.assertEqual(row[2:6], ["0.00", "0.00", "–", "0.0"])
+
     def test_points_and_the_span_can_be_chosen(self):
         write_ride_results(self.folder / "a.h5", with_moments=False)
         process = self.run_tool("ride", "a.h5", "--points", "body.center_of_mass", "--from", "0", "--to", "4")
