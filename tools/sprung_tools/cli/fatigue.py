@@ -221,10 +221,10 @@ def parse_arguments() -> argparse.Namespace:
 
 def read_line(arguments: argparse.Namespace) -> StrengthLine:
     """The strength line of the command line. InputError for a value that no line has."""
-    values = {"--category": arguments.category, "--slopes": min(arguments.slopes), "--knee": arguments.knee,
-              "--endurance": arguments.endurance, "--strength": arguments.strength,
-              "--factor": arguments.factor}  # fmt: skip
-    for name, value in values.items():
+    values = (("--category", arguments.category), *(("--slopes", slope) for slope in arguments.slopes),
+              ("--knee", arguments.knee), ("--endurance", arguments.endurance), ("--strength", arguments.strength),
+              ("--factor", arguments.factor))  # fmt: skip
+    for name, value in values:
         if value is not None and not 0.0 < value < float("inf"):
             raise InputError(f"{name}: error: is {value:g}, expected a finite value > 0")
     strength = None if arguments.strength is None else MPA * arguments.strength

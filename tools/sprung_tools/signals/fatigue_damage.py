@@ -40,9 +40,11 @@ class StrengthLine(NamedTuple):
 
 
 def calc_range(line: StrengthLine, cycles: float) -> float:
-    """The range [Pa] that a number of cycles exhausts."""
-    knee_range = line.category * (CATEGORY_CYCLES / line.knee) ** (1.0 / line.slopes[0])
-    return float(knee_range * (line.knee / cycles) ** (1.0 / line.slopes[0 if cycles <= line.knee else 1]))
+    """The range [Pa] that a number of cycles exhausts; 0 or inf where 64 bits do not hold it."""
+    slope = line.slopes[0 if cycles <= line.knee else 1]
+    with np.errstate(all="ignore"):
+        knee_range = line.category * np.power(CATEGORY_CYCLES / line.knee, np.divide(1.0, line.slopes[0]))
+        return float(knee_range * np.power(line.knee / cycles, np.divide(1.0, slope)))
 
 
 def correct_ranges(line: StrengthLine, cycles: Cycles) -> Floats:
@@ -59,11 +61,21 @@ def correct_ranges(line: StrengthLine, cycles: Cycles) -> Floats:
 
 
 def calc_damage(line: StrengthLine, cycles: Cycles) -> float:
-    """The damage of (3). ValueError as correct_ranges()."""
+    """The damage of (3). ValueError as correct_ranges(), or if the line's knee or the damage is not finite."""
     ranges = correct_ranges(line, cycles)
     knee_range = calc_range(line, line.knee)
+    if not 0.0 < knee_range < np.inf:
+        raise ValueError(f"the line's range at {line.knee:g} cycles is {knee_range:g} Pa, expected a finite value > 0")
     slopes = np.where(ranges >= knee_range, line.slopes[0], line.slopes[1])
-    shares = cycles.counts / line.knee * (ranges / knee_range) ** slopes
+    with np.errstate(all="ignore"):
+        shares = cycles.counts / line.knee * (ranges / knee_range) ** slopes
     if line.endurance is not None:
         shares = np.where(ranges >= calc_range(line, line.endurance), shares, 0.0)
-    return float(np.sum(shares))
+    damage = float(np.sum(shares))
+    if not np.isfinite(damage):
+        largest = 1e-6 * float(np.max(ranges))
+        raise ValueError(
+            f"the damage of ranges up to {largest:.4g} MPa is {damage:g}, expected a finite number: the line has a "
+            f"knee at {1e-6 * knee_range:.4g} MPa and slopes of {line.slopes[0]:g} and {line.slopes[1]:g}"
+        )
+    return damage
