@@ -1,9 +1,11 @@
 """runs/ride_assessment.py: all measures of a seat whose vibration is a sine, and people's reaction in words."""
 
+import h5py
 import numpy as np
 from ride_results import SEAT_AMPLITUDE, SEAT_FREQUENCY, write_ride_results
 from tool_test_case import ToolTestCase
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands, describe_comfort
 from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
@@ -47,6 +49,33 @@ class RideAssessment(ToolTestCase):
         bands = calc_bands(self.results, "points/body.seat", WINDOW)
         self.assertEqual(NOMINAL[int(np.argmax(bands))], SEAT_FREQUENCY)
         self.assertAlmostEqual(np.max(bands), SEAT_AMPLITUDE / np.sqrt(2.0), delta=0.01)
+
+    def test_bands_that_the_samples_do_not_hold_are_not_known(self):
+        # A sample every 10 ms is four in a period of 25 Hz. The sine of 5 Hz is in bands that both files hold.
+        whole = calc_bands(self.results, "points/body.seat", WINDOW)
+        self.assertNotIn(None, whole)
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            for name in ("time", "points/body.seat/acceleration"):
+                values, unit = file[name][::10], file[name].attrs["unit"]
+                del file[name]
+                file[name] = values
+                file[name].attrs["unit"] = unit
+        with open_results(self.folder / "b.h5") as results:
+            bands = calc_bands(results, "points/body.seat", WINDOW)
+        known = NOMINAL.index(25.0) + 1
+        self.assertEqual(bands[known:], [None] * (len(NOMINAL) - known))
+        np.testing.assert_allclose(bands[:known], whole[:known], atol=0.01)
+
+    def test_bands_are_refused_where_the_acceleration_is_not_stored_at_every_output(self):
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            name = "points/body.seat/acceleration"
+            values, unit = file[name][::2], file[name].attrs["unit"]
+            del file[name]
+            file[name] = values
+            file[name].attrs.update({"unit": unit, "every": 2})
+        with open_results(self.folder / "b.h5") as results:
+            with self.assertRaisesRegex(InputError, "is stored every 2 ms only, but is needed at every output"):
+                calc_bands(results, "points/body.seat", WINDOW)
 
     def test_the_words_are_those_of_the_standard_whose_ranges_overlap(self):
         for total, words in (

@@ -131,9 +131,17 @@ class Errors(ToolTestCase):
 
     def test_a_measure_that_a_run_does_not_have_is_an_error_that_names_the_objects(self):
         with sprung.run(CAR, overrides={"duration": 0.5}) as results:
-            for name in ("tyres/none/static_load", "tyres/tyre/none", "none", "suspensions/suspension/way_to_stop"):
+            for name in ("tyres/none/static_load", "tyres/tyre/none", "none"):
                 with self.assertRaisesRegex(sprung.InputError, f"no measure '{name}'; .*: summary, .*, tyres/tyre"):
                     results.measure(name)
+            with self.assertRaisesRegex(sprung.InputError, "suspension/way_to_stop: the run has no such value"):
+                results.measure("suspensions/suspension/way_to_stop")
+
+    def test_a_band_that_the_samples_do_not_hold_is_an_error(self):
+        with sprung.run(CAR, overrides={"duration": 0.5, "output_step": 0.01}) as results:
+            self.assertGreater(results.measure("bands/sprung.origin/5"), 0.0)
+            with self.assertRaisesRegex(sprung.InputError, "bands/sprung.origin/80: the run has no such value"):
+                results.measure("bands/sprung.origin/80")
 
     def test_a_computation_that_does_not_come_to_its_end_is_a_numerical_error(self):
         with self.assertRaisesRegex(sprung.NumericalError, "no static equilibrium"):  # nothing bears the car

@@ -205,6 +205,18 @@ class Rows(StudyCase):
                 self.assert_refuses(self.study("--jobs", "2"), f"study.toml:2:{column}: error: {what}")
                 self.assertEqual(len((self.folder / "out/rows.jsonl").read_text(encoding="utf-8").splitlines()), 1)
 
+    def test_a_band_that_the_samples_do_not_hold_is_an_empty_cell_with_a_warning(self):
+        # Four samples in a period of 80 Hz are one every 3.1 ms.
+        self.write_study('measures = ["bands/sprung.origin/5", "bands/sprung.origin/80"]\nset.duration = 0.5\n'
+                         '[[parameters]]\nkey = "output_step"\nvalues = [0.001, 0.01]')  # fmt: skip
+        self.assertEqual(self.study().returncode, 0)
+        fine, coarse = self.read_table()
+        self.assertEqual(coarse["bands/sprung.origin/80 [m/s^2]"], "")
+        for row in (fine, coarse):
+            self.assertGreater(float(row["bands/sprung.origin/5 [m/s^2]"]), 0.0)
+            is_warned = "bands/sprung.origin/80: the run has no such value" in row["warnings"]
+            self.assertEqual(is_warned, row is coarse)
+
     def test_where_the_vehicle_varies_a_measure_that_one_does_not_have_is_an_empty_cell(self):
         text = (EXAMPLES / "quarter_car.toml").read_text(encoding="utf-8")
         for name in ("tyre", "wheel"):

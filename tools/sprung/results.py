@@ -13,6 +13,7 @@ from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
 from sprung_tools.files.results_file import COMPONENTS, ResultsFile, open_results
 from sprung_tools.runs import labelled_responses
 from sprung_tools.runs.measures import (
+    UNKNOWN,
     Measures,
     calc_measures,
     is_converged,
@@ -149,8 +150,10 @@ class Results:
         # The measures of points in the summary are among those of the object `summary`.
         calc = objects.get("summary" if wanted.startswith("summary") else wanted)
         found = calc().get(name) if calc is not None else None
-        if found is None or found.value is None:
+        if found is None:
             raise InputError(f"{self.path}: error: no measure '{name}'; there are measures of: {', '.join(objects)}")
+        if found.value is None:
+            raise InputError(f"{self.path}: error: {name}: {UNKNOWN}")
         return found.value
 
     def _collect(self, path: str, found: list[str]) -> None:

@@ -1,8 +1,9 @@
 """The ride on the page: how the vibration of the seats is judged, third-octave bands, suspensions, tyres."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
-from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.report.histories import Channel, list_monitored
@@ -80,9 +81,9 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
             "tyres": contacts}  # fmt: skip
 
 
-def clean(values: Floats) -> list[float]:
-    """Numbers with six digits, which are enough to draw them."""
-    return [float(f"{value:.6g}") for value in values]
+def clean(values: Iterable[float | None]) -> list[float | None]:
+    """Numbers with six digits, which are enough to draw them; None stays."""
+    return [None if value is None else float(f"{value:.6g}") for value in values]
 
 
 def pack_boundaries() -> Packed:

@@ -47,6 +47,7 @@ from sprung_tools.signals.third_octaves import NOMINAL
 JSON_FORMAT, JSON_VERSION = "sprung-measures", 2  # tools/README.md, "Measures"
 CENTRE = "center_of_mass"
 HISTORIES = "histories/"
+UNKNOWN = "the run has no such value (tools/README.md, Measures, tells when a value is null)"
 # The units of the measures of each kind of object; those of the summary follow from the ends of their names.
 POINT_UNITS = {
     "rms": "m/s^2", "peak": "m/s^2", "wk_rms": "m/s^2", "vdv": "m/s^1.75", "mtvv": "m/s^2", "crest_factor": "1",
@@ -158,7 +159,8 @@ def measure_point(results: ResultsFile, name: str, folder: str, window: Span) ->
 
 
 def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
-    """The r.m.s. of a point's vertical acceleration in third-octave bands, each under its nominal frequency in Hz."""
+    """The r.m.s. of a point's vertical acceleration in third-octave bands, each under its nominal frequency in Hz;
+    None of bands of which the samples are too few."""
     units = {f"{frequency:g}": "m/s^2" for frequency in NOMINAL}
     return combine(name, units, calc_bands(results, folder, window))
 

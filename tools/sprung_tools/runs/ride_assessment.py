@@ -21,6 +21,7 @@ from sprung_tools.runs.ride_measures import list_static_remarks, sampling_step
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
     RUNNING,
+    SAMPLES_PER_PERIOD,
     WD,
     WE,
     WK,
@@ -31,7 +32,7 @@ from sprung_tools.signals.ride_weighting import (
 )
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
-from sprung_tools.signals.third_octaves import calc_third_octaves
+from sprung_tools.signals.third_octaves import NOMINAL, calc_third_octaves
 
 PITCH = 0.4  # m/rad
 ROUNDING = 1e-9  # relative, of times
@@ -150,10 +151,15 @@ def calc_total(fore_aft: float, vertical: float, pitch: float) -> float:
     return float(np.sqrt(fore_aft**2 + vertical**2 + (PITCH * pitch) ** 2))
 
 
-def calc_bands(results: ResultsFile, point: str, window: Span) -> Floats:
-    """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23]."""
+def calc_bands(results: ResultsFile, point: str, window: Span) -> list[float | None]:
+    """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23]; None for
+    bands of which the samples are too few: as for the weightings, SAMPLES_PER_PERIOD are needed."""
+    step = sampling_step(results)
+    results.check_every_output(f"{point}/acceleration.y")
     acceleration, _ = results.series(f"{point}/acceleration.y")
-    return calc_third_octaves(acceleration, sampling_step(results), samples_between(results, *window))
+    found = calc_third_octaves(acceleration, step, samples_between(results, *window))
+    highest = (1.0 + ROUNDING) / (SAMPLES_PER_PERIOD * step)
+    return [float(value) if centre <= highest else None for value, centre in zip(found, NOMINAL)]
 
 
 def describe_comfort(total: float) -> str:

@@ -17,6 +17,7 @@ from sprung_tools.programs.calls import BAD_INPUT, CHECK_FAILED, GOOD, INTERRUPT
 from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.measures import (
+    UNKNOWN,
     Measure,
     Measures,
     Objects,
@@ -122,6 +123,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             window = read_window(results)
             objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
             measures = pick(objects, wanted)
+            unknown = [name for name in wanted if name in measures and measures[name].value is None]
+            warnings += tuple(f"{name}: {UNKNOWN}" for name in unknown)
     elif output is not None:
         with open_hdf5(output, RESPONSE) as file:
             response = Response("", file, read_numbers(file, "frequency")[0])
