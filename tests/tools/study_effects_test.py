@@ -42,6 +42,17 @@ class Effects(unittest.TestCase):
         for values in ([3.0, 3.0], [np.nan, np.nan], [np.nan, 1.0]):
             self.assertEqual(calc_effects(make_study(("a",), points), [Column("o/y", "y", "", np.array(values))]), [])
 
+    def test_the_rounding_errors_of_a_mean_or_of_a_computation_are_no_variation(self):
+        # The mean of three equal values of 0.1 is 0.1 + 1 ulp; one ulp of 0.1 is 1.4e-17.
+        points = [(1.0,), (2.0,), (3.0,)]
+        self.assertNotEqual(np.mean([0.1, 0.1, 0.1]), 0.1)
+        for values in ([0.1, 0.1, 0.1], [0.1, 0.1, np.nextafter(0.1, 1.0)], [0.0, 0.0, 0.0]):
+            self.assertEqual(calc_effects(make_study(("a",), points), [Column("o/y", "y", "", np.array(values))]), [])
+        (effect,) = calc_effects(
+            make_study(("a",), points), [Column("o/y", "y", "", np.array([0.1, 0.1, 0.1 + 1e-10]))]
+        )
+        self.assertAlmostEqual(effect.share, 1.0)
+
     def test_many_values_make_five_groups_of_equal_size(self):
         values = list(np.random.default_rng(1).permutation(np.linspace(0.0, 10.0, 50)))
         groups, names = make_groups(values)

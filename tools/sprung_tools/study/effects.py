@@ -19,6 +19,7 @@ from sprung_tools.study.table import Column, format_cell
 
 MOST_VALUES = 12  # of a parameter that make a group each
 PARTS = 5
+ROUNDING = 1e-12  # of the largest value: what varies less does not vary
 
 
 class Effect(NamedTuple):
@@ -73,9 +74,9 @@ def calc_effect(parameter: str, column: Column, groups: Integers, names: list[st
     """The effect of one parameter on one measure; None if the measure does not vary."""
     there = ~np.isnan(column.values)
     values, groups = column.values[there], groups[there]
-    total = float(np.sum((values - np.mean(values)) ** 2)) if values.size else 0.0
-    if not total > 0.0:
+    if not values.size or not np.ptp(values) > ROUNDING * np.max(np.abs(values)):
         return None
+    total = float(np.sum((values - np.mean(values)) ** 2))
     found = np.unique(groups)
     means = np.array([np.mean(values[groups == one]) for one in found])
     counts = np.array([np.count_nonzero(groups == one) for one in found])
