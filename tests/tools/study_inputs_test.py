@@ -1,10 +1,13 @@
 """What the runs of a study read: designs that stage one reduces, random roads."""
 
 import json
+import shutil
 import unittest
 
 from study_case import DYNAMICS, EXAMPLES, REDUCE, StudyCase
 from tool_test_case import ROOT, run_program
+
+from sprung_tools.study.designs import make_variant, reduce_variant
 
 VERIFICATION = ROOT / "tests/verification/models"
 
@@ -75,6 +78,51 @@ class Designs(StudyCase):
         process = self.study()
         self.assertIn("'lines.7.elements': '7' is no number of an entry", process.stderr)
         self.assertEqual(process.returncode, 2)
+
+
+class FilesOfDesigns(StudyCase):
+    """A design that reads other files becomes variants that read the same files."""
+
+    def reduce(self, design, **changes):
+        """Reduces a variant elsewhere. Returns it."""
+        variant = make_variant(design, changes, self.folder / "designs")
+        self.assertEqual(reduce_variant(REDUCE, variant), "")
+        self.assertTrue(variant.superelement.is_file())
+        return variant
+
+    def test_a_mesh_in_another_folder_is_taken_along(self):
+        text = (ROOT / "meshes/examples/ladder_frame.toml").read_text(encoding="utf-8")
+        for name in ("frame.geo", "sub/frame.geo", "../shared/frame.geo", str(self.folder / "frame.geo")):
+            design = self.folder / "frames" / "ladder_frame.toml"
+            mesh = design.parent / name
+            for one in (design, mesh):
+                one.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / "meshes/examples/ladder_frame.geo", mesh)
+            design.write_text(text.replace('"ladder_frame.geo"', f'"{name}"'), encoding="utf-8")
+            with self.subTest(name):
+                first = self.reduce(design)
+                mesh.write_text(mesh.read_text(encoding="utf-8") + "// changed\n", encoding="utf-8")
+                self.assertNotEqual(make_variant(design, {}, self.folder / "designs").folder, first.folder)
+
+    def test_matrices_are_taken_along_and_a_changed_one_makes_another_variant(self):
+        folder = self.folder / "body"
+        (folder / "parts").mkdir(parents=True)
+        write = [REDUCE, "matrices", VERIFICATION / "beam_inside.toml", "-o", folder / "parts/beam"]
+        run_program(write, cwd=self.folder, check=True)
+        names = {key: f"parts/beam_{key}" for key in ("stiffness.mtx", "mass.mtx", "freedoms.csv", "nodes.csv")}
+        keys = "".join(f'{key.partition(".")[0]} = "{name}"\n' for key, name in names.items())
+        design = folder / "beam.toml"
+        design.write_text(
+            f'[matrices]\nformat = "matrix-market"\n{keys}[points]\ninner = [0.625, 0.0]\n'
+            '[reference]\npoint = "inner"\ncondition = "clamped"\n[modes]\ncount = 4\ndamping_ratio = 0.0\n',
+            encoding="utf-8",
+        )
+        found = {self.reduce(design, **changes).folder for changes in ({}, {"modes.damping_ratio": 0.01})}
+        for name in names.values():
+            with open(folder / name, "a", encoding="utf-8") as file:
+                file.write("\n")
+            found.add(make_variant(design, {}, self.folder / "designs").folder)
+        self.assertEqual(len(found), 6)
 
 
 class RandomRoads(StudyCase):

@@ -15,6 +15,8 @@ from sprung_tools.programs.calls import GOOD, call
 
 Table = dict[str, Any]
 
+FILE_KEYS = ("mesh", "matrices.stiffness", "matrices.mass", "matrices.freedoms", "matrices.nodes")
+
 
 class Variant(NamedTuple):
     """A design as some runs use it. folder: holds NAME.toml and, once it is reduced, NAME.h5."""
@@ -22,7 +24,7 @@ class Variant(NamedTuple):
     name: str
     folder: Path
     text: str
-    mesh: Path | None  # a file that the design reads, beside the original one
+    files: dict[str, Path]  # those that the design reads, by their names relative to it
 
     @property
     def superelement(self) -> Path:
@@ -36,12 +38,32 @@ def make_variant(design: Path, changes: Mapping[str, Any], folder: Path) -> Vari
     text = design.read_text(encoding="utf-8")
     for key, value in changes.items():
         set_value(file.data, key, value, design)
-    if changes:
+    files, is_moved = take_files(file.data, design)
+    if changes or is_moved:
         text = f"# Made by tools/study from {design.name}.\n{format_document(file.data)}"
-    mesh_name = file.data.get("mesh")
-    mesh = design.parent / mesh_name if isinstance(mesh_name, str) else None
-    parts = [text.encode(), mesh.read_bytes() if mesh is not None and mesh.is_file() else b""]
-    return Variant(design.stem, folder / f"{design.stem}-{hash_parts(parts)[:16]}", text, mesh)
+    parts = [text.encode(), *([one.read_bytes() for one in files.values()] or [b""])]
+    return Variant(design.stem, folder / f"{design.stem}-{hash_parts(parts)[:16]}", text, files)
+
+
+def take_files(data: Table, design: Path) -> tuple[dict[str, Path], bool]:
+    """The files that a design reads and that are there, by their names in it; whether a name was changed.
+
+    A name that leads out of the design's folder becomes an absolute one, because a variant lies elsewhere.
+    """
+    files: dict[str, Path] = {}
+    is_moved = False
+    for key in FILE_KEYS:
+        group, _, last = key.rpartition(".")
+        table = data.get(group) if group else data
+        name = table.get(last) if isinstance(table, dict) else None
+        if not isinstance(name, str) or not (design.parent / name).is_file():
+            continue
+        path = design.parent / name
+        if ".." in Path(name).parts:
+            name = table[last] = str(path.resolve())
+            is_moved = True
+        files[name] = path
+    return files, is_moved
 
 
 def set_value(table: Table, path: str, value: Any, design: Path) -> None:
@@ -74,8 +96,10 @@ def reduce_variant(program: Path, variant: Variant) -> str:
     variant.folder.mkdir(parents=True, exist_ok=True)
     design = variant.folder / f"{variant.name}.toml"
     write_whole(design, variant.text)
-    if variant.mesh is not None and variant.mesh.is_file():
-        shutil.copyfile(variant.mesh, variant.folder / variant.mesh.name)
+    for name, path in variant.files.items():
+        if not Path(name).is_absolute():
+            (variant.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, variant.folder / name)
     outcome = call([program, "build", design, "--output-dir", variant.folder, "--quiet"], is_tied=True)
     return outcome.error if outcome.exit_code != GOOD else ""
 
