@@ -103,15 +103,13 @@ std::vector<double> make_random_heights(const RandomRoad& road) {
 
   std::vector<double> heights(num_parts + 1);
   const double spacing = road.length / static_cast<double>(num_parts);
+  // The waves have no mean over a period, of which the last point is one too many. Eased ends are at 0.
+  const double level = road.ease > 0.0 ? 0.0 : periodic[0].real() / static_cast<double>(heights.size());
   double sum = 0.0;
   for (std::size_t i = 0; i <= num_parts; ++i) {
     const double from_end = spacing * static_cast<double>(std::min(i, num_parts - i));
     heights[i] = periodic[i % num_parts].real() * calc_easing(from_end, road.ease);
-  }
-  const double begin = heights.front();
-  for (double& height : heights) {
-    height -= begin;
-    sum += height * height;
+    sum += (heights[i] - level) * (heights[i] - level);
   }
   const double found = std::sqrt(sum / static_cast<double>(heights.size()));
   const double wanted = road.rms > 0.0 ? road.rms : found;
@@ -120,7 +118,8 @@ std::vector<double> make_random_heights(const RandomRoad& road) {
         fmt::format("the heights have an r.m.s. value of {:.3g} m, expected up to {:g} m",
                     found > 0.0 && std::isfinite(found) ? wanted : found, kLargestRms));
   }
-  for (double& height : heights) height *= wanted / found;
+  const double begin = heights.front();
+  for (double& height : heights) height = (height - begin) * (wanted / found);
   return heights;
 }
 

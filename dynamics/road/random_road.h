@@ -12,7 +12,7 @@ struct RandomRoad {
   RoadSpectrum spectrum;               ///< its scale has no effect where an r.m.s. is given
   double lowest = 0.0, highest = 0.0;  ///< ends of the band that its waves lie in, 0 < lowest < highest [1/m]
   double length = 0.0;                 ///< > 0; the road is periodic in it before its ends are eased [m]
-  double rms = 0.0;                    ///< of all heights; 0: as the spectrum has it [m]
+  double rms = 0.0;                    ///< about the mean, or about eased ends; 0: as the spectrum has it [m]
   double ease = 0.0;                   ///< the first and the last metres, 0 ≤ 2 ease < length [m]
   std::uint64_t seed = 1;              ///< of the phases
 };

@@ -42,9 +42,18 @@ class Profiles(unittest.TestCase):
                 self.assertLess(outside.max(), 1e-9 * amplitudes[5])
 
     def test_the_rms_over_all_points_is_the_one_asked_for(self):
-        for ease in (0.0, 3.0, 20.0):
+        for ease in (3.0, 20.0):
             height = make_profile(RECIPE._replace(ease=ease)).height
             self.assertAlmostEqual(np.sqrt(np.mean(height**2)), 0.0264, places=15)
+
+    def test_without_easing_the_rms_is_about_the_mean_and_that_of_the_spectrum(self):
+        # Over a period each cosine has the mean square G(n) Δn and no mean; the offset at the beginning is no roughness.
+        for seed in range(1, 6):
+            profile = make_profile(RECIPE._replace(ease=0.0, seed=seed))
+            self.assertAlmostEqual(np.std(profile.height), 0.0264, places=15)
+            # The last of the 1801 points is that of a period again: h²/σ²/3602 of the r.m.s., with |h| < 3σ.
+            law = (profile.waves / 91.44 / 0.1) ** -2.0 / 91.44
+            self.assertAlmostEqual(np.sqrt(profile.density * np.sum(law)) / 0.0264, 1.0, delta=9.0 / 3602.0)
 
     def test_a_profile_begins_at_height_0_and_an_eased_one_ends_there_level(self):
         self.assertEqual(make_profile(RECIPE._replace(ease=0.0)).height[0], 0.0)

@@ -14,6 +14,7 @@ from sprung_tools.signals.road_profile import (
     ISO_CLASSES,
     Recipe,
     calc_iso_density,
+    calc_rms,
     estimate_octaves,
     fit_exponent,
     format_profile,
@@ -50,7 +51,7 @@ def parse_arguments() -> argparse.Namespace:
         "--exponent", type=float, default=2.0, metavar="W", help="spectral density falls as n^-W (default: 2)"
     )
     level = parser.add_mutually_exclusive_group(required=True)
-    level.add_argument("--rms", type=float, default=0.0, metavar="M", help="r.m.s. height over all points, m")
+    level.add_argument("--rms", type=float, default=0.0, metavar="M", help="r.m.s. height over all points about their mean, m")
     level.add_argument("--iso-class", choices=ISO_CLASSES, help="ISO 8608 class: its geometric mean, exponent 2")
     parser.add_argument(
         "--ease",
@@ -111,7 +112,7 @@ def format_report(path: str, recipe: Recipe, density: float) -> str:
         for one in octaves
     ]
     lines = [
-        f"{path}: {distance.size} points, r.m.s. {np.sqrt(np.mean(height**2)):.6f} m, least {height.min():.4f} m, "
+        f"{path}: {distance.size} points, r.m.s. {calc_rms(height, recipe.ease):.6f} m, least {height.min():.4f} m, "
         f"greatest {height.max():.4f} m, steepest slope {np.max(np.abs(np.diff(height) / np.diff(distance))):.3f}",
         format_table(("from 1/m", "to 1/m", "wanted m^3", "found m^3", "ratio"), rows),
     ]

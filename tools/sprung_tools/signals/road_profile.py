@@ -7,7 +7,8 @@ One-sided spectral density of the height over wavenumber n [1/m], with exponent 
 
 with phases ψ_k uniform in 0 … 2π. The mean of z over the points is removed. Raised cosines ease both ends to zero;
 without easing, the profile is shifted so that its first point is at height 0. If an r.m.s. is wanted, the profile is
-then scaled so that all of its points have it. An ISO 8608 profile is not scaled.
+then scaled so that all of its points have it: about their mean, or about the level of eased ends, so that the shift is
+no roughness. An ISO 8608 profile is not scaled.
 
 References: ISO 8608:2016, Mechanical vibration — Road surface profiles — Reporting of measured data, annexes A and C.
 """
@@ -40,7 +41,7 @@ class Recipe(NamedTuple):
     spacing: float
     band: tuple[float, float]  # lowest and highest wavenumber
     exponent: float = 2.0
-    rms: float = 0.0  # m, over all points; 0 if `density` is given
+    rms: float = 0.0  # m, as calc_rms has it; 0 if `density` is given
     density: float = 0.0  # G(n₀) [m³] at n₀ = 0.1 1/m
     ease: float = 0.0
     seed: int = 1
@@ -119,6 +120,13 @@ def calc_easing(distance: Floats, ease: float) -> Floats:
     return np.where(from_end < ease, 0.5 - 0.5 * np.cos(np.pi * from_end / ease), 1.0)
 
 
+def calc_rms(height: Floats, ease: float) -> float:
+    """The r.m.s. of heights [n] in m over all points: about the level of the ends where these are eased, else about the
+    mean, which is that of the waves before the shift.
+    """
+    return float(np.sqrt(np.mean(height**2)) if ease > 0.0 else np.std(height))
+
+
 def make_profile(recipe: Recipe) -> Profile:
     """Makes the profile of a recipe; equal recipes give equal profiles.
 
@@ -147,7 +155,7 @@ def make_profile(recipe: Recipe) -> Profile:
     height = (height - height.mean()) * calc_easing(distance, recipe.ease)
     height -= height[0]  # a road table begins at height 0; nothing changes where the ends are eased
     if recipe.rms > 0.0:
-        factor = recipe.rms / np.sqrt(np.mean(height**2))
+        factor = recipe.rms / calc_rms(height, recipe.ease)
         height = factor * height
         check_heights(height)
         density *= factor**2
