@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "dynamics/element_input/point_reference.h"
 #include "dynamics/section_loads/body_remarks.h"
@@ -79,6 +80,15 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
   }
   warnings.push_back({kSummary, points, text});
   warnings.push_back({kModes, {body}, text});
+}
+
+// A text with the name of the file alone in the place before it, `path:line:column: `, if it begins with one.
+std::string remove_folders(const std::string& text) {
+  static const std::regex place("^.*?:[0-9]+(:[0-9]+)?: ");
+  std::smatch found;
+  if (!std::regex_search(text, found, place)) return text;
+  const std::size_t separator = text.rfind('/', static_cast<std::size_t>(found.length()));
+  return separator == std::string::npos ? text : text.substr(separator + 1);
 }
 
 }  // namespace
@@ -170,7 +180,7 @@ void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& wa
   for (const RunWarning& warning : warnings) {
     concerns.push_back(warning.concerns);
     of.push_back(fmt::format("{}", fmt::join(warning.of, ", ")));
-    texts.push_back(warning.text);
+    texts.push_back(remove_folders(warning.text));
   }
   file.write("/warnings/concerns", concerns);
   file.write("/warnings/of", of);

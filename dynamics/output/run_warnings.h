@@ -52,7 +52,7 @@ support::Json make_warnings_json(const std::vector<RunWarning>& warnings);
 /// The point at which modes left out are missing the most.
 std::string name_missing_point(const AdaptivityOptions& adaptivity, const MissingAcceleration& missing);
 
-/// Writes /warnings (dynamics/output/results.md).
+/// Writes /warnings (dynamics/output/results.md); of the places of files their names alone.
 void write_warnings(support::Hdf5Writer& file, const std::vector<RunWarning>& warnings);
 
 }  // namespace sprung::dynamics

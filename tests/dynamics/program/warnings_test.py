@@ -4,6 +4,7 @@
 import json
 import math
 import re
+import shutil
 import sys
 import unittest
 
@@ -94,6 +95,23 @@ class Warnings(DynamicsTestCase):
         self.assertEqual(process.stderr.count(text), 1)
         self.assertIn(f"remark: {text}", process.stderr)
         self.assertIn(("computation",), [one["of"] for one in self.read_warnings() if one["text"] == text])
+
+    def test_equal_runs_in_two_folders_are_equal_bytes_with_the_name_of_the_file_in_the_warning(self):
+        # results.md: no paths inside. 80 m/s is remarked on at its place in the run file.
+        stored = []
+        for name in ("first", "second"):
+            shutil.copytree(ROOT / "dynamics/models/templates", self.folder / name)
+            run = self.folder / name / "half_car_run.toml"
+            text = re.sub(r"(?m)^speed = .*", "speed = 80.0", run.read_text(encoding="utf-8"))
+            run.write_text(text, encoding="utf-8")
+            line = text[: text.index("speed = ")].count("\n") + 1
+            words = ("--set", "duration=0.01", "-o", self.results)
+            process = run_program([PROGRAM, "run", run, *words], cwd=self.folder)
+            self.assertEqual(process.returncode, 0, process.stderr)
+            self.assertIn(f"remark: {run}:{line}:", process.stderr)
+            stored.append(self.results.read_bytes())
+        self.assertIn(f"half_car_run.toml:{line}", [one["text"].rsplit(":", 2)[0] for one in self.read_warnings()])
+        self.assertEqual(*stored)
 
     def test_ride_prints_the_warnings_above_its_tables(self):
         _, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2")
