@@ -17,6 +17,7 @@ from tool_test_case import ROOT, TOOLS, ToolTestCase, run_program
 import sprung
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.project import ROOT as PROJECT
+from sprung_tools.programs.calls import format_overrides
 from sprung_tools.programs.finding import find_programs
 
 CAR = ROOT / "dynamics/models/examples/quarter_car_run.toml"
@@ -128,6 +129,32 @@ class Errors(ToolTestCase):
         with sprung.run(CAR, overrides={"duration": 0.1}) as results:
             with self.assertRaisesRegex(sprung.InputError, "no quantity 'points/none/velocity.x'"):
                 results["points/none/velocity.x"]
+
+    def test_closed_results_say_that_they_are_closed(self):
+        with sprung.run(CAR, overrides={"duration": 0.1}) as results:
+            pass
+        with sprung.response(CAR) as response:
+            name = response.names()[0]
+        reads = (
+            lambda: results["forces/suspension/force"], lambda: results.unit("forces/suspension/force"),
+            lambda: "time" in results, lambda: results.warnings, lambda: results.converged, results.names,
+            results.measures, lambda: results.measure("summary/steps"), response.names, response.measures,
+            lambda: response.magnitude(name),
+        )  # fmt: skip
+        for read in reads:
+            with self.assertRaisesRegex(sprung.InputError, r"\.h5: error: the file is closed; read "):
+                read()
+
+    def test_values_of_numpy_are_taken_and_others_are_refused_with_their_key(self):
+        values = {"speed": np.int64(3), "road.height": np.float32(0.25), "duration": np.float64(0.1),
+                  "adaptivity.indicator": np.bool_(False), "vehicle.gravity": np.array([0.0, -9.5])}  # fmt: skip
+        self.assertEqual(
+            format_overrides(values),
+            ["speed=3", "road.height=0.25", "duration=0.1", "adaptivity.indicator=false", "vehicle.gravity=[0.0, -9.5]"],
+        )
+        for value in (3j, np.complex128(3j), None, [1.0, {1.0}]):
+            with self.assertRaisesRegex(sprung.InputError, "^road.height: error: .* is no value of a parameter, expec"):
+                sprung.run(CAR, overrides={"road.height": value})
 
     def test_a_measure_that_a_run_does_not_have_is_an_error_that_names_the_objects(self):
         with sprung.run(CAR, overrides={"duration": 0.5}) as results:

@@ -64,7 +64,7 @@ class Results:
         self.close()
 
     def close(self) -> None:
-        """Closes the file, and removes it if it has no name of its own."""
+        """Closes the file, and removes it if it has no name of its own. Reading is an InputError from then on."""
         self._file.file.close()
         self._is_closed = True
         if self._folder is not None:

@@ -42,6 +42,7 @@ class StoredFile:
         self.filename: str = file.filename
         self._file = file
         self._layout = layout
+        self._is_closed = False
         self._found: dict[str, h5py.Group | h5py.Dataset | None] = {}  # by path; the file does not change while open
 
     def __enter__(self) -> "StoredFile":
@@ -51,7 +52,8 @@ class StoredFile:
         self.close()
 
     def close(self) -> None:
-        """Closes the file."""
+        """Closes the file. Reading from it is an error from then on."""
+        self._is_closed = True
         self._file.close()
 
     def fail(self, what: str) -> InputError:
@@ -169,6 +171,8 @@ class StoredFile:
     def _find(self, name: str) -> h5py.Group | h5py.Dataset | None:
         """The object of a path; None if a name on the way is not there. A name that is there and leads nowhere is an
         error."""
+        if self._is_closed:
+            raise self.fail("the file is closed; read what is needed before, or open it again")
         note_file(self.filename)
         found: h5py.Group | h5py.Dataset | None = self._file
         path = ""

@@ -3,11 +3,15 @@
 import json
 from typing import Any
 
+import numpy as np
+
 from sprung_tools.files.errors import InputError
 
 
 def format_value(value: Any) -> str:
-    """A value on one line. InputError for what TOML does not hold."""
+    """A value on one line; of numpy numbers and arrays, too. InputError for what TOML does not hold."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -18,7 +22,8 @@ def format_value(value: Any) -> str:
         return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{format_key(key)} = {format_value(one)}" for key, one in value.items()) + " }"
-    raise InputError(f"error: {type(value).__name__} '{value}' is no value of a parameter")
+    raise InputError(f"error: {type(value).__name__} '{value}' is no value of a parameter, expected a number, true or "
+                     "false, a text, a list or a table")
 
 
 def format_key(key: str) -> str:

@@ -55,8 +55,15 @@ def call(command: Sequence[str | Path], *, is_tied: bool = False) -> Outcome:
 
 
 def format_overrides(values: Mapping[str, Any]) -> list[str]:
-    """Keys and values as `--set` takes them: {"road.height": 0.1} → ["road.height=0.1"]."""
-    return [f"{key}={format_value(value)}" for key, value in values.items()]
+    """Keys and values as `--set` takes them: {"road.height": 0.1} → ["road.height=0.1"]. InputError, with the key, for
+    a value that TOML does not hold."""
+    settings = []
+    for key, value in values.items():
+        try:
+            settings.append(f"{key}={format_value(value)}")
+        except InputError as error:
+            raise InputError(f"{key}: {error}") from error
+    return settings
 
 
 def make_command(
