@@ -5,6 +5,7 @@ SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 import os
 import unittest
 
+import h5py
 import numpy as np
 from report_page_case import PICTURES, ROOT, SIZES, PageTestCase
 
@@ -72,6 +73,22 @@ class Fit(PageTestCase):
         self.choose(page, "mode-amplitude", "2")
         extent = page.evaluate(f"{EXTENT}(data.runs[1].vehicle, modeShow.nodes, modeShow.view)")
         self.assert_inside(extent, page.evaluate("[modeShow.view.width, modeShow.view.height]"), EDGE)
+
+    def test_a_warning_with_a_long_word_does_not_make_the_page_wider_than_the_telephone(self):
+        # Results of earlier versions have paths in their warnings.
+        place = f"/home/{'somebody_' * 20}/terrain.toml:16:8"
+        with h5py.File(self.folder / "half_car.h5") as file, h5py.File(self.folder / "warned.h5", "w") as copy:
+            for name in file:
+                file.copy(name, copy)
+            for key, value in file.attrs.items():
+                copy.attrs[key] = value
+            for key, text in (("concerns", "summary"), ("of", "computation"), ("text", f"{place}: the road ends")):
+                del copy[f"warnings/{key}"]
+                copy[f"warnings/{key}"] = [text]
+        self.report("warned.html", "warned.h5")
+        page = self.open("warned.html", size="phone")
+        self.assertIn(place, page.evaluate("document.querySelector('.warnings').textContent"))
+        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), SIZES["phone"][0])
 
     def test_the_modes_of_each_run_are_a_table_that_fits_the_telephone_without_empty_rows(self):
         page = self.open("semi.html", size="phone")
