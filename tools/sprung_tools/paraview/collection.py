@@ -55,7 +55,7 @@ def write_folder(path: str, write_files: Callable[[str], list[tuple[float, str]]
         os.rename(unfinished, stem)
         os.replace(os.path.join(stem, LIST), path)
     except OSError as error:
-        raise InputError(f"{path}: error: cannot write ({error})") from error
+        raise InputError(f"{path}: error: cannot write the files ({error.strerror})") from error
     finally:
         shutil.rmtree(unfinished, ignore_errors=True)
     return len(entries)
