@@ -47,7 +47,7 @@ class Profiles(unittest.TestCase):
             self.assertAlmostEqual(np.sqrt(np.mean(height**2)), 0.0264, places=15)
 
     def test_without_easing_the_rms_is_about_the_mean_and_that_of_the_spectrum(self):
-        # Over a period each cosine has the mean square G(n) Δn and no mean; the offset at the beginning is no roughness.
+        # Over a period each cosine has the mean square G(n) Δn and no mean; the offset at the start is no roughness.
         for seed in range(1, 6):
             profile = make_profile(RECIPE._replace(ease=0.0, seed=seed))
             self.assertAlmostEqual(np.std(profile.height), 0.0264, places=15)

@@ -150,8 +150,9 @@ class Errors(ToolTestCase):
                   "adaptivity.indicator": np.bool_(False), "vehicle.gravity": np.array([0.0, -9.5])}  # fmt: skip
         self.assertEqual(
             format_overrides(values),
-            ["speed=3", "road.height=0.25", "duration=0.1", "adaptivity.indicator=false", "vehicle.gravity=[0.0, -9.5]"],
-        )
+            ["speed=3", "road.height=0.25", "duration=0.1", "adaptivity.indicator=false",
+             "vehicle.gravity=[0.0, -9.5]"],
+        )  # fmt: skip
         for value in (3j, np.complex128(3j), None, [1.0, {1.0}]):
             with self.assertRaisesRegex(sprung.InputError, "^road.height: error: .* is no value of a parameter, expec"):
                 sprung.run(CAR, overrides={"road.height": value})

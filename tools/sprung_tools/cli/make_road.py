@@ -51,7 +51,9 @@ def parse_arguments() -> argparse.Namespace:
         "--exponent", type=float, default=2.0, metavar="W", help="spectral density falls as n^-W (default: 2)"
     )
     level = parser.add_mutually_exclusive_group(required=True)
-    level.add_argument("--rms", type=float, default=0.0, metavar="M", help="r.m.s. height over all points about their mean, m")
+    level.add_argument(
+        "--rms", type=float, default=0.0, metavar="M", help="r.m.s. height over all points, about their mean, m"
+    )
     level.add_argument("--iso-class", choices=ISO_CLASSES, help="ISO 8608 class: its geometric mean, exponent 2")
     parser.add_argument(
         "--ease",

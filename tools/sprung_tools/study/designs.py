@@ -55,7 +55,9 @@ def take_files(data: Table, design: Path) -> tuple[dict[str, Path], bool]:
     for key in FILE_KEYS:
         group, _, last = key.rpartition(".")
         table = data.get(group) if group else data
-        name = table.get(last) if isinstance(table, dict) else None
+        if not isinstance(table, dict):
+            continue
+        name = table.get(last)
         if not isinstance(name, str) or not (design.parent / name).is_file():
             continue
         path = design.parent / name
