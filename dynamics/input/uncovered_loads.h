@@ -20,7 +20,8 @@ struct UncoveredLoad {
 /// @param model  of the vehicle
 std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
-/// A remark for each body with such loads whose certificate has a bound, with the body's place.
+/// A remark for each body with such loads whose certificate has a bound, with the body's place. None where
+/// the basis holds all motions of the body.
 /// Checked by tests/dynamics/program/warnings_test.py
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
