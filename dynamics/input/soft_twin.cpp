@@ -111,12 +111,8 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
     const BodyDescription& description = vehicle.bodies[b];
     const reduce::Superelement& superelement = *vehicle.superelement_of(description);
     const reduce::Certificate& certificate = require_bound(description, model.bodies[b], superelement);
-    for (const UncoveredLoad& load : uncovered) {
-      if (load.body != static_cast<int>(b)) continue;
-      refuse_bracket(description,
-                     fmt::format("{} takes loads, but '{}' is not in the interface of its superelement",
-                                 load.point, reduce::freedom_name(load.freedom)));
-    }
+    for (const UncoveredLoad& load : uncovered)
+      if (load.body == static_cast<int>(b)) refuse_bracket(description, load.describe());
     twin.highest_hz = std::min(twin.highest_hz, certificate.highest_hz);
     Eigen::Index reference = 0;
     superelement.node_positions.colwise().norm().minCoeff(&reference);

@@ -65,20 +65,23 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
   return loads;
 }
 
+std::string UncoveredLoad::describe() const {
+  return fmt::format("{} takes loads, but '{}' is not in the interface of its superelement", point,
+                     reduce::freedom_name(freedom));
+}
+
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model) {
   std::vector<std::string> remarks;
-  int last = -1;
+  std::set<int> named;  // bodies
   for (const UncoveredLoad& load : find_uncovered_loads(vehicle, model)) {
     const BodyDescription& body = vehicle.bodies[static_cast<std::size_t>(load.body)];
     const reduce::Certificate& certificate = *vehicle.superelement_of(body)->certificate;
     const bool holds_all = certificate.cutoff_hz == 0.0;
-    if (load.body == last || holds_all || !certificate.is_bounded()) continue;
-    last = load.body;
+    if (holds_all || !certificate.is_bounded() || !named.insert(load.body).second) continue;
     remarks.push_back(fmt::format(
-        "{}: {} takes loads, but '{}' is not in the interface of its superelement: the basis was not made "
-        "for "
-        "them, and its certified error does not hold; name the point under [interface] in the design",
-        support::format_place(body.location), load.point, reduce::freedom_name(load.freedom)));
+        "{}: {}: the basis was not made for them, and its certified error does not hold; name the "
+        "point under [interface] in the design",
+        support::format_place(body.location), load.describe()));
   }
   return remarks;
 }

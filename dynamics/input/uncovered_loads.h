@@ -14,6 +14,9 @@ struct UncoveredLoad {
   int body = 0;
   std::string point;  ///< "body.point"
   int freedom = 0;    ///< 0 … 2: x, y, rotation
+
+  /// "body.point takes loads, but 'x' is not in the interface of its superelement"
+  std::string describe() const;
 };
 
 /// One load at most for each point of each body that has modes and a superelement with a certificate.
@@ -22,7 +25,7 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
 
 /// A remark for each body with such loads whose certificate has a bound, with the body's place. None where
 /// the basis holds all motions of the body.
-/// Checked by tests/dynamics/program/warnings_test.py
+/// Checked by tests/verification/certified_test.py
 std::vector<std::string> list_uncovered_loads(const Vehicle& vehicle, const Model& model);
 
 }  // namespace sprung::dynamics

@@ -35,11 +35,10 @@ class OdeSystem {
   virtual bool calc_switches(double time, std::span<const double> y, std::span<double> values) = 0;
   /// Natural size of each component: the relative tolerance times this is the error allowed in a step.
   virtual void calc_error_scales(std::span<const double> y, std::span<double> scales) const = 0;
-  /// Likewise for integrators that take several steps in each period of vibration: such that accelerations
-  /// have the tolerance, too.
-  virtual void calc_vibration_scales(std::span<const double> y, std::span<double> scales) const {
-    calc_error_scales(y, scales);
-  }
+  /// Makes these smaller for integrators that take several steps in each period of vibration: such that
+  /// accelerations have the tolerance, too.
+  /// @param[in,out] scales  those of calc_error_scales
+  virtual void limit_to_accelerations(std::span<const double> /*y*/, std::span<double> /*scales*/) const {}
 
   /// Small motion about (time, y), for integrators that treat it separately. It need not be exact.
   /// @return false where it cannot be found

@@ -33,8 +33,8 @@ struct SteppingOptions {
 };
 
 /// The default method: exponential; Adams without freedoms, and for so many that the full 2f×2f matrices of
-/// the exponential method cost more than the equations. Stiff modes would make so many steps of Adams' method
-/// that this is later.
+/// the exponential method cost more than the equations. With modes these are more, because Adams' method
+/// follows the highest one.
 SteppingMethod default_method(int num_freedoms, bool has_modes);
 
 /// The integrator of ordinary differential equations that a method is; none for generalized-α.

@@ -78,9 +78,7 @@ NeutralDirection describe(const Model& model, Eigen::VectorXd direction) {
         "rounding hides the other forces; make it smaller, or put a joint in its place",
         fastest, describe(model, system.directions * modal.modes.vectors.col(stiffest)).description));
   }
-  const bool has_modes = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                     [](const Body& body) { return body.num_modes() > 0; });
-  if (has_modes && !modal.is_falling && modal.rounding_step > kWorstRounding) {
+  if (model.has_modes() && !modal.is_falling && modal.rounding_step > kWorstRounding) {
     throw support::NumericalError(fmt::format(
         "no static equilibrium: rounding beside the largest stiffness, of a mode at {:.3g} Hz, causes steps "
         "of up to {:.1e} of the natural size; take fewer of the highest modes",

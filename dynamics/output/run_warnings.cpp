@@ -131,8 +131,7 @@ std::vector<RunWarning> list_model_warnings(const Model& model, const AssemblyRe
   if (equilibrium && !equilibrium->stable && start.q == equilibrium->q) {
     warn(
         "the run starts in an unstable equilibrium: without a disturbance it stays there, and any "
-        "disturbance grows; "
-        "draw it slightly away, and the stable one is found");
+        "disturbance grows; draw it slightly away, and the stable one is found");
   }
   if (model.length_scale < kSmallestScale) {
     warn(

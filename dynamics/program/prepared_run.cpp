@@ -253,11 +253,8 @@ PreparedRun prepare_run(const RunRequest& request, Preparation preparation) {
   for (std::string& remark : list_uncovered_loads(vehicle, prepared.model))
     tell_remark(std::move(remark), request, prepared);
   IntegratorSettings& integrator = prepared.run.integrator;
-  if (!integrator.names_method) {
-    const bool has_modes = std::any_of(prepared.model.bodies.begin(), prepared.model.bodies.end(),
-                                       [](const Body& body) { return body.num_modes() > 0; });
-    integrator.options.method = default_method(prepared.model.num_freedoms(), has_modes);
-  }
+  if (!integrator.names_method)
+    integrator.options.method = default_method(prepared.model.num_freedoms(), prepared.model.has_modes());
   prepared.start = preparation == Preparation::kBalance
                        ? make_state(prepared.model, q, Eigen::VectorXd::Zero(prepared.model.num_coordinates))
                        : find_start_state(q, prepared);

@@ -78,6 +78,10 @@ std::string Model::coordinate_name(int coordinate) const {
   return fmt::format("{}.mode {}", body.name, body.mode_numbers[static_cast<std::size_t>(local - 3)]);
 }
 
+bool Model::has_modes() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.num_modes() > 0; });
+}
+
 double Model::coordinate_scale(int coordinate) const {
   const auto [body, local] = body_coordinate(coordinate);
   if (body < 0) {

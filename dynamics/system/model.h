@@ -52,6 +52,7 @@ struct Model {
   int first_state() const { return num_coordinates - num_states(); }  ///< coordinate of the first state
   /// Independent coordinates, those of internal states included.
   int num_freedoms() const { return num_coordinates - num_constraints; }
+  bool has_modes() const;  ///< of any body
   /// The freedoms of the motion, without the internal states.
   int num_mechanical_freedoms() const { return first_state() - num_constraints; }
   /// The part of all velocities, or forces, that belongs to the states of force element f.

@@ -20,7 +20,8 @@ struct FrameRates {
 
 /// The certificate of a design's free basis, and how it changes with the frame while loads, frequencies and
 /// number of its residual vectors stay (reduce/sensitivity, eqs. 5–8). The modes and vectors themselves
-/// change. n freedoms, b loads, k modes, m vectors. Checked by tests/reduce/sensitivity/sensitivity_test.cpp
+/// change. n freedoms, b loads, k modes, m vectors. Checked by
+/// tests/reduce/sensitivity/certificate_rates_test.cpp
 class CertificateRates {
  public:
   /// @param matrices  has to outlive this

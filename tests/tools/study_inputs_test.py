@@ -92,7 +92,7 @@ class FilesOfDesigns(StudyCase):
 
     def test_a_mesh_in_another_folder_is_taken_along(self):
         text = (ROOT / "meshes/examples/ladder_frame.toml").read_text(encoding="utf-8")
-        for name in ("frame.geo", "sub/frame.geo", "../shared/frame.geo", str(self.folder / "frame.geo")):
+        for name in ("frame.geo", "sub/frame.geo", "../meshes/frame.geo", str(self.folder / "frame.geo")):
             design = self.folder / "frames" / "ladder_frame.toml"
             mesh = design.parent / name
             for one in (design, mesh):

@@ -29,7 +29,7 @@ namespace sprung::dynamics {
 struct CvodeCallback {
   OdeSystem* system;
   double relative_tolerance;
-  std::vector<double> vibration_scales;
+  std::vector<double> limited;  // work space: error scales that accelerations limit
 };
 
 namespace {
@@ -58,13 +58,15 @@ int evaluate_switches(sunrealtype time, N_Vector y, sunrealtype* switches, void*
 int evaluate_weights(N_Vector y, N_Vector weights, void* data) {
   auto* callback = static_cast<CvodeCallback*>(data);
   const double tolerance = callback->relative_tolerance;
+  std::vector<double>& limited = callback->limited;
   callback->system->calc_error_scales(values(y), values(weights));
-  callback->system->calc_vibration_scales(values(y), callback->vibration_scales);
-  for (std::size_t i = 0; i < callback->vibration_scales.size(); ++i) {
+  std::copy(values(weights).begin(), values(weights).end(), limited.begin());
+  callback->system->limit_to_accelerations(values(y), limited);
+  for (std::size_t i = 0; i < limited.size(); ++i) {
     double& weight = values(weights)[i];
     if (!(weight > 0.0)) return -1;
-    const double allowed = tolerance * weight, rounding = kRounding * std::abs(values(y)[i]);
-    weight = 1.0 / std::max(tolerance * callback->vibration_scales[i], std::min(allowed, rounding));
+    const double rounding = kRounding * std::abs(values(y)[i]);
+    weight = 1.0 / std::max(tolerance * limited[i], std::min(tolerance * weight, rounding));
   }
   return 0;
 }

@@ -55,7 +55,7 @@ GeneralizedAlphaStepper::GeneralizedAlphaStepper(const Model& model, double rela
       passage_(model),
       exact_(model, piece_.num_switches()),
       departure_(exact_),
-      has_modes_(std::ranges::any_of(model.bodies, [](const Body& body) { return body.num_modes() > 0; })),
+      has_modes_(model.has_modes()),
       probe_(model),
       switches_(piece_.num_switches(), 2),
       switch_search_(piece_.num_switches()),

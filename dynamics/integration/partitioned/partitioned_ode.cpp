@@ -221,14 +221,13 @@ void PartitionedOde::calc_error_scales(std::span<const double> y, std::span<doub
   scales[2 * f] = scales[2 * f + 1] = scales_.energy();
 }
 
-void PartitionedOde::calc_vibration_scales(std::span<const double> y, std::span<double> scales) const {
+void PartitionedOde::limit_to_accelerations(std::span<const double> y, std::span<double> scales) const {
   const std::vector<int>& independent = equations_.partition().independent;
   const std::size_t f = independent.size();
   for (std::size_t k = 0; k < f; ++k) {
     scales[k] = scales_.position_in_vibration(independent[k]);
     scales[f + k] = scales_.velocity_in_vibration(independent[k], y[f + k]);
   }
-  scales[2 * f] = scales[2 * f + 1] = scales_.energy();
 }
 
 }  // namespace sprung::dynamics

@@ -66,7 +66,7 @@ class PartitionedOde final : public OdeSystem {
   int num_switches() const override { return piece_.num_switches(); }
   bool calc_switches(double time, std::span<const double> y, std::span<double> values) override;
   void calc_error_scales(std::span<const double> y, std::span<double> scales) const override;
-  void calc_vibration_scales(std::span<const double> y, std::span<double> scales) const override;
+  void limit_to_accelerations(std::span<const double> y, std::span<double> scales) const override;
 
  private:
   bool evaluate_motion(double time, std::span<const double> y);

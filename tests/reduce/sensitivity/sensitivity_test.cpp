@@ -2,163 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "reduce/reduction/reduction.h"
 #include "reduce/sensitivity/sensitivity_tables.h"
 #include "reduce/sensitivity/sweep.h"
 #include "tests/catch.h"
+#include "tests/reduce/sensitivity/sensitivity_cases.h"
 #include "tests/reduce/sensitivity/two_cantilevers.h"
 #include "tests/reduce/test_bodies.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
 namespace {
-
-// A frame with a closed loop, shear, rotary inertia, three shapes of section and a point mass.
-constexpr const char* kFrame = R"(
-theory = "timoshenko"
-rotary_inertia = true
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-poissons_ratio = 0.3
-[materials.alloy]
-youngs_modulus = 7.0e10
-density = 2700.0
-poissons_ratio = 0.33
-[sections.rail]
-material = "steel"
-shape = "box"
-width = 0.08
-height = 0.16
-wall = 0.005
-count = 2
-[sections.post]
-material = "alloy"
-shape = "i_section"
-height = 0.12
-flange_width = 0.06
-flange_thickness = 0.008
-web_thickness = 0.005
-[sections.arm]
-material = "steel"
-area = 1.1e-3
-second_moment = 4.0e-7
-mass_per_length = 9.0
-shear_coefficient = 0.6
-[points]
-middle = [0.0, 0.0]
-right = [1.9, 0.1]
-top = [1.2, 0.8]
-left = [-1.4, -0.2]
-[[lines]]
-through = ["left", "middle", "right"]
-section = "rail"
-elements = [4, 4]
-[[lines]]
-through = ["right", "top"]
-section = "post"
-elements = 3
-[[lines]]
-through = ["top", "middle"]
-section = "arm"
-elements = 3
-[[point_masses]]
-point = "top"
-mass = 12.0
-inertia = 0.4
-[reference]
-point = "middle"
-[interface]
-left = "xy"
-right = "yr"
-[reduction]
-highest_frequency = 100.0
-[modes]
-damping_ratio = 0.01
-)";
-
-// A frame on the scale of a crane, with a stiff spring.
-constexpr const char* kWideFrame = R"(
-theory = "timoshenko"
-[materials.alloy]
-youngs_modulus = 1.375e11
-density = 780.0
-poissons_ratio = 0.365
-[sections.chord]
-material = "alloy"
-count = 2
-area = 0.0946
-second_moment = 0.0113
-shear_coefficient = 0.5
-[sections.brace]
-material = "alloy"
-count = 2
-shape = "rectangle"
-width = 0.1
-height = 0.291
-[points]
-p0 = [0.44, -9.5]
-p1 = [7.8, -0.05]
-p2 = [-6.26, 6.88]
-p3 = [11.9, 0.95]
-p4 = [5.9, 12.25]
-p5 = [-11.7, 2.46]
-[[lines]]
-through = ["p0", "p1", "p2"]
-section = "chord"
-elements = 3
-[[lines]]
-through = ["p2", "p3"]
-section = "chord"
-elements = 4
-[[lines]]
-through = ["p1", "p4"]
-section = "chord"
-elements = 1
-[[lines]]
-through = ["p0", "p5"]
-section = "chord"
-elements = 4
-[[lines]]
-through = ["p2", "p4"]
-section = "brace"
-elements = 4
-[[springs]]
-from = "p3"
-to = "p1"
-axial_stiffness = 7.7e7
-rotational_stiffness = 1.61e9
-transverse_stiffness = 9.4e8
-[[point_masses]]
-point = "p3"
-mass = 6.57
-[reference]
-point = "p0"
-[interface]
-p1 = "xyr"
-p2 = "x"
-p3 = "xr"
-p5 = "xyr"
-[reduction]
-highest_frequency = 33.0
-tolerance = 0.0014
-[modes]
-damping_ratio = 0.02
-)";
-
-DesignSource write_design(const std::string& name, const std::string& text) {
-  testing::write_text(name, text);
-  return {.path = name};
-}
-
-DesignSensitivity calc_all(const DesignSource& source, int num_modes) {
-  const Design design = read_design(source);
-  return calc_sensitivity(design, list_parameters(source, design), num_modes);
-}
 
 // All quantities one below the other.
 Eigen::VectorXd stack(const BodyQuantities& q) {
@@ -170,13 +26,6 @@ Eigen::VectorXd stack(const BodyQuantities& q) {
 Eigen::VectorXd calc_quantities(DesignSource source, const DesignParameter& parameter, double value) {
   source.overrides.push_back(fmt::format("{}={:.17g}", parameter.key, value));
   return stack(calc_sensitivity(read_design(source), {}, 5).value);
-}
-
-const ParameterSensitivity& find(const DesignSensitivity& sensitivity, const std::string& key) {
-  const auto found = std::find_if(sensitivity.parameters.begin(), sensitivity.parameters.end(),
-                                  [&](const ParameterSensitivity& one) { return one.parameter.key == key; });
-  REQUIRE(found != sensitivity.parameters.end());
-  return *found;
 }
 
 // Expected: the whole body made anew with the number changed, up and down, by two steps whose central
@@ -199,89 +48,6 @@ TEST_CASE("derivatives by every number of a design are the differences of bodies
     INFO(parameter.key);
     CHECK((found - expected).cwiseQuotient(value).cwiseAbs().maxCoeff() < 1e-8);
   }
-}
-
-// Expected: certificates of bodies made anew, as above. Their number of residual vectors stays the same, and
-// the parts of the band on which their bounds were made: else the values would jump.
-void check_certificate_rates(const DesignSource& source, double step) {
-  const DesignSensitivity sensitivity = calc_all(source, 1);
-  const Superelement built = make_superelement(read_design(source));
-  const Eigen::VectorXd& share = sensitivity.value.certificate;
-  REQUIRE(share.size() == std::ssize(built.certificate->interface));
-  for (Eigen::Index j = 0; j < share.size(); ++j)
-    CHECK(share(j) == Approx(built.certificate->interface[static_cast<std::size_t>(j)].error).epsilon(1e-6));
-  for (const ParameterSensitivity& one : sensitivity.parameters) {
-    const DesignParameter& parameter = one.parameter;
-    const double scale = parameter.is_coordinate ? 1.0 : parameter.value;
-    const auto certificate = [&](double h) -> Eigen::VectorXd {
-      DesignSource changed = source;
-      changed.overrides.push_back(fmt::format("{}={:.17g}", parameter.key, parameter.value + h * scale));
-      const DesignSensitivity at = calc_sensitivity(read_design(changed), {}, 1);
-      return at.value.certificate;
-    };
-    const auto difference = [&](double h) -> Eigen::VectorXd {
-      return (certificate(h) - certificate(-h)) / (2.0 * h);
-    };
-    const Eigen::VectorXd expected = (4.0 * difference(step) - difference(2.0 * step)) / 3.0;
-    INFO(parameter.key);
-    CHECK((scale * one.derivative.certificate - expected).cwiseQuotient(share).cwiseAbs().maxCoeff() < 1e-5);
-  }
-}
-
-TEST_CASE("derivatives of the certificate are the differences of certificates made anew") {
-  const DesignSource source = write_design("frame.toml", kFrame);
-  CHECK(calc_all(source, 1).value.certificate.minCoeff() > 1e-4);
-  check_certificate_rates(source, 2e-4);
-}
-
-// Eleven residual vectors for a frequency far above the lowest mode, each made from all earlier ones:
-// rounding must not grow along them.
-TEST_CASE("derivatives of a certificate of many residual vectors are those differences as well") {
-  check_certificate_rates(write_design("wide.toml", kWideFrame), 2e-4);
-}
-
-constexpr const char* kBeam = R"(
-[materials.steel]
-youngs_modulus = 2.1e11
-density = 7850.0
-[sections.beam]
-material = "steel"
-area = 0.005
-second_moment = 4e-6
-[points]
-a = [0.0, 0.0]
-b = [4.0, 0.0]
-[[lines]]
-from = "a"
-to = "b"
-section = "beam"
-elements = 12
-[reference]
-point = "a"
-[interface]
-a = "xyr"
-b = "xyr"
-[reduction]
-highest_frequency = 300.0
-[modes]
-damping_ratio = 0.02
-)";
-
-// Modulus and density keep the shapes of the modes, so that all of K'φ and M'φ is of the modes. For the same
-// frequencies the certificate depends on their ratio alone, as it does on area and second moment, in
-// proportion, over the mass of a length, which the area alone moves.
-TEST_CASE("the certificate of a uniform beam has derivatives by numbers that leave the modes' shapes") {
-  const DesignSensitivity sensitivity = calc_all(write_design("beam.toml", kBeam), 1);
-  const Eigen::VectorXd& share = sensitivity.value.certificate;
-  const auto relative = [&](const std::string& key) -> Eigen::VectorXd {
-    const ParameterSensitivity& one = find(sensitivity, key);
-    return (one.parameter.value * one.derivative.certificate).cwiseQuotient(share);
-  };
-  const Eigen::VectorXd modulus = relative("materials.steel.youngs_modulus");
-  CHECK(modulus.cwiseAbs().maxCoeff() > 1.0);
-  CHECK((modulus + relative("materials.steel.density")).cwiseAbs().maxCoeff() < 1e-8);
-  const Eigen::VectorXd section = relative("sections.beam.area") + relative("sections.beam.second_moment");
-  CHECK(section.cwiseAbs().maxCoeff() < 1e-8);
 }
 
 // The closed form for a rigid pair: two stiff beams on a soft spring along them have ω² = k (1/m₁ + 1/m₂).
@@ -307,14 +73,6 @@ rotational_stiffness = 1e8
   CHECK(axial.parameter.unit == "N/m");
   CHECK(axial.derivative.free_hz(0) == Approx(0.5 * hz / k).epsilon(1e-5));
   CHECK(find(sensitivity, "springs.0.rotational_stiffness").parameter.unit == "N·m");
-}
-
-// A clamped basis has free modes in its band, and so no bound.
-TEST_CASE("a basis that is not free has no derivative of its certificate") {
-  std::string text = kFrame;
-  text.replace(text.find("highest_frequency = 100.0"), 25, "basis = \"clamped\"");
-  text.replace(text.find("[modes]"), 7, "[modes]\ncount = 4");
-  CHECK(calc_all(write_design("clamped.toml", text), 1).value.certificate.size() == 0);
 }
 
 // Two equal cantilevers make pairs. Of a pair, the height of the first beam moves one frequency, in
