@@ -98,7 +98,6 @@ Eigen::MatrixXd move_loads_to_leaders(const std::vector<Coupling>& couplings, Ei
 
 Eigen::SparseMatrix<double> eliminate_followers(const std::vector<Coupling>& couplings,
                                                 const Eigen::SparseMatrix<double>& matrix) {
-  if (couplings.empty()) return matrix;
   const Eigen::SparseMatrix<double> T = make_transformation(couplings, matrix.rows());
   const Eigen::SparseMatrix<double> product = matrix * T;
   return T.transpose() * product;

@@ -117,6 +117,7 @@ MassMoments calc_mass_moments(const BeamModel& model, const Eigen::Vector2d& ori
   for (const PointMass& point : model.point_masses) {
     add_point_mass(moments, point, model.mesh.node_positions.col(point.node) - origin);
   }
+  if (model.couplings.empty()) return moments;
   for (Eigen::SparseMatrix<double>* matrix :
        {&moments.NxNx, &moments.NxNy, &moments.NyNy, &moments.rotary_NN})
     *matrix = eliminate_followers(model.couplings, *matrix);

@@ -27,12 +27,6 @@ void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
   matrix.rightCols(columns.cols()) = columns;
 }
 
-Eigen::MatrixXd join(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
-  Eigen::MatrixXd both(left.rows(), left.cols() + right.cols());
-  both << left, right;
-  return both;
-}
-
 // Makes room for columns, half as many again where there is too little: long ones are seldom copied.
 void make_room(Eigen::MatrixXd& matrix, Eigen::Index num_columns) {
   if (num_columns > matrix.cols()) matrix.conservativeResize(Eigen::NoChange, num_columns + num_columns / 2);
@@ -84,14 +78,11 @@ void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
   const Eigen::MatrixXd momenta = problem_->times_mass(added);
   const Eigen::MatrixXd second = factor_->solve(momenta);
   const Eigen::Index old = num_vectors(), width = added.cols();
-  // Long vectors are read once for two products.
-  const Eigen::MatrixXd of_vectors = multiply_transposed(this->vectors(), join(forces, momenta));
-  const Eigen::MatrixXd of_loads = multiply_transposed(loads_, join(added, second));
-  border(UKU_, of_vectors.leftCols(width), multiply_transposed(added, forces));
-  border(UMU_, of_vectors.rightCols(width), multiply_transposed(added, momenta));
+  border(UKU_, multiply_transposed(this->vectors(), forces), multiply_transposed(added, forces));
+  border(UMU_, multiply_transposed(this->vectors(), momenta), multiply_transposed(added, momenta));
   border(TMU_, multiply_transposed(this->second(), momenta), multiply_transposed(second, momenta));
-  append_columns(BU_, of_loads.leftCols(width));
-  append_columns(BT_, of_loads.rightCols(width));
+  append_columns(BU_, multiply_transposed(loads_, added));
+  append_columns(BT_, multiply_transposed(loads_, second));
   make_room(room_for_vectors_, old + width);
   make_room(room_for_second_, old + width);
   room_for_vectors_.middleCols(old, width) = added;

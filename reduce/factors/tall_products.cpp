@@ -23,71 +23,107 @@ struct Columns {
 };
 
 // Products of kA columns with kB columns, added to `result`, a columns-major matrix with `height` rows.
-template <int kA, int kB>
+template <class Values, int kA, int kB>
 SPRUNG_INLINED void add_inner(const Columns& A, const Columns& B, Index num_rows, double* result,
                               Index height) {
-  FourDoubles sums[kA][kB] = {};
+  constexpr Index kRows = sizeof(Values) / sizeof(double);
+  Values sums[kA][kB] = {};
   Index row = 0;
-  for (; row + 4 <= num_rows; row += 4) {
-    FourDoubles b[kB];
-    for (int j = 0; j < kB; ++j) b[j] = load<FourDoubles>(B.at(row, j));
+  for (; row + kRows <= num_rows; row += kRows) {
+    Values b[kB];
+    for (int j = 0; j < kB; ++j) b[j] = load<Values>(B.at(row, j));
     for (int i = 0; i < kA; ++i) {
-      const auto a = load<FourDoubles>(A.at(row, i));
+      const auto a = load<Values>(A.at(row, i));
       for (int j = 0; j < kB; ++j) sums[i][j] += a * b[j];
     }
   }
   for (int i = 0; i < kA; ++i) {
     for (int j = 0; j < kB; ++j) {
-      double sum = (sums[i][j][0] + sums[i][j][1]) + (sums[i][j][2] + sums[i][j][3]);
+      double sum = 0.0;
+      for (Index lane = 0; lane < kRows; ++lane) sum += sums[i][j][lane];
       for (Index rest = row; rest < num_rows; ++rest) sum += *A.at(rest, i) * *B.at(rest, j);
       result[i + j * height] += sum;
     }
   }
 }
 
-template <int kB>
+template <class Values, int kA, int kB>
 SPRUNG_INLINED void add_inner_of(const Columns& A, Index num_a, const Columns& B, Index num_rows,
                                  double* result) {
   Index i = 0;
-  for (; i + 2 <= num_a; i += 2) add_inner<2, kB>({A.at(0, i), A.stride}, B, num_rows, result + i, num_a);
-  if (i < num_a) add_inner<1, kB>({A.at(0, i), A.stride}, B, num_rows, result + i, num_a);
+  for (; i + kA <= num_a; i += kA)
+    add_inner<Values, kA, kB>({A.at(0, i), A.stride}, B, num_rows, result + i, num_a);
+  for (; i < num_a; ++i) add_inner<Values, 1, kB>({A.at(0, i), A.stride}, B, num_rows, result + i, num_a);
+}
+
+// kA columns of A and four of B at a time: as many sums as the processor has registers for.
+template <class Values, int kA>
+SPRUNG_INLINED void add_all_inner(const Columns& A, Index num_a, const Columns& B, Index num_b,
+                                  Index num_rows, double* result) {
+  Index j = 0;
+  for (; j + 4 <= num_b; j += 4)
+    add_inner_of<Values, kA, 4>(A, num_a, {B.at(0, j), B.stride}, num_rows, result + j * num_a);
+  for (; j < num_b; ++j)
+    add_inner_of<Values, kA, 1>(A, num_a, {B.at(0, j), B.stride}, num_rows, result + j * num_a);
 }
 
 SPRUNG_VECTORISED
-void add_inner_products(const Columns& A, Index num_a, const Columns& B, Index num_b, Index num_rows,
+void add_inner_by_four(const Columns& A, Index num_a, const Columns& B, Index num_b, Index num_rows,
+                       double* result) {
+  add_all_inner<FourDoubles, 2>(A, num_a, B, num_b, num_rows, result);
+}
+SPRUNG_VECTORISED
+void add_inner_by_eight(const Columns& A, Index num_a, const Columns& B, Index num_b, Index num_rows,
                         double* result) {
-  Index j = 0;
-  for (; j + 4 <= num_b; j += 4)
-    add_inner_of<4>(A, num_a, {B.at(0, j), B.stride}, num_rows, result + j * num_a);
-  for (; j < num_b; ++j) add_inner_of<1>(A, num_a, {B.at(0, j), B.stride}, num_rows, result + j * num_a);
+  add_all_inner<EightDoubles, 4>(A, num_a, B, num_b, num_rows, result);
 }
 
-// y += Σ kA columns, each times its coefficient.
-template <int kA>
-SPRUNG_INLINED void add_columns(const Columns& A, const double* coefficients, Index num_rows, double* y) {
-  Index row = 0;
-  for (; row + 4 <= num_rows; row += 4) {
-    auto sum = load<FourDoubles>(y + row);
-    for (int i = 0; i < kA; ++i) sum += load<FourDoubles>(A.at(row, i)) * coefficients[i];
-    store(sum, y + row);
+// kVectors vectors of rows of kC columns Y += A C: they stay in registers while the columns of A pass.
+template <int kVectors, int kC>
+SPRUNG_INLINED void add_tile(const Columns& A, Index num_a, const Columns& C, double* Y, Index stride) {
+  constexpr Index kRows = 8;
+  EightDoubles sums[kVectors][kC];
+  for (int v = 0; v < kVectors; ++v) {
+    for (int c = 0; c < kC; ++c) sums[v][c] = load<EightDoubles>(Y + kRows * v + c * stride);
   }
+  for (Index i = 0; i < num_a; ++i) {
+    EightDoubles a[kVectors];
+    for (int v = 0; v < kVectors; ++v) a[v] = load<EightDoubles>(A.at(kRows * v, i));
+    for (int c = 0; c < kC; ++c) {
+      const double coefficient = *C.at(i, c);
+      for (int v = 0; v < kVectors; ++v) sums[v][c] += a[v] * coefficient;
+    }
+  }
+  for (int v = 0; v < kVectors; ++v) {
+    for (int c = 0; c < kC; ++c) store(sums[v][c], Y + kRows * v + c * stride);
+  }
+}
+
+// kC columns of Y.
+template <int kVectors, int kC>
+SPRUNG_INLINED void add_to_columns(const Columns& A, Index num_a, const Columns& C, Index num_rows, double* Y,
+                                   Index stride) {
+  constexpr Index kRows = 8;
+  Index row = 0;
+  for (; row + kVectors * kRows <= num_rows; row += kVectors * kRows)
+    add_tile<kVectors, kC>({A.at(row, 0), A.stride}, num_a, C, Y + row, stride);
+  for (; row + kRows <= num_rows; row += kRows)
+    add_tile<1, kC>({A.at(row, 0), A.stride}, num_a, C, Y + row, stride);
   for (; row < num_rows; ++row) {
-    for (int i = 0; i < kA; ++i) y[row] += *A.at(row, i) * coefficients[i];
+    for (Index i = 0; i < num_a; ++i) {
+      for (int c = 0; c < kC; ++c) Y[row + c * stride] += *A.at(row, i) * *C.at(i, c);
+    }
   }
 }
 
 SPRUNG_VECTORISED
 void add_column_combinations(const Columns& A, Index num_a, const Columns& C, Index num_c, Index num_rows,
                              double* Y, Index stride) {
-  Index i = 0;
-  for (; i + 4 <= num_a; i += 4) {
-    for (Index j = 0; j < num_c; ++j)
-      add_columns<4>({A.at(0, i), A.stride}, C.at(i, j), num_rows, Y + j * stride);
-  }
-  for (; i < num_a; ++i) {
-    for (Index j = 0; j < num_c; ++j)
-      add_columns<1>({A.at(0, i), A.stride}, C.at(i, j), num_rows, Y + j * stride);
-  }
+  Index c = 0;
+  for (; c + 4 <= num_c; c += 4)
+    add_to_columns<1, 4>(A, num_a, {C.at(0, c), C.stride}, num_rows, Y + c * stride, stride);
+  for (; c < num_c; ++c)
+    add_to_columns<4, 1>(A, num_a, {C.at(0, c), C.stride}, num_rows, Y + c * stride, stride);
 }
 
 // Columns of a sparse matrix times kTogether columns, whose rows lie together.
@@ -105,9 +141,14 @@ void multiply_columns(const int* starts, const int* rows, const double* values, 
 
 }  // namespace
 
+bool is_tall(Index num_rows) {
+  return num_rows >= kTall;
+}
+
 MatrixXd multiply_transposed(const TallMatrix& A, const TallMatrix& B) {
-  if (A.rows() < kTall) return A.transpose() * B;
+  if (!is_tall(A.rows())) return A.transpose() * B;
   MatrixXd result = MatrixXd::Zero(A.cols(), B.cols());
+  const auto add_inner_products = has_many_registers() ? add_inner_by_eight : add_inner_by_four;
   for (Index row = 0; row < A.rows(); row += kRowsAtOnce) {
     add_inner_products({A.data() + row, A.outerStride()}, A.cols(), {B.data() + row, B.outerStride()},
                        B.cols(), std::min(kRowsAtOnce, A.rows() - row), result.data());
@@ -116,7 +157,11 @@ MatrixXd multiply_transposed(const TallMatrix& A, const TallMatrix& B) {
 }
 
 void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<MatrixXd> Y) {
-  if (A.rows() < kTall) {
+  add_combinations(A, C, Y, is_tall(A.rows()));
+}
+
+void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<MatrixXd> Y, bool vectorised) {
+  if (!vectorised) {
     Y.noalias() += A * C;
     return;
   }
@@ -128,7 +173,7 @@ void add_combinations(const TallMatrix& A, const TallMatrix& C, Eigen::Ref<Matri
 
 MatrixXd multiply_transposed(const Eigen::SparseMatrix<double>& A, const TallMatrix& X) {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, kTogether, Eigen::RowMajor>;
-  if (X.cols() == 1 || A.rows() < kTall) return A.transpose() * X;
+  if (X.cols() == 1 || !is_tall(A.rows())) return A.transpose() * X;
   MatrixXd result(A.cols(), X.cols());
   Rows x = Rows::Zero(A.rows(), kTogether), product(A.cols(), kTogether);
   for (Index begin = 0; begin < X.cols(); begin += kTogether) {

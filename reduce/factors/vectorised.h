@@ -20,6 +20,15 @@ namespace sprung::reduce {
 using FourDoubles [[gnu::vector_size(32)]] = double;
 using EightDoubles [[gnu::vector_size(64)]] = double;
 
+/// Whether the processor has 32 registers of eight doubles, by AVX-512.
+inline bool has_many_registers() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  return __builtin_cpu_supports("avx512f") != 0;
+#else
+  return false;
+#endif
+}
+
 /// From and to anywhere in memory. @tparam Values  a number, or one of those above
 template <class Values>
 SPRUNG_INLINED Values load(const double* from) {

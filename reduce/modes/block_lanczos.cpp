@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 constexpr Index kWidth = 4;
 constexpr double kRitzResidual = 1e-12;  // of a solution, relative
 constexpr double kRoughResidual =
-    1e-7;  // of those of which only the frequency counts: it has the square of this
+    1e-4;  // of those of which only the frequency counts: it has the square of this
 constexpr double kDependent = 1e-14;  // the part of a vector outside the vectors before, beside the first one
 constexpr double kMostVectors = 20.0;   // for each pair asked for
 constexpr double kBetweenTests = 1.05;  // growth of the number of vectors from one test of convergence on
@@ -50,7 +50,7 @@ class Lanczos {
   Lanczos(const ModalProblem& problem, const StiffnessFactor& factor, Index num_pairs, std::uint64_t seed)
       : problem_(&problem), factor_(&factor), num_pairs_(num_pairs) {
     const Index n = problem.size();
-    vectors_.resize(n, std::min(n, 6 * num_pairs + 16 * kWidth));  // memory is taken as they come
+    vectors_.resize(n, std::min(n, 6 * num_pairs + 32 * kWidth));  // memory is taken as they come
     MatrixXd start(n, kWidth);
     for (Index j = 0; j < kWidth; ++j)
       start.col(j) = make_random_vector(n, seed * kWidth + static_cast<std::uint64_t>(j));

@@ -124,20 +124,17 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   const auto tell = [&](const std::string& state) { progress.update(state); };
-  {
-    const Superelement made = make_superelement(read, {.progress = tell});
-    tell("writing the file and reading it back");
-    write_superelement(made, output);
-  }  // a large body is not kept while it is read back
-  const Superelement written = read_superelement(output);
+  const Superelement made = make_superelement(read, {.progress = tell});
+  tell("writing the file");
+  write_superelement(made, output);
   progress.finish();
-  report(options, fmt::format("{}: {}", output.string(), describe(written)));
-  if (const std::string remark = remark_on_ground(read, written); !remark.empty())
+  report(options, fmt::format("{}: {}", output.string(), describe(made)));
+  if (const std::string remark = remark_on_ground(read, made); !remark.empty())
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
-  const std::string certificate = format_certificate_line(written);
+  const std::string certificate = format_certificate_line(made);
   if (!certificate.empty()) report(options, fmt::format("{}: {}", output.string(), certificate));
   if (previous.superelement && !options.quiet) {
-    support::print(stdout, "{}", format_comparison(compare_modes(*previous.superelement, written)));
+    support::print(stdout, "{}", format_comparison(compare_modes(*previous.superelement, made)));
   }
 }
 

@@ -202,9 +202,11 @@ BodyMatrices make_body_matrices(const Design& design) {
   const auto num_freedoms = static_cast<std::size_t>(3 * design.model.mesh.num_nodes());
   if (num_freedoms > kLargeFrame) support::prepare_large_heap(kMemoryPerFreedom * num_freedoms);
   BodyMatrices matrices;
-  matrices.full = make_full_matrices(design);
-  matrices.held = {.stiffness = remove_node(matrices.full.stiffness, design.reference_node),
-                   .mass = remove_node(matrices.full.mass, design.reference_node)};
+  fem::AssembledMatrices full = make_full_matrices(design);
+  matrices.full.stiffness.swap(full.stiffness);  // where an assignment would copy
+  matrices.full.mass.swap(full.mass);
+  remove_node(matrices.full.stiffness, design.reference_node).swap(matrices.held.stiffness);
+  remove_node(matrices.full.mass, design.reference_node).swap(matrices.held.mass);
   matrices.held.num_massless = (matrices.held.mass.diagonal().array() == 0.0).count();
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();

@@ -43,7 +43,8 @@ Eigen::SparseMatrix<double> calc_distance_weighted_mass(const fem::BeamModel& mo
     const double moment = point.mass * (model.mesh.node_positions(0, point.node) - origin.x());
     fem::add_at_node(result, point.node, Eigen::Vector3d(moment, moment, 0.0).asDiagonal());
   }
-  return fem::eliminate_followers(model.couplings, result);
+  if (!model.couplings.empty()) result = fem::eliminate_followers(model.couplings, result);
+  return result;
 }
 
 }  // namespace sprung::reduce

@@ -39,21 +39,21 @@ ElementWork calc_element_work(const Superelement& s) {
   return calc_element_work(s, s.resultants);
 }
 
-ElementWork calc_element_work(const Superelement& s, const Eigen::MatrixXd& resultants) {
+ElementWork calc_element_work(const Superelement& s, const support::RowMatrix& resultants) {
   const Eigen::Index n = s.frequency_hz.size(), k = resultants.cols(), num_elements = s.elements.cols();
   ElementWork work{.axial = Eigen::MatrixXd::Zero(n, k), .bending = Eigen::MatrixXd::Zero(n, k)};
   const RowMajorMatrix shapes = s.shapes;
   for (Eigen::Index begin = 0; begin < num_elements; begin += kElementsAtOnce) {
     const Eigen::Index count = std::min(kElementsAtOnce, num_elements - begin);
     const RowMajorMatrix motions = calc_end_motions(s, shapes, begin, count);
-    const RowMajorMatrix forces = resultants.middleRows(6 * begin, 6 * count);
     const auto every_third = [count](const RowMajorMatrix& rows, Eigen::Index first) {
       return Strided(rows.data() + first * rows.cols(), 2 * count, rows.cols(),
                      Eigen::OuterStride<>(3 * rows.cols()));
     };
-    work.axial.noalias() += every_third(motions, 0).transpose() * every_third(forces, 0);
-    work.bending.noalias() += every_third(motions, 1).transpose() * every_third(forces, 1);
-    work.bending.noalias() += every_third(motions, 2).transpose() * every_third(forces, 2);
+    const Eigen::Index first = 6 * begin;
+    work.axial.noalias() += every_third(motions, 0).transpose() * every_third(resultants, first);
+    work.bending.noalias() += every_third(motions, 1).transpose() * every_third(resultants, first + 1);
+    work.bending.noalias() += every_third(motions, 2).transpose() * every_third(resultants, first + 2);
   }
   return work;
 }

@@ -17,6 +17,6 @@ struct ElementWork {
 /// Checked by tests/reduce/reduction/superelement_checks_test.cpp
 ElementWork calc_element_work(const Superelement& superelement);
 /// @param resultants  6E×k
-ElementWork calc_element_work(const Superelement& superelement, const Eigen::MatrixXd& resultants);
+ElementWork calc_element_work(const Superelement& superelement, const support::RowMatrix& resultants);
 
 }  // namespace sprung::reduce

@@ -87,7 +87,7 @@ PointStiffness calc_by_loads(const fem::BeamModel& model, int reference_node, co
   for (Eigen::Index begin = 0; begin < num_elements && forces.cols() > 0; begin += at_once) {
     const Eigen::Index count = std::min(at_once, num_elements - begin);
     add_combinations(calc_element_stiffness(model, shapes, begin, count), forces.middleRows(begin, count),
-                     packed);
+                     packed, is_tall(num_elements));
   }
   PointStiffness stiffness;
   for (Eigen::Index load = 0; load < forces.cols(); load += 3) {

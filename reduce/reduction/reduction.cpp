@@ -23,16 +23,15 @@ namespace {
 using support::InputError;
 using support::NumericalError;
 
-Eigen::MatrixXd calc_mode_resultants(const fem::BeamModel& model, const Eigen::MatrixXd& shapes) {
+RowMajorMatrix calc_mode_resultants(const fem::BeamModel& model, const Eigen::MatrixXd& shapes) {
   const int num_elements = model.mesh.num_elements();
   const RowMajorMatrix rows = shapes;  // what belongs to a node lies together
-  Eigen::MatrixXd resultants(6 * num_elements, shapes.cols());
-  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> ends(6, shapes.cols()), found = ends;
+  RowMajorMatrix resultants(6 * num_elements, shapes.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> ends(6, shapes.cols());
   for (int e = 0; e < num_elements; ++e) {
     const fem::Mesh::Element& nodes = model.mesh.elements[static_cast<std::size_t>(e)];
     ends << rows.middleRows<3>(3 * nodes.first), rows.middleRows<3>(3 * nodes.second);
-    found.noalias() = fem::calc_resultants(fem::make_element(model, e)) * ends;
-    resultants.middleRows<6>(6 * e) = found;
+    resultants.middleRows<6>(6 * e).noalias() = fem::calc_resultants(fem::make_element(model, e)) * ends;
   }
   return resultants;
 }

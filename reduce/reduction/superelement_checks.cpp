@@ -207,8 +207,7 @@ CheckResult check_equilibrium(const Superelement& s) {
   for (Eigen::Index e = 0; e < s.elements.cols(); ++e) {
     const double length =
         (s.node_positions.col(s.elements(1, e)) - s.node_positions.col(s.elements(0, e))).norm();
-    const Eigen::MatrixXd first = s.resultants.middleRows(6 * e, 3),
-                          second = s.resultants.middleRows(6 * e + 3, 3);
+    const auto first = s.resultants.middleRows<3>(6 * e), second = s.resultants.middleRows<3>(6 * e + 3);
     const Eigen::RowVectorXd moment = second.row(2) - first.row(2) + length * first.row(1);
     const Eigen::RowVectorXd force =
         length * ((second.row(0) - first.row(0)).cwiseAbs() + (second.row(1) - first.row(1)).cwiseAbs());

@@ -11,6 +11,7 @@
 
 #include "reduce/superelement/certificate.h"
 #include "reduce/superelement/unit_loads.h"
+#include "tools/support/hdf5/row_matrix.h"
 
 namespace sprung::reduce {
 
@@ -100,8 +101,9 @@ struct Superelement {
 
   Eigen::MatrixXd stiffness, mass, damping;  ///< n×n
   InertiaInvariants inertia;
-  Eigen::MatrixXd resultants;  ///< 6E×n per unit modal coordinate: N [N], Q [N], M [N·m] at the first, then
-                               ///< the second end of each element
+  /// 6E×n per unit modal coordinate: N [N], Q [N], M [N·m] at the first, then the second end of each element.
+  /// They are most of a large body: in memory they stand as in the file.
+  support::RowMatrix resultants;
   std::optional<GeometricStiffness> geometric_stiffness;  ///< none in files of version 1
   std::optional<Certificate> certificate;                 ///< none in files before version 3
   /// Resultants (6E rows) and deflections of the points (3p rows) under unit loads. None in files before
