@@ -10,7 +10,6 @@ namespace sprung::fem {
 
 namespace {
 
-constexpr int kMaxElementsPerLine = 100000;
 // Points nearer than this are at one place; relative to the largest distance from the first point.
 constexpr double kLeastPointDistance = 1e-9;
 

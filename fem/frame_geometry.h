@@ -8,6 +8,8 @@
 
 namespace sprung::fem {
 
+inline constexpr int kMaxElementsPerLine = 100000;  ///< of a design, and on a curve of a `.geo` file
+
 /// A frame as a design describes it: named points and straight lines between them.
 ///
 /// Lines are joined at common points only: two lines that cross without a point are not connected there.
@@ -33,7 +35,8 @@ struct FrameGeometry {
 };
 
 /// Checks a frame: there is a line; point and line names are unique; a line's points exist and differ; no two
-/// lines join the same points; num_elements is 1 … 100000; positions are finite; no two points have the same
+/// lines join the same points; num_elements is
+/// 1 … kMaxElementsPerLine; positions are finite; no two points have the same
 /// position; every point belongs to a line.
 /// @throws support::InputError at the location of the point or line
 /// Checked by tests/fem/frame_geometry_test.cpp

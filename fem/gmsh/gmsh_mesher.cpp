@@ -5,11 +5,13 @@
 
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "fem/gmsh/geo_script.h"
 #include "fem/gmsh/gmsh_contents.h"
 #include "fem/gmsh/gmsh_contents_bytes.h"
 #include "fem/gmsh/msh_file.h"
@@ -145,6 +147,51 @@ GmshContents get_contents() {
   return contents;
 }
 
+// The number of elements of each curve with all sizes multiplied by a factor. Leaves no mesh behind.
+std::map<int, std::size_t> count_elements(double size_factor) {
+  double own_factor = 1.0, own_flexibility = 0.0;
+  gmsh::option::getNumber("Mesh.CharacteristicLengthFactor", own_factor);
+  gmsh::option::getNumber("Mesh.FlexibleTransfinite", own_flexibility);
+  gmsh::option::setNumber("Mesh.CharacteristicLengthFactor", size_factor * own_factor);
+  gmsh::option::setNumber("Mesh.FlexibleTransfinite", 1);  // numbers of elements that are given, too
+  gmsh::model::mesh::generate(1);
+  std::map<int, std::size_t> counts;
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  for (const auto& [dimension, tag] : curves) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> ids, nodes;
+    gmsh::model::mesh::getElements(types, ids, nodes, dimension, tag);
+    for (const std::vector<std::size_t>& of_type : ids) counts[tag] += of_type.size();
+  }
+  gmsh::model::mesh::clear();
+  gmsh::option::setNumber("Mesh.CharacteristicLengthFactor", own_factor);
+  gmsh::option::setNumber("Mesh.FlexibleTransfinite", own_flexibility);
+  return counts;
+}
+
+// Millions of elements would take gmsh a minute and gigabytes before they can be counted. So they are counted
+// in meshes of much larger elements, the largest first. A curve whose number does not depend on the size (at
+// least so many elements along a circle) is left to the exact count.
+void check_sizes() {
+  std::map<int, std::size_t> coarser = count_elements(1e9);
+  for (const double factor : {1e6, 1e3}) {
+    const std::map<int, std::size_t> counts = count_elements(factor);
+    for (const auto& [curve, count] : counts) {
+      const double estimate = factor * static_cast<double>(count);  // rounded up by less than the factor
+      if (count == coarser.at(curve) || estimate - factor < kMaxElementsPerLine) continue;
+      throw Refusal(fmt::format("curve {} has about {:.1e} elements by its mesh size, expected at most {}",
+                                curve, estimate, kMaxElementsPerLine));
+    }
+    coarser = counts;
+  }
+}
+
+void mesh_script() {
+  check_sizes();
+  gmsh::model::mesh::generate(1);
+}
+
 // gmsh applies this option of a script when it saves a mesh, not when it makes one.
 void scale_as_saved(GmshContents& contents) {
   double factor = 1.0;
@@ -206,6 +253,26 @@ void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
   }
 }
 
+void check_script(const std::filesystem::path& path) {
+  const std::string text = support::read_text_file(path);
+  if (text.empty()) throw InputError({.path = path.string()}, "the file is empty");
+  if (const std::optional<GeoStatement> found = find_writing_statement(text)) {
+    throw InputError({.path = path.string(), .line = found->line, .column = found->column},
+                     fmt::format("'{}' writes a file or runs a program, which reading a mesh does not; take "
+                                 "the statement out of the script",
+                                 found->word));
+  }
+}
+
+void check_element_counts(const GmshContents& contents) {
+  std::map<int, int> counts;
+  for (const GmshContents::Line& line : contents.lines) {
+    if (++counts[line.curve] > kMaxElementsPerLine) {
+      throw Refusal(fmt::format("curve {} has more than {} elements", line.curve, kMaxElementsPerLine));
+    }
+  }
+}
+
 void check_counts(const MshDeclaration& declared, const GmshContents& contents) {
   const auto check = [&](const char* what, std::int64_t expected, std::size_t read) {
     if (expected == static_cast<std::int64_t>(read)) return;
@@ -251,7 +318,7 @@ Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimit
   const bool is_script = path.extension() == ".geo";
   MshDeclaration declared;
   if (is_script) {
-    if (support::read_text_file(path).empty()) throw InputError(where, "the file is empty");
+    check_script(path);
   } else if (path.extension() == ".msh") {
     declared = read_msh_declaration(path);
   } else {
@@ -259,9 +326,10 @@ Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimit
   }
   GmshContents contents = run_gmsh_in_child(where, limits, [&] {
     gmsh::open(path.string());
-    if (is_script) gmsh::model::mesh::generate(1);
+    if (is_script) mesh_script();
     GmshContents read = get_contents();
     if (is_script) {
+      check_element_counts(read);
       scale_as_saved(read);
     } else {
       check_counts(declared, read);

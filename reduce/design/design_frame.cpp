@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
+#include "fem/gmsh/geo_script.h"
 #include "fem/gmsh/gmsh_mesher.h"
 #include "reduce/design/design.h"
 #include "reduce/design/design_couplings.h"
@@ -230,27 +232,18 @@ void add_spring_element(const TomlTable& spring, fem::Mesh& mesh) {
   mesh.section_names.push_back(name_spring_section(from.string(), to.string()));
 }
 
-// Whether a text of gmsh's language has a statement that begins with this word: at the start of a line or
-// after a semicolon.
-bool has_statement(std::string_view text, std::string_view word) {
-  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if (end < text.size() && is_of_name(text[end])) continue;
-    const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\f\v");
-    if (before == text.npos || text[before] == '\n' || text[before] == ';') return true;
-  }
-  return false;
-}
-
 // A file that pulls in others would change without a sign of it: hashes are kept of the files a design names.
 void check_self_contained(const std::filesystem::path& path) {
   if (path.extension() != ".geo") return;
   const std::string text = support::read_text_file(path);
-  if (has_statement(text, "Include") || has_statement(text, "Merge")) {
-    throw InputError({.path = path.string()},
-                     "reads another file by Include or Merge; put everything in one file, so "
-                     "that a change of it is noticed");
+  static constexpr std::array<std::string_view, 5> kReading = {"Include", "Merge", "MergeWithBoundingBox",
+                                                               "Open", "ShapeFromFile"};
+  if (const std::optional<fem::GeoStatement> found = fem::find_geo_statement(text, kReading)) {
+    throw InputError(
+        {.path = path.string(), .line = found->line, .column = found->column},
+        fmt::format("'{}' reads another file; put everything in one file, so that a change of it "
+                    "is noticed",
+                    found->word));
   }
 }
 

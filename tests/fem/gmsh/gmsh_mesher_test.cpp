@@ -278,6 +278,47 @@ TEST_CASE("A mesh that declares more than gmsh reads is refused") {
         "belong to no element or have the same number");
 }
 
+TEST_CASE("Reading a .geo file writes no file and runs no program") {
+  const std::string script = test::read_file(test::get_data("portal.geo"));
+  for (const char* statement :
+       {"Save \"written.msh\";", "Print \"written.msh\";", "SystemCall \"touch written.msh\";",
+        "Printf(\"%g\", 1) > \"written.msh\";"}) {
+    INFO(statement);
+    std::filesystem::remove("written.msh");
+    test::check_contains(
+        message_of_text("saving.geo", "Mesh 1;\n  " + std::string(statement) + "\n" + script),
+        "' writes a file or runs a program, which reading a mesh does not");
+    CHECK(!std::filesystem::exists("written.msh"));
+  }
+  test::check_contains(message_of_text("saving.geo", "a = 1;\n  Save \"written.msh\";\n" + script),
+                       "saving.geo:2:3: error: 'Save' writes a file");
+}
+
+TEST_CASE("A curve of a .geo file has as many elements as a line of a design at most") {
+  const auto read_bar = [](const std::string& size, const std::string& more) {
+    const std::string points = "Point(1) = {0, 0, 0, " + size + "}; Point(2) = {1, 0, 0, " + size + "};";
+    return test::write_file("fine.geo", points + "Line(7) = {1, 2}; Physical Curve(\"bar\") = {7};\n" + more);
+  };
+  const char* const refusal =
+      "fine.geo: error: curve 7 has about 1.0e+07 elements by its mesh size, expected";
+  test::check_contains(message(read_bar("1e-7", "")), refusal);
+  test::check_contains(message(read_bar("1", "Mesh.CharacteristicLengthMax = 1e-7;")), refusal);
+  test::check_contains(message(read_bar("1", "Transfinite Curve {7} = 10000001;")),
+                       "curve 7 has about 9.0e+06 elements");  // of 10 of its points
+  test::check_contains(message(read_bar("1e-10", "")), "curve 7 has about 1.0e+10 elements");
+  test::check_contains(message(read_bar("9.9e-6", "")), "curve 7 has about 1.0e+05 elements");
+  CHECK(read_gmsh_file(read_bar("2e-5", "")).num_elements() == 50000);
+}
+
+TEST_CASE("A least number of elements along circles is no fine mesh size") {
+  const std::string arc =
+      "Point(1) = {1, 0, 0, 1}; Point(2) = {0, 1, 0, 1}; Point(3) = {0, 0, 0, 1}; Circle(1) = {1, 3, 2};"
+      "Physical Curve(\"arc\") = {1}; Mesh.MinimumCirclePoints = ";
+  CHECK(read_gmsh_file(test::write_file("arc.geo", arc + "2000;\n")).num_elements() == 500);  // of a quarter
+  CHECK(message_of_text("arc.geo", arc + "500000;\n") ==
+        "arc.geo: error: curve 1 has more than 100000 elements");
+}
+
 TEST_CASE("Physical groups decide the section of each element") {
   const std::string text = test::read_file(test::get_data("portal_22.msh"));
   // elements of one curve in two groups, as other programs write them: each has its own

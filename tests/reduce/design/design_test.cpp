@@ -299,9 +299,9 @@ TEST_CASE("faults between a design and its gmsh file are named") {
              Contains("'reference.point' names the point 'root'"));
   CHECK_THAT(geo_fault("\"tip\"", "\"quarter\""), Contains("point 'quarter' is named in 'bar.geo' already"));
   CHECK_THAT(geo_fault("Point(1)", "Include \"other.geo\";\nPoint(1)"),
-             Contains("reads another file by Include or Merge"));
+             Contains("bar.geo:1:1: error: 'Include' reads another file"));
   CHECK_THAT(geo_fault("Point(1)", "a = 1;  Merge \"other.msh\";\nPoint(1)"),
-             Contains("reads another file by Include or Merge"));
+             Contains("bar.geo:1:9: error: 'Merge' reads another file"));
   // A name that begins like the statement, and a comment.
   testing::write_text("bar.geo", "IncludedLength = 1; // Include nothing\n" + std::string(kGeo));
   CHECK_NOTHROW(read(kMeshDesign));
