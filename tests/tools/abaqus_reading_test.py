@@ -101,6 +101,30 @@ class Reading(ToolTestCase):
             process = self.run_tool("convert_mesh", "b.inp", "a.msh")
             self.assert_refuses(process, "b.inp:9: error: *N", ": expects a number, but the field is blank")
 
+    def test_an_orientation_node_is_counted_on_by_all_nodes_alone(self):
+        # Keywords Reference, *ELGEN: nodes that give the first cross-section axis are incremented with ALL NODES.
+        nodes = "*NODE\n1, 0., 0., 0.\n5, 4., 0., 0.\n21, 0., 1., 0.\n25, 4., 0., 1.\n*NGEN\n1, 5\n21, 25\n"
+        section = "*BEAM SECTION, ELSET=E, SECTION=RECT, MATERIAL=M\n1., 2.\n"
+        for option, towards in (("", [0.0, 1.0, 0.0]), (", ALL NODES", [0.0, 0.25, 0.75])):
+            with self.subTest(option):
+                line = f"*ELEMENT, TYPE=B31\n1, 1, 2, 21\n*ELGEN, ELSET=E{option}\n1, 4\n"
+                mesh = self.read(nodes + line + section)
+                expected = np.cross([1.0, 0.0, 0.0], np.add(towards, 0.0))
+                if not option:  # node 21, seen from the beginning of the last line, at x = 3
+                    expected = np.cross([1.0, 0.0, 0.0], [-3.0, 1.0, 0.0])
+                np.testing.assert_allclose(mesh.heights[3], expected / np.linalg.norm(expected), atol=1e-15)
+
+    def test_generated_nodes_that_would_get_lost_or_move_are_refused(self):
+        nodes = "*NODE\n1, 0., 0.\n3, 2., 0.\n2, .5, 0.\n11, 0., 1.\n*NSET, NSET=P\n1, 3\n*NSET, NSET=Q\n11\n"
+        for data, message in (
+            ("*NGEN\n1, 3\n", "b.inp:11: error: *NGEN: would put node 2 at another place than it has"),
+            ("*NFILL\nP, Q, 2, 5\n", "b.inp:11: error: *NFILL: joins a set of 2 nodes and one of 1"),
+        ):
+            (self.folder / "b.inp").write_text(nodes + data, encoding="utf-8")
+            self.assert_refuses(self.run_tool("convert_mesh", "b.inp", "a.msh"), message)
+        mesh = self.read(nodes.replace(".5, 0.", "1., 0.") + "*NGEN\n1, 3\n3, 1, -1\n")  # the same again
+        self.assertEqual(mesh.node_ids.tolist(), [1, 2, 3, 11])
+
     def test_a_line_of_three_nodes_is_two_lines_in_each_of_its_sets(self):
         text = ABAQUS[: ABAQUS.index("*ELEMENT")] + "*ELEMENT, TYPE=B32, ELSET=A\n5, 1, 2, 3\n*ELSET, ELSET=B\n5\n"
         mesh = self.read(text)

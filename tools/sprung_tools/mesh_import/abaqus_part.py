@@ -17,7 +17,7 @@ THREE_NODES = re.compile(r"(B[23]2(R|H|OS|OSH)?|T[23]D3[HTE]*|PIPE[23]2H?)$")
 GENERATING = {"NCOPY", "NMAP", "ELCOPY", "SYSTEM"}
 GENERATORS = {"NGEN", "NFILL", "ELGEN"}
 MESHING = {"NODE", "ELEMENT", "NSET", "ELSET"} | GENERATORS
-KEYS = {"NSET": "NSET", "ELSET": "ELSET"}
+SAME_PLACE = 1e-9  # relative to the length of the line on which nodes are generated
 
 
 class Element(NamedTuple):
@@ -196,7 +196,8 @@ class Part:
             self.node_sets.add(block.parameters["NSET"], ids)
 
     def fill_between(self, block: Block, line: int, first: int, last: int, step: int) -> list[int]:
-        """Adds equally spaced nodes between two. Returns the numbers of all, the ends included."""
+        """Adds equally spaced nodes between two. Returns the numbers of all, the ends included. InputError if a node of
+        such a number is elsewhere."""
         for end in (first, last):
             if end not in self.nodes:
                 block.fail(f"names node {end}, which is not there", line)
@@ -204,10 +205,14 @@ class Part:
             block.fail(f"cannot go from node {first} to node {last} in steps of {step}", line)
         here, there = np.array(self.nodes[first]), np.array(self.nodes[last])
         numbers = list(range(first, last + (1 if step > 0 else -1), step))
-        for place, node in enumerate(numbers[1:-1], start=1):
-            share = place / (len(numbers) - 1)
-            x, y, z = ((1.0 - share) * here + share * there).tolist()
-            self.nodes[node] = (x, y, z)
+        for k, node in enumerate(numbers[1:-1], start=1):
+            share = k / (len(numbers) - 1)
+            place = (1.0 - share) * here + share * there
+            known = np.array(self.nodes.get(node, place))
+            if not np.linalg.norm(known - place) <= SAME_PLACE * np.linalg.norm(there - here):
+                block.fail(f"would put node {node} at another place than it has", line)
+            x, y, z = known.tolist()
+            self.add_node(block, line, node, (x, y, z))
         return numbers
 
     def fill_nodes(self, block: Block) -> None:
@@ -219,6 +224,8 @@ class Part:
             if len(fields) < 4:
                 block.fail("expects two node sets, a number of intervals and an increment", line)
             firsts, lasts = (self.find_members(block, self.node_sets, "N", name, line) for name in fields[:2])
+            if len(firsts) != len(lasts):
+                block.fail(f"joins a set of {len(firsts)} nodes and one of {len(lasts)}", line)
             intervals, step = (read_integer(block, line, text) for text in fields[2:4])
             for first, last in zip(firsts, lasts):
                 if first + intervals * step != last:
@@ -228,7 +235,9 @@ class Part:
             self.node_sets.add(block.parameters["NSET"], ids)
 
     def generate_elements(self, block: Block) -> None:
-        """*ELGEN: master element, then up to three times number, increment of nodes, increment of elements (1)."""
+        """*ELGEN: master element, then up to three times number, increment of nodes, increment of elements (1). The
+        orientation node of a line stays the same unless ALL NODES is given."""
+        turns = "ALL NODES" in block.parameters
         ids: list[int] = []
         for line, fields in block.data:
             master = read_integer(block, line, fields[0])
@@ -242,7 +251,7 @@ class Part:
                     block.fail(f"generates {number} elements in a row", line)
                 row = made
                 made = {
-                    one + k * elements: shift(element, k * nodes)
+                    one + k * elements: shift(element, k * nodes, turns)
                     for k in range(number)
                     for one, element in row.items()
                 }
@@ -254,6 +263,9 @@ class Part:
             self.element_sets.add(block.parameters["ELSET"], ids)
 
 
-def shift(element: Element, step: int) -> Element:
-    """An element whose nodes' numbers are larger by a step."""
-    return element._replace(nodes=[node + step for node in element.nodes])
+def shift(element: Element, step: int, turns: bool) -> Element:
+    """An element whose nodes' numbers are larger by a step; turns: that of its orientation node, too."""
+    orientation = element.orientation
+    if turns and orientation is not None:
+        orientation += step
+    return element._replace(nodes=[node + step for node in element.nodes], orientation=orientation)
