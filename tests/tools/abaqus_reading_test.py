@@ -3,6 +3,7 @@
 import unittest
 
 import numpy as np
+from polygons import integrate
 from small_decks import ABAQUS
 from tool_test_case import ToolTestCase
 
@@ -151,6 +152,110 @@ class Reading(ToolTestCase):
             with self.subTest(section):
                 shape = self.find_shape(f"*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION={section}\n")
                 np.testing.assert_allclose((shape.area, shape.hh, shape.ww), expected, rtol=1e-13)
+
+    def test_shapes_against_integrals_over_their_outlines(self):
+        # Analysis User's Guide, "Beam cross-section library". Corners (1, 2).
+        ring = [(np.cos(k * np.pi / 3), np.sin(k * np.pi / 3)) for k in range(6)]
+        inner = 2.0 - 0.3 * 2 / np.sqrt(3)  # a wall of 0.3 between the flats
+        hexagon = [np.multiply(2.0, ring), np.multiply(inner, ring[::-1])]
+        for section, outlines in (
+            ("TRAPEZOID\n4., 3., 2., 1.", [[(-2, 0), (2, 0), (1, 3), (-1, 3)]]),
+            ("L\n5., 4., .5, .7", [[(0, 0), (5, 0), (5, 0.5), (0.7, 0.5), (0.7, 4), (0, 4)]]),
+            ("HEX\n2., .3", hexagon),
+            ("I\n1., 6., 4., 0., 1., 0., 1.", [[(-2, 0), (2, 0), (2, 1), (0.5, 1), (0.5, 6), (-0.5, 6), (-0.5, 1),
+                                               (-2, 1)]]),
+        ):  # fmt: skip
+            with self.subTest(section):
+                shape = self.find_shape(f"*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION={section}\n")
+                np.testing.assert_allclose(shape[:4], integrate(*outlines)[:4], rtol=1e-12, atol=1e-12)
+
+    def test_the_centroid_away_from_the_nodes_is_told(self):
+        # By l (I) and d (trapezoid), the height of the nodes over the bottom, they may be anywhere.
+        for section, is_told in (
+            ("I\n3., 6., 4., 4., 1., 1., 1.", False), ("I\n0., 6., 4., 4., 1., 1., 1.", True),
+            ("I\n3., 6., 4., 3., 1., 1., 1.", True), ("TRAPEZOID\n2., 3., 2., 1.5", False),
+            ("TRAPEZOID\n4., 3., 1., 1.2", False), ("TRAPEZOID\n4., 3., 1., 0.", True),
+            ("BOX\n4., 6., .5, 1., .5, 1.", False), ("BOX\n4., 6., .5, 1., .6, 1.", True),
+            ("L\n5., 4., .5, .7", True), ("RECT\n2., 3.", False),
+        ):  # fmt: skip
+            with self.subTest(section):
+                mesh = self.read(f"{ABAQUS}*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION={section}\n")
+                self.assertEqual("the way from its nodes to its centroid" in mesh.sections[0].left_out, is_told)
+
+    def integrate_walls(self, points, walls, parts=20_000):
+        """(area, ∫h², ∫w², ∫hw about the centroid) of thin walls, each cut into short pieces."""
+        place = (np.arange(parts) + 0.5) / parts
+        pieces = [
+            (np.outer(1 - place, a) + np.outer(place, b), np.full(parts, t * np.hypot(*np.subtract(b, a)) / parts))
+            for a, b, t in zip(points, points[1:], walls)
+        ]
+        (w, h), areas = np.concatenate([one for one, _ in pieces]).T, np.concatenate([one for _, one in pieces])
+        w, h = w - areas @ w / areas.sum(), h - areas @ h / areas.sum()
+        return areas.sum(), areas @ h**2, areas @ w**2, areas @ (h * w)
+
+    def test_walls_of_an_arbitrary_section(self):
+        # "For each individual segment of an arbitrary section there is no bending stiffness about the line joining the
+        # end points of the segment." First line: number of segments, first and second point, thickness; then the rest.
+        channel = [(3, 0), (0, 0.5), (0, 6), (3, 6)]
+        closed = [(-2, -3), (2, -3), (2.5, 3), (-2, 3), (-2, -3)]
+        branched = [(-2, 0), (0, 0), (0, 5), (0, 0), (2, 0)]  # an inverted T: the way back has no thickness
+        profiles = ((channel, (0.2, 0.1, 0.3)), (closed, (0.1, 0.2, 0.3, 0.4)), (branched, (0.2, 0.1, 0, 0.2)))
+        for points, walls in profiles:
+            numbers = [(len(walls), *points[0], *points[1], walls[0])]
+            numbers += [(*point, wall) for point, wall in zip(points[2:], walls[1:])]
+            rows = "".join(f"{', '.join(map(str, row))}\n" for row in numbers)
+            for keyword, behind in (("BEAM SECTION, MATERIAL=M", "0., -1., 0.\n3, 3\n"),
+                                    ("BEAM GENERAL SECTION, DENSITY=7.8", "0., -1., 0.\n2.6, 1.\n"),
+                                    ("BEAM GENERAL SECTION, DENSITY=7.8", "\n2.6, 1.\n")):  # fmt: skip
+                with self.subTest((points, keyword, behind)):
+                    mesh = self.read(f"{ABAQUS}*{keyword}, ELSET=A, SECTION=ARBITRARY\n{rows}{behind}")
+                    shape = mesh.sections[0].shape
+                    np.testing.assert_allclose(shape[:4], self.integrate_walls(points, walls), rtol=1e-8, atol=1e-7)
+                    height = [0, 1, 0] if behind.startswith("\n") else [0, 0, 1]
+                    np.testing.assert_allclose(np.abs(mesh.heights[0]), height, atol=1e-15)
+                    if "GENERAL" in keyword:
+                        self.assertEqual([one.youngs_modulus for one in mesh.materials.values()], [2.6])
+
+    def test_an_arbitrary_section_that_is_not_whole_is_refused(self):
+        start = f"{ABAQUS}*BEAM SECTION, ELSET=A, MATERIAL=M, SECTION=ARBITRARY\n"
+        for data, where, message in (
+            ("3, 3., 0., 0., 0., .2\n0., 6., .1\n", 10, "has no coordinates and thickness of segment 3 of 3"),
+            ("2, 3., 0., 0., 0., .2\n0., 6.\n", 10, "has no coordinates and thickness of segment 2 of 2"),
+            ("2, 3., 0., 0., 0.\n0., 6., .1\n", 9, "has no coordinates and thickness of segment 1 of 2"),
+            ("2.5, 3., 0., 0., 0., .2\n", 9, "ARBITRARY has 2.5 segments, expected a whole number from 1"),
+            ("", 8, "ARBITRARY has 0 segments"),
+        ):
+            with self.subTest(data):
+                (self.folder / "b.inp").write_text(start + data, encoding="utf-8")
+                process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+                self.assert_refuses(process, f"b.inp:{where}: error: *BEAM SECTION", message)
+
+    def test_a_tapered_section_has_its_direction_and_moduli_behind_both_ends(self):
+        # Keywords Reference, *BEAM GENERAL SECTION with TAPER: the second line has the dimensions at node B.
+        text = "*BEAM GENERAL SECTION, ELSET=A, SECTION=RECT, TAPER\n.1, .2\n.1, .3\n0., -1., 0.\n2.6, 1.\n"
+        mesh = self.read(ABAQUS + text)
+        np.testing.assert_allclose(np.abs(mesh.heights[0]), [0, 0, 1], atol=1e-15)
+        self.assertEqual([one.youngs_modulus for one in mesh.materials.values()], [2.6])
+        self.assertIn("its taper: the section at the first end is taken", mesh.sections[0].left_out)
+
+    def test_poisson_of_a_section_is_not_the_material_s(self):
+        # Keywords Reference, *BEAM GENERAL SECTION: POISSON is "the effective Poisson's ratio for the section", by
+        # which its area changes in large-displacement analyses; the material's is E / 2G − 1.
+        for moduli, ratio, told in (
+            ("2.6, 1.", 0.3, []),
+            ("2.6", None, []),
+            ("2.6, .5", None, ["its shear modulus, 0.5, with which Poisson's ratio would be 1.6"]),
+            (", 1.", None, []),
+            ("2.6, 1., , 20.\n2.5, 1., , 100.", 0.3, ["its moduli at further temperatures"]),
+        ):
+            with self.subTest(moduli):
+                text = f"*BEAM GENERAL SECTION, ELSET=A, POISSON=.1, SECTION=RECT\n2., 3.\n0., 0., 1.\n{moduli}\n"
+                mesh = self.read(ABAQUS + text)
+                (material,) = mesh.materials.values()
+                self.assertEqual(material.youngs_modulus, None if moduli.startswith(",") else 2.6)
+                self.assertEqual(material.poissons_ratio and round(material.poissons_ratio, 12), ratio)
+                poisson = "its POISSON, by which its area changes under large strains"
+                self.assertEqual(list(mesh.sections[0].left_out), [poisson, *told])
 
     def test_a_general_section_has_its_own_material(self):
         text = "*BEAM GENERAL SECTION, ELSET=A, DENSITY=7.8, SECTION=RECT\n2., 3.\n0., 0., 1.\n2.6, 1.\n"

@@ -3,6 +3,7 @@
 import unittest
 
 import numpy as np
+from polygons import box, integrate
 from small_decks import NASTRAN
 from tool_test_case import ToolTestCase
 
@@ -142,6 +143,61 @@ class Reading(ToolTestCase):
         self.assert_shape("PBARL,1,1,,CHAN\n,3.,6.,1.,1.", *channel)
         self.assert_shape("PBARL,1,1,,CHAN1\n,2.,1.,4.,6.", *channel)
         self.assert_shape("PBARL,1,1,,CHAN2\n,1.,1.,3.,6.", channel[0], channel[2], channel[1])
+
+    def test_shapes_against_integrals_over_their_outlines(self):
+        # Corners (z, y) from the figures of the Quick Reference Guide, z to the right; our width is to the left.
+        angle = [(0, 0), (5, 0), (5, 0.5), (0.7, 0.5), (0.7, 4), (0, 4)]
+        zed = [(0, 2.5), (2, 2.5), (2, 0), (5, 0), (5, 0.5), (3, 0.5), (3, 3), (0, 3)]
+        hat = [(0, 0), (2.5, 0), (2.5, 3.5), (5.5, 3.5), (5.5, 0), (8, 0), (8, 0.5), (6, 0.5), (6, 4), (2, 4), (2, 0.5),
+               (0, 0.5)]  # fmt: skip
+        closed_hat = [[(0, 0), (9, 0), (9, 0.8), (6.5, 0.8), (6.5, 3), (2.5, 3), (2.5, 0.8), (0, 0.8)],
+                      box(2.8, 0.5, 6.2, 2.7, is_hole=True)]  # fmt: skip
+        hexagon = [(0, 2), (1, 0), (5, 0), (6, 2), (5, 4), (1, 4)]
+        holes = [box(0.4, 0.3, 3.7, 3.5, is_hole=True), box(4.3, 0.6, 8.5, 3.8, is_hole=True)]
+        for card, outlines in (
+            ("L\n,5.,4.,.5,.7", [angle]),
+            ("Z\n,2.,1.,2.,3.", [zed]),
+            ("HAT\n,4.,.5,4.,2.", [hat]),
+            ("HAT1\n,9.,3.,4.,.3,.5", closed_hat),
+            ("HEXA\n,1.,6.,4.", [hexagon]),
+            ("DBOX\n,9.,4.,4.,.4,.6,.5,.5,.3\n,.2,.6", [box(0, 0, 9, 4), *holes]),
+        ):
+            with self.subTest(card):
+                shape = self.read_shape(f"PBARL,1,1,,{card}")
+                area, hh, ww, hw, _, _ = integrate(*outlines)
+                np.testing.assert_allclose(shape[:4], (area, hh, ww, -hw), rtol=1e-12, atol=1e-12)
+
+    def test_a_shape_whose_shear_centre_is_not_its_centroid_is_told(self):
+        for card, is_told in (
+            ("I\n,6.,4.,4.,1.,1.,1.", False), ("I\n,6.,4.,3.,1.,1.,1.", True), ("I\n,6.,4.,4.,1.,1.,.5", True),
+            ("BOX1\n,4.,6.,1.,1.,.5,.5", False), ("BOX1\n,4.,6.,1.,1.,.5,.6", True),
+            ("L\n,5.,4.,.5,.7", True), ("HAT\n,4.,.5,4.,2.", True), ("Z\n,2.,1.,2.,3.", False),
+        ):  # fmt: skip
+            with self.subTest(card):
+                mesh = self.read(NASTRAN.replace("ENDDATA", f"PBARL,1,1,,{card}\nENDDATA"))
+                found = [one for one in mesh.sections[0].left_out if one.startswith("the way from its shear centre")]
+                self.assertEqual(bool(found), is_told)
+
+    def test_a_mass_per_length_stands_behind_the_dimensions(self):
+        for card, expected in (("DBOX\n,9.,4.,4.,.4,.6,.5,.5,.3\n,.2,.6,7.", 7.0), ("HEXA\n,1.,6.,4.,5.", 5.0)):
+            mesh = self.read(NASTRAN.replace("ENDDATA", f"PBARL,1,1,,{card}\nENDDATA"))
+            self.assertEqual(mesh.sections[0].extra_mass, expected)
+
+    def test_offsets_of_a_beam_s_mass_and_neutral_axis_are_listed(self):
+        # Quick Reference Guide, PBEAM: they are the last line, after K1 … CW(B); a station with YES has stresses, too.
+        beam = "PBEAM,1,1,.1,.2,.3,0.,.4,\n,,,,,,,,\n"
+        shear, end = ",1.,1.,,,,,,\n", ",NO,1.,.1,.2,.3,0.,.4,\n"
+        for lines, is_told in (
+            (f"{end}{shear},,,,,.1,,.1,", True),
+            (f",YES,1.,.1,.2,.3,0.,.4,\n,1.,1.,,,,,,\n{shear},.1,,,,,,,", True),
+            (f"{end}{shear},0.,,,,,,,", False),
+            (f"{end}{shear}", False),
+            (f"{shear},,,,,,.2,,", True),
+        ):
+            with self.subTest(lines):
+                mesh = self.read(NASTRAN.replace("ENDDATA", f"{beam}{lines}\nENDDATA"))
+                told = [one for one in mesh.sections[0].left_out if "its neutral axis" in one]
+                self.assertEqual(bool(told), is_told)
 
     def test_general_properties(self):
         self.assertEqual(self.read_shape("PBAR,1,1,2.,3.,4.\n,\n,,,.5"), Shape(2.0, 3.0, 4.0, -0.5))

@@ -264,8 +264,8 @@ class OfDecks(StarterCase):
         self.assertIn("# of section 'property_1': its taper: the section at end A is taken", text)
         self.assertEqual(self.read(text)["sections"]["property_1"]["second_moment"], 0.2)
         (self.folder / "frame.toml").unlink()
-        _, text = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", "PBARL,1,1,,HAT1\n,1.,1.,1.,1.,1.\nENDDATA"))
-        self.assertIn("# of section 'property_1': the shape HAT1", text)
+        _, text = self.convert_text("b.bdf", NASTRAN.replace("ENDDATA", "PBARL,1,1,,HAT2\n,1.,1.,1.,1.,1.\nENDDATA"))
+        self.assertIn("# of section 'property_1': the shape HAT2", text)
 
 
 class Turning(unittest.TestCase):

@@ -13,22 +13,44 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import.abaqus_blocks import Block, read_real
 from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
-from sprung_tools.mesh_import.section_shapes import make_box, make_ellipse, make_i, make_rectangle, make_tube
+from sprung_tools.mesh_import.section_shapes import (
+    make_angle,
+    make_box,
+    make_ellipse,
+    make_hexagonal_tube,
+    make_i,
+    make_rectangle,
+    make_trapezoid,
+    make_tube,
+    make_walls,
+)
 
 SECTION_BLOCKS = {"BEAM SECTION", "BEAM GENERAL SECTION", "SOLID SECTION"}
 MATERIAL_BLOCKS = {"MATERIAL", "ELASTIC", "DENSITY"}
 MASS_BLOCKS = {"MASS", "ROTARY INERTIA"}
 DEFAULT_WIDTH = (0.0, 0.0, -1.0)  # the 1-direction of a section that gives none
 
-# Type of section → number of its dimensions, and the shape that they make.
+MOST_WALLS = 10_000  # segments of an ARBITRARY section
+OFF_AXIS = 1e-6  # distance of the centroid from the nodes that is told, relative to the root of the area
+
+# Type of section → number of its dimensions, and the shape that they make, about the section's origin at the nodes.
 SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
     "RECT": (2, make_rectangle),
     "BOX": (6, lambda a, b, right, top, left, bottom: make_box(a, b, left, right, top, bottom)),
     "CIRC": (1, make_tube),
     "PIPE": (2, lambda radius, wall: make_tube(radius, radius - wall)),
     "THICK PIPE": (2, lambda radius, wall: make_tube(radius, radius - wall)),
-    "I": (7, lambda _, height, bottom, top, under, over, web: make_i(height, bottom, top, web, under, over)),
-}
+    "I": (7, lambda low, height, bottom, top, under, over, web: lower(
+        make_i(height, bottom, top, web, under, over), low - height / 2.0)),
+    "L": (4, make_angle),
+    "HEX": (2, make_hexagonal_tube),
+    "TRAPEZOID": (4, lambda bottom, height, top, low: lower(make_trapezoid(bottom, height, top), low)),
+}  # fmt: skip
+
+
+def lower(shape: Shape, height: float) -> Shape:
+    """The shape with its origin higher by a height."""
+    return shape._replace(h=shape.h - height)
 
 
 def read_row(block: Block, place: int) -> list[float]:
@@ -50,23 +72,62 @@ def read_section(block: Block, materials: Mapping[str, Material]) -> tuple[Secti
         section = Section(describe(block), block.parameters.get("MATERIAL", "").upper(), shape, False)
         return section, np.array(DEFAULT_WIDTH), None
     kind = block.parameters.get("SECTION", "GENERAL").upper()
-    dimensions = read_row(block, 0)
-    shape, remark = make_shape(kind, dimensions)
+    place = count_shape_lines(block, kind)  # of the 1-direction
+    dimensions = read_row(block, 0) if kind != "MESHED" else []
+    shape, remark = read_walls(block, place) if kind == "ARBITRARY" else make_shape(kind, dimensions)
     left_out = [remark] if remark else []
-    left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if is_offset(block, key)]
-    left_out += ["its TAPER"] if "TAPER" in block.parameters else []
-    width = read_row(block, 1)
-    if block.keyword == "BEAM SECTION" and not any(width) and any(read_row(block, 2)):
+    left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if is_given(block, key)]
+    left_out += ["its taper: the section at the first end is taken"] if "TAPER" in block.parameters else []
+    left_out += ["its POISSON, by which its area changes under large strains"] if is_given(block, "POISSON") else []
+    if shape and math.hypot(shape.w, shape.h) > OFF_AXIS * math.sqrt(shape.area):
+        left_out.append("the way from its nodes to its centroid")
+    width = read_row(block, place)
+    if block.keyword == "BEAM SECTION" and not any(width) and any(read_row(block, place + 1)):
         left_out.append("that CalculiX passes over its blank line: here it is the default 1-direction, as in Abaqus")
     direction = np.array((width + [0.0] * 3)[:3]) if any(width) else np.array(DEFAULT_WIDTH)
     text = f"{describe(block)}: {' × '.join(f'{one:g}' for one in dimensions)}"
-    material = read_own_material(block, materials) if block.keyword == "BEAM GENERAL SECTION" else None
+    material = None
+    if block.keyword == "BEAM GENERAL SECTION" and kind != "MESHED":
+        material, remarks = read_own_material(block, place + 1, materials)
+        left_out += remarks
     name = material.name if material else block.parameters.get("MATERIAL", "").upper()
     return Section(text, name, shape, True, 0.0, tuple(left_out)), direction, material
 
 
-def is_offset(block: Block, key: str) -> bool:
-    """Whether a section has an offset that is not 0."""
+def count_shape_lines(block: Block, kind: str) -> int:
+    """The number of data lines that give a section's dimensions."""
+    if kind == "MESHED":
+        return 0
+    if kind != "ARBITRARY":
+        return 2 if "TAPER" in block.parameters else 1
+    count = (read_row(block, 0) or [0.0])[0]
+    if not (1.0 <= count <= MOST_WALLS and count == int(count)):
+        block.fail(f"ARBITRARY has {count:g} segments, expected a whole number from 1 to {MOST_WALLS}",
+                   block.data[0][0] if block.data else None)  # fmt: skip
+    return int(count)
+
+
+def read_walls(block: Block, count: int) -> tuple[Shape | None, str]:
+    """Reads the dimensions of an ARBITRARY section: number of segments, first point, then each further point with the
+    thickness of the segment that ends there, one in a line. Returns (the shape or None, what is left out)."""
+    rows = [read_row(block, place) for place in range(count)]
+    rows[0] = rows[0][1:]
+    points, walls = [], []
+    for place, row in enumerate(rows):
+        expected = 3 if place else 5
+        if len(row) < expected:
+            line = block.data[min(place, len(block.data) - 1)][0]
+            block.fail(f"ARBITRARY has no coordinates and thickness of segment {place + 1} of {count}", line)
+        points += [(row[0], row[1]), (row[2], row[3])] if place == 0 else [(row[0], row[1])]
+        walls.append(row[expected - 1])
+    try:
+        return make_walls(points, walls), ""
+    except ValueError as error:
+        return None, f"the shape ARBITRARY, which {error}"
+
+
+def is_given(block: Block, key: str) -> bool:
+    """Whether a parameter of a section is there and not 0."""
     text = block.parameters.get(key, "0")
     try:
         return float(text) != 0.0
@@ -100,19 +161,23 @@ def make_shape(kind: str, numbers: Sequence[float]) -> tuple[Shape | None, str]:
         return None, f"the shape {kind}, which {error}"
 
 
-def read_own_material(block: Block, materials: Mapping[str, Material]) -> Material | None:
-    """The material that a *BEAM GENERAL SECTION gives itself: E, G in the third data line, DENSITY, POISSON; where it
-    names a MATERIAL, this one with the section's DENSITY, and None without a DENSITY."""
+def read_own_material(
+    block: Block, place: int, materials: Mapping[str, Material]
+) -> tuple[Material | None, list[str]]:
+    """The material that a *BEAM GENERAL SECTION gives itself, and what of it is left out: E and G in the data line at
+    `place`, and DENSITY; where it names a MATERIAL, this one with the section's DENSITY, and None without a DENSITY.
+    POISSON is not the material's ratio, which follows from E and G."""
     name, density = f"SECTION OF {block.parameters.get('ELSET', '').upper()}", read_parameter(block, "DENSITY")
     if block.parameters.get("MATERIAL"):
         named = materials.get(block.parameters["MATERIAL"].upper())
-        return named._replace(name=name, density=density) if named and density is not None else None
-    row = read_row(block, 2)
-    modulus = row[0] if row and row[0] > 0.0 else None
-    ratio = read_parameter(block, "POISSON")
-    if ratio is None and modulus and len(row) > 1 and row[1] > 0.0:
-        ratio = modulus / (2.0 * row[1]) - 1.0
-    return Material(name, modulus, ratio, density)
+        return named._replace(name=name, density=density) if named and density is not None else None, []
+    left_out = ["its moduli at further temperatures"] if any(read_row(block, place + 1)) else []
+    modulus, shear = (read_row(block, place) + [0.0, 0.0])[:2]
+    ratio = modulus / (2.0 * shear) - 1.0 if modulus > 0.0 and shear > 0.0 else None
+    if ratio is not None and not -1.0 < ratio <= 0.5:
+        left_out.append(f"its shear modulus, {shear:g}, with which Poisson's ratio would be {ratio:.3g}")
+        ratio = None
+    return Material(name, modulus if modulus > 0.0 else None, ratio, density), left_out
 
 
 def read_parameter(block: Block, key: str) -> float | None:

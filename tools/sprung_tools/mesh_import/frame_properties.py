@@ -21,6 +21,8 @@ class Shape(NamedTuple):
     hh: float  # ∫h² dA
     ww: float  # ∫w² dA
     hw: float = 0.0  # ∫h w dA
+    w: float = 0.0  # where the centroid is, from the origin that the section's description has
+    h: float = 0.0
 
 
 class Section(NamedTuple):

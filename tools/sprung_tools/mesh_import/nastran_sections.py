@@ -12,16 +12,24 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape
 from sprung_tools.mesh_import.nastran_cards import Card
 from sprung_tools.mesh_import.section_shapes import (
+    make_angle,
     make_box,
     make_channel,
+    make_closed_hat,
+    make_double_box,
+    make_hat,
+    make_hexagon,
     make_i,
     make_pair,
     make_rectangle,
     make_tube,
+    make_z,
+    mirror,
     turn,
 )
 
-# Type of PBARL and PBEAML → number of its dimensions, and the shape that they make.
+# Type of PBARL and PBEAML → number of its dimensions, and the shape that they make. The figures of the guide have z to
+# the right, and our width is to its other side.
 SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
     "ROD": (1, make_tube),
     "TUBE": (2, make_tube),
@@ -39,7 +47,16 @@ SHAPES: dict[str, tuple[int, Callable[..., Shape]]] = {
     "CHAN1": (4, lambda out, web, inner, height: make_channel(out + web, height, web, (height - inner) / 2)),
     "CHAN2": (4, lambda leg, plate, height, width: turn(make_channel(height, width, plate, leg))),
     "CROSS": (4, lambda out, upright, height, bar: make_pair(upright, height, out / 2, bar)),
+    "L": (4, lambda width, height, lying, upright: mirror(make_angle(width, height, lying, upright))),
+    "Z": (4, lambda flange, web, inner, height: mirror(make_z(flange, web, inner, height))),
+    "HAT": (4, make_hat),
+    "HAT1": (5, make_closed_hat),
+    "HEXA": (3, lambda slant, width, height: make_hexagon(width, height, slant)),
+    "DBOX": (10, lambda width, height, middle, left, inner, right, *rest: mirror(
+        make_double_box(width, height, middle, (left, inner, right), (rest[0], rest[1]), (rest[2], rest[3])))),
 }  # fmt: skip
+WITH_OTHER_CENTRE = {"T", "T1", "T2", "CHAN", "CHAN1", "CHAN2", "L", "HAT", "HAT1", "DBOX"}
+EQUAL_DIMENSIONS = {"I": ((1, 2), (4, 5)), "BOX1": ((2, 3), (4, 5))}  # with which the shear centre is the centroid
 SECTION_CARDS = {"PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE"}
 MATERIAL_CARDS = {"MAT1"}
 MASS_CARDS = {"CONM2"}
@@ -100,7 +117,8 @@ def read_shaped_section(card: Card, text: str, material: str) -> Section:
     shape = make_shape(card, make, dimensions)
     rest = [one for one in card.fields[8 + count + 1 :] if one]
     left_out = ("its further stations: the section at end A is taken",) if card.name == "PBEAML" and rest else ()
-    if kind in ("T", "T1", "T2", "CHAN", "CHAN1", "CHAN2"):
+    unequal = any(dimensions[a] != dimensions[b] for a, b in EQUAL_DIMENSIONS.get(kind, ()))
+    if unequal or kind in WITH_OTHER_CENTRE:
         left_out += ("the way from its shear centre, where Nastran has the axis, to its centroid",)
     return Section(text, material, shape, True, card.real(8 + count, "mass per length"), left_out)
 
@@ -113,14 +131,24 @@ def read_beam_section(card: Card, text: str, material: str) -> Section:
     # Further stations begin with whether there are stresses: then follow their place and the same numbers again.
     for start in range(8, len(card.fields), 8):
         there = card.fields[start + 2 : start + 6]
-        has_station = card.field(start).upper() in ("YES", "YESA", "NO")
-        if has_station and any(one and one != other for one, other in zip(there, first)):
+        if is_station(card, start) and any(one and one != other for one, other in zip(there, first)):
             left_out.append("its taper: the section at end A is taken")
             break
+    # Behind the stations stand two lines: K1, …, and M1(A), M2(A), M1(B), M2(B), N1(A), N2(A), N1(B), N2(B).
+    place = 8 if is_station(card, 8) else 16
+    while is_station(card, place):
+        place += 16 if card.field(place).upper() == "YES" else 8
+    if any(card.field(k) and card.real(k, "offset") for k in range(place + 8, place + 16)):
+        left_out.append("the offsets of its mass and its neutral axis from its shear centre (M1, M2, N1, N2)")
     return Section(
         text, material, make_general(card.real(2, "area"), moments), True, card.real(7, "mass per length"),
         (*left_out, "shear flexibility (K1, K2 are 1 unless given)"),
     )  # fmt: skip
+
+
+def is_station(card: Card, place: int) -> bool:
+    """Whether a station of a PBEAM begins at a place."""
+    return card.field(place).upper() in ("YES", "YESA", "NO")
 
 
 def read_material(card: Card) -> Material:

@@ -1,4 +1,4 @@
-"""Areas and second moments of sections made of rectangles, and of round ones."""
+"""Areas and second moments of sections made of rectangles, of thin walls, and of round and polygonal ones."""
 
 import math
 from collections.abc import Sequence
@@ -36,6 +36,8 @@ def combine(parts: Sequence[Rectangle]) -> Shape:
         sum(one * (part.height**2 / 12.0 + (part.h - h0) ** 2) for one, part in zip(areas, parts)),
         sum(one * (part.width**2 / 12.0 + (part.w - w0) ** 2) for one, part in zip(areas, parts)),
         sum(one * (part.h - h0) * (part.w - w0) for one, part in zip(areas, parts)),
+        w0,
+        h0,
     )
 
 
@@ -74,6 +76,116 @@ def make_pair(width: float, height: float, side_width: float, side_height: float
     aside = (width + side_width) / 2.0
     sides = [Rectangle(side_width, side_height, w) for w in (-aside, aside)]
     return combine([Rectangle(width, height), *sides])
+
+
+def make_angle(width: float, height: float, lying: float, upright: float) -> Shape:
+    """An L with its corner at the left of the bottom: whole width and height, thickness of both legs."""
+    hole = Rectangle(width - upright, height - lying, upright / 2.0, lying / 2.0, -1.0)
+    return combine([Rectangle(width, height), hole])
+
+
+def make_z(flange: float, web: float, inner: float, height: float) -> Shape:
+    """A Z of a web and two flanges beside it, the upper one to its left: width of a flange, thickness of the web, inner
+    and whole height."""
+    wall, aside = (height - inner) / 2.0, (web + flange) / 2.0
+    up = (height - wall) / 2.0
+    return combine([Rectangle(web, height), Rectangle(flange, wall, -aside, up), Rectangle(flange, wall, aside, -up)])
+
+
+def make_hat(height: float, wall: float, top: float, brim: float) -> Shape:
+    """A hat of one thickness: whole height, width of its top, width of each brim beside it."""
+    aside, low = (top + brim) / 2.0, (wall - height) / 2.0
+    hole = Rectangle(top - 2.0 * wall, height - wall, 0.0, -wall / 2.0, -1.0)
+    brims = [Rectangle(brim, wall, w, low) for w in (-aside, aside)]
+    return combine([Rectangle(top, height), hole, *brims])
+
+
+def make_closed_hat(base: float, height: float, top: float, wall: float, plate: float) -> Shape:
+    """A hat that stands on a plate of its whole width: whole width and height, width of the top, thickness of the hat
+    and of the plate."""
+    hat, brim = height - plate, (base - top) / 2.0
+    aside, low = (top + brim) / 2.0, (wall - hat) / 2.0
+    hole = Rectangle(top - 2.0 * wall, hat - wall, 0.0, -wall / 2.0, -1.0)
+    brims = [Rectangle(brim, wall, w, low) for w in (-aside, aside)] if brim else []
+    return combine([Rectangle(top, hat), hole, *brims, Rectangle(base, plate, 0.0, -height / 2.0)])
+
+
+def make_double_box(
+    width: float, height: float, middle: float, walls: tuple[float, float, float],
+    left: tuple[float, float], right: tuple[float, float],
+) -> Shape:  # fmt: skip
+    """Two boxes side by side: whole width and height, where the middle of the inner wall is from the left, thickness of
+    the left, the inner and the right wall, of the left box's top and bottom, and of the right box's."""
+    ends = ((walls[0], middle - walls[1] / 2.0), (middle + walls[1] / 2.0, width - walls[2]))
+    holes = [
+        Rectangle(end - begin, height - top - bottom, (begin + end - width) / 2.0, (bottom - top) / 2.0, -1.0)
+        for (begin, end), (top, bottom) in zip(ends, (left, right))
+    ]
+    return combine([Rectangle(width, height), *holes])
+
+
+def mirror(shape: Shape) -> Shape:
+    """The shape with its width in the opposite direction."""
+    return shape._replace(hw=-shape.hw, w=-shape.w)
+
+
+def make_walls(points: Sequence[tuple[float, float]], walls: Sequence[float]) -> Shape:
+    """Thin straight walls from point to point (w, h). A wall has no second moment about its own middle line. ValueError
+    if a thickness is negative or there is no area."""
+    if not all(0.0 <= wall < LARGEST for wall in walls) or not all(abs(x) < LARGEST for point in points for x in point):
+        raise ValueError(f"has walls of {', '.join(f'{wall:g}' for wall in walls)}")
+    pairs = list(zip(points, points[1:]))
+    sides = [(b[0] - a[0], b[1] - a[1]) for a, b in pairs]
+    middles = [((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0) for a, b in pairs]
+    areas = [wall * math.hypot(*side) for wall, side in zip(walls, sides)]
+    area = sum(areas)
+    if not area > 0.0:
+        raise ValueError(f"has the area {area:g}")
+    w0 = sum(one * w for one, (w, _) in zip(areas, middles)) / area
+    h0 = sum(one * h for one, (_, h) in zip(areas, middles)) / area
+    each = [(one, *side, w - w0, h - h0) for one, side, (w, h) in zip(areas, sides, middles)]
+    return Shape(
+        area,
+        sum(one * (dh * dh / 12.0 + h * h) for one, _, dh, _, h in each),
+        sum(one * (dw * dw / 12.0 + w * w) for one, dw, _, w, _ in each),
+        sum(one * (dh * dw / 12.0 + h * w) for one, dw, dh, w, h in each),
+        w0,
+        h0,
+    )
+
+
+def make_trapezoid(bottom: float, height: float, top: float) -> Shape:
+    """A solid symmetric trapezoid; its origin is in the middle of its bottom. ValueError if a side is not positive."""
+    if not all(0.0 < side < LARGEST for side in (bottom, height, top)):
+        raise ValueError(f"has the sides {bottom:g}, {height:g} and {top:g}")
+    both = bottom + top
+    return Shape(
+        both * height / 2.0,
+        height**3 * (bottom**2 + 4.0 * bottom * top + top**2) / (36.0 * both),
+        height * both * (bottom**2 + top**2) / 48.0,
+        h=height * (bottom + 2.0 * top) / (3.0 * both),
+    )
+
+
+def make_hexagon(width: float, height: float, slant: float) -> Shape:
+    """A solid hexagon, pointed at both sides: whole width, height, width of each point. ValueError if they do not
+    fit."""
+    if not (0.0 < slant < width / 2.0 < LARGEST and 0.0 < height < LARGEST):
+        raise ValueError(f"has the width {width:g}, points of {slant:g} and the height {height:g}")
+    half, flat = height / 2.0, width - 2.0 * slant  # two trapezoids with a common base
+    return Shape(
+        half * (width + flat), half**3 * (width + 3.0 * flat) / 6.0, half * (width + flat) * (width**2 + flat**2) / 24.0
+    )
+
+
+def make_hexagonal_tube(radius: float, wall: float) -> Shape:
+    """A regular hexagon with a wall; radius: of the circle through its outer corners. ValueError if the wall is too
+    thick."""
+    inner = radius - 2.0 * wall / math.sqrt(3.0)
+    if not (wall > 0.0 and 0.0 < inner < radius < LARGEST):
+        raise ValueError(f"has the radius {radius:g} and the wall {wall:g}")
+    moment = 5.0 * math.sqrt(3.0) / 16.0 * (radius**4 - inner**4)
+    return Shape(1.5 * math.sqrt(3.0) * (radius**2 - inner**2), moment, moment)
 
 
 def turn(shape: Shape) -> Shape:
