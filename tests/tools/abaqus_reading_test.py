@@ -300,6 +300,19 @@ class Reading(ToolTestCase):
         self.assertEqual((mass.node, mass.mass, inertia.node, inertia.mass), (2, 5.0, 2, 0.0))
         np.testing.assert_array_equal(inertia.inertia, [[1, 4, 5], [4, 2, 6], [5, 6, 3]])
 
+    def test_masses_that_have_no_axes_of_the_frame_are_left_out(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
+        gifts = "*MASS, ELSET=P, TYPE=ANISOTROPIC\n5., 6., 7.\n*ROTARY INERTIA, ELSET=R, ORIENTATION=O\n1., 2., 3.\n"
+        found = [one.left_out for one in self.read(ABAQUS + points + gifts).point_masses]
+        self.assertEqual(found, ["its type is ANISOTROPIC", "its axes are those of the orientation O"])
+
+    def test_moments_of_inertia_turn_with_their_instance(self):
+        # Turned by 90° about x: the moment about the part's z is that about y then.
+        inertia = "*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n*ROTARY INERTIA, ELSET=R\n1., 2., 3.\n*END PART\n"
+        place = "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=LEG\n0.\n0., 0., 0., 1., 0., 0., 90.\n*END INSTANCE\n"
+        mesh = self.read(PART.replace("*END PART\n", inertia) + place + "*END ASSEMBLY\n")
+        np.testing.assert_allclose(np.diag(mesh.point_masses[0].inertia), [1.0, 3.0, 2.0], atol=1e-15)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -45,6 +45,10 @@ class AsterMeshTest(ToolTestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
         return str(self.folder / name)
 
+    def test_a_group_may_have_its_name_in_the_line_after_its_keyword(self):
+        mesh = read_aster_mesh(self.write(PORTAL.replace("GROUP_MA\n POSTS\n", "GROUP_MA\n NOM = POSTS  NBOBJ=2\n")))
+        self.assertEqual(mesh.element_sets["POSTS"].tolist(), [0, 2])
+
     def test_nodes_lines_and_groups_are_those_of_the_file(self):
         mesh = read_aster_mesh(self.write(PORTAL))
         np.testing.assert_array_equal(mesh.positions, [[0, 0, 0], [0, 2, 0], [3, 2, 0], [3, 0, 0]])

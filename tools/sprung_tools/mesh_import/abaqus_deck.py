@@ -167,7 +167,7 @@ class Deck:
         names: set[str] = set()
         for block, elements, rotation in self.list_gifts():
             if block.keyword in abaqus_properties.MASS_BLOCKS:
-                self.add_masses(mesh, number, block, elements)
+                self.add_masses(mesh, number, block, elements, rotation)
                 continue
             places = [line for element in elements for line in lines_of.get(element, ())]
             if not places:
@@ -196,16 +196,20 @@ class Deck:
                 width = mesh.positions[number[orientation]] - begin
             mesh.heights[place] = abaqus_properties.calc_height(end - begin, width)
 
-    def add_masses(self, mesh: LineMesh, number: dict[int, int], block: Block, elements: Sequence[int]) -> None:
-        """Adds the point masses of a *MASS or a *ROTARY INERTIA."""
-        mass, inertia = abaqus_properties.read_mass(block)
+    def add_masses(
+        self, mesh: LineMesh, number: dict[int, int], block: Block, elements: Sequence[int], rotation: Floats
+    ) -> None:
+        """Adds the point masses of a *MASS or a *ROTARY INERTIA. rotation: of their instance."""
+        mass, inertia, left_out = abaqus_properties.read_mass(block)
+        if inertia is not None:
+            inertia = rotation @ inertia @ rotation.T
         for one in elements:
             element = self.assembly.elements.get(one)
             if element is None or len(element.nodes) != 1 or element.nodes[0] not in number:
                 block.fail(f"names element {one}, which is not an element of one node")
             node = element.nodes[0]
             text = f"*{block.keyword} (line {block.line}) at node {node}"
-            mesh.point_masses.append(PointMass(text, number[node], mass, inertia))
+            mesh.point_masses.append(PointMass(text, number[node], mass, inertia, left_out))
 
     def list_left_behind(self, owners: Sequence[int]) -> list[str]:
         """What the deck holds and the mesh does not, a text each."""

@@ -219,13 +219,17 @@ class Materials:
         self._current = ""
 
 
-def read_mass(block: Block) -> tuple[float, Floats | None]:
-    """Reads a *MASS or a *ROTARY INERTIA. Returns (mass, moments of inertia [3×3] or None)."""
+def read_mass(block: Block) -> tuple[float, Floats | None, str]:
+    """Reads a *MASS or a *ROTARY INERTIA. Returns (mass, moments of inertia [3×3] or None, why it cannot be taken or
+    an empty text)."""
     row = (read_row(block, 0) + [0.0] * 6)[:6]
     if block.keyword == "MASS":
-        return row[0], None
+        kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
+        return row[0], None, "" if kind.startswith("ISO") else f"its type is {kind}"
     i11, i22, i33, i12, i13, i23 = row
-    return 0.0, np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]])
+    turned = "ORIENTATION" in block.parameters
+    left_out = f"its axes are those of the orientation {block.parameters['ORIENTATION']}" if turned else ""
+    return 0.0, np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]]), left_out
 
 
 def calc_height(tangent: Floats, width: Floats) -> Floats:

@@ -78,6 +78,8 @@ def read_blocks(path: str) -> list[Block]:
         if is_open and words == ["FINSF"]:
             is_open = False
         elif is_open:
+            given = [word[4:] for word in words if word.startswith("NOM=")]
+            blocks[-1] = blocks[-1]._replace(name=given[0] if given else blocks[-1].name)
             blocks[-1].words.extend((number, word) for word in words if not ATTRIBUTE.match(word))
         elif words[0] == "FIN":
             return blocks
