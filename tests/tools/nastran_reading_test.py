@@ -199,6 +199,22 @@ class Reading(ToolTestCase):
                 told = [one for one in mesh.sections[0].left_out if "its neutral axis" in one]
                 self.assertEqual(bool(told), is_told)
 
+    def test_a_continuation_belongs_to_the_line_before_it_by_its_mark(self):
+        # Quick Reference Guide, "Format of Bulk Data Entries": field 10 of a line equals field 1 of its continuation.
+        card = "PBARL   1       1               BAR{blanks}+A\n".format(blanks=" " * 37)
+        bulk = NASTRAN.replace("ENDDATA", "{}{}ENDDATA")
+        self.assertEqual(self.read(bulk.format(card, "+A      2.      3.\n")).sections[0].shape.area, 6.0)
+        self.assertEqual(self.read(bulk.format(card, "+       2.      3.\n")).sections[0].shape.area, 6.0)
+        self.assertEqual(self.read(bulk.format(card, "        2.      3.\n")).sections[0].shape.area, 6.0)
+        self.assertEqual(self.read(bulk.format(card, "+a      2.      3.\n")).sections[0].shape.area, 6.0)
+        self.assertEqual(self.read(bulk.format("PBARL,1,1,,BAR,,,,,+A\n", "+A,2.,3.\n")).sections[0].shape.area, 6.0)
+        # What does not begin with + is no mark: sequence numbers, words.
+        self.assertEqual(self.read(bulk.format(card.replace("+A", "KA"), "+B      2.\n")).sections[0].shape, None)
+        for first, second in ((card, "+B      2.      3.\n"), ("PBARL,1,1,,BAR,,,,,+A\n", "+B,2.,3.\n")):
+            (self.folder / "b.bdf").write_text(bulk.format(first, second), encoding="utf-8")
+            process = self.run_tool("convert_mesh", "b.bdf", "a.msh")
+            self.assert_refuses(process, "b.bdf:6: error: PBARL: continues by '+B', but the line before it")
+
     def test_general_properties(self):
         self.assertEqual(self.read_shape("PBAR,1,1,2.,3.,4.\n,\n,,,.5"), Shape(2.0, 3.0, 4.0, -0.5))
         self.assertEqual(self.read_shape("PBEAM,1,1,2.,3.,4.,.5"), Shape(2.0, 3.0, 4.0, -0.5))

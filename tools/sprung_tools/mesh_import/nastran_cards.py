@@ -77,6 +77,21 @@ def split_fields(line: str) -> tuple[str, list[str]]:
     return line[:8].strip(), [body[at : at + width].strip() for at in range(0, 64, width)]
 
 
+def split_marks(line: str) -> tuple[str, str]:
+    """The marks of a line, +NAME or *NAME: by which it continues another one, and by which the next one continues it.
+    Empty for what is no mark."""
+    line = line.partition("$")[0].rstrip()
+    if "," in line:
+        parts = [part.strip() for part in line.split(",")]
+        last = 5 if "*" in parts[0] else 9
+        ends = parts[0], parts[last] if last < len(parts) else ""
+    else:
+        line = line.expandtabs(8)
+        ends = line[:8].strip(), line[72:80].strip()
+    begin, end = (text[1:].upper() if text[:1] in ("+", "*") else "" for text in ends)
+    return begin, end
+
+
 def read_lines(path: str) -> list[str]:
     """The lines of a text file. InputError if it cannot be read."""
     try:
@@ -109,6 +124,7 @@ def read_cards(path: str) -> Cards:
 def add_cards(path: str, lines: list[str], begin: int, cards: list[Card], taken: list[str]) -> bool:
     """Adds the cards of a file to the list. Returns whether it ends with ENDDATA. taken: the files so far."""
     places = iter(range(begin, len(lines)))
+    expected = ""  # mark of the line that continues the one before
     for place in places:
         line = lines[place]
         upper = line.lstrip().upper()
@@ -119,21 +135,26 @@ def add_cards(path: str, lines: list[str], begin: int, cards: list[Card], taken:
         if upper.startswith("INCLUDE"):
             text = line.strip()[len("INCLUDE") :].strip()
             while text[:1] in "'\"" and text.count(text[:1]) < 2 and text:
-                following = next(places, None)
-                if following is None:
+                line_after = next(places, None)
+                if line_after is None:
                     raise InputError(f"{path}:{place + 1}: error: INCLUDE: its file name has no end")
-                text += lines[following].strip()
+                text += lines[line_after].strip()
             include(path, place + 1, text.strip("'\""), cards, taken)
             continue
         name, fields = split_fields(line)
+        mark, following = split_marks(line)
         if name[:1] == "=" or "=" in fields:
             raise InputError(f"{path}:{place + 1}: error: {name}: repeats the card before, which is not followed")
         if name[:1] in ("+", "*", ""):
             if not cards:
                 raise InputError(f"{path}:{place + 1}: error: a continuation without a card")
+            if mark and expected and mark != expected:
+                found = f"continues by '{name}', but the line before it is continued by '+{expected}'"
+                raise InputError(f"{path}:{place + 1}: error: {cards[-1].name}: {found}: put them one after the other")
             cards[-1].fields.extend(fields)
         else:
             cards.append(Card(name.rstrip("*").strip().upper(), list(fields), path, place + 1))
+        expected = following
     return False
 
 
