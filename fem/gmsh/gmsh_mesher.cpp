@@ -256,6 +256,14 @@ void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
 void check_script(const std::filesystem::path& path) {
   const std::string text = support::read_text_file(path);
   if (text.empty()) throw InputError({.path = path.string()}, "the file is empty");
+  const std::string options = path.string() + ".opt";
+  if (std::filesystem::exists(options)) {
+    throw InputError(
+        {.path = path.string()},
+        fmt::format("gmsh would read the options in '{}', too, whose changes would not be noticed; "
+                    "put what matters into the script and remove that file",
+                    options));
+  }
   if (const std::optional<GeoStatement> found = find_writing_statement(text)) {
     throw InputError({.path = path.string(), .line = found->line, .column = found->column},
                      fmt::format("'{}' writes a file or runs a program, which reading a mesh does not; take "
@@ -325,7 +333,8 @@ Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimit
     throw InputError(where, "the file's name must end in .geo or .msh");
   }
   GmshContents contents = run_gmsh_in_child(where, limits, [&] {
-    gmsh::open(path.string());
+    gmsh::model::add(path.stem().string());
+    gmsh::merge(path.string());
     if (is_script) mesh_script();
     GmshContents read = get_contents();
     if (is_script) {

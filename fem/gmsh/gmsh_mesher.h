@@ -38,7 +38,8 @@ Mesh mesh_lines(const FrameGeometry& geometry);
 ///         without a name; for elements that are no lines, or of higher order; for z that is not constant;
 ///         for a physical point of several points, or through which no line passes; for a curve of a
 ///         `.geo` with more than kMaxElementsPerLine elements; `path:line:column: error: …` for a `.geo` with
-///         a statement that writes a file or runs a program; and as check_mesh
+///         a statement that writes a file or runs a program; for a `.geo` with options in NAME.geo.opt beside
+///         it; and as check_mesh
 /// Checked by tests/fem/gmsh/gmsh_mesher_test.cpp
 Mesh read_gmsh_file(const std::filesystem::path& path, const support::ChildLimits& limits = {},
                     bool may_have_parts = false);

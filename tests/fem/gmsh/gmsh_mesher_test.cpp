@@ -294,6 +294,26 @@ TEST_CASE("Reading a .geo file writes no file and runs no program") {
                        "saving.geo:2:3: error: 'Save' writes a file");
 }
 
+TEST_CASE("Options of gmsh that lie beside a mesh file have no part in it") {
+  const std::string options =
+      "Mesh.ScalingFactor = 2; Mesh.ElementOrder = 2; SystemCall \"touch written.msh\";";
+  std::filesystem::remove("written.msh");
+  for (const char* name : {"portal.geo", "portal_22.msh", "portal_41.msh"}) {
+    INFO(name);
+    const std::filesystem::path path = test::write_file(name, test::read_file(test::get_data(name)));
+    const std::filesystem::path beside = test::write_file(std::string(name) + ".opt", options);
+    if (path.extension() == ".geo") {
+      CHECK(message(path).find("error: gmsh would read the options in '" + beside.string() + "'") !=
+            std::string::npos);
+    } else {
+      CHECK(equal(read_gmsh_file(path), read_gmsh_file(test::get_data(name))));
+    }
+    std::filesystem::remove(beside);
+    std::filesystem::remove(path);
+  }
+  CHECK(!std::filesystem::exists("written.msh"));
+}
+
 TEST_CASE("A curve of a .geo file has as many elements as a line of a design at most") {
   const auto read_bar = [](const std::string& size, const std::string& more) {
     const std::string points = "Point(1) = {0, 0, 0, " + size + "}; Point(2) = {1, 0, 0, " + size + "};";
