@@ -8,6 +8,7 @@
 
 #include "reduce/factors/row_major.h"
 #include "reduce/factors/supernode_columns.h"
+#include "reduce/factors/tall_products.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -89,8 +90,12 @@ class Front {
     if (below == 0) return;
     const Eigen::Map<const MatrixXd> L(node_.values, node_.height, node_.width);
     Eigen::Map<MatrixXd> rest(rest_.data(), below, below);
-    const MatrixXd DLt = L.diagonal().asDiagonal() * L.bottomRows(below).transpose();
-    rest.triangularView<Eigen::Lower>() -= L.bottomRows(below) * DLt;
+    const MatrixXd taken = (-L.diagonal()).asDiagonal() * L.bottomRows(below).transpose();
+    for (Index begin = 0; begin < below; begin += kPanel) {  // what lies above the triangle is not read
+      const Index width = std::min(kPanel, below - begin);
+      add_combinations(L.bottomRows(below - begin), taken.middleCols(begin, width),
+                       rest.block(begin, begin, below - begin, width), true);
+    }
     for (Index j = 0; j < below; ++j) {
       const double* column = rest.data() + j * below;
       stack.insert(stack.end(), column + j, column + below);
