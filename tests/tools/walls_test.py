@@ -1,7 +1,9 @@
 """What the top level holds, which rooms include which, and with what sprung-dynamics is linked."""
 
 import os
+import re
 import unittest
+from pathlib import Path
 
 from tool_test_case import ROOT, ToolTestCase, list_git_files, run_program
 from walls import find_crossings, read_includes, read_rooms
@@ -27,9 +29,19 @@ class TheProject(unittest.TestCase):
         self.assertEqual({name for name in names if not name.startswith(".")}, rooms | files)
 
     def test_sprung_dynamics_is_not_linked_with_gmsh(self):
-        libraries = run_program(["ldd", os.environ["SPRUNG_DYNAMICS"]], check=True).stdout
-        self.assertIn("libhdf5", libraries)  # that the list is one
-        self.assertNotIn("gmsh", libraries)
+        self.assertIn("libfmt", self.list_libraries())  # that the list is one
+        self.assertNotIn("gmsh", self.list_libraries())
+
+    def test_sprung_dynamics_is_not_linked_with_what_the_shared_hdf5_brings_along(self):
+        build = Path(os.environ["SPRUNG_DYNAMICS"]).parents[1]
+        found = re.search(r"(?m)^HDF5_C_LIBRARY_hdf5:FILEPATH=(.*)\.so$", (build / "CMakeCache.txt").read_text("utf-8"))
+        if found is None or not os.path.exists(f"{found[1]}.a"):
+            self.skipTest("HDF5 has no static library here")
+        self.assertNotRegex(self.list_libraries(), "libhdf5|libcurl")
+
+    @staticmethod
+    def list_libraries():
+        return run_program(["ldd", os.environ["SPRUNG_DYNAMICS"]], check=True).stdout
 
 
 class TheCheck(ToolTestCase):
