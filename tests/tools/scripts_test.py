@@ -64,7 +64,7 @@ class Scripts(ToolTestCase):
             ("matplotlib", "matplotlib.pyplot", "plot_results", ("--help",)),
             ("meshio", "meshio", "convert_mesh", ("frame.vtk", "frame.msh")),
             ("numpy", "numpy", "make_road.py", ("--help",)),
-            ("scipy", "scipy.stats", "study", ("--help",)),
+            ("scipy", "scipy.optimize", "ride_limits", ("--help",)),
         ):
             with self.subTest(module):
                 blocked = self.folder / module
@@ -75,6 +75,12 @@ class Scripts(ToolTestCase):
                 self.assert_refuses(
                     process, f"tools/{tool}: error: Python's module {module} is not", f"python3-{module}"
                 )
+
+    def test_what_takes_long_to_load_is_loaded_where_it_is_needed(self):
+        for tool, module in (("study", "scipy"), ("ride_limits", "scipy.signal")):
+            code = f"import sys, sprung_tools.cli.{tool}; sys.exit('{module}' in sys.modules)"
+            environment = {**os.environ, "PYTHONPATH": str(TOOLS)}
+            self.assert_succeeds(run_program([sys.executable, "-c", code], env=environment))
 
     def test_another_python_earlier_in_the_path_is_not_taken(self):
         other = self.folder / "python3"

@@ -10,7 +10,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import butter, sosfiltfilt
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
@@ -89,6 +88,8 @@ def smooth(felt: Felt, low_pass: float | None) -> Floats:
     if not low_pass < highest:
         what = f"is {low_pass:g} Hz, expected less than {highest:g} Hz, half of the outputs' frequency"
         raise InputError(f"--low-pass: error: {what}")
+    from scipy.signal import butter, sosfiltfilt  # here because it takes longer to load than all else
+
     sections = butter(FILTER_ORDER, low_pass, fs=1.0 / felt.step, output="sos")
     filtered: Floats = sosfiltfilt(sections, felt.acceleration)
     return filtered

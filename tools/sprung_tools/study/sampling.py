@@ -11,8 +11,6 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-from scipy.stats import qmc
-
 from sprung_tools.files.array_types import Floats
 from sprung_tools.study.study_file import GRID, LIST, MOST_RUNS, SOBOL, Parameter, Sampling, Study, place_between
 
@@ -46,6 +44,8 @@ def make_points(study: Study) -> list[Point]:
 
 def make_shares(sampling: Sampling, dimensions: int) -> Floats:
     """Points in the unit cube [number × dimensions]."""
+    from scipy.stats import qmc  # here because it takes longer to load than all else
+
     engine: qmc.QMCEngine
     if sampling.method == SOBOL:
         engine = qmc.Sobol(dimensions, scramble=True, seed=sampling.seed)
