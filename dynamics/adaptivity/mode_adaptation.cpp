@@ -58,7 +58,10 @@ void ModeAdaptation::update(double time, const ConstrainedEquations& run, const 
 
 bool ModeAdaptation::misses_any() const {
   double square = 0.0;
-  for (const ModeShare& share : indicator_.neglected()) square += share.worst() * share.worst();
+  for (std::size_t j = 0; j < indicator_.num_modes(); ++j) {
+    const double share = indicator_.calc_neglected(j).worst();
+    square += share * share;
+  }
   return square > options_.thresholds.recall * options_.thresholds.recall;
 }
 

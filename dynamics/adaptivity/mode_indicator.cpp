@@ -21,8 +21,7 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
       state_{.time = time, .oscillators = std::vector<Oscillator>(active_.size())},
       responses_(active_.size()),
       accelerations_(active_.size()),
-      amplitudes_(active_.size()),
-      neglected_(active_.size()) {}
+      amplitudes_(active_.size()) {}
 
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < active_.size(); ++j) {
@@ -32,7 +31,6 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
     responses_[j] = {};
     accelerations_[j] = 0.0;
     amplitudes_[j] = {};
-    neglected_[j] = {};
   }
   const EffectiveModes before = effective_;
   effective_.update(active_);
@@ -100,7 +98,6 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   const double acceleration =
       std::sqrt(accelerations_[mode] * accelerations_[mode] + stiffness * one.rate * one.rate);
   amplitudes_[mode] = {amplitude, acceleration};
-  neglected_[mode] = calc_share(mode, amplitudes_[mode]);
 }
 
 template <class Bytes, class Indicator>

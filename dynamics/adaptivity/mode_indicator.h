@@ -54,8 +54,8 @@ class ModeIndicator {
 
   /// At the last update, of each mode; zero for active ones.
   const std::vector<ModeAmplitude>& amplitudes() const { return amplitudes_; }
-  /// The same as shares of the largest so far.
-  const std::vector<ModeShare>& neglected() const { return neglected_; }
+  /// The same of one mode, as a share of the largest so far.
+  ModeShare calc_neglected(std::size_t mode) const { return calc_share(mode, amplitudes_[mode]); }
   /// Share of a mode with such amplitudes.
   ModeShare calc_share(std::size_t mode, const ModeAmplitude& amplitude) const;
   /// Deflection and acceleration of the points asked for, by a mode with what gives way to it now.
@@ -114,7 +114,6 @@ class ModeIndicator {
   std::vector<Response> responses_;
   std::vector<double> accelerations_;  // ξ̈ of each mode, 0 of active ones
   std::vector<ModeAmplitude> amplitudes_;
-  std::vector<ModeShare> neglected_;
 };
 
 }  // namespace sprung::dynamics

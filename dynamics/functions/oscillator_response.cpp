@@ -28,9 +28,6 @@ constexpr auto kSeriesDivisors = [] {
   return divisors;
 }();
 
-double sinc(double x) {
-  return std::abs(x) < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x;
-}
 double sinhc(double x) {
   return std::abs(x) < 1e-4 ? 1.0 + x * x / 6.0 : std::sinh(x) / x;
 }
@@ -77,8 +74,9 @@ OscillatorResponse by_recurrence(double stiffness, double decay, double time, in
   const double mu = std::sqrt(std::abs(discriminant));
   const double envelope = std::exp(-decay * time);
   if (discriminant >= 0.0) {
-    r.s = envelope * time * sinc(mu * time);
-    r.s_rate = envelope * std::cos(mu * time) - decay * r.s;
+    const double angle = mu * time, sine = std::sin(angle), cosine = std::cos(angle);  // found together
+    r.s = envelope * time * (angle < 1e-4 ? 1.0 - angle * angle / 6.0 : sine / angle);
+    r.s_rate = envelope * cosine - decay * r.s;
   } else if (mu * time < 1.0) {
     r.s = envelope * time * sinhc(mu * time);
     r.s_rate = envelope * std::cosh(mu * time) - decay * r.s;

@@ -138,8 +138,9 @@ void RunHistories::add_neglected(const Model& full) {
           double worst = 0.0;
           for (std::size_t j = 0; j < indicator.num_modes(); ++j) {
             const int coordinate = indicator.modal_coordinates()[j];
-            const ModeShare& share = indicator.neglected()[j];
-            if (coordinate < first || coordinate > last || share.worst() <= worst) continue;
+            if (coordinate < first || coordinate > last) continue;
+            const ModeShare share = indicator.calc_neglected(j);
+            if (share.worst() <= worst) continue;
             worst = share.worst();
             row[0] = share.deflection;
             row[1] = share.acceleration;
