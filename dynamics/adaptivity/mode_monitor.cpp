@@ -40,7 +40,7 @@ bool ModeMonitor::follow_step(SystemStepper& stepper, const HeldModes& held) {
   for (int i = 1; i <= parts; ++i) {
     const double time = i == parts ? end : begin + length * i / parts;
     if (i == parts) {
-      stepper.evaluate_end_approximately();
+      stepper.evaluate_end_approximately(SystemStepper::Level::kAccelerations);
     } else {
       stepper.evaluate(time, SystemStepper::Level::kAccelerations);
     }

@@ -65,9 +65,9 @@ class SystemStepper {
   /// Brings equations() and energy_flow() to a time within the last step.
   /// @throws support::NumericalError if the joints cannot be closed
   virtual void evaluate(double time, Level level) = 0;
-  /// As `evaluate` at the end of the last step up to kAccelerations, but the integrator's last iterate there
-  /// is good enough: to observe the motion, not to continue from it.
-  virtual void evaluate_end_approximately() { evaluate(time(), Level::kAccelerations); }
+  /// As `evaluate` at the end of the last step, but the integrator's last iterate there is good enough: to
+  /// observe the motion, not to continue from it. @param level  kAccelerations or higher
+  virtual void evaluate_end_approximately(Level level) { evaluate(time(), level); }
   virtual const ConstrainedEquations& equations() const = 0;  ///< until the next `step` or `resume`
   /// After `evaluate` up to kAccelerations or further.
   virtual Observation observation() {

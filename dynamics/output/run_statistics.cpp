@@ -46,11 +46,10 @@ double calc_work_of_loads(const SystemTerms& terms) {
 }  // namespace
 
 RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>& points,
-                             const Eigen::VectorXd& reference_q, double from, double to, double output_step,
+                             const Eigen::VectorXd& reference_q, const StatisticsWindow& window,
                              const Vehicle& vehicle, const VehicleSections& sections)
     : model_(&model),
-      from_(from),
-      to_(to),
+      window_(window),
       sections_(sections),
       phi_(Eigen::VectorXd::Zero(model.num_constraints)) {
   SystemTerms terms(model);
@@ -58,7 +57,7 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
   for (const std::string& name : points) {
     const int marker = model.find_marker(name);
     if (marker < 0) throw std::invalid_argument(fmt::format("RunStatistics: there is no point '{}'", name));
-    points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}});
+    points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}, {}});
   }
   bending_ = make_body_bending(vehicle, model, sections);
   const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
@@ -67,7 +66,8 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
     const reduce::Superelement& superelement = *vehicle.superelement_of(vehicle.bodies[body.body()]);
     const std::optional<reduce::Certificate>& certificate = superelement.certificate;
     if (!certificate || certificate->interface.empty()) continue;
-    certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle, output_step);
+    certified_.emplace_back(model, static_cast<int>(body.body()), superelement, of_vehicle,
+                            window.output_step);
   }
 }
 
@@ -80,14 +80,7 @@ void RunStatistics::add(const Snapshot& snapshot) {
   const Energy& now = snapshot.energy.stored;
   if (!has_first_) first_ = now;
   has_first_ = true;
-  const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
-                        std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
-  // Lower bounds: almost at rest, the changes are rounding errors of the terms; in steady rotation they are
-  // errors of the integration.
-  const double size =
-      std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
-  largest_change_ = std::max(
-      {largest_change_, change, 1e-9 * size, 0.01 * now.kinetic, kUnresolved * calc_work_of_loads(terms)});
+  add_to_energy_size(now, terms);
   // Term by term, so that a large potential far from the origin causes no cancellation.
   const double imbalance = (now.kinetic - first_.kinetic) + (now.strain - first_.strain) +
                            (now.gravity - first_.gravity) + (now.spring - first_.spring) +
@@ -97,15 +90,44 @@ void RunStatistics::add(const Snapshot& snapshot) {
   add_to_bending(sections_.sections(), snapshot.time, snapshot.q, bending_);
   add_to_certified(snapshot);
 
-  const double tolerance = 1e-9;
-  if (snapshot.time < from_ - tolerance || snapshot.time > to_ + tolerance) return;
+  const bool is_stored = num_outputs_++ % window_.stored_every == 0;
+  if (!is_counted(snapshot.time)) return;
   ++num_samples_;
   sections_.add(snapshot.time);
   for (Point& point : points_) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
-    point.acceleration.add(snapshot.calc_acceleration(marker).y());
+    const double acceleration = snapshot.calc_acceleration(marker).y();
+    point.acceleration.add(acceleration);
+    if (is_stored) {
+      point.density.add_sample(acceleration);
+    } else {
+      point.density.add_between(acceleration);
+    }
   }
+}
+
+void RunStatistics::add_between(double time, const ConstrainedEquations& equations, const Energy& stored) {
+  if (has_first_) add_to_energy_size(stored, equations.terms());
+  if (!is_counted(time)) return;
+  for (Point& point : points_)
+    point.density.add_between(calc_acceleration(equations, static_cast<std::size_t>(point.marker)).y());
+}
+
+bool RunStatistics::is_counted(double time) const {
+  const double tolerance = 1e-9;
+  return window_.from - tolerance <= time && time <= window_.to + tolerance;
+}
+
+void RunStatistics::add_to_energy_size(const Energy& now, const SystemTerms& terms) {
+  const double change = std::abs(now.kinetic - first_.kinetic) + std::abs(now.strain - first_.strain) +
+                        std::abs(now.gravity - first_.gravity) + std::abs(now.spring - first_.spring);
+  // Lower bounds: almost at rest, the changes are rounding errors of the terms; in steady rotation they are
+  // errors of the integration.
+  const double size =
+      std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.gravity) + std::abs(now.spring);
+  largest_change_ = std::max(
+      {largest_change_, change, 1e-9 * size, 0.01 * now.kinetic, kUnresolved * calc_work_of_loads(terms)});
 }
 
 void RunStatistics::add_to_certified(const Snapshot& snapshot) {
@@ -124,7 +146,8 @@ std::vector<PointStatistics> RunStatistics::point_statistics() const {
   std::vector<PointStatistics> all;
   for (const Point& point : points_) {
     all.push_back({model_->markers[static_cast<std::size_t>(point.marker)].name,
-                   point.displacement.result(num_samples_), point.acceleration.result(num_samples_)});
+                   point.displacement.result(num_samples_), point.acceleration.result(num_samples_),
+                   point.density});
   }
   return all;
 }
@@ -141,11 +164,13 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
       bytes.transfer(sample->maximum);
       bytes.transfer(sample->sum_of_squares);
     }
+    SampleDensity::transfer(bytes, point.density);
   }
   SectionStatistics::transfer(bytes, statistics.sections_);
   for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);
   for (auto& body : statistics.certified_) CertifiedError::transfer(bytes, body);
   bytes.transfer(statistics.num_samples_);
+  bytes.transfer(statistics.num_outputs_);
   bytes.transfer(statistics.constraint_violation_);
   bytes.transfer(statistics.has_first_);
   auto& first = statistics.first_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/output/sample_density.h"
 #include "dynamics/section_loads/body_bending.h"
 #include "dynamics/section_loads/certified_error.h"
 #include "dynamics/section_loads/section_statistics.h"
@@ -25,6 +26,14 @@ struct PointStatistics {
   std::string point;
   SampleStatistics displacement;  ///< [m]
   SampleStatistics acceleration;  ///< [m/s²]
+  SampleDensity density;          ///< of the stored accelerations
+};
+
+/// Which outputs are counted.
+struct StatisticsWindow {
+  double from = 0.0, to = 0.0;  ///< for the points and sections [s]
+  double output_step = 0.0;     ///< > 0 [s]
+  long stored_every = 1;        ///< outputs from one stored acceleration of a point to the next
 };
 
 /// Statistics of a run over its outputs, which are added one by one.
@@ -32,15 +41,16 @@ class RunStatistics {
  public:
   /// @param points       names of markers to report, "body.point"
   /// @param reference_q  positions that displacements refer to: the equilibrium, or the given start
-  /// @param from, to     window of time for the points and sections [s]
-  /// @param output_step  > 0 [s]
   /// @param sections     of the model and vehicle; has to outlive this
   RunStatistics(const Model& model, const std::vector<std::string>& points,
-                const Eigen::VectorXd& reference_q, double from, double to, double output_step,
-                const Vehicle& vehicle, const VehicleSections& sections);
+                const Eigen::VectorXd& reference_q, const StatisticsWindow& window, const Vehicle& vehicle,
+                const VehicleSections& sections);
 
   /// Adds an output, at which the sections are up to date.
   void add(const Snapshot& snapshot);
+  /// Takes an instant between outputs, at which all markers are up to date, into account for the density of
+  /// the outputs and for the size of the energies.
+  void add_between(double time, const ConstrainedEquations& equations, const Energy& stored);
 
   std::vector<PointStatistics> point_statistics() const;
   /// Largest |φ| at any output [m, rad].
@@ -48,6 +58,9 @@ class RunStatistics {
   /// Relative error of the energy balance (output, eq. 1).
   double energy_closure() const;
   long num_samples() const { return num_samples_; }
+  double output_step() const { return window_.output_step; }  ///< [s]
+  /// From one stored acceleration of a point to the next [s].
+  double stored_step() const { return static_cast<double>(window_.stored_every) * window_.output_step; }
   const SectionStatistics& sections() const { return sections_; }
   const std::vector<BodyBending>& bending() const { return bending_; }  ///< of each body with modes
   /// Of each body with modes whose superelement has a bound.
@@ -69,19 +82,22 @@ class RunStatistics {
     int marker;
     double reference_height;
     Accumulator displacement, acceleration;
+    SampleDensity density;
   };
 
+  void add_to_energy_size(const Energy& now, const SystemTerms& terms);
+  bool is_counted(double time) const;
   void add_to_certified(const Snapshot& snapshot);
   template <class Bytes, class Statistics>
   static void transfer(Bytes& bytes, Statistics& statistics);
 
   const Model* model_;
-  double from_, to_;
+  StatisticsWindow window_;
   std::vector<Point> points_;
   SectionStatistics sections_;
   std::vector<BodyBending> bending_;
   std::vector<CertifiedError> certified_;
-  long num_samples_ = 0;
+  long num_samples_ = 0, num_outputs_ = 0;
   double constraint_violation_ = 0.0;
   Eigen::VectorXd phi_;  // constraint residual
   bool has_first_ = false;

@@ -17,6 +17,9 @@ constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection 
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
+constexpr double kTooRough = 0.2;            // SampleDensity::roughness: about six samples per period
+constexpr double kMissedPeak = 0.1;          // SampleDensity::missed
+constexpr double kSmallAcceleration = 1e-3;  // of the natural acceleration: smaller ones are not judged
 constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
 constexpr const char* kModes = "modes";
 
@@ -80,6 +83,39 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
   }
   warnings.push_back({kSummary, points, text});
   warnings.push_back({kModes, {body}, text});
+}
+
+// Of accelerations that the outputs may have missed the peaks of.
+void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
+                            std::vector<RunWarning>& warnings) {
+  // That of gravity, at least one length scale per s².
+  const double floor = kSmallAcceleration * std::max(model.gravity.norm(), model.length_scale);
+  const std::vector<PointStatistics> all = statistics.point_statistics();
+  std::vector<std::string> points;
+  const PointStatistics *farthest = nullptr, *roughest = nullptr;
+  for (const PointStatistics& point : all) {
+    const double missed = point.density.missed(floor), roughness = point.density.roughness(floor);
+    if (!(missed > kMissedPeak || roughness > kTooRough)) continue;
+    points.push_back(point.point);
+    if (!farthest || missed > farthest->density.missed(floor)) farthest = &point;
+    if (!roughest || roughness > roughest->density.roughness(floor)) roughest = &point;
+  }
+  if (points.empty()) return;
+  const SampleDensity& density = farthest->density;
+  const std::string reason =
+      density.missed(floor) > kMissedPeak
+          ? fmt::format("that of {} reached {:.3g} m/s² in between, where they have {:.3g} to {:.3g} m/s²",
+                        farthest->point, density.farthest_between(), density.smallest(), density.largest())
+          : fmt::format("that of {} differs at each by {:.3g} % r.m.s. from the curve through its neighbours",
+                        roughest->point, 100.0 * roughest->density.roughness(floor));
+  warnings.push_back(
+      {kSummary, points,
+       fmt::format(
+           "values every {:.6g} s do not resolve the accelerations: {}; so their peaks, and those of "
+           "forces and moments, may be wrong: take a smaller {}; where that does not help, the accelerations "
+           "are errors of a large tolerance",
+           statistics.stored_step(), reason,
+           statistics.stored_step() > statistics.output_step() ? "step.points of [output]" : "output_step")});
 }
 
 // A text with the name of the file alone in the place before it, `path:line:column: `, if it begins with one.
@@ -152,6 +188,7 @@ std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& m
   if (adaptivity != nullptr && judged.points) {
     warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
   }
+  warn_of_coarse_outputs(model, statistics, warnings);
   add_remarks(list_missing_parts(statistics.sections(), judged), statistics, warnings);
   add_remarks(list_large_bending(statistics.bending()), statistics, warnings);
   if (judged.points) {

@@ -47,6 +47,13 @@ TransientOptions make_options(const Run& run, const Model& model) {
   return options;
 }
 
+StatisticsWindow make_window(const Run& run, bool is_stored) {
+  StatisticsWindow window{
+      .from = run.statistics_from, .to = run.statistics_to, .output_step = run.output_step};
+  if (is_stored) window.stored_every = run.output.of(StoredGroup::kPoints).every.value_or(1);
+  return window;
+}
+
 // Closing a file of many bodies takes seconds, so the signal is answered before.
 [[noreturn]] void throw_interrupted(double time, const RunStatistics& statistics,
                                     const TransientStatistics& transient, ResultsWriter* writer,
@@ -165,6 +172,9 @@ TransientStatistics integrate(const PreparedRun& prepared, TransientOptions& opt
     if (writer) writer->add(snapshot);
     storing += wall_time();
   };
+  options.on_time_between = [&](double time, const ConstrainedEquations& equations, const Energy& stored) {
+    statistics.add_between(time, equations, stored);
+  };
   options.on_event = [&](const Event& event) {
     if (writer) writer->add(event);
   };
@@ -229,8 +239,9 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   options.adaptivity = make_adaptivity(prepared, full_model);
   const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   VehicleSections sections(prepared.vehicle, prepared.model);
-  RunStatistics statistics(prepared.model, prepared.output_points, reference, run.statistics_from,
-                           run.statistics_to, run.output_step, prepared.vehicle, sections);
+  const StatisticsWindow window = make_window(run, !output.results.empty());
+  RunStatistics statistics(prepared.model, prepared.output_points, reference, window, prepared.vehicle,
+                           sections);
   WrittenRun written;
   if (!output.results.empty())
     written = open_results(output, make_header(prepared, request, options.adaptivity, sections), statistics);

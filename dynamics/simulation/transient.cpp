@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kMaxSwitchesInPlace = 100;  // within kSamePlace of each other before the run is given up
 constexpr double kSamePlace = 1e-9;       // s
+constexpr long kStepsPerObservation = 4;  // between outputs: with Adams, each costs an eighth of a step
 
 // The start in coordinates of the full model: modes that the run lacks are at zero.
 State expand_start(const Model& model, const AdaptivityOptions& options, const State& start) {
@@ -150,7 +151,9 @@ class TransientRun {
       const double time = stepper_->time();
       const bool at_break = result == Integrator::StepResult::kEnded && smooth_end_ < options_.end_time;
       ++work_;
+      const auto first_output = reached_.next_output;
       write_outputs(at_break ? time - 2.0 * output_tolerance() : time);
+      if (reached_.next_output == first_output && work_ % kStepsPerObservation == 0) observe_between();
       if (options_.on_step && !options_.on_step(time)) return;
       if (result == Integrator::StepResult::kEnded) {
         if (!at_break) break;
@@ -215,16 +218,28 @@ class TransientRun {
     if (!options_.on_output) return;
     const SystemStepper::Observation now = stepper_->observation();
     const SystemStepper::EnergyFlow flow = calc_energy_flow();
-    Energy stored = calc_energy(now.equations.terms(), piece().branches());
-    stored.strain += now.held_strain;
     options_.on_output({.time = time,
                         .equations = now.equations,
                         .q = now.q,
                         .v = now.v,
                         .v_dot = now.v_dot,
                         .branches = piece().branches(),
-                        .energy = {stored, flow.dissipated, flow.input},
+                        .energy = {calc_stored(now), flow.dissipated, flow.input},
                         .modes = monitor_ ? &monitor_->modes() : nullptr});
+  }
+
+  // At the end of a step.
+  void observe_between() {
+    if (!options_.on_time_between) return;
+    stepper_->evaluate_end_approximately(SystemStepper::Level::kAllMarkers);
+    const SystemStepper::Observation now = stepper_->observation();
+    options_.on_time_between(stepper_->time(), now.equations, calc_stored(now));
+  }
+
+  Energy calc_stored(const SystemStepper::Observation& now) {
+    Energy stored = calc_energy(now.equations.terms(), piece().branches());
+    stored.strain += now.held_strain;
+    return stored;
   }
 
   const Model& model_;
@@ -239,12 +254,13 @@ class TransientRun {
 
 }  // namespace
 
-Eigen::Vector2d Snapshot::calc_acceleration(std::size_t marker) const {
-  const Model& model = terms().model();
+Eigen::Vector2d calc_acceleration(const ConstrainedEquations& equations, std::size_t marker) {
+  const SystemTerms& terms = equations.terms();
+  const Model& model = terms.model();
   const int b = model.markers[marker].body;
   if (b == kGround) return Eigen::Vector2d::Zero();
   const Body& body = model.bodies[static_cast<std::size_t>(b)];
-  return calc_marker_acceleration(terms().markers()[marker],
+  return calc_marker_acceleration(terms.markers()[marker],
                                   equations.v_dot().segment(body.first_coordinate, body.num_coordinates()));
 }
 

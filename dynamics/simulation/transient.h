@@ -24,6 +24,9 @@ struct EnergyBook {
   double input = 0.0;
 };
 
+/// Acceleration of a marker, with accelerations and all markers of the equations up to date [m/s²].
+Eigen::Vector2d calc_acceleration(const ConstrainedEquations& equations, std::size_t marker);
+
 /// Something that happened during a run.
 struct Event {
   double time = 0.0;
@@ -45,7 +48,9 @@ struct Snapshot {
 
   const SystemTerms& terms() const { return equations.terms(); }
   const Eigen::VectorXd& multipliers() const { return equations.multipliers(); }  ///< num_constraints
-  Eigen::Vector2d calc_acceleration(std::size_t marker) const;                    ///< [m/s²]
+  Eigen::Vector2d calc_acceleration(std::size_t marker) const {                   ///< [m/s²]
+    return dynamics::calc_acceleration(equations, marker);
+  }
 };
 
 struct TransientOptions {
@@ -57,8 +62,11 @@ struct TransientOptions {
   /// the run are the full ones.
   std::optional<AdaptivityOptions> adaptivity;
   std::function<void(const Snapshot&)> on_output;  ///< at 0, output_step, … to the end
-  std::function<void(const Event&)> on_event;      ///< may be empty
-  std::function<bool(double time)> on_step;        ///< after every step; false stops the run; may be empty
+  /// At the ends of some of the steps in which no output was due, with accelerations and all markers up to
+  /// date; may be empty.
+  std::function<void(double time, const ConstrainedEquations&, const Energy& stored)> on_time_between;
+  std::function<void(const Event&)> on_event;  ///< may be empty
+  std::function<bool(double time)> on_step;    ///< after every step; false stops the run; may be empty
   /// Steps and outputs between two checkpoints. Each restarts the integrator (simulation, "Checkpoints").
   long checkpoint_interval = std::numeric_limits<long>::max();
   std::function<void(const Checkpoint&)> on_checkpoint;  ///< may be empty

@@ -176,8 +176,12 @@ void PartitionedStepper::evaluate(double time, Level level) {
   if (level == Level::kAllMarkers) ode_.equations().update_all_markers();
 }
 
-void PartitionedStepper::evaluate_end_approximately() {
-  if (!ode_.has_accelerations(time())) evaluate(time(), Level::kAccelerations);
+void PartitionedStepper::evaluate_end_approximately(Level level) {
+  if (!ode_.has_accelerations(time())) {
+    evaluate(time(), level);
+  } else if (level == Level::kAllMarkers) {
+    ode_.equations().update_all_markers();
+  }
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

@@ -32,7 +32,7 @@ class PartitionedStepper final : public SystemStepper {
     return ode_.piece().calc_longest_step(equations().terms(), time()) / integrator_->largest_gap();
   }
   void evaluate(double time, Level level) override;
-  void evaluate_end_approximately() override;
+  void evaluate_end_approximately(Level level) override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
   EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
   SmoothPiece& piece() override { return ode_.piece(); }

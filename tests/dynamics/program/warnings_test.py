@@ -137,6 +137,55 @@ class Warnings(DynamicsTestCase):
             (text,) = (one["text"] for one in printed["warnings"] if one["of"] == ["computation"])
             self.assertIn(expected, text)
 
+    def run_quarter_car(self, *settings):
+        """A quarter car over a bump. Returns the extremes of the body's acceleration, and the warnings."""
+        words = [word for setting in settings for word in ("--set", setting)]
+        run = ROOT / "dynamics/models/examples/quarter_car_run.toml"
+        process = run_program([PROGRAM, "run", run, "--json", "--quiet", "-o", "results.h5", *words], cwd=self.folder)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        printed = json.loads(process.stdout)
+        return printed["points"]["sprung.origin"]["acceleration"], printed["warnings"]
+
+    def test_outputs_too_coarse_for_the_peaks_of_accelerations(self):
+        expected, warnings = self.run_quarter_car()
+        self.assertEqual(warnings, [])
+        found, (warning,) = self.run_quarter_car("output_step=0.2")
+        self.assertGreater(found["min"], 0.5 * expected["min"])
+        self.assertEqual((warning["concerns"], warning["of"]), ("summary", ["sprung.origin", "unsprung.origin"]))
+        self.assertEqual(self.read_warnings()[0]["text"], warning["text"])
+        between = re.search(r"every 0\.2 s .* sprung\.origin reached (\S+) m/s² in between", warning["text"])
+        self.assertAlmostEqual(float(between.group(1)), expected["min"], delta=0.1 * abs(expected["min"]))
+        # The summary has all outputs, but the results have every two hundredth.
+        found, (warning,) = self.run_quarter_car("output.step.points=0.2")
+        self.assertEqual(found, expected)
+        self.assertIn("take a smaller step.points of [output]", warning["text"])
+
+    def test_outputs_at_the_period_of_the_motion(self):
+        # 1 kg under 5 sin(2π 5 t) N, seen every 0.2 s at zero force and at every millisecond.
+        (self.folder / "vehicle.toml").write_text("""
+name = "shaken"
+gravity = [0.0, 0.0]
+monitor = ["b.origin"]
+[bodies.b]
+mass = 1.0
+inertia = 0.1
+position = [0.0, 0.0]
+[[forces]]
+name = "shaker"
+type = "applied"
+point = "b.origin"
+force = [0.0, { harmonic = { amplitude = 5.0, frequency = 5.0 } }]
+""", encoding="utf-8")
+        (self.folder / "bump.toml").write_text(
+            'vehicle = "vehicle.toml"\nstart = "as-given"\nduration = 4.0\n', encoding="utf-8"
+        )
+        for step, is_coarse in ((0.2, True), (0.001, False)):
+            _, _, printed = self.run_to_json(f"output_step={step}")
+            texts = [one["text"] for one in printed["warnings"]]
+            self.assertEqual(len(texts), int(is_coarse), texts)
+            for text in texts:
+                self.assertRegex(text, r"that of b\.origin reached -?(5|4\.\d+) m/s² in between, where they have")
+
     def test_a_balance_that_is_not_found_tells_of_a_point_that_was_moved_far(self):
         run = ROOT / "dynamics/models/templates/half_car_run.toml"
         for verb in ("run", "equilibrium"):
