@@ -97,12 +97,15 @@ void RunStatistics::add(const Snapshot& snapshot) {
   for (Point& point : points_) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
-    const double acceleration = snapshot.calc_acceleration(marker).y();
-    point.acceleration.add(acceleration);
-    if (is_stored) {
-      point.density.add_sample(acceleration);
-    } else {
-      point.density.add_between(acceleration);
+    const Eigen::Vector2d acceleration = snapshot.calc_acceleration(marker);
+    point.acceleration.add(acceleration.y());
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      SampleDensity& density = point.density[static_cast<std::size_t>(i)];
+      if (is_stored) {
+        density.add_sample(acceleration[i]);
+      } else {
+        density.add_between(acceleration[i]);
+      }
     }
   }
 }
@@ -110,8 +113,11 @@ void RunStatistics::add(const Snapshot& snapshot) {
 void RunStatistics::add_between(double time, const ConstrainedEquations& equations, const Energy& stored) {
   if (has_first_) add_to_energy_size(stored, equations.terms());
   if (!is_counted(time)) return;
-  for (Point& point : points_)
-    point.density.add_between(calc_acceleration(equations, static_cast<std::size_t>(point.marker)).y());
+  for (Point& point : points_) {
+    const Eigen::Vector2d acceleration = calc_acceleration(equations, static_cast<std::size_t>(point.marker));
+    point.density[0].add_between(acceleration.x());
+    point.density[1].add_between(acceleration.y());
+  }
 }
 
 bool RunStatistics::is_counted(double time) const {
@@ -164,7 +170,7 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
       bytes.transfer(sample->maximum);
       bytes.transfer(sample->sum_of_squares);
     }
-    SampleDensity::transfer(bytes, point.density);
+    for (auto& density : point.density) SampleDensity::transfer(bytes, density);
   }
   SectionStatistics::transfer(bytes, statistics.sections_);
   for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);

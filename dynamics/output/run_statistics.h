@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,9 +25,9 @@ struct SampleStatistics {
 /// Motion of one point: vertical displacement from the reference position and vertical acceleration.
 struct PointStatistics {
   std::string point;
-  SampleStatistics displacement;  ///< [m]
-  SampleStatistics acceleration;  ///< [m/s²]
-  SampleDensity density;          ///< of the stored accelerations
+  SampleStatistics displacement;         ///< [m]
+  SampleStatistics acceleration;         ///< [m/s²]
+  std::array<SampleDensity, 2> density;  ///< of the stored accelerations along x and y
 };
 
 /// Which outputs are counted.
@@ -82,7 +83,7 @@ class RunStatistics {
     int marker;
     double reference_height;
     Accumulator displacement, acceleration;
-    SampleDensity density;
+    std::array<SampleDensity, 2> density;
   };
 
   void add_to_energy_size(const Energy& now, const SystemTerms& terms);

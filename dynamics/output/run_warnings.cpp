@@ -17,7 +17,7 @@ constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection 
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
-constexpr double kTooRough = 0.2;            // SampleDensity::roughness: about six samples per period
+constexpr double kTooRough = 0.4;            // SampleDensity::roughness: about five samples per period
 constexpr double kMissedPeak = 0.1;          // SampleDensity::missed
 constexpr double kSmallAcceleration = 1e-3;  // of the natural acceleration: smaller ones are not judged
 constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
@@ -92,22 +92,28 @@ void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
   const double floor = kSmallAcceleration * std::max(model.gravity.norm(), model.length_scale);
   const std::vector<PointStatistics> all = statistics.point_statistics();
   std::vector<std::string> points;
-  const PointStatistics *farthest = nullptr, *roughest = nullptr;
+  std::string reason;
+  double worst_missed = kMissedPeak, worst_roughness = kTooRough;
   for (const PointStatistics& point : all) {
-    const double missed = point.density.missed(floor), roughness = point.density.roughness(floor);
-    if (!(missed > kMissedPeak || roughness > kTooRough)) continue;
-    points.push_back(point.point);
-    if (!farthest || missed > farthest->density.missed(floor)) farthest = &point;
-    if (!roughest || roughness > roughest->density.roughness(floor)) roughest = &point;
+    bool is_coarse = false;
+    for (const std::size_t i : {0, 1}) {
+      const SampleDensity& density = point.density[i];
+      const double missed = density.missed(floor), roughness = density.roughness(floor);
+      is_coarse = is_coarse || missed > kMissedPeak || roughness > kTooRough;
+      const std::string which = fmt::format("that of {} along {}", point.point, i == 0 ? "x" : "y");
+      if (missed > worst_missed) {
+        worst_missed = missed;
+        reason = fmt::format("{} reached {:.3g} m/s² in between, where they have {:.3g} to {:.3g} m/s²",
+                             which, density.farthest_between(), density.smallest(), density.largest());
+      } else if (worst_missed == kMissedPeak && roughness > worst_roughness) {
+        worst_roughness = roughness;
+        reason = fmt::format("{} differs at each by {:.3g} % r.m.s. from the curve through its neighbours",
+                             which, 100.0 * roughness);
+      }
+    }
+    if (is_coarse) points.push_back(point.point);
   }
   if (points.empty()) return;
-  const SampleDensity& density = farthest->density;
-  const std::string reason =
-      density.missed(floor) > kMissedPeak
-          ? fmt::format("that of {} reached {:.3g} m/s² in between, where they have {:.3g} to {:.3g} m/s²",
-                        farthest->point, density.farthest_between(), density.smallest(), density.largest())
-          : fmt::format("that of {} differs at each by {:.3g} % r.m.s. from the curve through its neighbours",
-                        roughest->point, 100.0 * roughest->density.roughness(floor));
   warnings.push_back(
       {kSummary, points,
        fmt::format(

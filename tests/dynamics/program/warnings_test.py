@@ -153,7 +153,7 @@ class Warnings(DynamicsTestCase):
         self.assertGreater(found["min"], 0.5 * expected["min"])
         self.assertEqual((warning["concerns"], warning["of"]), ("summary", ["sprung.origin", "unsprung.origin"]))
         self.assertEqual(self.read_warnings()[0]["text"], warning["text"])
-        between = re.search(r"every 0\.2 s .* sprung\.origin reached (\S+) m/s² in between", warning["text"])
+        between = re.search(r"every 0\.2 s .* sprung\.origin along y reached (\S+) m/s² in between", warning["text"])
         self.assertAlmostEqual(float(between.group(1)), expected["min"], delta=0.1 * abs(expected["min"]))
         # The summary has all outputs, but the results have every two hundredth.
         found, (warning,) = self.run_quarter_car("output.step.points=0.2")
@@ -184,7 +184,7 @@ force = [0.0, { harmonic = { amplitude = 5.0, frequency = 5.0 } }]
             texts = [one["text"] for one in printed["warnings"]]
             self.assertEqual(len(texts), int(is_coarse), texts)
             for text in texts:
-                self.assertRegex(text, r"that of b\.origin reached -?(5|4\.\d+) m/s² in between, where they have")
+                self.assertRegex(text, r"that of b\.origin along y reached -?(5|4\.\d+) m/s² in between, where they have")
 
     def test_a_balance_that_is_not_found_tells_of_a_point_that_was_moved_far(self):
         run = ROOT / "dynamics/models/templates/half_car_run.toml"
