@@ -154,6 +154,21 @@ class ChangePoints(VerificationCase):
                     )  # fmt: skip
                     self.assert_close(error, 34.5 * step**2, relative=0.1)
 
+    def test_generalized_alpha_stays_beside_one(self):
+        """Without gravity all cranks keep their rate. The largest pivot of the run was taken for the usual one, but
+        it was small: equal steps stopped, and others were wrong, with an energy that did not close."""
+        for start, rate in ((1e-5, 0.01), (-1e-3, 1e-3)):
+            vehicle = four_bars(1, start).replace("-9.81", "0.0")
+            for setting in ("integrator.fixed_step=1e-3", "integrator.relative_tolerance=1e-6"):
+                with self.subTest(start=start, rate=rate, setting=setting):
+                    results = self.run_text(
+                        vehicle, f'start = "as-given"\nduration = 3.0\noutput_step = 0.01\n[joint_rates]\n'
+                        f"pin0 = {rate}\n", "--set", "integrator.method=generalized-alpha", "--set", setting,
+                        "--set", "output.precision=double",
+                    )  # fmt: skip
+                    expected = start + rate * results["time"][:]
+                    self.assert_close(results["bodies/crank0/position"][:, 2], expected, absolute=1e-6)
+
 
 if __name__ == "__main__":
     unittest.main()

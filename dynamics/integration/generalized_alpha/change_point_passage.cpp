@@ -24,7 +24,8 @@ void ChangePointPassage::update_pivot(SystemTerms& terms, const ConstrainedMotio
   terms.update_jacobian();
   terms.update_mass();
   const double before = pivot_, found = choose_partition(terms).smallest_pivot;
-  best_pivot_ = std::max(best_pivot_, found);
+  if (found < kSmallPivot && !usual_pivot_) usual_pivot_ = calc_usual_pivot(*model_, motion.time, motion.q);
+  best_pivot_ = std::max({best_pivot_, found, usual_pivot_.value_or(0.0)});
   pivot_ = found < kSmallPivot * best_pivot_ ? found / best_pivot_ : 1.0;
   is_near_ = pivot_ < kNearPivot && pivot_ < before;
 }

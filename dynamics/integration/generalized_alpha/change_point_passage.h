@@ -19,7 +19,8 @@ class ChangePointPassage {
   void start(SystemTerms& terms, const ConstrainedMotion& motion);
   /// Looks at the pivots of φ_q at these positions.
   void update_pivot(SystemTerms& terms, const ConstrainedMotion& motion);
-  /// Smallest pivot of φ_q, of the largest that it had when it was looked at; 1 where it is not small.
+  /// Smallest pivot of φ_q, of the largest that it had when it was looked at or has usually; 1 where it is
+  /// not small.
   double pivot() const { return pivot_; }
   /// Whether the motion has come so near to a change point that it is passed in a step of its own.
   bool is_near() const { return is_near_; }
@@ -40,6 +41,7 @@ class ChangePointPassage {
  private:
   const Model* model_;
   double pivot_ = 1.0, best_pivot_ = 0.0;
+  std::optional<double> usual_pivot_;  // found where a pivot is small
   bool is_near_ = false, has_passed_ = false;
   std::optional<ChangePointStep> step_;  // made at the first change point
   Eigen::Vector2d energy_before_ = Eigen::Vector2d::Zero();
