@@ -7,7 +7,8 @@ namespace sprung::dynamics {
 
 /// Judges whether the samples of a quantity are close enough for its extremes: by values in between, where
 /// some are known, and by the difference of each sample from the cubic through its four neighbours
-/// (output, "Density of outputs"). The samples come at equal intervals, other values in their order.
+/// (output, "Density of outputs"). The samples come at equal intervals, other values in any order. Checked by
+/// tests/dynamics/output/sample_density_test.cpp
 class SampleDensity {
  public:
   void add_sample(double value);
