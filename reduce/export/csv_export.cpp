@@ -22,8 +22,8 @@ std::string format_values(const Superelement& s) {
   std::string text = "dataset,matrix,row,column,value\n";
   for (const SuperelementField& field : superelement_fields(find_version(s))) {
     const FieldValue value = field.member.get(s);
-    for (std::size_t matrix = 0; matrix < value.reals.size(); ++matrix) {
-      const support::RowMatrix& numbers = value.reals[matrix];
+    for (std::size_t matrix = 0; matrix < value.matrices().size(); ++matrix) {
+      const support::RowMatrix& numbers = value.matrices()[matrix];
       for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
         for (Eigen::Index j = 0; j < numbers.cols(); ++j)
           text += fmt::format("{},{},{},{},{}\n", field.path, matrix, i, j, format_real(numbers(i, j)));

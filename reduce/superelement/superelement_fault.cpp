@@ -90,11 +90,11 @@ Fault check_matrix(const SuperelementField& field, const RowMatrix& matrix, Eige
 Fault check_field(const SuperelementField& field, const FieldValue& value,
                   const std::vector<std::int64_t>& extents) {
   const auto [num_matrices, rows, columns] = calc_matrices(field, extents);
-  for (const RowMatrix& matrix : value.reals) {
+  for (const RowMatrix& matrix : value.matrices()) {
     if (Fault fault = check_matrix(field, matrix, rows, columns)) return fault;
   }
   const bool is_list = field.type == FieldType::kIntegers || field.type == FieldType::kTexts;
-  const std::size_t size = value.reals.size() + value.integers.size() + value.texts.size();
+  const std::size_t size = value.matrices().size() + value.integers.size() + value.texts.size();
   const auto expected = static_cast<std::size_t>(is_list ? rows * columns : num_matrices);
   if (size == expected) return {};
   return make_fault(field.path, "has {} values, expected {}", size, expected);

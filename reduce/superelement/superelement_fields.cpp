@@ -43,6 +43,10 @@ FieldValue pack(const Eigen::MatrixBase<Derived>& matrix) {
   return {.reals = {RowMatrix(matrix)}};
 }
 
+FieldValue pack(const RowMatrix& matrix) {
+  return {.standing = &matrix};
+}
+
 template <int Rows, int Columns>
 FieldValue pack(const Eigen::Matrix<int, Rows, Columns>& matrix) {  // a column is a row of the file
   return {.integers = {matrix.data(), matrix.data() + matrix.size()}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,11 +11,20 @@
 
 namespace sprung::reduce {
 
-/// The values of a field. One of the three lists is used, by its type.
+/// The values of a field. One of the four is used, by its type.
 struct FieldValue {
   std::vector<support::RowMatrix> reals = {};  ///< the matrix or vector; of kMatrices, each matrix
   std::vector<std::int64_t> integers = {};     ///< row-major
   std::vector<std::string> texts = {};
+  /// In place of `reals` a large matrix where it stands in the superelement, which has to live as long.
+  const support::RowMatrix* standing = nullptr;
+
+  /// What is in `reals`, or stands in the superelement.
+  std::span<const support::RowMatrix> matrices() const {
+    return standing != nullptr ? std::span(standing, 1) : std::span(reals);
+  }
+  /// The same with all matrices in `reals`.
+  FieldValue copied() const { return {{matrices().begin(), matrices().end()}, integers, texts}; }
 };
 
 /// kReals is one matrix or vector of the struct; in an array of rank 3 its rows stand in groups. kMatrices is
@@ -67,7 +77,7 @@ std::vector<std::int64_t> calc_extents(const SuperelementField& field, const Fie
 void add_counts(const SuperelementField& field, const std::vector<std::int64_t>& extents,
                 FieldCounts& counts);
 
-/// Number and size of the matrices in `FieldValue::reals`; a vector is one column. The number is 0 for
+/// Number and size of the matrices of `FieldValue::matrices`; a vector is one column. The number is 0 for
 /// integers and texts.
 struct FieldMatrices {
   std::int64_t number, rows, columns;

@@ -24,13 +24,13 @@ void write_field(support::Hdf5Writer& file, const SuperelementField& field, cons
     file.write(path, std::span<const std::string>(value.texts));
   } else if (field.type == FieldType::kIntegers) {
     file.write(path, std::span<const std::int64_t>(value.integers), shape);
-  } else if (value.reals.size() == 1) {
-    const support::RowMatrix& matrix = value.reals.front();
+  } else if (value.matrices().size() == 1) {
+    const support::RowMatrix& matrix = value.matrices().front();
     file.write(path, std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size())), shape,
                field.unit);
   } else {
     std::vector<double> numbers;
-    for (const support::RowMatrix& matrix : value.reals)
+    for (const support::RowMatrix& matrix : value.matrices())
       numbers.insert(numbers.end(), matrix.data(), matrix.data() + matrix.size());
     file.write(path, std::span<const double>(numbers), shape, field.unit);
   }

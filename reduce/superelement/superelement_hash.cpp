@@ -15,7 +15,7 @@ void add(ContentHash& hash, std::string_view label, std::int64_t value) {
 }
 
 void add_whole(ContentHash& hash, const SuperelementField& field, const FieldValue& value) {
-  for (const support::RowMatrix& matrix : value.reals) {
+  for (const support::RowMatrix& matrix : value.matrices()) {
     hash.add(fmt::format("{} {}x{}", field.path, matrix.rows(), matrix.cols()),
              std::span<const double>(matrix.data(), static_cast<std::size_t>(matrix.size())));
   }

@@ -115,7 +115,7 @@ std::string find_fault_with(const SuperelementField& field, const FieldValue& va
 TEST_CASE("NaN in any real field is a fault, in each of its matrices") {
   const Superelement body = testing::make_two_armed_body();
   for (const SuperelementField& field : superelement_fields()) {
-    const FieldValue value = field.member.get(body);
+    const FieldValue value = field.member.get(body).copied();
     for (std::size_t i = 0; i < value.reals.size(); ++i) {
       FieldValue changed = value;
       changed.reals[i](0, 0) = std::numeric_limits<double>::quiet_NaN();
@@ -130,7 +130,7 @@ TEST_CASE("a value that violates the rule of its field is a fault") {
   for (const SuperelementField& field : superelement_fields()) {
     if (field.rule == FieldRule::kAny || field.rule == FieldRule::kIndex) continue;
     ++num_rules;
-    const FieldValue value = field.member.get(body);
+    const FieldValue value = field.member.get(body).copied();
     const std::string path(field.path);
     FieldValue changed = value;
     for (std::size_t i = 0; i < value.reals.size(); ++i) {
@@ -157,7 +157,7 @@ TEST_CASE("a matrix or list of another size is a fault") {
   const Superelement body = testing::make_two_armed_body();
   int num_changed = 0;
   for (const SuperelementField& field : superelement_fields()) {
-    FieldValue value = field.member.get(body);
+    FieldValue value = field.member.get(body).copied();
     // Counts, columns of a list, and what has one size always.
     const bool is_count =
         field.path == "/nodes/id" || field.path == "/elements/node" || field.path == "/modes/frequency" ||
