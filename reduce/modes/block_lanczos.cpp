@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 constexpr Index kWidth = 4;
 constexpr double kRitzResidual = 1e-12;  // of a solution, relative
 constexpr double kRoughResidual =
-    1e-4;  // of those of which only the frequency counts: it has the square of this
+    1e-5;  // of those of which only the frequency counts: it has the square of this
 constexpr double kDependent = 1e-14;  // the part of a vector outside the vectors before, beside the first one
 constexpr double kMostVectors = 20.0;   // for each pair asked for
 constexpr double kBetweenTests = 1.05;  // growth of the number of vectors from one test of convergence on
