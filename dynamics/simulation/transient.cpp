@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMaxSwitchesInPlace = 100;  // within kSamePlace of each other before the run is given up
 constexpr double kSamePlace = 1e-9;       // s
-constexpr long kStepsPerObservation = 4;  // between outputs: with Adams, each costs an eighth of a step
+constexpr long kStepsPerObservation = 5;  // between outputs: with Adams, each costs half of a step
 
 // The start in coordinates of the full model: modes that the run lacks are at zero.
 State expand_start(const Model& model, const AdaptivityOptions& options, const State& start) {

@@ -51,9 +51,11 @@ std::string_view get(const Tokens& tokens, std::size_t place) {
   return place < tokens.size() ? tokens[place] : std::string_view();
 }
 
-// Whether the word at a place begins a statement with an argument; options are CATEGORY.Name.
+// Whether the word at a place begins a statement or a function with an argument, is the file of a mesh size
+// field, or the field that a program computes; other options are CATEGORY.Name.
 bool begins_statement(const Tokens& tokens, std::size_t place) {
   const std::string_view following = get(tokens, place + 1);
+  if (tokens[place] == "FileName" || tokens[place] == "ExternalProcess") return true;
   if (place > 0 && tokens[place - 1] == ".") return false;
   return !following.empty() && (is_quote(following[0]) || begins_word(following[0]) || following == "(");
 }
@@ -93,9 +95,20 @@ std::optional<GeoStatement> find_geo_statement(std::string_view text,
   return std::nullopt;
 }
 
+std::optional<GeoStatement> find_dropped_statement(std::string_view text) {
+  const std::size_t line_begin = text.rfind('\n') + 1;  // 0 where there is none
+  const Tokens tokens = split(text);
+  auto token = std::find_if(tokens.begin(), tokens.end(), [&](std::string_view one) {
+    return one == ";" && one.data() >= text.data() + line_begin;
+  });
+  if (token == tokens.end() || ++token == tokens.end()) return std::nullopt;
+  return locate(text, *token);
+}
+
 std::optional<GeoStatement> find_writing_statement(std::string_view text) {
-  static constexpr std::array<std::string_view, 7> kWords = {
-      "Save", "Print", "System", "SystemCall", "NonBlockingSystemCall", "OnelabRun", "Plugin"};
+  static constexpr std::array<std::string_view, 9> kWords = {
+      "Save",      "Print",  "System",    "SystemCall",     "NonBlockingSystemCall",
+      "OnelabRun", "Plugin", "CreateDir", "ExternalProcess"};
   const Tokens tokens = split(text);
   for (std::size_t place = 0; place < tokens.size(); ++place) {
     const bool writes = contains(kWords, tokens[place]) && begins_statement(tokens, place);

@@ -270,6 +270,11 @@ void check_script(const std::filesystem::path& path) {
                                  "the statement out of the script",
                                  found->word));
   }
+  if (const std::optional<GeoStatement> found = find_dropped_statement(text)) {
+    throw InputError(
+        {.path = path.string(), .line = found->line, .column = found->column},
+        "the file ends within this line, of which gmsh reads the first statement only: end the line");
+  }
 }
 
 void check_element_counts(const GmshContents& contents) {

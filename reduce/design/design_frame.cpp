@@ -236,13 +236,14 @@ void add_spring_element(const TomlTable& spring, fem::Mesh& mesh) {
 void check_self_contained(const std::filesystem::path& path) {
   if (path.extension() != ".geo") return;
   const std::string text = support::read_text_file(path);
-  static constexpr std::array<std::string_view, 5> kReading = {"Include", "Merge", "MergeWithBoundingBox",
-                                                               "Open", "ShapeFromFile"};
+  static constexpr std::array<std::string_view, 8> kReading = {
+      "Include",  "Merge", "MergeWithBoundingBox", "Open", "ShapeFromFile", "ListFromFile",
+      "FileName", "GetEnv"};
   if (const std::optional<fem::GeoStatement> found = fem::find_geo_statement(text, kReading)) {
     throw InputError(
         {.path = path.string(), .line = found->line, .column = found->column},
-        fmt::format("'{}' reads another file; put everything in one file, so that a change of it "
-                    "is noticed",
+        fmt::format("'{}' reads another file or the environment; put everything in one file, so that a "
+                    "change of it is noticed",
                     found->word));
   }
 }

@@ -263,6 +263,28 @@ class Reading(ToolTestCase):
         self.assertEqual((material.youngs_modulus, material.density), (2.6, 7.8))
         self.assertAlmostEqual(material.poissons_ratio, 0.3)  # 2.6 / (2 · 1) − 1
 
+    def test_parts_with_a_set_of_one_name_keep_their_own_materials(self):
+        part = "*PART, NAME={0}\n*NODE\n1, 0, {1}\n2, 1, {1}\n*ELEMENT, TYPE=B21, ELSET=RAIL\n1, 1, 2\n" \
+               "*BEAM GENERAL SECTION, SECTION=RECT, ELSET=RAIL\n.05, .1\n\n{2}\n*END PART\n"  # fmt: skip
+        instance = "*INSTANCE, NAME={0}-1, PART={0}\n*END INSTANCE\n"
+        moduli = ("2.1e11, 8e10", "7e10, 2.7e10", "7e10, 2.7e10")
+        text = "".join(part.format(name, place, moduli[place]) for place, name in enumerate("PQR"))
+        text += f"*ASSEMBLY, NAME=A\n{''.join(instance.format(name) for name in 'PQR')}*END ASSEMBLY\n"
+        mesh = self.read(text)
+        found = [mesh.materials[mesh.sections[place].material].youngs_modulus for place in mesh.section_of]
+        self.assertEqual(found, [2.1e11, 7e10, 7e10])
+        self.assertEqual(list(mesh.materials), ["SECTION OF RAIL", "SECTION OF RAIL (2)"])
+
+    def test_sections_and_materials_that_are_given_twice_are_told(self):
+        section = "*BEAM SECTION, ELSET=A, SECTION=RECT, MATERIAL=S\n{}, .2\n"
+        material = "*MATERIAL, NAME=S\n*ELASTIC\n{}, .3\n"
+        sections = section.format(".05") + section.format(".04")
+        mesh = self.read(ABAQUS + sections + material.format("2e11") + material.format("7e10"))
+        self.assertEqual(mesh.materials["S"].youngs_modulus, 7e10)
+        told = "\n".join(mesh.left_behind)
+        self.assertIn("RECT: 0.05 × 0.2 of elements that *BEAM SECTION", told)
+        self.assertIn("the material S before *MATERIAL, NAME=S (line ", told)
+
     def test_a_blank_line_of_a_section_stands_for_the_default_1_direction(self):
         # Keywords Reference, *BEAM SECTION and *BEAM GENERAL SECTION: "Second line (optional; enter a blank line if the
         # default values are to be used)". The default is (0, 0, -1); t × n₁ along y and along x is the height.

@@ -87,6 +87,15 @@ class Ladder(StarterCase):
         expected = 80.0 + DENSITY * (3 * 2 * HALF_WIDTH * area + rods)
         self.assertAlmostEqual(total / expected, 1.0, places=12)
 
+    def test_masses_on_one_side_are_told(self):
+        for changed, node in (("", "3"), ("CONM2,502,103,,41.\n", "3, 103")):
+            with self.subTest(changed):
+                deck = write_ladder(lambda text, new=changed: text.replace("CONM2,502,103,,40.\n", new))
+                told, _ = self.convert_text("a.bdf", deck, "--plane", "xz", "--unite-rails")
+                self.assertIn(f"masses cause that have no equal one on the other side: nodes {node}", told)
+        told, _ = self.convert_text("a.bdf", write_ladder(), "--plane", "xz", "--unite-rails")
+        self.assertNotIn("rolling", told)
+
     def test_rails_that_come_nearer_are_projected_and_the_angle_is_said(self):
         def narrow(text):
             old, new = "GRID,105,,4.2,-0.4", "GRID,105,,4.2,-0.3"

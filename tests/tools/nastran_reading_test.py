@@ -102,6 +102,15 @@ class Reading(ToolTestCase):
                 (one,) = self.read(NASTRAN.replace("ENDDATA", f"{nodes}{mass}\nENDDATA")).point_masses
                 self.assertEqual(one.left_out, left_out)
 
+    def test_a_shear_modulus_that_no_poisson_ratio_explains_is_listed(self):
+        text = f"BEGIN BULK\nGRID,1\nGRID,2,,1.\n{BAR}MAT1,7,2.,{{}},,5.\nENDDATA\n"
+        for shear, ratio in ((".8", 0.25), (".1", None)):
+            with self.subTest(shear):
+                mesh = self.read(text.format(shear))
+                self.assertEqual(mesh.materials["7"].poissons_ratio, ratio)
+                told = f"G = {float(shear):g} of MAT1 7" in "\n".join(mesh.left_behind)
+                self.assertEqual(told, ratio is None)
+
     def test_the_taper_of_a_tube_is_listed(self):
         for taper, left_out in (
             ("", ()), (",.1", ()), (",.3", ("its taper to the diameter 0.3: the section at end A is taken",)),

@@ -34,6 +34,21 @@ TEST_CASE("Statements that write a file or run a program are found, with their p
   CHECK(find_writing("Plugin(SpanningTree).Run;") == "Plugin 1:1");
   CHECK(find_writing("Printf(\"%g (m)\", a(0)) > \"x.txt\";") == "Printf 1:1");
   CHECK(find_writing("Printf(\"a\") >> \"x.txt\";") == "Printf 1:1");
+  CHECK(find_writing("CreateDir \"x\";") == "CreateDir 1:1");
+  CHECK(find_writing("Field[1] = ExternalProcess;\nField[1].CommandLine = \"x\";") == "ExternalProcess 1:12");
+}
+
+// gmsh 4.8 made five elements of a curve whose count of ten stood in such a place.
+TEST_CASE("Statements behind the first one of a last line without an end are found") {
+  const auto find = [](std::string_view text) {
+    const std::optional<GeoStatement> found = find_dropped_statement(text);
+    return found ? std::to_string(found->line) + ":" + std::to_string(found->column) : std::string();
+  };
+  CHECK(find("a = 1;\nx = 3; Transfinite Curve{1} = 11;") == "2:8");
+  CHECK(find("x = 3; y = 4") == "1:8");
+  for (const char* text :
+       {"", "a = 1;", "a = 1; b = 2;\n", "a = 1; b = 2;\nc = 3; // the last; one", "// a; b; c"})
+    CHECK(find(text).empty());
 }
 
 TEST_CASE("Options, comments, strings and names that resemble such statements are none") {
@@ -55,6 +70,10 @@ TEST_CASE("Statements are found by their words") {
   CHECK(found->line == 2);
   CHECK(found->column == 2);
   CHECK(!find_geo_statement("Merged = 1; // Include \"b.geo\"", kWords));
+  constexpr std::array<std::string_view, 3> kOthers = {"GetEnv", "ListFromFile", "FileName"};
+  for (const char* text : {"If (StrCmp(GetEnv(\"L\"), \"\")) EndIf", "L[] = ListFromFile(\"a.txt\");",
+                           "Field[1].FileName = \"a.txt\";"})
+    CHECK(find_geo_statement(text, kOthers));
 }
 
 }  // namespace sprung::fem

@@ -16,7 +16,7 @@ from sprung_tools.mesh_import import abaqus_properties
 from sprung_tools.mesh_import.abaqus_assembly import Assembly
 from sprung_tools.mesh_import.abaqus_blocks import Block, read_blocks
 from sprung_tools.mesh_import.abaqus_part import GENERATING, MESHING, Element, Part, is_line_kind
-from sprung_tools.mesh_import.frame_properties import PointMass
+from sprung_tools.mesh_import.frame_properties import Material, PointMass
 from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members, shorten
 
 KINDS = {  # how a beam of that type deforms in Abaqus
@@ -175,7 +175,11 @@ class Deck:
                 continue
             section, width, material = abaqus_properties.read_section(block, self.materials.found)
             if material is not None:
-                mesh.materials[material.name] = material
+                section = section._replace(material=add_material(mesh.materials, material))
+            for replaced in np.unique(mesh.section_of[places]):
+                if replaced >= 0:
+                    text = mesh.sections[replaced].text
+                    self.left_behind.append(f"{text} of elements that {block.describe()} has, too")
             mesh.section_of[places] = len(mesh.sections)
             mesh.sections.append(section)
             names.add(block.parameters.get("ELSET", "").upper())
@@ -232,6 +236,17 @@ class Deck:
             offsets = shorten(f"{one.name}: {one.nodes} and {one.elements}" for one in moved)
             texts.append(f"numbers of nodes and elements in instances, which are now larger ({offsets})")
         return texts + self.materials.left_behind + self.left_behind
+
+
+def add_material(materials: dict[str, Material], material: Material) -> str:
+    """Adds the material that a section gives itself. Returns its name, which gets a number where parts with element
+    sets of one name have different ones."""
+    named, number = material, 1
+    while materials.get(named.name, named) != named:
+        number += 1
+        named = material._replace(name=f"{material.name} ({number})")
+    materials[named.name] = named
+    return named.name
 
 
 def split_lines(elements: dict[int, Element]) -> tuple[list[int], list[list[int]], list[int]]:

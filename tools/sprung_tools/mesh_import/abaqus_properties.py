@@ -198,6 +198,8 @@ class Materials:
         """Takes in a block of MATERIAL_BLOCKS."""
         if block.keyword == "MATERIAL":
             self._current = block.parameters.get("NAME", "").upper()
+            if self._current in self.found:
+                self.left_behind.append(f"the material {self._current} before {block.describe()}, which has its name")
             self.found[self._current] = Material(self._current, None)
             return
         row = read_row(block, 0)

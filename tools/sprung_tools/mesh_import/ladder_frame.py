@@ -8,6 +8,7 @@ across at an angle, but for their mass.
 """
 
 import dataclasses
+import math
 from collections.abc import Iterator, Sequence
 from typing import NoReturn
 
@@ -144,7 +145,7 @@ def unite_rails(mesh: LineMesh, plane: str) -> LineMesh:
             *(one._replace(node=int(united[one.node])) for one in mesh.point_masses),
             *(one._replace(node=int(united[one.node])) for one in masses),
         ],
-        left_behind=[*describe(mirror, kinds), *mass_remarks, *set_remarks, *mesh.left_behind],
+        left_behind=[*describe(mirror, kinds), *list_one_sided(mirror), *mass_remarks, *set_remarks, *mesh.left_behind],
     )
 
 
@@ -198,6 +199,22 @@ def list_masses(mirror: Mirror, kinds: Kinds) -> tuple[list[PointMass], list[str
         masses += [PointMass(text, int(end), per_length * length / 2.0, inertia) for end in ends]
     remarks = [f"masses of members across, whose section is not known: {shorten(unknown)}"] if unknown else []
     return merge_masses(masses, unite_nodes(mirror, kinds)), remarks
+
+
+def list_one_sided(mirror: Mirror) -> list[str]:
+    """Remarks on point masses that the mirror image of their node does not have."""
+    mesh = mirror.mesh
+    masses: dict[int, float] = {}
+    for one in mesh.point_masses:
+        masses[one.node] = masses.get(one.node, 0.0) + one.mass
+    unlike = [
+        int(mesh.node_ids[node])
+        for node, mass in masses.items()
+        if not math.isclose(mass, masses.get(mirror.image.get(node, node), 0.0), rel_tol=SAME_MOMENT)
+    ]
+    if not unlike:
+        return []
+    return [f"rolling, which masses cause that have no equal one on the other side: nodes {shorten(unlike)}"]
 
 
 def merge_masses(masses: Sequence[PointMass], united: Integers) -> list[PointMass]:

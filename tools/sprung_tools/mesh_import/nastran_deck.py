@@ -11,7 +11,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import import nastran_coordinates, nastran_sections
-from sprung_tools.mesh_import.frame_properties import Section
+from sprung_tools.mesh_import.frame_properties import Material, Section
 from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS, LineMesh, pick_members, shorten
 from sprung_tools.mesh_import.nastran_cards import Card, read_cards
 from sprung_tools.mesh_import.nastran_coordinates import CoordinateSystems
@@ -178,6 +178,7 @@ class Deck:
             if card.name != "CONROD":
                 by_property.setdefault(f"property_{self.find_property(card)}", []).append(element)
         sections, section_of = self.read_sections()
+        materials = self.read_materials()
         positions = [self.find_node(card, node) for node, card in sorted(self.nodes.items())]
         return LineMesh(
             path=self.path,
@@ -194,7 +195,7 @@ class Deck:
             sections=sections,
             section_of=section_of,
             heights=np.array([self.find_height(*one) for one in self.elements.values()]).reshape(-1, 3),
-            materials={name: nastran_sections.read_material(card) for name, card in self.materials.items()},
+            materials=materials,
             point_masses=[nastran_sections.read_mass(card, number, self.find_node) for card in self.masses],
         )  # fmt: skip
 
@@ -214,6 +215,14 @@ class Deck:
                 sections.append(nastran_sections.read_section(self.properties[name]))
             section_of[place] = numbers.get(name, -1)
         return sections, section_of
+
+    def read_materials(self) -> dict[str, Material]:
+        """The materials by their names. What is left out of them is noted."""
+        materials = {}
+        for name, card in self.materials.items():
+            materials[name], left_out = nastran_sections.read_material(card)
+            self.left_behind += left_out
+        return materials
 
     def pick_node_sets(self, number: dict[int, int]) -> dict[str, list[int]]:
         """The sets that are sets of nodes; a SET1 may hold numbers of anything."""

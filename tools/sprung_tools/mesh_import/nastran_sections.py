@@ -151,15 +151,19 @@ def is_station(card: Card, place: int) -> bool:
     return card.field(place).upper() in ("YES", "YESA", "NO")
 
 
-def read_material(card: Card) -> Material:
-    """Reads a MAT1. Without E it follows from G and ν; without ν it follows from E and G."""
+def read_material(card: Card) -> tuple[Material, list[str]]:
+    """Reads a MAT1. Without E it follows from G and ν; without ν it follows from E and G. Returns (the material, what
+    is left out of it)."""
     modulus, shear, ratio, density = (card.real(place, "number") for place in (1, 2, 3, 4))
     given_ratio = ratio if card.field(3) else None
     if not modulus and shear and given_ratio is not None:
         modulus = 2.0 * shear * (1.0 + given_ratio)
     if given_ratio is None and modulus and shear:
         given_ratio = modulus / (2.0 * shear) - 1.0
-    return Material(card.field(0), modulus or None, given_ratio, density or None)
+        if not -1.0 < given_ratio <= 0.5:
+            left_out = f"G = {shear:g} of MAT1 {card.field(0)}, with which Poisson's ratio would be {given_ratio:.3g}"
+            return Material(card.field(0), modulus, None, density or None), [left_out]
+    return Material(card.field(0), modulus or None, given_ratio, density or None), []
 
 
 def read_mass(card: Card, number: Mapping[int, int], find_node: Callable[[Card, int], Floats]) -> PointMass:
