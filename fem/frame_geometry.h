@@ -35,9 +35,8 @@ struct FrameGeometry {
 };
 
 /// Checks a frame: there is a line; point and line names are unique; a line's points exist and differ; no two
-/// lines join the same points; num_elements is
-/// 1 … kMaxElementsPerLine; positions are finite; no two points have the same
-/// position; every point belongs to a line.
+/// lines join the same points; num_elements is 1 … kMaxElementsPerLine; positions are finite; no two points
+/// have the same position; every point belongs to a line.
 /// @throws support::InputError at the location of the point or line
 /// Checked by tests/fem/frame_geometry_test.cpp
 void check_frame_geometry(const FrameGeometry& geometry);

@@ -308,6 +308,23 @@ class Report(unittest.TestCase):
                 run_all(*arguments)
                 self.assertTrue((folder / "untrusted.txt").exists())
 
+    def test_horizontal_accelerations_between_outputs_are_allowed_where_none_are_taken(self):
+        folder = self.folder / "coarse"
+        folder.mkdir()
+        program = folder / "program"
+        said = "values every 0.001 s do not resolve the accelerations: that of chassis.seat along"
+        for axis, is_known, is_refused in (("x", True, False), ("x", False, True), ("y", True, True)):
+            with self.subTest(axis=axis, is_known=is_known):
+                program.write_text(f"#!/bin/sh\necho 'warning: {said} {axis} reached 2 m/s²'\n", encoding="utf-8")
+                program.chmod(0o755)
+                run = PaperRun("coarse", "bump.toml", (), is_coarse_along_x=is_known)
+                arguments = (Programs(program, program), [run], folder, lambda _: None)
+                if is_refused:
+                    with self.assertRaisesRegex(InputError, "no run for a report"):
+                        run_all(*arguments)
+                else:
+                    run_all(*arguments)
+
     def test_a_file_left_by_an_earlier_work_is_no_run_of_this_one(self):
         numbers = Numbers(self.folder, made=["bump_rigid", "bump_7modes"])
         self.assertEqual(

@@ -34,6 +34,7 @@ class PaperRun(NamedTuple):
     name: str
     file: str
     overrides: tuple[str, ...]
+    is_coarse_along_x: bool = False  # its outputs miss horizontal accelerations, of which the report takes none of it
 
 
 class Band(NamedTuple):
