@@ -15,9 +15,9 @@ inline constexpr double kMaxRoundingError = 1e-4;
 ///     4 ε √(Σᵢⱼ (φᵢ Kᵢⱼ φⱼ)²) / ω²                                       (reduce, eq. 7)
 ///
 /// The root of the sum assumes independent rounding errors of the entries. On cantilevers of up to 1000
-/// elements the estimate is never below the actual error. On finer ones, which are refused, the error is
-/// about a third of it and at most twice it. The estimate is several times nearer to the error than the bound
-/// ε‖K‖‖φ‖²/ω² (table in reduce, "Modes").
+/// elements the estimate is never below the actual error. On finer ones the error is about a
+/// third of it and at most twice it (mechanism.h judges them). The estimate is several times nearer to the
+/// error than the bound ε‖K‖‖φ‖²/ω² (table in reduce, "Modes").
 ///
 /// @param shape  n, M-normalised
 /// @param omega_squared  > 0 [rad²/s²]

@@ -12,7 +12,11 @@ namespace sprung::reduce {
 /// mechanism.
 ///
 /// @param stiffness  n×n, of the held frame   @param modes  k ≥ 1
-/// @return the largest relative rounding error of the modes' ω² (estimate_rounding_error)
+/// A mode whose estimated error is too large is judged by the error that rounding really made: with the
+/// energy that the relative motions of the elements' ends have in its shape (reduce, eq. 29).
+///
+/// @return the largest relative rounding error of the modes' ω², estimated (estimate_rounding_error) or
+/// measured
 /// @throws support::NumericalError if it is above kMaxRoundingError
 /// Checked by tests/reduce/reduction/mechanism_test.cpp
 double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& stiffness,

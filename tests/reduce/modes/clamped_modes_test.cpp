@@ -234,7 +234,7 @@ TEST_CASE("the rounding estimate follows the fourth power of the number of eleme
   CHECK(std::log2(fine / coarse) / 2.0 == Approx(3.5).margin(0.15));
 }
 
-// Where designs are accepted it covers the error of every length. Errors of finer meshes scatter from one
+// Where it accepts designs it covers the error of every length. Errors of finer meshes scatter from one
 // length and one order of elimination to the next about a third of the estimate; of 78 lengths from 1680 to
 // 3000 elements and two orders the largest was 2.07 times it.
 TEST_CASE("the rounding estimate covers the error that rounding really makes") {

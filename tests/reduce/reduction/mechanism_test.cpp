@@ -1,5 +1,10 @@
 #include "reduce/reduction/mechanism.h"
 
+#include <cmath>
+
+#include "reduce/modes/clamped_modes.h"
+#include "reduce/modes/rounding_error.h"
+#include "reduce/reduction/body_basis.h"
 #include "reduce/reduction/reduction.h"
 #include "tests/catch.h"
 #include "tests/reduce/free_body_truth.h"
@@ -54,6 +59,39 @@ TEST_CASE("a mode that rounding spoils is refused where the lowest one is sound"
   CHECK_THAT(message(), Contains("rounding spoils mode 2") && Contains("where this mode bends"));
   design.reduction.highest_hz = 3.0;  // without the short beam's modes
   CHECK(make_superelement(design).kind.front() == kFreeVector);
+}
+
+// Exact: ω² = (1.8751/L)⁴ EI/m of a uniform cantilever, which so many elements meet to 1e-10.
+TEST_CASE("a finely meshed body is judged by the error that rounding really makes") {
+  constexpr double kLength = 3.0;
+  const fem::BeamProperties section = testing::make_section();
+  const double exact =
+      std::pow(1.8751040687119611 / kLength, 4) * section.bending_rigidity / section.mass_per_length;
+  int num_accepted = 0, num_refused = 0;  // of those whose estimate exceeds the limit
+  for (const int num_elements : {1000, 1100, 1200, 1300, 1400, 1500, 1750, 2000, 2500, 3000}) {
+    fem::BeamModel model = testing::make_model();
+    testing::add_line(model, {0.0, 0.0}, {kLength, 0.0}, num_elements);
+    const Design design = testing::make_design(model, {0.0, 0.0}, {});
+    const BodyMatrices matrices = make_body_matrices(design);
+    const Eigen::SparseMatrix<double>& stiffness = matrices.held.stiffness;
+    const ClampedModes modes = calc_clamped_modes(matrices.held, 1);
+    const EigenPairs lowest{.omega_squared = modes.pairs.omega_squared.head(1),
+                            .vectors = modes.pairs.vectors.leftCols(1)};
+    const double error = std::abs(lowest.omega_squared(0) / exact - 1.0);
+    if (estimate_rounding_error(stiffness, lowest.vectors.col(0), lowest.omega_squared(0)) <=
+        kMaxRoundingError)
+      continue;
+    CAPTURE(num_elements, error);
+    if (error > kMaxRoundingError) {
+      CHECK_THROWS_AS(check_rounding(design, stiffness, lowest), support::NumericalError);
+      ++num_refused;
+    } else {
+      CHECK(check_rounding(design, stiffness, lowest) == Approx(error).epsilon(0.02));
+      ++num_accepted;
+    }
+  }
+  CHECK(num_accepted >= 2);
+  CHECK(num_refused >= 2);
 }
 
 TEST_CASE("a body that is soft at one place, but not to rounding, is reduced") {
