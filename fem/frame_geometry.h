@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace sprung::fem {
 
 inline constexpr int kMaxElementsPerLine = 100000;  ///< of a design, and on a curve of a `.geo` file
 
-/// A frame as a design describes it: named points and straight lines between them.
+/// A frame as a design describes it: named points, and straight lines or arcs of circles between them.
 ///
 /// Lines are joined at common points only: two lines that cross without a point are not connected there.
 struct FrameGeometry {
@@ -24,7 +25,9 @@ struct FrameGeometry {
     std::string from;      ///< name of the point at its beginning
     std::string to;        ///< name of the point at its end
     std::string section;   ///< section name, copied to the mesh
-    int num_elements = 1;  ///< ≥ 1, of equal length
+    int num_elements = 1;  ///< ≥ 1, of equal length; ≥ 2 of an arc
+    /// A place on the arc [m]; without it the line is straight.
+    std::optional<Eigen::Vector2d> via = {};
     support::SourceLocation where = {};
   };
 
@@ -35,10 +38,19 @@ struct FrameGeometry {
 };
 
 /// Checks a frame: there is a line; point and line names are unique; a line's points exist and differ; no two
-/// lines join the same points; num_elements is 1 … kMaxElementsPerLine; positions are finite; no two points
-/// have the same position; every point belongs to a line.
+/// lines join the same points along one way; an arc passes through its place between the ends; num_elements
+/// is 1 … kMaxElementsPerLine; positions are finite; no two points have the same position; every point
+/// belongs to a line.
 /// @throws support::InputError at the location of the point or line
 /// Checked by tests/fem/frame_geometry_test.cpp
 void check_frame_geometry(const FrameGeometry& geometry);
+
+/// The place at a share of a line's length.
+///
+/// @param line  of which num_elements and via count, checked
+/// @param from, to  its ends [m]   @param share  0 … 1
+/// Checked by tests/fem/frame_geometry_test.cpp
+Eigen::Vector2d calc_place_on_line(const FrameGeometry::Line& line, const Eigen::Vector2d& from,
+                                   const Eigen::Vector2d& to, double share);
 
 }  // namespace sprung::fem

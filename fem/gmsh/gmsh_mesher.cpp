@@ -232,7 +232,7 @@ void build_lines(const FrameGeometry& geometry) {
 
 // gmsh finds the positions of a curve's nodes by numerical integration with an error of 1e-12 of its length.
 // A thousand elements on a line would differ by 1e-9 in length, and a symmetric frame would not be symmetric.
-// So straight lines are divided exactly here.
+// So the nodes are placed exactly here, and those of arcs, of which gmsh divides the chords, on the arcs.
 void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
   std::map<std::string, Eigen::Vector2d> points;
   for (const FrameGeometry::Point& point : geometry.points) points[point.name] = point.position;
@@ -244,12 +244,12 @@ void divide_exactly(GmshContents& contents, const FrameGeometry& geometry) {
     const int k = ++passed[static_cast<std::size_t>(element.curve) - 1];
     if (k == line.num_elements) continue;
     const double s = static_cast<double>(k) / line.num_elements;
-    const Eigen::Vector2d position = (1.0 - s) * points.at(line.from) + s * points.at(line.to);
-    const Eigen::Vector2d change = positions.at(element.second)->head<2>() - position;
-    if (!(change.norm() <= 1e-6 * (points.at(line.to) - points.at(line.from)).norm())) {
+    const Eigen::Vector2d &from = points.at(line.from), &to = points.at(line.to);
+    auto position = positions.at(element.second)->head<2>();
+    if (!((position - (1.0 - s) * from - s * to).norm() <= 1e-6 * (to - from).norm())) {
       throw InputError(line.where, fmt::format("gmsh did not divide line '{}' evenly", line.name));
     }
-    positions.at(element.second)->head<2>() = position;
+    position = calc_place_on_line(line, from, to, s);
   }
 }
 

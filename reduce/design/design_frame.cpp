@@ -28,16 +28,26 @@ using Points = std::vector<fem::FrameGeometry::Point>;
 
 constexpr double kSamePlace = 1e-6;  // of the frame's extent; a point this near a node names it
 
+Eigen::Vector2d read_place(const TomlValue& value) {
+  const std::vector<double> place =
+      value.numbers({.unit = "m", .at_least = -kLengths.largest, .at_most = kLengths.largest}, 2);
+  return {place[0], place[1]};
+}
+
 Points read_points(const TomlTable& root) {
   Points points;
   const std::optional<TomlTable> table = root.find_table("points");
   if (!table) return points;
   for (const auto& [name, value] : table->entries()) {
-    const std::vector<double> position =
-        value.numbers({.unit = "m", .at_least = -kLengths.largest, .at_most = kLengths.largest}, 2);
-    points.push_back({.name = name, .position = {position[0], position[1]}, .where = value.location()});
+    points.push_back({.name = name, .position = read_place(value), .where = value.location()});
   }
   return points;
+}
+
+// The place through which a line goes as an arc.
+std::optional<Eigen::Vector2d> find_via(const TomlTable& line) {
+  const auto via = line.find("via");
+  return via ? std::optional(read_place(*via)) : std::nullopt;
 }
 
 // The points a line passes through, in order.
@@ -46,6 +56,8 @@ std::vector<TomlValue> read_corners(const TomlTable& table) {
   const auto from = table.find("from"), to = table.find("to");
   if (!through) return {table.at("from"), table.at("to")};
   if (from || to) throw table.error("has 'through' beside 'from' or 'to'; give either");
+  if (const auto via = table.find("via"))
+    throw via->error("stands beside 'through'; an arc has 'from' and 'to'");
   std::vector<TomlValue> corners = through->items();
   if (corners.size() < 2)
     throw through->error(fmt::format("names {} points, expected at least 2", corners.size()));
@@ -83,17 +95,19 @@ void check_section(const TomlValue& name, const Sections& sections) {
 
 void read_line(const TomlTable& table, const Sections& sections, const std::vector<std::string>& point_names,
                fem::FrameGeometry& geometry) {
-  expect_keys(table, {"from", "to", "through", "section", "elements"});
+  expect_keys(table, {"from", "to", "via", "through", "section", "elements"});
   const std::vector<TomlValue> corners = read_corners(table);
   const std::optional<TaperedLine> taper = find_taper(table);
   if (!taper) check_section(table.at("section"), sections);
   const std::vector<int> num_elements = read_element_numbers(table, corners.size() - 1);
+  const std::optional<Eigen::Vector2d> via = find_via(table);
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     fem::FrameGeometry::Line line{.name = {},
                                   .from = read_point_name(corners[i], point_names),
                                   .to = read_point_name(corners[i + 1], point_names),
                                   .section = taper ? taper->section_name(0) : table.at("section").string(),
                                   .num_elements = num_elements[i],
+                                  .via = via,
                                   .where = corners[i].location()};
     line.name = fmt::format("{}: {} – {}", table.key(), line.from, line.to);
     geometry.lines.push_back(std::move(line));

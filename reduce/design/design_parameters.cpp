@@ -20,6 +20,8 @@ using support::TomlDocument;
 using support::TomlTable;
 using support::TomlValue;
 
+constexpr const char* kNoDerivatives =
+    "stands in a design whose derivatives are not computed; take 'sprung-reduce sweep'";
 constexpr double kStep = 1e-3;            // of a number
 constexpr double kCoordinateStep = 1e-4;  // of the frame's extent, small beside the length of a short spring
 
@@ -243,8 +245,11 @@ std::vector<DesignParameter> list_parameters(const DesignSource& source, const D
   const TomlDocument document = read_document(source);
   const TomlTable root = document.root();
   for (const char* key : {"rigid_offsets", "averages", "foundations"}) {
-    if (const auto found = root.find(key))
-      throw found->error("stands in a design whose derivatives are not computed; take 'sprung-reduce sweep'");
+    if (const auto found = root.find(key)) throw found->error(kNoDerivatives);
+  }
+  if (const auto lines = root.find("lines")) {
+    for (const TomlValue& line : lines->items())
+      if (const auto via = line.table().find("via")) throw via->error(kNoDerivatives);
   }
   const DesignVariation variation(source, design);
   Listed listed;

@@ -45,6 +45,15 @@ point = "p0"
 {rest}"""
 
 
+def make_design_via(rest="[modes]\ncount = 1\ndamping_ratio = 0.0\n"):
+    """A quarter of the circle of make_design as an arc of 16 elements through a place beside its middle."""
+    places = [[0.3 + RADIUS * math.cos(t), -0.2 + RADIUS * math.sin(t)] for t in (0.4, 1.3, 0.4 + math.pi / 2)]
+    design = make_design(math.pi / 2, 16, rest)
+    line = f'p0 = {places[0]}\nend = {places[2]}\n[[lines]]\nfrom = "p0"\nto = "end"\nvia = {places[1]}\n'
+    before, after = design.split("p0 = ", 1)[0], design.split("]\nsection = ", 1)[1]
+    return before + line + "section = " + after.replace("elements = 1", "elements = 16")
+
+
 def calc_ring_frequencies(waves):
     """Both frequencies in Hz of a free ring with n waves, w = W cos nθ outwards and v = V sin nθ along it, of
     ½ ∫ EA ((v' + w)/R)² + EI ((v' − w'')/R²)² ds and ½ ∫ ρA (v̇² + ẇ²) ds. Where it does not stretch the lower one is
@@ -60,6 +69,31 @@ class ArcTest(ReduceTestCase):
         (self.folder / "arc.toml").write_text(make_design(*arguments))
         self.build("arc.toml", "--force")
         return h5py.File(self.folder / "out/arc.h5")
+
+    def test_an_arc_via_a_place_is_the_line_through_points_on_it(self):
+        rest = '[interface]\nend = "xyr"\n[reduction]\nhighest_frequency = 200.0\n[modes]\ndamping_ratio = 0.0\n'
+        (self.folder / "points.toml").write_text(make_design(math.pi / 2, 16, rest).replace("p16", "end"))
+        (self.folder / "place.toml").write_text(make_design_via(rest))
+        self.build("points.toml", "place.toml")
+        with h5py.File(self.folder / "out/points.h5") as one, h5py.File(self.folder / "out/place.h5") as other:
+            np.testing.assert_allclose(other["modes/frequency"], one["modes/frequency"], rtol=1e-10)
+            self.assertEqual(list(other["points/name"]), [b"p0", b"end"])
+            np.testing.assert_allclose(*(np.sort(file["nodes/position"], axis=0) for file in (one, other)), atol=1e-14)
+
+    def test_arcs_that_are_refused(self):
+        for old, new, message in (
+            ('from = "p0"\nto = "end"', 'through = ["p0", "end"]', "'lines.0.via' stands beside 'through'"),
+            ("elements = 16", "elements = 1", "is an arc of one element"),
+            ("via = [", "via = [0.0, ", "'lines.0.via'"),
+        ):
+            (self.folder / "arc.toml").write_text(make_design_via().replace(old, new))
+            result = self.build("arc.toml", code=2)
+            self.assertIn(message, result.stderr)
+            self.assertRegex(result.stderr, r"arc\.toml:\d+:\d+: error: ")
+        (self.folder / "arc.toml").write_text(make_design_via())
+        result = self.run_program("sensitivity", "arc.toml")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'lines.0.via' stands in a design whose derivatives are not computed", result.stderr)
 
     def assert_order_two(self, coarse, fine, expected, name):
         errors = [np.asarray(found) / expected - 1 for found in (coarse, fine)]
