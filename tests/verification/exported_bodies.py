@@ -54,6 +54,65 @@ class PlaneBody:
         return q[:2] + A @ r, np.column_stack([np.eye(2), A @ [-r[1], r[0]], A @ self.shapes[node]])
 
 
+class TaylorBody:
+    """A body by standard input data: mass m, Taylor series in the modal coordinates by name, as (M⁰, M¹) with the mode
+    as the first index of M¹, and those of each node. Indices of Gr and Ge are row, mode, axis. Coordinates as those of
+    PlaneBody."""
+
+    def __init__(self, m, series, nodes):
+        self.m, self.series, self.nodes = m, series, nodes
+        self.c = series["Cr"][0][:, 2]
+
+    def take(self, n):
+        """The same with its first n modes."""
+        axes = {"Ct": [0], "Cr": [0], "Oe": [0], "ksigma": [0], "Me": [0, 1], "Ke": [0, 1], "De": [0, 1], "Gr": [1],
+                "Ge": [0, 1], "phi": [1], "psi": [1]}  # fmt: skip
+
+        def cut(name, zero, first):
+            for axis in axes.get(name, []):
+                zero, first = zero.take(range(n), axis), first.take(range(n), axis + 1)
+            return zero, first[:n]
+
+        return TaylorBody(self.m, {name: cut(name, *pair) for name, pair in self.series.items()},
+                          [{name: cut(name, *pair) for name, pair in node.items()} for node in self.nodes])
+
+    def make_equations(self, q, v, gravity):
+        """(mass matrix, forces) by [Wallrapp 1994] in the body's axes and in space; of them the motion in the plane."""
+        angle, eta, eta_dot, omega = q[2], q[3:], v[3:], np.array([0.0, 0.0, v[2]])
+        value = {name: zero + np.tensordot(eta, first, 1) for name, (zero, first) in self.series.items()}
+        xx, yy, zz, xy, xz, yz = value["J"][:, 0]
+        J = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        moment, Ct, Cr = value["mdCM"][:, 0], value["Ct"], value["Cr"]
+        mass = np.block([[self.m * np.eye(3), -cross_matrix(moment), Ct.T], [cross_matrix(moment), J, Cr.T],
+                         [Ct, Cr, value["Me"]]])  # fmt: skip
+        A = np.array([[np.cos(angle), -np.sin(angle), 0.0], [np.sin(angle), np.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+        g = A.T @ [0.0, -gravity, 0.0]
+        products = omega[[0, 1, 2, 0, 1, 0]] * omega[[0, 1, 2, 1, 2, 2]]
+        force = np.concatenate([
+            self.m * g - np.cross(omega, 2.0 * Ct.T @ eta_dot + np.cross(omega, moment)),
+            np.cross(moment, g) - np.einsum("ika,k,a", value["Gr"], eta_dot, omega) - np.cross(omega, J @ omega),
+            Ct @ g - np.einsum("jka,k,a", value["Ge"], eta_dot, omega) - value["Oe"] @ products
+            - value["Ke"] @ eta - value["De"] @ eta_dot,
+        ])  # fmt: skip
+        motion = np.zeros((len(force), len(q)))
+        motion[:3, :2], motion[5, 2], motion[6:, 3:] = A.T[:, :2], 1.0, np.eye(len(eta))
+        return motion.T @ mass @ motion, motion.T @ force
+
+    def find_point(self, place, q):
+        """(position, directions in which a force acts) of the node at a place of the undeformed body."""
+        distances = [np.linalg.norm(node["origin"][0][:2, 0] - place) for node in self.nodes]
+        assert min(distances) < 1e-9
+        node = self.nodes[int(np.argmin(distances))]
+        origin, phi = (node[name][0] + np.tensordot(q[3:], node[name][1], 1) for name in ("origin", "phi"))
+        A = np.array([[np.cos(q[2]), -np.sin(q[2])], [np.sin(q[2]), np.cos(q[2])]])
+        r = origin[:2, 0]
+        return q[:2] + A @ r, np.column_stack([np.eye(2), A @ [-r[1], r[0]], A @ phi[:2]])
+
+
+def cross_matrix(r):
+    return np.cross(np.eye(3), r)
+
+
 class PlaneSystem:
     """A body on springs (place on the body, place on the ground, free length, stiffness), of which some coordinates are
     held at 0."""
@@ -162,3 +221,34 @@ def read_mbsim(path):
         places=data["nodal relative position"].reshape(-1, 3)[:, :2],
         shapes=data["nodal shape matrix of translation"].reshape(-1, 3, n)[:, :2],
     )  # fmt: skip
+
+
+def read_sid(path):
+    """Standard input data, with columns x, y, z of each mode in Gr and Ge."""
+    mass, series, nodes, size = 0.0, {}, [], {}
+    target, name = series, ""
+    for line in path.read_text().splitlines():
+        key, _, text = (word.strip() for word in line.partition("="))
+        if key == "new node":
+            nodes.append({})
+            target = nodes[-1]
+        elif key == "end node":
+            target = series
+        elif key == "mass":
+            mass = float(text.replace("D", "E"))
+        elif key in ("order", "nrow", "ncol", "nq"):
+            size[key] = int(text)
+        elif key == "structure":
+            shape = (size["nrow"], size["ncol"])
+            target[name] = (np.zeros(shape), np.zeros((size["nq"], *shape)))
+        elif key.startswith("m0("):
+            row, column = (int(word) - 1 for word in key[3:-1].split(","))
+            target[name][0][row, column] = float(text.replace("D", "E"))
+        elif key.startswith("m1("):
+            row, mode, column = (int(word) - 1 for word in key[3:-1].split(","))
+            target[name][1][mode, row, column] = float(text.replace("D", "E"))
+        elif not text:
+            name = key
+    for name in ("Gr", "Ge"):
+        series[name] = tuple(matrix.reshape(*matrix.shape[:-1], -1, 3) for matrix in series[name])
+    return TaylorBody(mass, series, nodes)
