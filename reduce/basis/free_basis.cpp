@@ -68,7 +68,7 @@ void add_static(InterfaceResidual& residual, double tolerance, std::vector<Resid
   Eigen::MatrixXd vectors(residual.size(), std::ssize(chosen));
   for (Eigen::Index k = 0; k < vectors.cols(); ++k)
     vectors.col(k) = residual.make_vector(chosen[static_cast<std::size_t>(k)], 0.0);
-  if (!chosen.empty()) residual.add(vectors);
+  if (!chosen.empty()) residual.add(std::move(vectors));
 }
 
 void add_until_certified(InterfaceResidual& residual, double highest, double cutoff, double tolerance,

@@ -64,9 +64,8 @@ InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const Stiffnes
   update_ritz();
 }
 
-void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
-  Eigen::MatrixXd added = vectors;
-  add_combinations(exact_, -multiply_transposed(exact_momenta_, vectors), added);
+void InterfaceResidual::add(Eigen::MatrixXd added) {
+  add_combinations(exact_, -multiply_transposed(exact_momenta_, added), added);
   Eigen::MatrixXd forces = multiply_transposed(problem_->stiffness, added);
   normalise(added, forces);
   for (int pass = 0; pass < 2 && num_vectors() > 0; ++pass) {  // what is new of them; twice, against rounding
@@ -75,10 +74,11 @@ void InterfaceResidual::add(const Eigen::MatrixXd& vectors) {
     forces = multiply_transposed(problem_->stiffness, added);
   }
   normalise(added, forces);
+  border(UKU_, multiply_transposed(this->vectors(), forces), multiply_transposed(added, forces));
+  forces.resize(0, 0);  // memory for what follows
   const Eigen::MatrixXd momenta = problem_->times_mass(added);
   const Eigen::MatrixXd second = factor_->solve(momenta);
   const Eigen::Index old = num_vectors(), width = added.cols();
-  border(UKU_, multiply_transposed(this->vectors(), forces), multiply_transposed(added, forces));
   border(UMU_, multiply_transposed(this->vectors(), momenta), multiply_transposed(added, momenta));
   border(TMU_, multiply_transposed(this->second(), momenta), multiply_transposed(second, momenta));
   append_columns(BU_, multiply_transposed(loads_, added));

@@ -29,8 +29,8 @@ class InterfaceResidual {
   const Eigen::VectorXd& static_flexibility() const { return static_flexibility_; }
 
   /// Adds vectors to the basis. What they hold of the exact modes is taken away.
-  /// @param vectors  n×j, not dependent on each other or on those of the basis
-  void add(const Eigen::MatrixXd& vectors);
+  /// @param added  n×j, not dependent on each other or on those of the basis
+  void add(Eigen::MatrixXd added);
 
   /// Amplitudes of the basis under each load, by Galerkin's condition, in the coordinates of ritz(). @return
   /// m×b

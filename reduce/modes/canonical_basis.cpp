@@ -58,7 +58,7 @@ void fix_by_displacement(ClusterDirections& directions, const Eigen::MatrixXd& s
 // Rule 2, and rule 3 for each group that it leaves equal.
 void fix_by_moment(ClusterDirections& directions, const Eigen::MatrixXd& shapes, const BasisFrame& frame) {
   const Eigen::MatrixXd rest = shapes * directions.free;
-  const Eigen::MatrixXd moment = rest.transpose() * (frame.weighted_mass * rest);
+  const Eigen::MatrixXd moment = rest.transpose() * (frame.make_weighted_mass() * rest);
   const auto eigen = support::solve_symmetric(0.5 * (moment + moment.transpose()));
   if (!eigen) throw support::NumericalError("modes: a cluster's moments have no eigenvectors");
   const Eigen::VectorXd& values = eigen->values;
@@ -90,16 +90,15 @@ double calc_sign(const Eigen::VectorXd& participation, const Eigen::VectorXd& sh
 
 }  // namespace
 
-BasisFrame make_basis_frame(const fem::MassMoments& moments, const Eigen::Matrix2Xd& node_positions,
-                            const Eigen::SparseMatrix<double>& weighted_mass) {
+BasisFrame make_basis_frame(const RigidMotions& rigid, const Eigen::Matrix2Xd& node_positions,
+                            std::function<Eigen::SparseMatrix<double>()> make_weighted_mass) {
   BasisFrame frame{.node_positions = node_positions,
-                   .mass = moments.mass,
-                   .second_moment = moments.second_moment(),
-                   .participation_rows = Eigen::MatrixXd(3, moments.N_x.size()),
-                   .weighted_mass = weighted_mass};
-  frame.participation_rows.row(0) = moments.N_y.transpose();
-  frame.participation_rows.row(1) = moments.N_x.transpose();
-  frame.participation_rows.row(2) = (moments.x_N_y - moments.y_N_x + moments.rotary_N).transpose();
+                   .mass = rigid.mass(0, 0),
+                   .second_moment = rigid.mass(2, 2),
+                   .participation_rows = Eigen::MatrixXd(3, rigid.momenta.rows()),
+                   .make_weighted_mass = std::move(make_weighted_mass)};
+  frame.participation_rows << rigid.momenta.col(1).transpose(), rigid.momenta.col(0).transpose(),
+      rigid.momenta.col(2).transpose();
   return frame;
 }
 

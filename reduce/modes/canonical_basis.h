@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <functional>
 
-#include "fem/mass_moments.h"
+#include "reduce/modes/free_body.h"
 
 namespace sprung::reduce {
 
@@ -18,13 +19,14 @@ struct BasisFrame {
   double mass = 0.0;                ///< m [kg]
   double second_moment = 0.0;       ///< J₀ [kg·m²]
   Eigen::MatrixXd participation_rows;  ///< 3×3N: ∫φ_y dm, ∫φ_x dm, ∫(x φ_y − y φ_x) dm with rotary inertia
-  Eigen::SparseMatrix<double> weighted_mass;  ///< 3N×3N, as from calc_distance_weighted_mass
+  /// 3N×3N, as from calc_distance_weighted_mass. Few clusters ask for it.
+  std::function<Eigen::SparseMatrix<double>()> make_weighted_mass;
 };
 
-/// @param moments        about the reference node
-/// @param weighted_mass  about the reference node
-BasisFrame make_basis_frame(const fem::MassMoments& moments, const Eigen::Matrix2Xd& node_positions,
-                            const Eigen::SparseMatrix<double>& weighted_mass);
+/// @param node_positions     2×N, from the reference node [m]
+/// @param make_weighted_mass  about the reference node
+BasisFrame make_basis_frame(const RigidMotions& rigid, const Eigen::Matrix2Xd& node_positions,
+                            std::function<Eigen::SparseMatrix<double>()> make_weighted_mass);
 
 /// The rotation, with signs, that makes a basis of the modes depend on neither solver, seed nor node order
 /// (reduce, "One basis"). Modes of different clusters are not mixed. Within a cluster:

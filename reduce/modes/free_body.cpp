@@ -23,12 +23,10 @@ RigidMotions calc_rigid_motions(const Eigen::Matrix2Xd& node_positions,
   return rigid;
 }
 
-ModalProblem make_free_problem(const ModalProblem& held, const RigidMotions& rigid) {
+Eigen::MatrixXd calc_rigid_share(const RigidMotions& rigid) {
   const Eigen::LLT<Eigen::Matrix3d> factor(rigid.mass);
   const Eigen::MatrixXd momenta = remove_node(rigid.momenta, rigid.reference_node);
-  ModalProblem free = held;
-  free.rigid_share = factor.matrixL().solve(momenta.transpose()).transpose();
-  return free;
+  return factor.matrixL().solve(momenta.transpose()).transpose();
 }
 
 Eigen::MatrixXd balance_loads(const RigidMotions& rigid, const Eigen::MatrixXd& loads) {

@@ -20,10 +20,12 @@ struct RigidMotions {
 RigidMotions calc_rigid_motions(const Eigen::Matrix2Xd& node_positions,
                                 const Eigen::SparseMatrix<double>& mass, int reference_node);
 
-/// The problem of a free frame's elastic motion, from that of the frame held at its reference node: its
-/// solutions are the free modes, moved rigidly so that they vanish there (reduce/basis, eqs. 1–3).
+/// Q, with which the modal problem of a frame held at its reference node becomes that of its elastic motion
+/// when it is free: its solutions are the free modes, moved rigidly so that they vanish at the reference node
+/// (reduce/basis, eqs. 1–3).
+/// @return n×3, ModalProblem::rigid_share
 /// Checked by tests/reduce/modes/free_body_test.cpp
-ModalProblem make_free_problem(const ModalProblem& held, const RigidMotions& rigid);
+Eigen::MatrixXd calc_rigid_share(const RigidMotions& rigid);
 
 /// What loads do to a free body beside moving it rigidly: the loads with the inertia of the rigid motion that
 /// they cause, which are in equilibrium (reduce/basis, eq. 4).

@@ -50,10 +50,16 @@ struct CanonicalVectors {
   Eigen::MatrixXd stiffness;  // n×n
 };
 
-CanonicalVectors make_canonical(const EigenPairs& pairs, const Eigen::VectorXi& cluster,
-                                const std::vector<int>& columns, const Eigen::MatrixXd& shapes,
-                                const BasisFrame& frame) {
-  const Eigen::MatrixXd rotation = calc_canonical_rotation(shapes, cluster, frame);
+CanonicalVectors make_canonical(const Design& design, const BodyMatrices& matrices, const EigenPairs& pairs,
+                                const Eigen::VectorXi& cluster, const std::vector<int>& columns,
+                                const Eigen::MatrixXd& shapes) {
+  const auto make_weighted_mass = [&]() -> Eigen::SparseMatrix<double> {
+    const Eigen::Vector2d origin = design.model.mesh.node_positions.col(design.reference_node);
+    return design.matrices ? calc_distance_weighted_mass(*design.matrices, origin)
+                           : calc_distance_weighted_mass(design.model, origin);
+  };
+  const Eigen::MatrixXd rotation = calc_canonical_rotation(
+      shapes, cluster, make_basis_frame(matrices.rigid, matrices.node_positions, make_weighted_mass));
   const Eigen::MatrixXd chosen = rotation(Eigen::all, columns);
   const Eigen::MatrixXd stiffness = chosen.transpose() * pairs.omega_squared.asDiagonal() * chosen;
   return {.vectors = pairs.vectors * chosen, .stiffness = 0.5 * (stiffness + stiffness.transpose())};
@@ -110,7 +116,7 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
   const BasisRequest request = make_request(design, matrices, choose_band(design, stored));
   const ModesBelow free = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
   InterfaceResidual residual(matrices.free, factor, {}, request.loads);
-  const bool is_complete = stored.vectors.cols() == matrices.held.size();
+  const bool is_complete = stored.vectors.cols() == matrices.free.size();
   if (!is_complete) residual.add(stored.vectors);
   return calc_certificate(residual, {.interface = request.interface,
                                      .highest_hz = request.highest_hz,
@@ -121,22 +127,22 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
 }
 
 BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
-                             const StiffnessFactor& factor, const BasisFrame& frame, const HeldRounding& held,
+                             const StiffnessFactor& factor, const HeldRounding& held,
                              const ClampedModeOptions& options) {
-  const int num_needed = calc_num_modes_needed(design.modes, matrices.held, options);
-  const ClampedModes modes = calc_clamped_modes(matrices.held, num_needed, options);
-  const double rounding = check_rounding(design, matrices.held.stiffness, modes.pairs);
+  const ModalProblem problem = matrices.make_held();
+  const int num_needed = calc_num_modes_needed(design.modes, problem, options);
+  const ClampedModes modes = calc_clamped_modes(problem, num_needed, options);
+  const double rounding = check_rounding(design, problem.stiffness, modes.pairs);
   const std::vector<int> columns = select_modes(design.modes, modes, num_needed);
-  const CanonicalVectors canonical =
-      make_canonical(modes.pairs, modes.cluster, columns, make_shapes(design, modes.pairs.vectors), frame);
+  const CanonicalVectors canonical = make_canonical(design, matrices, modes.pairs, modes.cluster, columns,
+                                                    make_shapes(design, modes.pairs.vectors));
   BodyBasis basis;
   basis.shapes = make_shapes(design, canonical.vectors);
   basis.cluster = modes.cluster(columns);
   basis.stiffness = canonical.stiffness;
   basis.kind.assign(columns.size(), kClampedVector);
-  basis.checks =
-      make_model_checks(modes.num_below - static_cast<int>(modes.cluster.size()), rounding, held,
-                        calc_residual(matrices.held, factor, canonical.vectors, canonical.stiffness));
+  basis.checks = make_model_checks(modes.num_below - static_cast<int>(modes.cluster.size()), rounding, held,
+                                   calc_residual(problem, factor, canonical.vectors, canonical.stiffness));
   try {
     basis.certificate = certify_clamped(
         design, matrices, factor,
@@ -150,8 +156,8 @@ BodyBasis make_clamped_basis(const Design& design, const BodyMatrices& matrices,
 }
 
 BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrices,
-                               const StiffnessFactor& factor, const BasisFrame& frame,
-                               const HeldRounding& held, const ClampedModeOptions& options) {
+                               const StiffnessFactor& factor, const HeldRounding& held,
+                               const ClampedModeOptions& options) {
   BasisRequest request = make_request(design, matrices, *design.reduction.highest_hz);
   request.progress = options.progress;
   const ModesBelow modes = calc_modes_below(matrices.free, kBandMargin * request.highest_hz, options);
@@ -173,8 +179,8 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
   std::vector<int> columns(found.kind.size());
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = static_cast<int>(i);
   const CanonicalVectors canonical =
-      make_canonical(found.vectors, basis.cluster, columns,
-                     remove_momentum(matrices.rigid, make_shapes(design, found.vectors.vectors)), frame);
+      make_canonical(design, matrices, found.vectors, basis.cluster, columns,
+                     remove_momentum(matrices.rigid, make_shapes(design, found.vectors.vectors)));
   basis.shapes = make_shapes(design, canonical.vectors);
   basis.stiffness = canonical.stiffness;
   basis.kind = found.kind;
@@ -205,21 +211,27 @@ BodyMatrices make_body_matrices(const Design& design) {
   fem::AssembledMatrices full = make_full_matrices(design);
   matrices.full.stiffness.swap(full.stiffness);  // where an assignment would copy
   matrices.full.mass.swap(full.mass);
-  remove_node(matrices.full.stiffness, design.reference_node).swap(matrices.held.stiffness);
-  remove_node(matrices.full.mass, design.reference_node).swap(matrices.held.mass);
-  matrices.held.num_massless = (matrices.held.mass.diagonal().array() == 0.0).count();
+  remove_node(matrices.full.stiffness, design.reference_node).swap(matrices.free.stiffness);
+  remove_node(matrices.full.mass, design.reference_node).swap(matrices.free.mass);
   const Eigen::Matrix2Xd& positions = design.model.mesh.node_positions;
   matrices.node_positions = positions.colwise() - positions.col(design.reference_node).eval();
   matrices.rigid = calc_rigid_motions(matrices.node_positions, matrices.full.mass, design.reference_node);
   try {
-    matrices.factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
+    matrices.factor = std::make_unique<StiffnessFactor>(matrices.free.stiffness);
   } catch (const IndefiniteStiffness& error) {
     refuse_indefinite(design, matrices, error.what());
   }
-  matrices.held.factor = matrices.factor.get();
-  matrices.free = make_free_problem(matrices.held, matrices.rigid);
+  matrices.free.factor = matrices.factor.get();
+  matrices.free.rigid_share = calc_rigid_share(matrices.rigid);
   matrices.free.num_massless = (matrices.full.mass.diagonal().array() == 0.0).count();
   return matrices;
+}
+
+ModalProblem BodyMatrices::make_held() const {
+  return {.stiffness = free.stiffness,
+          .mass = free.mass,
+          .factor = free.factor,
+          .num_massless = free.size() - count_held_modes()};
 }
 
 fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& origin) {
@@ -227,21 +239,16 @@ fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& 
                          : fem::calc_mass_moments(design.model, origin);
 }
 
-BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, const fem::MassMoments& moments,
+BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices,
                           const ClampedModeOptions& options) {
-  const Eigen::Vector2d origin = design.model.mesh.node_positions.col(design.reference_node);
-  const Eigen::SparseMatrix<double> weighted_mass =
-      design.matrices ? calc_distance_weighted_mass(*design.matrices, origin)
-                      : calc_distance_weighted_mass(design.model, origin);
-  const BasisFrame frame = make_basis_frame(moments, matrices.node_positions, weighted_mass);
   const StiffnessFactor& factor = *matrices.factor;
   const HeldRounding held = estimate_held_rounding(matrices);
   if (held.is_of_soft_reference() && held.error > kMaxHeldRounding)
     throw support::NumericalError(describe_soft_reference(design, matrices));
   try {
     return design.reduction.basis == BasisKind::kClamped
-               ? make_clamped_basis(design, matrices, factor, frame, held, options)
-               : make_interface_basis(design, matrices, factor, frame, held, options);
+               ? make_clamped_basis(design, matrices, factor, held, options)
+               : make_interface_basis(design, matrices, factor, held, options);
   } catch (const IndefiniteStiffness& error) {
     refuse_indefinite(design, matrices, error.what());
   }

@@ -16,11 +16,15 @@ namespace sprung::reduce {
 /// all that needs it.
 struct BodyMatrices {
   fem::AssembledMatrices full;              ///< 3N×3N; of a body from matrices 3(N+A)×3(N+A) (MatrixBody)
-  std::unique_ptr<StiffnessFactor> factor;  ///< of held.stiffness
-  ModalProblem held;                        ///< without the reference node's freedoms
+  std::unique_ptr<StiffnessFactor> factor;  ///< of free.stiffness
   ModalProblem free;                        ///< elastic motion of the free body (free_body.h)
   RigidMotions rigid;
   Eigen::Matrix2Xd node_positions;  ///< 2×N, from the reference node [m]
+
+  /// The frame held at its reference node, which has the same stiffness, in matrices of its own.
+  ModalProblem make_held() const;
+  /// Its freedoms with mass.
+  Eigen::Index count_held_modes() const { return (free.mass.diagonal().array() != 0.0).count(); }
 };
 /// Stiffness and mass of the free frame alone, as in BodyMatrices::full.
 fem::AssembledMatrices make_full_matrices(const Design& design);
@@ -42,7 +46,7 @@ struct BodyBasis {
 
 /// Makes the basis that a design asks for, with its certificate.
 /// @throws support::InputError, support::NumericalError  as make_superelement
-BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices, const fem::MassMoments& moments,
+BodyBasis make_body_basis(const Design& design, const BodyMatrices& matrices,
                           const ClampedModeOptions& options);
 
 /// The frequencies of a basis: members of a cluster have one, the root of the mean square. @return n [Hz]

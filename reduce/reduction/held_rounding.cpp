@@ -29,7 +29,7 @@ HeldRounding estimate_held_rounding(const BodyMatrices& matrices) {
   for (Eigen::Index i = 0; i < loads.cols(); ++i) {
     const double work = loads.col(i).dot(held.col(i));
     if (!(work > 0.0)) continue;
-    const double error = estimate_rounding_error(matrices.held.stiffness, held.col(i), work);
+    const double error = estimate_rounding_error(matrices.free.stiffness, held.col(i), work);
     if (error <= worst.error) continue;
     worst = {.error = error,
              .bent_share = std::abs(bent.col(i).dot(matrices.full.mass * bent.col(i))) /

@@ -149,7 +149,7 @@ double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& s
 
 void refuse_indefinite(const Design& design, const BodyMatrices& matrices, const std::string& reason) {
   constexpr double kAllOfTheBody = 1e-3;
-  const Eigen::VectorXd held = find_loose_motion(matrices.held.stiffness);
+  const Eigen::VectorXd held = find_loose_motion(matrices.free.stiffness);
   if (held.size() == 0) throw support::NumericalError(reason);
   const Eigen::VectorXd shape = make_shape(design, held), bent = remove_momentum(matrices.rigid, shape);
   if (bent.dot(matrices.full.mass * bent) < kAllOfTheBody * shape.dot(matrices.full.mass * shape))

@@ -92,6 +92,27 @@ GeometricStiffness make_unknown_stiffness(std::size_t num_points) {
   return none;
 }
 
+// The integrals over the mass, and what they and loads at the points do to the held frame.
+void add_inertia_and_loads(const Design& design, const BodyMatrices& matrices, const Eigen::MatrixXd& shapes,
+                           Superelement& s) {
+  const fem::BeamModel& model = design.model;
+  const fem::MassMoments moments =
+      make_mass_moments(design, model.mesh.node_positions.col(design.reference_node));
+  s.inertia = calc_inertia_invariants(moments, shapes);
+  s.geometric_stiffness = design.matrices ? make_unknown_stiffness(s.points.size())
+                                          : calc_reference_stiffness(model, design.reference_node,
+                                                                     *matrices.factor, moments, shapes);
+  std::optional<StaticResponse> response = calc_static_response(
+      model, design.reference_node, *matrices.factor, matrices.full.mass, moments, shapes);
+  if (!response) return;
+  // Symmetric by reciprocity, but for rounding.
+  Eigen::MatrixXd& flexibility = response->deflections.point_load;
+  flexibility = (0.5 * (flexibility + flexibility.transpose())).eval();
+  s.section_loads = std::move(response->resultants);
+  s.point_deflections = std::move(response->deflections);
+  s.section_sizes = get_section_sizes(model);
+}
+
 // Whether a check is of what the reference node holds, and rounding spoils that.
 bool is_spoilt_by_reference(const CheckResult& failed, const BodyMatrices& matrices) {
   const bool is_of_hold =
@@ -131,40 +152,26 @@ ModalProblem make_modal_problem(const fem::BeamModel& model, int node) {
 
 Superelement make_superelement(const Design& design, const ClampedModeOptions& options) {
   const fem::BeamModel& model = design.model;
-  const Eigen::Vector2d origin = model.mesh.node_positions.col(design.reference_node);
   options.tell("factors of the stiffness");
   const BodyMatrices matrices = make_body_matrices(design);
-  const fem::MassMoments moments = make_mass_moments(design, origin);
-  const BodyBasis basis = make_body_basis(design, matrices, moments, options);
+  const BodyBasis basis = make_body_basis(design, matrices, options);
 
   options.tell("inertia, section loads and checks");
   Superelement s;
   s.name = design.name;
   copy_mesh(model.mesh, matrices.node_positions, s);
-  s.num_elastic_dofs = matrices.held.num_modes();
+  s.num_elastic_dofs = matrices.count_held_modes();
   s.frequency_hz = calc_frequencies(basis);
   s.damping_ratio = expand_damping(design, basis.kind);
   s.cluster = basis.cluster;
   s.kind = basis.kind;
   s.shapes = basis.shapes.topRows(3 * model.mesh.num_nodes());
-  s.inertia = calc_inertia_invariants(moments, basis.shapes);
+  add_inertia_and_loads(design, matrices, basis.shapes, s);
   s.stiffness = basis.stiffness;
   s.mass = s.inertia.M_ff;
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
-  s.resultants = calc_mode_resultants(model, basis.shapes);
-  s.geometric_stiffness = design.matrices ? make_unknown_stiffness(s.points.size())
-                                          : calc_reference_stiffness(model, design.reference_node,
-                                                                     *matrices.factor, moments, basis.shapes);
   s.certificate = basis.certificate;
-  if (std::optional<StaticResponse> response = calc_static_response(
-          model, design.reference_node, *matrices.factor, matrices.full.mass, moments, basis.shapes)) {
-    // Symmetric by reciprocity, but for rounding.
-    Eigen::MatrixXd& flexibility = response->deflections.point_load;
-    flexibility = (0.5 * (flexibility + flexibility.transpose())).eval();
-    s.section_loads = std::move(response->resultants);
-    s.point_deflections = std::move(response->deflections);
-    s.section_sizes = get_section_sizes(model);
-  }
+  s.resultants = calc_mode_resultants(model, basis.shapes);
   s.provenance = design.provenance;
 
   s.checks = basis.checks;

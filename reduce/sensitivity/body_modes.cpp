@@ -13,7 +13,7 @@ Eigen::VectorXd BodyModes::calc_hz() const {
 }
 
 BodyModes calc_body_modes(const Design& design, const BodyMatrices& matrices, bool is_free, int num_modes) {
-  const ModalProblem& problem = is_free ? matrices.free : matrices.held;
+  const ModalProblem problem = is_free ? matrices.free : matrices.make_held();
   const ClampedModes modes =
       calc_clamped_modes(problem, std::min(num_modes, static_cast<int>(problem.num_modes())));
   const Eigen::MatrixXd shapes = insert_node(modes.pairs.vectors, design.reference_node);

@@ -108,9 +108,9 @@ void CertificateRates::take_steps(const std::vector<ResidualSource>& sources) {
     step.overlap = forces_.leftCols(i).transpose() * u;
     Eigen::VectorXd fresh = u - vectors_.leftCols(i) * step.overlap;
     fresh -= modes_.vectors * (mode_momenta_.transpose() * fresh);
-    step.size = std::sqrt(fresh.dot(matrices_.held.stiffness * fresh));
+    step.size = std::sqrt(fresh.dot(matrices_.free.stiffness * fresh));
     vectors_.col(i) = fresh / step.size;
-    forces_.col(i) = matrices_.held.stiffness * vectors_.col(i);
+    forces_.col(i) = matrices_.free.stiffness * vectors_.col(i);
     inertia_.col(i) = matrices_.free.times_mass(vectors_.col(i));
     steps_.push_back(std::move(step));
   }

@@ -95,7 +95,7 @@ int run(int argc, char** argv) {
   }
   const reduce::Design design = reduce::read_design(path);
   const reduce::BodyMatrices matrices = reduce::make_body_matrices(design);
-  const reduce::SparseMatrix& stiffness = matrices.held.stiffness;
+  const reduce::SparseMatrix& stiffness = matrices.free.stiffness;
   const Costs costs = with_cholmod ? measure_cholmod(stiffness, num_columns)
                                    : measure<reduce::StiffnessFactor>(stiffness, num_columns);
   const double start = process_seconds();

@@ -19,7 +19,7 @@ struct CertifiedFrame {
     modes = calc_modes_below(matrices.free, kBandMargin * highest_hz);
     highest = std::pow(2.0 * std::numbers::pi * highest_hz, 2);
     cutoff = modes.next_omega_squared;
-    factor = std::make_unique<StiffnessFactor>(matrices.held.stiffness);
+    factor = std::make_unique<StiffnessFactor>(matrices.free.stiffness);
     const auto num_nodes = static_cast<int>(matrices.node_positions.cols());
     loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, design.reduction.interface));
     residual = std::make_unique<InterfaceResidual>(matrices.free, *factor, modes.pairs, loads);

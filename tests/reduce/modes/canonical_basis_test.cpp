@@ -159,9 +159,12 @@ TEST_CASE("a small participation just above the threshold decides, one just belo
     frame.participation_rows = Eigen::MatrixXd::Zero(3, 6);
     frame.participation_rows(0, 1) = 2.0 * share * std::cos(angle);
     frame.participation_rows(0, 4) = 2.0 * share * std::sin(angle);
-    frame.weighted_mass.resize(6, 6);
-    frame.weighted_mass.insert(1, 1) = 0.5;
-    frame.weighted_mass.insert(4, 4) = -0.5;
+    frame.make_weighted_mass = [] {
+      Eigen::SparseMatrix<double> mass(6, 6);
+      mass.insert(1, 1) = 0.5;
+      mass.insert(4, 4) = -0.5;
+      return mass;
+    };
     Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(6, 2);
     shapes(1, 0) = shapes(4, 1) = 1.0;
     const Eigen::MatrixXd rotation = calc_canonical_rotation(shapes, Eigen::Vector2i(1, 1), frame);
@@ -182,7 +185,6 @@ TEST_CASE("modes of different clusters are not mixed") {
   frame.node_positions = Eigen::Matrix2Xd::Ones(2, 1);
   frame.mass = frame.second_moment = 1.0;
   frame.participation_rows = Eigen::MatrixXd::Identity(3, 3);
-  frame.weighted_mass.resize(3, 3);
   Eigen::MatrixXd shapes(3, 2);
   shapes << -0.8, 0.6, 0.6, 0.8, 0.1, 0.2;
   const Eigen::MatrixXd rotation = calc_canonical_rotation(shapes, Eigen::Vector2i(1, 2), frame);

@@ -24,9 +24,9 @@ FreeBody make_free_body(const fem::BeamModel& model, int reference_node) {
   const Eigen::Matrix2Xd positions =
       model.mesh.node_positions.colwise() - model.mesh.node_positions.col(reference_node).eval();
   FreeBody body{.rigid = calc_rigid_motions(positions, matrices.mass, reference_node), .problem = {}};
-  const ModalProblem held{.stiffness = remove_node(matrices.stiffness, reference_node),
-                          .mass = remove_node(matrices.mass, reference_node)};
-  body.problem = make_free_problem(held, body.rigid);
+  body.problem = {.stiffness = remove_node(matrices.stiffness, reference_node),
+                  .mass = remove_node(matrices.mass, reference_node),
+                  .rigid_share = calc_rigid_share(body.rigid)};
   return body;
 }
 
