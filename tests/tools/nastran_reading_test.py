@@ -21,6 +21,17 @@ class Reading(ToolTestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
         return read_nastran(str(self.folder / name))
 
+    def test_negative_areas_and_second_moments_are_refused(self):
+        for card, message in (
+            ("PBAR,1,1,.1,-.2,.3", "b.bdf:5: error: PBAR: its I1 is -0.2, expected ≥ 0"),
+            ("PBAR,1,1,.1,.2,-.3", "b.bdf:5: error: PBAR: its I2 is -0.3, expected ≥ 0"),
+            ("PBAR,1,1,-.1,.2,.3", "b.bdf:5: error: PBAR: its area is -0.1, expected ≥ 0"),
+            ("PBEAM,1,1,.1,-.2,.3", "b.bdf:5: error: PBEAM: its I1 is -0.2, expected ≥ 0"),
+        ):
+            with self.subTest(card):
+                (self.folder / "b.bdf").write_text(NASTRAN.replace("ENDDATA", f"{card}\nENDDATA"), encoding="utf-8")
+                self.assert_refuses(self.run_tool("convert_mesh", "b.bdf", "a.msh"), message)
+
     def test_blank_coordinates_are_zero(self):
         mesh = self.read(f"BEGIN BULK\nGRID,1\nGRID,2,,,3.,\n{BAR}ENDDATA\n")
         np.testing.assert_array_equal(mesh.positions, [[0.0, 0.0, 0.0], [0.0, 3.0, 0.0]])

@@ -69,7 +69,7 @@ def read_section(card: Card) -> Section:
     material = card.field(1)
     if card.name == "PBAR":
         moments = [card.real(place, "second moment") for place in (3, 4, 18)]
-        shape = make_general(card.real(2, "area"), moments)
+        shape = make_general(card, card.real(2, "area"), moments)
         left_out = ["shear flexibility (K1, K2)"] if any(card.field(place) for place in (16, 17)) else []
         return Section(text, material, shape, True, card.real(6, "mass per length"), tuple(left_out))
     if card.name == "PBEAM":
@@ -82,19 +82,23 @@ def read_section(card: Card) -> Section:
         other = card.real(5, "diameter") if card.field(5) else diameter
         taper = (f"its taper to the diameter {other:g}: the section at end A is taken",) if other != diameter else ()
         return Section(text, material, shape, False, card.real(4, "mass per length"), taper)
-    shape = make_general(card.real(2, "area"), [0.0, 0.0, 0.0])
+    shape = make_general(card, card.real(2, "area"), [0.0, 0.0, 0.0])
     return Section(text, material, shape, False, card.real(5, "mass per length"))
 
 
 def read_rod_section(card: Card) -> Section:
     """Reads the section that a CONROD has itself."""
-    shape = make_general(card.real(4, "area"), [0.0, 0.0, 0.0])
+    shape = make_general(card, card.real(4, "area"), [0.0, 0.0, 0.0])
     return Section(f"CONROD {card.field(0)}", card.field(3), shape, False, card.real(7, "mass per length"))
 
 
-def make_general(area: float, moments: Sequence[float]) -> Shape | None:
-    """A shape from its numbers: area; I1, I2, I12 with z to the other side than w. None without an area."""
+def make_general(card: Card, area: float, moments: Sequence[float]) -> Shape | None:
+    """A shape from its numbers: area; I1, I2, I12 with z to the other side than w. None without an area. InputError if
+    one is negative that must not be."""
     first, second, product = moments
+    for name, value in (("area", area), ("I1", first), ("I2", second)):
+        if value < 0.0:
+            card.fail(f"its {name} is {value:g}, expected ≥ 0")
     return Shape(area, first, second, -product) if area > 0.0 else None
 
 
@@ -141,7 +145,7 @@ def read_beam_section(card: Card, text: str, material: str) -> Section:
     if any(card.field(k) and card.real(k, "offset") for k in range(place + 8, place + 16)):
         left_out.append("the offsets of its mass and its neutral axis from its shear centre (M1, M2, N1, N2)")
     return Section(
-        text, material, make_general(card.real(2, "area"), moments), True, card.real(7, "mass per length"),
+        text, material, make_general(card, card.real(2, "area"), moments), True, card.real(7, "mass per length"),
         (*left_out, "shear flexibility (K1, K2 are 1 unless given)"),
     )  # fmt: skip
 

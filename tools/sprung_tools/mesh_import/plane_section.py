@@ -71,13 +71,13 @@ def add_second_moment(known: PlaneSection, shape: Shape, mesh: LineMesh, lines: 
         return known._replace(left_out=(*known.left_out, unknown))
     moments, products = found
     left_out = list(known.left_out)
-    if np.ptp(moments) > SAME * np.max(moments):
+    if np.ptp(moments) > SAME * np.max(np.abs(moments)):
         many = f"its second moment, from {moments.min():.6g} to {moments.max():.6g} as its lines are turned"
         return known._replace(left_out=(*left_out, f"{many}: divide it"))
     if np.max(np.abs(products)) > OUT_OF_PLANE * (shape.hh + shape.ww):
         left_out.append("its bending out of the plane under forces in it")
     if not moments[0] > 0.0:
-        return known._replace(left_out=(*left_out, "its second moment, which is 0"))
+        return known._replace(left_out=(*left_out, f"its second moment, which is {moments[0]:.6g}"))
     return known._replace(second_moment=float(moments[0]), left_out=tuple(left_out))
 
 
