@@ -75,6 +75,66 @@ class Reading(ToolTestCase):
         process = self.run_tool("convert_mesh", "b.inp", "a.msh")
         self.assert_refuses(process, "names the instance 'L-3', which is not there")
 
+    def test_an_assembly_has_elements_of_its_own_on_nodes_of_its_instances(self):
+        own = (
+            "*ELEMENT, TYPE=B33, ELSET=JOINT\n1, L-1.3, 1\n2, l-2.1, 2, L-2.2\n*NODE\n1, 2.5, 0.\n2, 3., -1., 0.\n"
+            "*ELEMENT, TYPE=MASS, ELSET=LUMP\n3, L-2.3\n4, L-1.2\n*MASS, ELSET=LUMP\n5.\n*ELSET, ELSET=E\n1, L-2.1\n"
+            "*NSET, NSET=N\n1, L-2.1\n*ELEMENT, TYPE=CONN3D2\n5, L-1.1, L-2.1\n6, , 2\n"
+            "*BEAM SECTION, SECTION=RECT, ELSET=JOINT, MATERIAL=M\n0.1, 0.2\n"
+        )
+        mesh = self.read(PART + ASSEMBLY.format(sets=own))
+        place = {node: tuple(position) for node, position in zip(mesh.node_ids.tolist(), mesh.positions.tolist())}
+        self.assertEqual(len(place), 8)  # its own node 1 is not the parts' node 1
+        joints = mesh.node_ids[mesh.lines[mesh.element_sets["JOINT"]]]
+        ends = [[place[node] for node in pair] for pair in joints.tolist()]
+        np.testing.assert_allclose(ends, [[(2, 0, 0), (2.5, 0, 0)], [(3, 0, 0), (3, -1, 0)]], atol=1e-15)
+        masses = [(one.mass, mesh.positions[one.node].tolist()) for one in mesh.point_masses]
+        np.testing.assert_allclose([at for _, at in masses], [[3, 2, 0], [1, 0, 0]], atol=1e-15)
+        self.assertEqual([mass for mass, _ in masses], [5.0, 5.0])
+        np.testing.assert_allclose(mesh.positions[mesh.node_sets["N"]], [[2.5, 0, 0], [3, 0, 0]], atol=1e-15)
+        self.assertEqual(mesh.line_ids[mesh.element_sets["E"]].tolist(), [1001, 2001])
+        self.assertIn("connectors of type CONN3D2, which join nodes 1–1001, 2002", mesh.left_behind)
+        self.assertIn("(L-2: 1000 and 1000, the assembly's own: 2000 and 2000)", " ".join(mesh.left_behind))
+        for data, message in (
+            ("*ELEMENT, TYPE=MASS\n1, L-3.1\n", "b.inp:22: error: *ELEMENT: names the instance 'L-3', which is not"),
+            ("*ELEMENT, TYPE=B23\n1, L-1.1, L-1.4\n", "b.inp:22: error: *ELEMENT: element 2001 names node 4, which is"),
+            ("*ELEMENT, TYPE=B23\n1, L-1.1, L-1\n", "b.inp:22: error: *ELEMENT: 'L-1' is not a number"),
+            ("*ELEMENT, TYPE=B23\n-1, L-1.1, L-1.2\n", "b.inp:22: error: *ELEMENT: numbers begin at 1"),
+            ("*ELEMENT, TYPE=MASS\n1, L-1.1\n1, L-1.2\n", "b.inp:23: error: *ELEMENT: element 2001 is defined twice"),
+            ("*ELGEN\n1, 3\n", "b.inp:21: error: *ELGEN: is not followed beside instances"),
+        ):
+            with self.subTest(data):
+                (self.folder / "b.inp").write_text(PART + ASSEMBLY.format(sets=data), encoding="utf-8")
+                self.assert_refuses(self.run_tool("convert_mesh", "b.inp", "a.msh"), message)
+
+    def test_blanks_and_capitals_of_keyword_lines_are_ignored(self):
+        # Analysis User's Guide, "Input syntax rules": "Blanks on a keyword line are ignored", but in quoted labels.
+        line = "*ELEMENT, TYPE=B31, ELSET=MYSET\n1, 1, 2, 21\n*ELGEN, ELSET=MYSET, ALL NODES\n1, 4\n"
+        section = "*BEAM GENERAL SECTION, ELSET=MYSET, SECTION=GENERAL, DENSITY=7.8\n1., 2., 0., 3., 4.\n\n2.6, 1.\n"
+        nodes = "*NODE, NSET=ALL\n1, 0., 0., 0.\n5, 4., 0., 0.\n21, 0., 1., 0.\n25, 4., 0., 1.\n*NGEN\n1, 5\n21, 25\n"
+        plain = self.read(nodes + line + section)
+        self.assertEqual(plain.materials["SECTION OF MYSET"].density, 7.8)
+        for old, new in (
+            ("*BEAM GENERAL SECTION", "*BEAMGENERALSECTION"), ("*BEAM GENERAL SECTION", "* Beam\tgeneral   SECTION "),
+            ("ALL NODES", "ALLNODES"), ("ALL NODES", "all\t nodes "), ("DENSITY=7.8", "density\t= 7.8 "),
+            ("*ELGEN, ELSET=MYSET", "*EL GEN , EL SET = my set"), ("*NODE, NSET=ALL", "* N O D E"),
+            ("ELSET=MYSET", "ELSET=\"MYSET\""), ("SECTION=GENERAL", "SEC TION = Gen eral"),
+        ):  # fmt: skip
+            with self.subTest((old, new)):
+                text = nodes + line + section
+                self.assertIn(old, text)
+                mesh = self.read(text.replace(old, new))
+                np.testing.assert_array_equal(mesh.lines, plain.lines)
+                np.testing.assert_array_equal(mesh.heights, plain.heights)
+                self.assertEqual(mesh.sections[0].shape, plain.sections[0].shape)
+                self.assertEqual(list(mesh.materials.values()), list(plain.materials.values()))
+        assembly = ASSEMBLY.format(sets="").replace("*END INSTANCE", "*ENDINSTANCE")
+        whole = self.read(PART.replace("*END PART", "*ENDPART") + assembly)
+        self.assertEqual(len(whole.lines), 4)
+        quoted = '*NSET, NSET="A, b"\n1\n*NSET, NSET=Ab\n2\n*NSET, NSET=C\n"a, B", A b\n'
+        sets = {name: found.tolist() for name, found in self.read(ABAQUS + quoted).node_sets.items()}
+        self.assertEqual(sets, {"A, b": [0], "Ab": [1], "C": [0, 1]})
+
     def test_nodes_and_elements_are_generated(self):
         nodes = "*NODE\n1, 0., 1.\n9, 8., 5.\n*NGEN, NSET=ALL\n1, 9, 2\n"
         mesh = self.read(nodes + "*ELEMENT, TYPE=B31\n1, 1, 3\n*ELGEN, ELSET=E\n1, 4, 2, 10\n")
@@ -229,6 +289,34 @@ class Reading(ToolTestCase):
                 (self.folder / "b.inp").write_text(start + data, encoding="utf-8")
                 process = self.run_tool("convert_mesh", "b.inp", "a.msh")
                 self.assert_refuses(process, f"b.inp:{where}: error: *BEAM SECTION", message)
+
+    def test_more_data_lines_than_a_section_has_are_refused(self):
+        start = f"{ABAQUS}*{{}}, ELSET=A, MATERIAL=M, SECTION=ARBITRARY\n"
+        walls = "2, 3., 0., 0., 0., .2\n0., 6., .1\n3., 6., .1\n"  # three where two are announced
+        for keyword, data, where, message in (
+            ("BEAM SECTION", f"{walls}0., 0., -1.\n", 12, "has numbers of integration points, expected"),
+            ("BEAM SECTION", f"{walls}3, 3\n0., 0., -1.\n", 13, "has a further data line; behind 2 with the"),
+            ("BEAM SECTION", "1, 0., 0., 1., 0., .2\n1., 2., 0., .1\n", 10, "its 1-direction has 4 numbers, expecte"),
+            ("BEAM GENERAL SECTION", f"{walls}0., 0., -1.\n2.6, 1.\n", 12, "its Young's modulus is 0., expected >"),
+        ):
+            with self.subTest((keyword, data)):
+                (self.folder / "b.inp").write_text(start.format(keyword) + data, encoding="utf-8")
+                process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+                self.assert_refuses(process, f"b.inp:{where}: error: *{keyword}", message)
+
+    def test_parameters_and_moments_that_are_none_are_refused(self):
+        mass = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*MASS, ELSET=P, ALPHA=abc\n5.\n"
+        for data, where, message in (
+            ("*BEAM SECTION, ELSET=A, SECTION=RECT, POISSON=abc\n.1, .2\n", 8, "*BEAM SECTION: POISSON='abc' is not"),
+            ("*BEAM SECTION, ELSET=A, SECTION=RECT, OFFSET1=\n.1, .2\n", 8, "*BEAM SECTION: OFFSET1='' is not a"),
+            ("*BEAM GENERAL SECTION, ELSET=A, DENSITY=1.x\n1., 1., 0., 1., 1.\n", 8, "DENSITY='1.x' is not a number"),
+            ("*BEAM GENERAL SECTION, ELSET=A\n1., -2., 0., 1., 1.\n", 9, "its I11 is -2, expected ≥ 0"),
+            (mass, 10, "*MASS: ALPHA='abc' is not a number"),
+        ):
+            with self.subTest(data):
+                (self.folder / "b.inp").write_text(ABAQUS + data, encoding="utf-8")
+                process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+                self.assert_refuses(process, f"b.inp:{where}: error: *", message)
 
     def test_a_tapered_section_has_its_direction_and_moduli_behind_both_ends(self):
         # Keywords Reference, *BEAM GENERAL SECTION with TAPER: the second line has the dimensions at node B.

@@ -114,13 +114,18 @@ class OfThePortal(StarterCase):
         )
         assembly = (
             "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=L-1, PART=LEG\n*END INSTANCE\n*INSTANCE, NAME=L-2, PART=LEG\n"
-            "2.5, 0., 0.\n2.5, 0., 0., 2.5, 0., 1., 90.\n*END INSTANCE\n*NODE\n5001, 2.5, 2.5\n"
-            "*ELEMENT, TYPE=B23, ELSET=TOP\n5001, 1005, 5001\n*ELEMENT, TYPE=B23, ELSET=FOOT\n5002, 5, 1001\n"
-            "*ELEMENT, TYPE=MASS, ELSET=LUMP\n6001, 5001\n*MASS, ELSET=LUMP\n25.\n*ELSET, ELSET=REST\nTOP, FOOT\n"
+            "2.5, 0., 0.\n2.5, 0., 0., 2.5, 0., 1., 90.\n*END INSTANCE\n*NODE\n1, 2.5, 2.5\n"
+            "*ELEMENT, TYPE=B23, ELSET=TOP\n1, L-2.5, 1\n*ELEMENT, TYPE=B23, ELSET=FOOT\n2, L-1.5, L-2.1\n"
+            "*ELEMENT, TYPE=MASS, ELSET=LUMP\n3, 1\n*MASS, ELSET=LUMP\n25.\n"
+            "*ELEMENT, TYPE=MASS, ELSET=LUMPS\n4, L-1.1\n5, L-2.5\n*MASS, ELSET=LUMPS\n7.\n"
+            "*ELSET, ELSET=REST\nTOP, FOOT\n"
+            "*ELEMENT, TYPE=CONN3D2, ELSET=JOINT\n6, L-1.5, L-2.1\n*CONNECTOR SECTION, ELSET=JOINT\nHINGE\n"
             "*BEAM GENERAL SECTION, ELSET=REST, DENSITY=7850.\n0.002, 1e-6, 0., 3e-6, 1e-6\n0., 0., -1.\n2.1e11, 8e10\n"
             "*END ASSEMBLY\n*MATERIAL, NAME=STEEL\n*DENSITY\n7850.\n*ELASTIC\n2.1e11, 0.3\n"
         )
-        self.convert_text("a.inp", part + assembly)
+        _, text = self.convert_text("a.inp", part + assembly)
+        self.assertIn("# connectors of type CONN3D2, which join nodes 5–1001\n", text)
+        self.assertIn("# *CONNECTOR SECTION, ELSET=JOINT (line ", text)
         keys = 'shape = "i_section"\nheight = 0.2\nflange_width = 0.12\nflange_thickness = 0.01\nweb_thickness = 0.006'
         points = {"a": (0.0, 0.0), "b": (2.0, 0.0), "c": (2.5, 0.0), "d": (2.5, 2.0), "e": (2.5, 2.5)}
         reference = tomllib.loads((self.folder / "frame.toml").read_text(encoding="utf-8"))
@@ -136,7 +141,10 @@ class OfThePortal(StarterCase):
                 f'[[lines]]\nfrom = "{a}"\nto = "{b}"\nsection = "{section}"\nelements = {count}\n'
                 for a, b, section, count in lines
             )
-            + '[[point_masses]]\npoint = "e"\nmass = 25.0\n'
+            + "".join(
+                f'[[point_masses]]\npoint = "{point}"\nmass = {mass}\n'
+                for point, mass in (("e", 25.0), ("a", 7.0), ("d", 7.0))
+            )
             + '[reference]\npoint = "held"\n[modes]\nall = true\ndamping_ratio = 0.01\n'
         )
         self.assert_same_body(self.build("frame"), self.build("hand", hand))
@@ -238,6 +246,13 @@ class OfDecks(StarterCase):
         told, text = self.convert_text("a.bdf", NASTRAN)
         self.assertEqual(text, "mine")
         self.assertIn("Design: frame.toml is there already and stays as it is", told)
+
+    def test_a_second_moment_in_the_plane_that_is_not_positive_is_told_with_its_value(self):
+        # At 45° between its axes: (I1 + I2) / 2 − I12 = 2 − 3.
+        bar = NASTRAN.replace("0.,1.,0.", "0.,1.,1.").replace("ENDDATA", "PBAR,1,1,1.,2.,2.\n,,,,,,,,\n,,,3.\nENDDATA")
+        _, text = self.convert_text("a.bdf", bar)
+        self.assertIn("# of section 'property_1': its second moment, which is -1\n", text)
+        self.assertNotIn("second_moment", self.read(text)["sections"]["property_1"])
 
     def test_non_structural_mass_without_a_density_or_an_area_is_not_lost(self):
         # Nastran's RHO is 0 unless given, so that a bar without it weighs its non-structural mass: 250 kg/m.

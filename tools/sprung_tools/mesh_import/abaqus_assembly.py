@@ -53,6 +53,7 @@ class Assembly(Part):
     def __init__(self) -> None:
         super().__init__()
         self.instances: dict[str, Instance] = {}  # name in capitals → instance
+        self.offsets = {"N": 0, "E": 0}  # of the numbers of its own nodes and elements
 
     def place(self, block: Block, part: Part) -> None:
         """Adds an instance of a part."""
@@ -74,13 +75,28 @@ class Assembly(Part):
                 nodes=[node + one.nodes for node in element.nodes],
                 orientation=None if element.orientation is None else element.orientation + one.nodes,
             )
+        self.offsets = {"N": find_offset(block, self.nodes, ()), "E": find_offset(block, self.elements, ())}
+
+    def read(self, block: Block) -> None:
+        """Takes in a block of the assembly's own, when all instances are placed."""
+        if self.instances and block.keyword in ("NFILL", "ELGEN"):
+            block.fail("is not followed beside instances; write the nodes or elements out")
+        super().read(block)
+
+    def read_own_number(self, block: Block, line: int, text: str, kind: str) -> int:
+        number = super().read_own_number(block, line, text, kind) + self.offsets[kind]
+        if number > LARGEST_NUMBER:
+            block.fail(f"'{text}' would become {number}, but numbers end at {LARGEST_NUMBER}", line)
+        return number
 
     def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
-        """The number of a node or an element in the assembly: INSTANCE.27, or 27 where the block names the instance."""
+        """The number of a node or an element in the assembly: INSTANCE.27, or 27 where the block names the instance;
+        else the assembly's own."""
         name, _, number = text.rpartition(".")
         one = self.find_instance(block, name or block.parameters.get("INSTANCE", ""), line)
-        offset = 0 if one is None else one.nodes if kind == "N" else one.elements
-        return read_integer(block, line, number) + offset
+        if one is None:
+            return self.read_own_number(block, line, text, kind)
+        return read_integer(block, line, number) + (one.nodes if kind == "N" else one.elements)
 
     def find_instance(self, block: Block, name: str, line: int | None) -> Instance | None:
         """The instance of a name; None for an empty one. InputError if it is not there."""

@@ -41,6 +41,8 @@ def read_abaqus(path: str) -> LineMesh:
     deck = Deck(path)
     for block in blocks:
         deck.read(block)
+    for block in deck.of_assembly:
+        deck.assembly.read(block)
     return deck.make_mesh()
 
 
@@ -63,6 +65,7 @@ class Deck:
         self.path = path
         self.parts: dict[str, Part] = {}  # name in capitals → part
         self.assembly = Assembly()
+        self.of_assembly: list[Block] = []  # its own blocks, which may name nodes of instances that come later
         self.part: Part | None = None  # that is being read
         self.instance: tuple[Block, Part] | None = None  # that is being read
         self.materials = abaqus_properties.Materials()
@@ -80,6 +83,8 @@ class Deck:
         elif block.keyword == "END INSTANCE" and self.instance:
             self.assembly.place(*self.instance)
             self.instance = None
+        elif block.keyword in MESHING and self.find_target() is self.assembly:
+            self.of_assembly.append(block)
         elif block.keyword in MESHING:
             self.find_target().read(block)
         elif block.keyword in abaqus_properties.SECTION_BLOCKS | abaqus_properties.MASS_BLOCKS:
@@ -226,14 +231,20 @@ class Deck:
                 meaning = KINDS.get(kind.rstrip("HR"), "")
                 meaning = f" ({meaning} in Abaqus)" if meaning else ""
                 texts.append(f"beam kind {kind} of {count} elements{meaning}: the design's 'theory' decides")
+            elif kind.startswith("CONN"):
+                joined = [one.nodes for one in self.assembly.elements.values() if one.kind == kind]
+                ends = shorten("–".join(map(str, nodes)) for nodes in joined)
+                texts.append(f"connectors of type {kind}, which join nodes {ends}")
             elif kind not in POINT_KINDS:
                 texts.append(f"{count} elements of type {kind or '?'}, which are not lines")
         halved = len(owners) - len(set(owners))
         if halved:
             texts.append(f"middle nodes of {halved} lines: each line has become two, straight ones")
-        moved = [one for one in self.assembly.instances.values() if one.nodes or one.elements]
-        if moved:
-            offsets = shorten(f"{one.name}: {one.nodes} and {one.elements}" for one in moved)
+        moved = [(one.name, one.nodes, one.elements) for one in self.assembly.instances.values()]
+        if any(block.keyword in ("NODE", "ELEMENT") for block in self.of_assembly):
+            moved.append(("the assembly's own", self.assembly.offsets["N"], self.assembly.offsets["E"]))
+        offsets = shorten(f"{name}: {nodes} and {elements}" for name, nodes, elements in moved if nodes or elements)
+        if offsets:
             texts.append(f"numbers of nodes and elements in instances, which are now larger ({offsets})")
         return texts + self.materials.left_behind + self.left_behind
 

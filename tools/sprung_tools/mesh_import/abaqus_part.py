@@ -84,15 +84,15 @@ class Part:
 
     def add_node(self, block: Block, line: int, node: int, place: tuple[float, float, float]) -> None:
         """Adds a node. InputError if there is another one of its number."""
-        if self.nodes.setdefault(node, place) != place or node < 1:
-            block.fail(f"node {node} is defined twice" if node > 0 else "numbers begin at 1", line)
+        if self.nodes.setdefault(node, place) != place:
+            block.fail(f"node {node} is defined twice", line)
 
     def read_nodes(self, block: Block) -> None:
         if block.parameters.get("SYSTEM", "R").upper() != "R":
             block.fail("is not in rectangular coordinates")
         ids: list[int] = []
         for line, fields in block.data:
-            node = read_integer(block, line, fields[0])
+            node = self.read_own_number(block, line, fields[0], "N")
             place = [read_real(block, line, text) if text else 0.0 for text in fields[1:4]]
             if not any(fields[1:4]):
                 block.fail(f"node {node} has no coordinates: truncated?", line)
@@ -108,26 +108,25 @@ class Part:
         kind = block.parameters.get("TYPE", "").upper()
         count = 3 if THREE_NODES.match(kind) else 2
         is_line = is_line_kind(kind)
-        rows = join_rows(block, least=count + 1 if is_line else None)
+
+        def find_number(line: int, text: str, is_own: bool) -> int:
+            return self.read_own_number(block, line, text, "E") if is_own else self.find_number(block, line, text, "N")
+
+        rows = join_rows(block, count + 1 if is_line else None, find_number)
         for line, (element, *nodes) in rows:
             if is_line and len(nodes) not in (count, count + 1):
                 found = f"a {kind} has {len(nodes)} nodes, expected {count} (and an orientation node)"
                 block.fail(f"{found}: truncated?", line)
-            if is_line:
-                orientation = nodes[count] if len(nodes) > count else None
-                self.add_element(element, Element(kind, nodes[:count], orientation, block, line))
-            else:
-                self.elements.setdefault(element, Element(kind, nodes, None, block, line))
+            orientation = nodes[count] if is_line and len(nodes) > count else None
+            self.add_element(element, Element(kind, nodes[:count] if is_line else nodes, orientation, block, line))
         if block.parameters.get("ELSET"):
             self.element_sets.add(block.parameters["ELSET"], [row[0] for _, row in rows])
 
     def add_element(self, number: int, element: Element) -> None:
-        """Adds a line. InputError if there is an element of its number."""
-        if number in self.elements or number < 1:
-            element.block.fail(
-                f"element {number} is defined twice" if number > 0 else "numbers begin at 1", element.line
-            )
-        self.elements[number] = element
+        """Adds an element. InputError if there is another one of its number, or the same line once more."""
+        known = self.elements.setdefault(number, element)
+        if known is not element and (element.is_line or known[:3] != element[:3]):
+            element.block.fail(f"element {number} is defined twice", element.line)
 
     def read_node_set(self, block: Block) -> None:
         members = self.read_members(block, self.node_sets, "N")
@@ -171,9 +170,16 @@ class Part:
                     members += self.find_members(block, sets, kind, text, line)
         return members
 
+    def read_own_number(self, block: Block, line: int, text: str, kind: str) -> int:
+        """The number of a node (kind: N) or an element (E) of the part."""
+        number = read_integer(block, line, text)
+        if number < 1:
+            block.fail("numbers begin at 1", line)
+        return number
+
     def find_number(self, block: Block, line: int, text: str, kind: str) -> int:
         """The number that a text names. kind: N, E."""
-        return read_integer(block, line, text.rpartition(".")[2] if not self.nodes else text)
+        return self.read_own_number(block, line, text, kind)
 
     def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
         """The members of the set that a text names. InputError if it is not there."""
@@ -189,7 +195,7 @@ class Part:
         ids: list[int] = []
         for line, fields in block.data:
             fields = [*fields, "", ""]
-            first, last = (read_integer(block, line, text) for text in fields[:2])
+            first, last = (self.read_own_number(block, line, text, "N") for text in fields[:2])
             step = read_integer(block, line, fields[2], 1)
             ids += self.fill_between(block, line, first, last, step)
         if block.parameters.get("NSET"):

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, read_real
+from sprung_tools.mesh_import.abaqus_blocks import Block, read_real, spell
 from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
@@ -28,6 +28,12 @@ from sprung_tools.mesh_import.section_shapes import (
 SECTION_BLOCKS = {"BEAM SECTION", "BEAM GENERAL SECTION", "SOLID SECTION"}
 MATERIAL_BLOCKS = {"MATERIAL", "ELASTIC", "DENSITY"}
 MASS_BLOCKS = {"MASS", "ROTARY INERTIA"}
+NUMBERS = {  # parameters that are numbers
+    "BEAM SECTION": ("POISSON", "OFFSET1", "OFFSET2"),
+    "BEAM GENERAL SECTION": ("DENSITY", "POISSON", "ZERO", "OFFSET1", "OFFSET2"),
+    "MASS": ("ALPHA", "COMPOSITE"),
+    "ROTARY INERTIA": ("ALPHA", "COMPOSITE"),
+}
 DEFAULT_WIDTH = (0.0, 0.0, -1.0)  # the 1-direction of a section that gives none
 
 MOST_WALLS = 10_000  # segments of an ARBITRARY section
@@ -66,19 +72,23 @@ def read_section(block: Block, materials: Mapping[str, Material]) -> tuple[Secti
 
     materials: name in capitals → material of the deck.
     """
+    check_numbers(block)
     if block.keyword == "SOLID SECTION":
         area = (read_row(block, 0) or [0.0])[0]
         shape = Shape(area, 0.0, 0.0) if area > 0.0 else None
         section = Section(describe(block), block.parameters.get("MATERIAL", "").upper(), shape, False)
         return section, np.array(DEFAULT_WIDTH), None
-    kind = block.parameters.get("SECTION", "GENERAL").upper()
+    kind = spell(block.parameters.get("SECTION", "GENERAL"))
     place = count_shape_lines(block, kind)  # of the 1-direction
     dimensions = read_row(block, 0) if kind != "MESHED" else []
-    shape, remark = read_walls(block, place) if kind == "ARBITRARY" else make_shape(kind, dimensions)
+    shape, remark = read_walls(block, place) if kind == "ARBITRARY" else make_shape(block, kind, dimensions)
+    if kind != "MESHED":
+        check_lines_behind(block, place)
     left_out = [remark] if remark else []
-    left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if is_given(block, key)]
+    left_out += [f"its {key}" for key in ("OFFSET1", "OFFSET2") if read_parameter(block, key)]
     left_out += ["its taper: the section at the first end is taken"] if "TAPER" in block.parameters else []
-    left_out += ["its POISSON, by which its area changes under large strains"] if is_given(block, "POISSON") else []
+    if read_parameter(block, "POISSON"):
+        left_out.append("its POISSON, by which its area changes under large strains")
     if shape and math.hypot(shape.w, shape.h) > OFF_AXIS * math.sqrt(shape.area):
         left_out.append("the way from its nodes to its centroid")
     width = read_row(block, place)
@@ -126,13 +136,22 @@ def read_walls(block: Block, count: int) -> tuple[Shape | None, str]:
         return None, f"the shape ARBITRARY, which {error}"
 
 
-def is_given(block: Block, key: str) -> bool:
-    """Whether a parameter of a section is there and not 0."""
-    text = block.parameters.get(key, "0")
-    try:
-        return float(text) != 0.0
-    except ValueError:
-        return True
+def check_lines_behind(block: Block, place: int) -> None:
+    """Throws InputError if the lines behind a section's dimensions, from `place` on, are not what they should be: a
+    1-direction; of a *BEAM SECTION numbers of integration points, of a *BEAM GENERAL SECTION moduli."""
+    expected = f"{place} with the dimensions"
+    for number, (line, fields) in enumerate(block.data[place:]):
+        given = [text for text in fields if text]
+        if number == 0 and len(given) > 3:
+            block.fail(f"its 1-direction has {len(given)} numbers, expected 3; behind {expected}", line)
+        if block.keyword == "BEAM SECTION" and number > 0:
+            are_counts = number == 1 and all(text.isdecimal() for text in given)
+            if given and not are_counts:
+                found = "numbers of integration points, expected whole ones" if number == 1 else "a further data line"
+                block.fail(f"has {found}; behind {expected} and the 1-direction", line)
+        elif number > 0 and given and fields[0] and not read_real(block, line, fields[0]) > 0.0:
+            found = f"Young's modulus is {fields[0]}, expected > 0"
+            block.fail(f"its {found}; behind {expected} and the 1-direction", line)
 
 
 def describe(block: Block) -> str:
@@ -140,11 +159,14 @@ def describe(block: Block) -> str:
     return f"*{block.keyword} (line {block.line}) {block.parameters.get('SECTION', '')}".rstrip()
 
 
-def make_shape(kind: str, numbers: Sequence[float]) -> tuple[Shape | None, str]:
+def make_shape(block: Block, kind: str, numbers: Sequence[float]) -> tuple[Shape | None, str]:
     """Returns (the shape or None, what is left out or assumed). numbers: of the section's first data line."""
     try:
         if kind in ("GENERAL", "LINEAR") and len(numbers) >= 4:
             area, i11, i12, i22 = numbers[:4]
+            for name, value in (("area", area), ("I11", i11), ("I22", i22)):
+                if value < 0.0:
+                    block.fail(f"its {name} is {value:g}, expected ≥ 0", block.data[0][0])
             return (Shape(area, i11, i22, i12), "") if area > 0.0 else (None, "its area, which is not positive")
         if kind == "CIRC" and len([one for one in numbers if one]) == 2:
             return make_ellipse(numbers[0], numbers[1]), ""  # CalculiX: the lengths of both axes
@@ -181,9 +203,15 @@ def read_own_material(
 
 
 def read_parameter(block: Block, key: str) -> float | None:
-    """A parameter's number; None if it is not there."""
+    """A parameter's number; None if it is not there. InputError if it is none."""
     text = block.parameters.get(key)
-    return read_real(block, block.line, text) if text else None
+    return None if text is None else read_real(block, block.line, text, f"{key}=")
+
+
+def check_numbers(block: Block) -> None:
+    """Throws InputError if a parameter is no number that should be one, whether it is used here or not."""
+    for key in NUMBERS.get(block.keyword, ()):
+        read_parameter(block, key)
 
 
 class Materials:
@@ -224,6 +252,7 @@ class Materials:
 def read_mass(block: Block) -> tuple[float, Floats | None, str]:
     """Reads a *MASS or a *ROTARY INERTIA. Returns (mass, moments of inertia [3×3] or None, why it cannot be taken or
     an empty text)."""
+    check_numbers(block)
     row = (read_row(block, 0) + [0.0] * 6)[:6]
     if block.keyword == "MASS":
         kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
