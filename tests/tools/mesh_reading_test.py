@@ -90,6 +90,28 @@ class Reading(ToolTestCase):
         turned = mesh.positions[mesh.lines[mesh.element_sets["post"][-1]]]
         np.testing.assert_allclose(turned[:, :2], [(1.2, -0.8), (0.75, -0.35)], atol=1e-11)  # Line 3 runs 1 → 3
 
+    def test_lines_with_middle_nodes_are_divided_at_these(self):
+        points = np.array([[x, y, 0.0] for x, y in ((0, 0), (4, 0), (8, 2), (2, 0.5), (6, 1), (8, 6), (8, 5), (8, 4))])
+        cells = [("line3", [[0, 1, 3], [1, 2, 4], [5, 7, 6]]), ("line", [[7, 2]])]
+        numbers = [np.array([1, 2, 2]), np.array([3])]
+        meshio.Mesh(points, cells, cell_data={"part": numbers}).write(self.folder / "a.vtk")
+        families = meshio.Mesh(points, cells, cell_data={"cell_tags": [-one for one in numbers]})
+        families.cell_tags = {-1: ["one"], -2: ["two"], -3: ["three"]}
+        families.write(self.folder / "a.med")
+        for name, sets in (("a.vtk", ("part_1", "part_2", "part_3")), ("a.med", ("one", "two", "three"))):
+            with self.subTest(name):
+                found = read_with_meshio(str(self.folder / name))
+                ends = [[tuple(found.positions[node, :2].tolist()) for node in line] for line in found.lines]
+                groups = [[ends[line] for line in found.element_sets[one]] for one in sets]
+                self.assertEqual(groups[0], [[(0, 0), (2, 0.5)], [(2, 0.5), (4, 0)]])
+                self.assertEqual(groups[1], [[(4, 0), (6, 1)], [(6, 1), (8, 2)], [(8, 6), (8, 5)], [(8, 5), (8, 4)]])
+                self.assertEqual(groups[2], [[(8, 4), (8, 2)]])
+                self.assertIn("middle nodes of 3 lines: each has become straight ones from node to node",
+                              found.left_behind)  # fmt: skip
+        thirds = points[[0, 1, 3, 3]] + np.array([[0, 0, 0], [2, 1.5, 0], [0, 0, 0], [2, 0.5, 0]])
+        meshio.Mesh(thirds, [("line4", [[0, 1, 2, 3]])]).write(self.folder / "b.vtu")
+        self.assertEqual(read_with_meshio(str(self.folder / "b.vtu")).lines.tolist(), [[0, 2], [2, 3], [3, 1]])
+
     def test_lengths_are_scaled_and_numbers_keep_their_last_digit(self):
         self.write("a.inp", "*NODE\n1, 0.1, 0.3\n2, 1234.5678901234567, 0.3\n*ELEMENT, TYPE=B23, ELSET=A\n1, 1, 2\n")
         self.run_tool("convert_mesh", "a.inp", "a.msh")

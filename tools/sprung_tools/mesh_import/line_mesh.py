@@ -51,6 +51,11 @@ def shorten(items: Iterable[object], most: int = 8) -> str:
     return ", ".join(texts[:most]) + (f", … ({len(texts)} in all)" if len(texts) > most else "")
 
 
+def tell_split(count: int) -> list[str]:
+    """What becomes of lines with middle nodes, of which there are `count`: one text, or none."""
+    return [f"middle nodes of {count} lines: each has become straight ones from node to node"] if count else []
+
+
 def pick_members(sets: Mapping[str, Iterable[int]], number: Mapping[int, int]) -> dict[str, Integers]:
     """Sets of ids as sets of 0-based numbers, each member once. Members without a number are left out.
 

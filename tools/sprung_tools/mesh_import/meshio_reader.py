@@ -8,12 +8,13 @@ import numpy as np
 
 from sprung_tools.files.array_types import Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, shorten
+from sprung_tools.mesh_import.line_mesh import LineMesh, shorten, tell_split
 from sprung_tools.mesh_import.meshio_process import run_meshio
 
 # These cell data number the source's own entities or families; the names of these are read elsewhere.
 NOT_SETS = ("gmsh:geometrical", "cell_tags")
-SIZES = {"vertex": 1, "line": 2}  # nodes of the cells that are used
+WITH_MIDDLE_NODES = {"line3": 3, "line4": 4}  # nodes of lines
+SIZES = {"vertex": 1, "line": 2, **WITH_MIDDLE_NODES}  # nodes of the cells that are used
 NOT_REPORTED = ("gmsh:geometrical", "gmsh:dim_tags", "cell_tags", "point_tags", "gmsh:physical")
 
 
@@ -22,10 +23,8 @@ def read_with_meshio(path: str) -> LineMesh:
     mesh, format_name = call_meshio(path)
     positions = np.zeros((len(mesh.points), 3))
     positions[:, : np.shape(mesh.points)[1]] = mesh.points
-    middle = [block for block in mesh.cells if block.type.startswith("line") and block.type != "line"]
-    if middle:
-        count = sum(len(block.data) for block in middle)
-        raise InputError(f"{path}: error: {count} lines with middle nodes ({middle[0].type}), expected two-node lines")
+    halved = sum(len(block.data) for block in mesh.cells if block.type in WITH_MIDDLE_NODES)
+    split_lines(mesh)
     offset, starts, blocks = 0, {}, []
     for place, block in enumerate(mesh.cells):
         if block.type == "line":
@@ -45,8 +44,26 @@ def read_with_meshio(path: str) -> LineMesh:
         lines=lines,
         element_sets=element_sets,
         node_sets=node_sets,
-        left_behind=list_left_behind(mesh, element_sets),
+        left_behind=[*tell_split(halved), *list_left_behind(mesh, element_sets)],
     )
+
+
+def split_lines(mesh: meshio.Mesh) -> None:
+    """Makes two-node lines of those with middle nodes, which stand behind both ends; each part has the data and is in
+    the sets of the whole."""
+    for place, block in enumerate(mesh.cells):
+        if block.type not in WITH_MIDDLE_NODES:
+            continue
+        size = WITH_MIDDLE_NODES[block.type]
+        along = [0, *range(2, size), 1]
+        pairs = np.asarray(block.data)[:, list(zip(along, along[1:]))].reshape(-1, 2)
+        mesh.cells[place] = meshio.CellBlock("line", pairs)
+        for blocks in mesh.cell_data.values():
+            blocks[place] = np.repeat(blocks[place], size - 1, axis=0)
+        for name, parts in mesh.cell_sets.items():
+            if name != "gmsh:bounding_entities" and parts[place] is not None:
+                first = (size - 1) * np.asarray(parts[place], dtype=int)
+                parts[place] = (first[:, None] + np.arange(size - 1)).reshape(-1)
 
 
 def orient(mesh: meshio.Mesh, place: int) -> Integers:
