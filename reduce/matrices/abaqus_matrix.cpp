@@ -32,15 +32,15 @@ Freedom read_abaqus_freedom(const TextLines& lines, const TextField& node, const
   const std::int64_t id =
       lines.integer(node, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int32_t>::max());
   const auto number = static_cast<int>(lines.integer(direction, 1, 6));
-  if (id > 0) return {id, number};
-  if (number == 1) return {id, 0};
-  throw lines.error(node,
-                    fmt::format("node {} is internal to Abaqus and has the direction {}; of internal nodes "
-                                "only the amplitudes of modes are read, which have the direction 1",
-                                id, number));
+  return make_abaqus_freedom(id, number);
 }
 
 }  // namespace
+
+Freedom make_abaqus_freedom(std::int64_t node, int direction) {
+  if (node > 0) return {node, direction};
+  return {node, direction == 1 ? 0 : -direction};
+}
 
 MatrixEntries read_abaqus_matrix(const std::filesystem::path& path, FreedomList& freedoms, bool has_table) {
   TextLines lines(path);

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <limits>
 
+#include "reduce/matrices/abaqus_matrix.h"
+
 namespace sprung::reduce {
 
 namespace {
@@ -53,14 +55,14 @@ class SubstructureReader {
  private:
   enum class Part { kStart, kDirections, kMatrix, kOtherMatrix };
 
-  // The nodes stand in comments after "** ELEMENT NODES".
+  // The nodes stand in comments after "** ELEMENT NODES". What Abaqus remarks behind them has no numbers.
   void read_comment() {
     if (part_ != Part::kDirections) return;
     if (make_plain_keywords(lines_.line()) == "**ELEMENTNODES") {
       in_nodes_ = true;
       return;
     }
-    if (!in_nodes_) return;
+    if (!in_nodes_ || static_cast<std::int64_t>(nodes_.size()) == num_nodes_) return;
     for (TextField field : lines_.fields()) {
       const std::size_t stars = std::min(field.text.find_first_not_of('*'), field.text.size());
       field.text.remove_prefix(stars);
@@ -146,13 +148,7 @@ class SubstructureReader {
       rows_.push_back(given_ ? static_cast<int>(rows_.size()) : find_row(node, direction));
   }
   int find_row(std::int64_t node, int direction) const {
-    if (node <= 0 && direction != 1) {
-      throw lines_.error(
-          fmt::format("node {} is internal to Abaqus and has the direction {}, expected 1, an amplitude "
-                      "of a mode; name the rows in a table 'freedoms'",
-                      node, direction));
-    }
-    const Freedom freedom{node, node > 0 ? direction : 0};
+    const Freedom freedom = make_abaqus_freedom(node, direction);
     const int row = freedoms_.get(freedom);
     if (std::find(rows_.begin(), rows_.end(), row) == rows_.end()) return row;
     throw lines_.error(

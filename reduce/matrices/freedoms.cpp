@@ -7,6 +7,9 @@
 namespace sprung::reduce {
 
 std::string describe(const Freedom& freedom) {
+  if (freedom.direction < 0) {
+    return fmt::format("modal freedom {} in direction {}", freedom.node, -freedom.direction);
+  }
   if (freedom.is_modal()) return fmt::format("modal freedom {}", freedom.node);
   constexpr std::array<const char*, 7> kNames{
       "", "x", "y", "z", "rotation about x", "rotation about y", "rotation about z"};

@@ -142,6 +142,8 @@ def write_substructure(path, matrices, freedoms, repeated=False):
     lines = ["** a comment", f"*USER ELEMENT, NODES= {len(runs):9d}, LINEAR", "** ELEMENT NODES"]
     nodes = [f"{node:10d}" for node, _ in runs]
     lines += ["**" + ",".join(nodes[k : k + 10]) + "," for k in range(0, len(nodes), 10)]
+    if not repeated and any(node <= 0 for node, _ in runs):
+        lines.append("** NODE NUMBERS WHICH ARE NOT POSITIVE INDICATE Abaqus INTERNAL NODES.")
     known = None
     for position, (_, directions) in enumerate(runs, 1):
         if directions != known:
