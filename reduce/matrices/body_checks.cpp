@@ -19,7 +19,8 @@ using support::InputError;
 constexpr std::size_t kMostListed = 6;  // freedoms in a message
 // Of what the entries of a row would add up to if none cancelled. Files of eight columns have six digits.
 constexpr double kRigidForce = 2e-5;
-constexpr double kRounding = 1e-9;       // of what a coupling may be beside a diagonal of zero
+constexpr double kRounding = 1e-9;       // of entries, of those that their places in the matrix let expect
+constexpr double kSmallestMass = 1e-9;   // of a mass matrix scaled to unit diagonal, to rounding of files
 constexpr double kMassTolerance = 1e-5;  // of the mass, and of mass times the body's extent
 
 std::string list_freedoms(const MatrixBody& body, const std::vector<Eigen::Index>& freedoms) {
@@ -76,15 +77,18 @@ void require_one_part(const MatrixBody& body) {
 }
 
 // How large the entries of the stiffness are. What couples a modal freedom with others is zero but for
-// rounding, and its size is that of the two diagonals.
+// rounding, and its size is that of the two diagonals. Where entries of both sides of the plane cancel, the
+// rounding of the file is left.
 Eigen::SparseMatrix<double> calc_entry_sizes(const MatrixBody& body) {
   Eigen::SparseMatrix<double> sizes = body.stiffness.cwiseAbs();
   const Eigen::VectorXd diagonal = body.stiffness.diagonal();
   const Eigen::Index first_modal = 3 * (body.num_nodes() + body.num_pairs);
   for (Eigen::Index column = 0; column < sizes.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(sizes, column); entry; ++entry) {
-      if (std::max(entry.row(), column) >= first_modal)
-        entry.valueRef() = std::sqrt(diagonal(entry.row()) * diagonal(column));
+      const double of_diagonals = std::sqrt(diagonal(entry.row()) * diagonal(column));
+      const bool is_modal = std::max(entry.row(), column) >= first_modal;
+      entry.valueRef() =
+          is_modal ? of_diagonals : std::max(entry.value(), kRounding / kRigidForce * of_diagonals);
     }
   }
   return sizes;
@@ -155,12 +159,17 @@ std::vector<Eigen::Index> require_definite_mass(const MatrixBody& body) {
   mass.setFromTriplets(filled.begin(), filled.end());
   mass += body.mass;
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(scale.asDiagonal() * mass *
-                                                                 scale.asDiagonal());
+  const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * mass * scale.asDiagonal();
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(scaled);
+  if (factor.info() == Eigen::Success) return without;
+  factor.setShift(kSmallestMass);
+  factor.compute(scaled);
   if (factor.info() != Eigen::Success) {
     throw InputError({.path = body.mass_path}, "the mass matrix is not positive definite");
   }
-  return without;
+  throw InputError({.path = body.mass_path},
+                   "the mass matrix is singular: a motion of several freedoms has no mass, as where elements "
+                   "have more shapes than points of integration; use other elements, or lumped masses");
 }
 
 // A displacement of all nodes along x meets the same mass as one along y, and moments of it agree with the

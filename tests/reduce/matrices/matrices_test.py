@@ -288,6 +288,25 @@ class MatricesTest(ReduceTestCase):
             self.assertEqual(list(file["nodes/id"]), [11, 21, 31])
             self.assertAlmostEqual(file["inertia/mass"][0], 840.0, places=9)
 
+    # Where entries of both sides of the plane cancel, what is left of them is rounding, and couples freedoms that the
+    # sums of other entries do not.
+
+    def test_the_rounding_of_entries_that_cancel_resists_no_motion(self):
+        self.build_beam()
+        self.write_beam_files(files.write_matrix_market)
+        K, _ = files.make_beam(len(IDS) - 1)
+        noise = np.random.default_rng(1).uniform(-1.0, 1.0, K.shape)
+        size = np.sqrt(np.diag(K))
+        for share, is_refused in ((1e-10, False), (1e-6, True)):
+            rounding = 0.5 * share * (noise + noise.T) * np.outer(size, size)
+            files.write_matrix_market(self.folder / "k.mtx", K + rounding)
+            name = self.write_design("body", f'format = "matrix-market"\n{FILES}')
+            if is_refused:
+                self.assertIn("resists a rigid", self.build(name, "--force", code=2).stderr)
+                continue
+            self.build(name)
+            self.assert_same("body", tolerance=1e-6, names=("modes/frequency", "inertia/mass"))
+
     # Freedoms without mass, and nodes without rotations.
 
     def test_freedoms_without_mass_follow_the_others(self):
