@@ -135,6 +135,20 @@ class Reading(ToolTestCase):
         sets = {name: found.tolist() for name, found in self.read(ABAQUS + quoted).node_sets.items()}
         self.assertEqual(sets, {"A, b": [0], "Ab": [1], "C": [0, 1]})
 
+    def test_nodes_are_in_the_axes_of_a_system(self):
+        # Keywords Reference, *SYSTEM: origin a, b on the x-axis, c in the x–y plane; without data the global axes.
+        turned = "*SYSTEM\n1., 2., 3., 1., 4., 3.\n0., 2., 3.\n"  # x along the global y, y along the global −x
+        nodes = "*NODE\n1, 4., 5., 6.\n*NODE, SYSTEM=C\n2, 2., 90., 7.\n*SYSTEM\n*NODE\n3, 7., 8., 9.\n"
+        lines = "*SYSTEM\n1., 1.\n*NODE\n4, .5, .25\n*SYSTEM\n0., 0., 0., 3., 4., 0.\n*NODE\n5, 5., 0., 1.\n"
+        mesh = self.read(turned + nodes + lines + "*ELEMENT, TYPE=B31\n1, 1, 2\n2, 3, 4\n")
+        expected = [[-4, 6, 9], [-1, 2, 10], [7, 8, 9], [1.5, 1.25, 0], [3, 4, 1]]
+        np.testing.assert_allclose(mesh.positions, expected, atol=1e-14)
+        for data, where in (("1., 2., 3., 1., 2., 3.\n", 2), ("0., 0., 0., 1., 0., 1.\n", 2),
+                            ("0., 0., 0., 1., 0., 1.\n2., 0., 2.\n", 3)):  # fmt: skip
+            (self.folder / "b.inp").write_text(f"*SYSTEM\n{data}{nodes}", encoding="utf-8")
+            process = self.run_tool("convert_mesh", "b.inp", "a.msh")
+            self.assert_refuses(process, f"b.inp:{where}: error: *SYSTEM: its points give no x-axis and no x–y plane")
+
     def test_nodes_and_elements_are_generated(self):
         nodes = "*NODE\n1, 0., 1.\n9, 8., 5.\n*NGEN, NSET=ALL\n1, 9, 2\n"
         mesh = self.read(nodes + "*ELEMENT, TYPE=B31\n1, 1, 3\n*ELGEN, ELSET=E\n1, 4, 2, 10\n")

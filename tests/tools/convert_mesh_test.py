@@ -242,7 +242,7 @@ class Refusing(ToolTestCase):
         curved = ABAQUS + "*NGEN, LINE=C\n1, 3, 1\n"
         self.assert_refused("a.inp", curved, "a.inp:8: ", "*NGEN: along a curve is not followed")
         self.assert_refused("a.inp", ABAQUS + "*NGEN\n1, 3, 4\n", "a.inp:9: ", "cannot go from node 1 to node 3")
-        self.assert_refused("a.inp", ABAQUS.replace("*NODE", "*NODE, SYSTEM=C"), "not in rectangular coordinates")
+        self.assert_refused("a.inp", ABAQUS.replace("*NODE", "*NODE, SYSTEM=S"), "neither in rectangular nor in cyl")
         self.assert_refused("a.inp", ABAQUS.replace("B21", "B22"), "a B22 has 2 nodes, expected 3")
         lost = "*INSTANCE, NAME=I, PART=P\n1., 0., 0.\n*END INSTANCE\n"
         self.assert_refused("a.inp", ABAQUS + lost, "a.inp:8: ", "names the part 'P', which is not there")

@@ -3,20 +3,22 @@
 A deck without parts is one part; the assembly is one, too, in which the instances of the others stand.
 """
 
+import math
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from sprung_tools.mesh_import.abaqus_axes import GLOBAL, read_axes
 from sprung_tools.mesh_import.abaqus_blocks import Block, join_rows, read_integer, read_real
 from sprung_tools.mesh_import.line_mesh import MOST_MEMBERS
 
 TWO_NODES = re.compile(r"(B2[13]H?|B3[13](R|H|OS|OSH)?|T[23]D2[HTE]*|PIPE[23]1H?|FRAME[23]D|U1)$")
 THREE_NODES = re.compile(r"(B[23]2(R|H|OS|OSH)?|T[23]D3[HTE]*|PIPE[23]2H?)$")
-GENERATING = {"NCOPY", "NMAP", "ELCOPY", "SYSTEM"}
+GENERATING = {"NCOPY", "NMAP", "ELCOPY"}
 GENERATORS = {"NGEN", "NFILL", "ELGEN"}
-MESHING = {"NODE", "ELEMENT", "NSET", "ELSET"} | GENERATORS
+MESHING = {"NODE", "ELEMENT", "NSET", "ELSET", "SYSTEM"} | GENERATORS
 SAME_PLACE = 1e-9  # relative to the length of the line on which nodes are generated
 
 
@@ -69,6 +71,7 @@ class Part:
         self.elements: dict[int, Element] = {}
         self.node_sets = SetTable()
         self.element_sets = SetTable()
+        self.axes = GLOBAL  # of the nodes that are read
         self.used: list[tuple[Block, str]] = []  # blocks that give something to an element set, and its name
 
     def read(self, block: Block) -> None:
@@ -77,8 +80,8 @@ class Part:
             block.fail("has its data in another file (INPUT=…), which is not followed; take it in by *INCLUDE")
         readers = {
             "NODE": self.read_nodes, "ELEMENT": self.read_elements, "NSET": self.read_node_set,
-            "ELSET": self.read_element_set, "NGEN": self.generate_nodes, "NFILL": self.fill_nodes,
-            "ELGEN": self.generate_elements,
+            "ELSET": self.read_element_set, "SYSTEM": self.read_system, "NGEN": self.generate_nodes,
+            "NFILL": self.fill_nodes, "ELGEN": self.generate_elements,
         }  # fmt: skip
         readers[block.keyword](block)
 
@@ -88,8 +91,9 @@ class Part:
             block.fail(f"node {node} is defined twice", line)
 
     def read_nodes(self, block: Block) -> None:
-        if block.parameters.get("SYSTEM", "R").upper() != "R":
-            block.fail("is not in rectangular coordinates")
+        kind = block.parameters.get("SYSTEM", "R").upper()
+        if kind not in ("R", "C"):
+            block.fail("is neither in rectangular nor in cylindrical coordinates")
         ids: list[int] = []
         for line, fields in block.data:
             node = self.read_own_number(block, line, fields[0], "N")
@@ -99,10 +103,15 @@ class Part:
             if node in ids[-1:]:
                 block.fail(f"node {node} is defined twice", line)
             x, y, z = (*place, 0.0, 0.0)[:3]
-            self.add_node(block, line, node, (x, y, z))
+            if kind == "C":
+                x, y = x * math.cos(math.radians(y)), x * math.sin(math.radians(y))
+            self.add_node(block, line, node, self.axes.place(x, y, z))
             ids.append(node)
         if block.parameters.get("NSET"):
             self.node_sets.add(block.parameters["NSET"], ids)
+
+    def read_system(self, block: Block) -> None:
+        self.axes = read_axes(block)
 
     def read_elements(self, block: Block) -> None:
         kind = block.parameters.get("TYPE", "").upper()
