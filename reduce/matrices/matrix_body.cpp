@@ -159,11 +159,16 @@ class MotionMaker {
   // Modal freedoms behind the others, up to a multiple of 3.
   void add_modal(int& size, Motions& motions) {
     const ModalFreedoms modal = divide_modal_freedoms(system_, motions.symmetric, motions.antisymmetric);
-    for (const int row : modal.symmetric) {
-      symmetric_.emplace_back(row, size + static_cast<int>(motions.modal_ids.size()), 1.0);
-      motions.modal_ids.push_back(system_.freedoms[row].node);
+    for (const ModalMotion& motion : modal.symmetric) {
+      const int column = size + static_cast<int>(motions.modal_ids.size());
+      for (const auto& [row, amplitude] : motion.parts) symmetric_.emplace_back(row, column, amplitude);
+      motions.modal_ids.push_back(system_.freedoms[motion.row].node);
     }
-    for (const int row : modal.antisymmetric) antisymmetric_.emplace_back(row, num_antisymmetric_++, 1.0);
+    for (const ModalMotion& motion : modal.antisymmetric) {
+      for (const auto& [row, amplitude] : motion.parts)
+        antisymmetric_.emplace_back(row, num_antisymmetric_, amplitude);
+      ++num_antisymmetric_;
+    }
     size += 3 * ((static_cast<int>(motions.modal_ids.size()) + 2) / 3);
   }
   // A displacement along an axis of the plane's frame, or a rotation about it. `is_even`: mirrored nodes have

@@ -164,6 +164,28 @@ class ReducedBodiesTest(ReduceTestCase):
                 np.testing.assert_allclose(self.vehicle_of_file(file), full, rtol=tolerance)
                 self.assertEqual(list(file["nodes/id"]), self.ids)
 
+    def test_modes_of_equal_frequency_may_be_mixed_across_the_plane(self):
+        # A bar that bends out of the plane as in it, as one of a square section; each mode of the one is mixed with its
+        # equal of the other by an angle of its own.
+        reduced = reduce_body(self.K, self.M, self.num_inner)[:2]
+        size, num_kept = len(reduced[0]), 3 * len(KEPT)
+        mix = np.eye(2 * size)
+        for i in range(num_kept, size):
+            pair, angle = [i, size + i], 0.1 + 0.7 * i
+            mix[np.ix_(pair, pair)] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        for path, matrix in zip(("k.mtx", "m.mtx"), reduced):
+            whole = mix.T @ np.kron(np.eye(2), 0.5 * (matrix + matrix.T)) @ mix
+            files.write_matrix_market(self.folder / path, whole)
+        out = {1: 4, 2: 3, 6: 5, 0: 0}  # torsion, and bending across the plane
+        even = [(node, d) for node, d in self.freedoms(self.num_inner)]
+        odd = [(node if d else node + 100, out[d]) for node, d in even]
+        files.write_freedoms(self.folder / "f.csv", [(node, d or "q") for node, d in even + odd])
+        lines = 'format = "matrix-market"\nstiffness = "k.mtx"\nmass = "m.mtx"\nfreedoms = "f.csv"\nnodes = "n.csv"\n'
+        (self.folder / "body.toml").write_text(DESIGN.replace("FILES", lines).replace("METHOD", ALL))
+        self.build("body.toml")
+        with h5py.File(self.folder / "out/body.h5") as file:
+            np.testing.assert_allclose(self.vehicle_of_file(file), self.full_vehicle(), rtol=1e-9)
+
     def test_few_modes_give_the_vehicle_within_the_truncation(self):
         # Frequencies from a subspace are never too low. Of an exact mode of ω² the modes left out hold the share
         # s ≤ r/(1 − r)² of the strain energy, r = (ω/ω_next)², ω_next of the first one left out, because each follows
