@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 
 #include "dynamics/integration/ode_system.h"
@@ -42,6 +43,11 @@ class Integrator {
   /// Solution at a time within the last step.
   virtual void interpolate(double time, std::span<double> y) const = 0;
   virtual Statistics statistics() const = 0;
+  /// Estimated error of the accelerations by vibration at a time within the last step.
+  /// @param[out] error  of each freedom   @return false for methods that have no estimate
+  virtual bool estimate_acceleration_error(double /*time*/, Eigen::VectorXd& /*error*/) const {
+    return false;
+  }
   /// The small motion in use, for methods that treat it separately; null for others, and where another one
   /// will be asked for with the next step.
   virtual const SmallMotion* small_motion() const { return nullptr; }

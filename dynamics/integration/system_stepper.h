@@ -74,6 +74,9 @@ class SystemStepper {
     const ConstrainedEquations& now = equations();
     return {.equations = now, .q = now.q(), .v = now.v(), .v_dot = now.v_dot()};
   }
+  /// Estimated error by vibration of the accelerations evaluated last, in coordinates of equations(), until
+  /// the next call of anything else; null where there is no estimate.
+  virtual const Eigen::VectorXd* estimate_acceleration_error() { return nullptr; }
   virtual EnergyFlow energy_flow() const = 0;
 
   virtual SmoothPiece& piece() = 0;

@@ -38,6 +38,9 @@ class AdaptiveStepper final : public SystemStepper {
   void evaluate(double time, Level level) override { segment_->stepper->evaluate(time, level); }
   Observation observation() override;
   const ConstrainedEquations& equations() const override { return segment_->stepper->equations(); }
+  const Eigen::VectorXd* estimate_acceleration_error() override {
+    return segment_->stepper->estimate_acceleration_error();
+  }
   EnergyFlow energy_flow() const override;
   SmoothPiece& piece() override { return segment_->stepper->piece(); }
   Statistics statistics() const override;

@@ -27,6 +27,9 @@ class MonitoredStepper final : public SystemStepper {
   void evaluate(double time, Level level) override { stepper_->evaluate(time, level); }
   Observation observation() override { return stepper_->observation(); }
   const ConstrainedEquations& equations() const override { return stepper_->equations(); }
+  const Eigen::VectorXd* estimate_acceleration_error() override {
+    return stepper_->estimate_acceleration_error();
+  }
   EnergyFlow energy_flow() const override { return stepper_->energy_flow(); }
   SmoothPiece& piece() override { return stepper_->piece(); }
   Statistics statistics() const override { return stepper_->statistics(); }

@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kMaxSwitchesInPlace = 100;  // within kSamePlace of each other before the run is given up
 constexpr double kSamePlace = 1e-9;       // s
+constexpr long kOutputsPerEstimate = 4;   // of errors: at each it would cost up to 4 % of the run
 constexpr long kStepsPerObservation = 5;  // between outputs: with Adams, each costs half of a step
 
 // The start in coordinates of the full model: modes that the run lacks are at zero.
@@ -225,7 +226,10 @@ class TransientRun {
                         .v_dot = now.v_dot,
                         .branches = piece().branches(),
                         .energy = {calc_stored(now), flow.dissipated, flow.input},
-                        .modes = monitor_ ? &monitor_->modes() : nullptr});
+                        .modes = monitor_ ? &monitor_->modes() : nullptr,
+                        .acceleration_error = reached_.next_output % kOutputsPerEstimate == 0
+                                                  ? stepper_->estimate_acceleration_error()
+                                                  : nullptr});
   }
 
   // At the end of a step.
@@ -252,16 +256,25 @@ class TransientRun {
   long work_ = 0;                              // steps and outputs since the last checkpoint
 };
 
-}  // namespace
-
-Eigen::Vector2d calc_acceleration(const ConstrainedEquations& equations, std::size_t marker) {
-  const SystemTerms& terms = equations.terms();
+Eigen::Vector2d calc_acceleration_from(const SystemTerms& terms, const Eigen::VectorXd& v_dot,
+                                       std::size_t marker) {
   const Model& model = terms.model();
   const int b = model.markers[marker].body;
   if (b == kGround) return Eigen::Vector2d::Zero();
   const Body& body = model.bodies[static_cast<std::size_t>(b)];
   return calc_marker_acceleration(terms.markers()[marker],
-                                  equations.v_dot().segment(body.first_coordinate, body.num_coordinates()));
+                                  v_dot.segment(body.first_coordinate, body.num_coordinates()));
+}
+
+}  // namespace
+
+Eigen::Vector2d calc_acceleration(const ConstrainedEquations& equations, std::size_t marker) {
+  return calc_acceleration_from(equations.terms(), equations.v_dot(), marker);
+}
+
+Eigen::Vector2d Snapshot::calc_acceleration_error(std::size_t marker) const {
+  if (acceleration_error == nullptr) return Eigen::Vector2d::Zero();
+  return calc_acceleration_from(terms(), *acceleration_error, marker) - terms().markers()[marker].a_bias;
 }
 
 TransientStatistics run_transient(const Model& model, const State& start, const TransientOptions& options) {

@@ -45,12 +45,17 @@ struct Snapshot {
   std::span<const int> branches;
   EnergyBook energy;
   const ModeAdaptation* modes;  ///< active modes, and the neglect of the others; null without adaptivity
+  /// Estimated error of `equations.v_dot()`; null where there is no estimate, and at
+  /// three of four outputs.
+  const Eigen::VectorXd* acceleration_error;
 
   const SystemTerms& terms() const { return equations.terms(); }
   const Eigen::VectorXd& multipliers() const { return equations.multipliers(); }  ///< num_constraints
   Eigen::Vector2d calc_acceleration(std::size_t marker) const {                   ///< [m/s²]
     return dynamics::calc_acceleration(equations, marker);
   }
+  /// Estimated error of it, 0 where there is no estimate [m/s²].
+  Eigen::Vector2d calc_acceleration_error(std::size_t marker) const;
 };
 
 struct TransientOptions {

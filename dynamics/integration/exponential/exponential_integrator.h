@@ -7,6 +7,7 @@
 #include "dynamics/integration/exponential/collocation_step.h"
 #include "dynamics/integration/exponential/pair_coordinates.h"
 #include "dynamics/integration/exponential/step_switches.h"
+#include "dynamics/integration/exponential/vibration_error.h"
 #include "dynamics/integration/integrator.h"
 
 namespace sprung::dynamics {
@@ -16,7 +17,7 @@ namespace sprung::dynamics {
 /// step through its values at the four Lobatto points, found by iteration. So the length of a step follows
 /// the excitation of stiff modes, not their period. Order 6 at the ends of steps, 4 within. No step needs
 /// those before it: after a switch the step stays as long as it was. Source: variation of constants;
-/// [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–7).
+/// [Hochbruck & Ostermann 2010] (integration/exponential, eqs. 1–9).
 class ExponentialIntegrator final : public Integrator {
  public:
   /// @param system  f > 0 freedoms; has to outlive this
@@ -28,6 +29,7 @@ class ExponentialIntegrator final : public Integrator {
   double time() const override { return time_; }
   std::span<const double> y() const override { return {y_.data(), static_cast<std::size_t>(y_.size())}; }
   void interpolate(double time, std::span<double> y) const override;
+  bool estimate_acceleration_error(double time, Eigen::VectorXd& error) const override;
   Statistics statistics() const override { return statistics_; }
   const SmallMotion* small_motion() const override { return wants_linearisation_ ? nullptr : &small_motion_; }
 
@@ -38,6 +40,7 @@ class ExponentialIntegrator final : public Integrator {
   void linearise();
   void begin();
   bool has_fast_vibration() const;
+  void update_pairs();
   void follow_inertia();
   double choose_length(double longest_step) const;
   bool evaluate(double time, const PairedMotion& motion, int node);
@@ -79,7 +82,8 @@ class ExponentialIntegrator final : public Integrator {
   std::array<LobattoPropagator, kNumNodes> propagators_;            // to each node but the first
   double propagator_length_ = 0.0;
 
-  PairedMotion end_;  // motion at the end of now_, when its iteration is over
+  VibrationError vibration_error_;  // at time_
+  PairedMotion end_;                // motion at the end of now_, when its iteration is over
   // Work space.
   Vector y_dot_, stage_y_, error_sizes_;
   PairedMotion again_, change_;        // of a sweep: the motion at its second node anew, what has changed
@@ -87,8 +91,9 @@ class ExponentialIntegrator final : public Integrator {
   PairedMotion at_switch_;
   Eigen::MatrixXd mass_columns_, past_motions_, past_drives_;  // for the shear of the pairs
   mutable LobattoPropagator between_;
+  mutable double between_time_ = std::numeric_limits<double>::quiet_NaN();  // that it is for
   mutable PairedMotion between_motion_;
-  mutable Vector between_y_;
+  mutable Vector between_y_, error_pairs_, error_rates_, error_change_;
 };
 
 }  // namespace sprung::dynamics

@@ -1,5 +1,6 @@
 #include "dynamics/integration/exponential/lobatto_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/functions/oscillator_response.h"
@@ -88,6 +89,33 @@ void LobattoPropagator::add_quartic(const PairBlocks& blocks, const Eigen::Vecto
     const double a = alpha_quartic_[m], b = beta_quartic_[m];
     u[m] += a * g1 + b * (blocks.b11[m] * g1 + blocks.b12[m] * g2);
     u[f + m] += a * g2 + b * (blocks.b21[m] * g1 + blocks.b22[m] * g2);
+  }
+}
+
+void LobattoPropagator::carry_error(const PairBlocks& blocks, double share,
+                                    const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const {
+  const Eigen::Index f = blocks.size();
+  for (Eigen::Index m = 0; m < f; ++m) {
+    const double trace = blocks.trace(m), determinant = blocks.determinant(m);
+    if (!(determinant > 0.0)) {
+      u[m] = u[f + m] = 0.0;
+      continue;
+    }
+    // The length of a pair changes by √det e^{Bt}, half of that time by the square root of it.
+    const double a = alpha_start_[m], b = beta_start_[m];
+    const double change = std::sqrt(std::max(0.0, a * (a + b * trace) + b * b * determinant));
+    const double keep = 1.0 / std::max(1.0, change), add = share * std::min(1.0, std::sqrt(change));
+    double constant = 0.0, by_block = 0.0;
+    for (std::size_t j = 0; j < kNumNodes; ++j) {
+      constant += alpha_[j][m];
+      by_block += beta_[j][m];
+    }
+    const double u1 = u[m], u2 = u[f + m], g1 = coefficients[m], g2 = coefficients[f + m];
+    const double plain1 = keep * a * u1 + add * constant * g1, plain2 = keep * a * u2 + add * constant * g2;
+    const double by_block1 = keep * b * u1 + add * by_block * g1,
+                 by_block2 = keep * b * u2 + add * by_block * g2;
+    u[m] = plain1 + blocks.b11[m] * by_block1 + blocks.b12[m] * by_block2;
+    u[f + m] = plain2 + blocks.b21[m] * by_block1 + blocks.b22[m] * by_block2;
   }
 }
 

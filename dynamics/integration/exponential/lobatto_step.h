@@ -27,6 +27,12 @@ class LobattoPropagator {
   /// u += the response to a drive of node_polynomial(θ) times `coefficients`, 2f.
   void add_quartic(const PairBlocks& blocks, const Eigen::VectorXd& coefficients, Eigen::VectorXd& u) const;
 
+  /// Carries an error of the pairs that vibrate on, without growth, and adds what a constant error of the
+  /// drive, of `share` times `coefficients`, leaves by the end (integration/exponential, eq. 8). Other pairs
+  /// have none. @param[in,out] u  2f
+  void carry_error(const PairBlocks& blocks, double share, const Eigen::VectorXd& coefficients,
+                   Eigen::VectorXd& u) const;
+
   double integral_weight(int j) const {
     return integral_[static_cast<std::size_t>(j)];
   }                                                              ///< of the rate at a node [s]

@@ -37,6 +37,18 @@ void PairCoordinates::to_state(const PairedMotion& motion, Eigen::VectorXd& y) c
   y.tail(motion.w.size()) = motion.w;
 }
 
+void PairCoordinates::to_state_change(const Eigen::VectorXd& u, Eigen::VectorXd& change) const {
+  change.resize(2 * f_);
+  basis_.to_state(u, change.data());
+  shear_.add(change.data());
+}
+
+void PairCoordinates::to_pair_change(Eigen::VectorXd change, Eigen::VectorXd& u) const {
+  shear_.remove(change.data());
+  u.resize(2 * f_);
+  basis_.to_pairs(change.data(), u.data());
+}
+
 void PairCoordinates::calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive,
                                  int node) {
   auto pairs = drive.pairs.col(node);

@@ -157,6 +157,7 @@ void PartitionedStepper::evaluate_passage(double time) {
 }
 
 void PartitionedStepper::evaluate(double time, Level level) {
+  evaluated_time_ = time;
   if (has_passed_) ode_.equations().return_to_accepted();
   if (is_inside_passage(time)) {
     evaluate_passage(time);
@@ -182,6 +183,13 @@ void PartitionedStepper::evaluate_end_approximately(Level level) {
   } else if (level == Level::kAllMarkers) {
     ode_.equations().update_all_markers();
   }
+}
+
+const Eigen::VectorXd* PartitionedStepper::estimate_acceleration_error() {
+  if (!is_running_ || is_inside_passage(evaluated_time_)) return nullptr;
+  if (!integrator_->estimate_acceleration_error(evaluated_time_, independent_error_)) return nullptr;
+  acceleration_error_ = ode_.equations().calc_free_motion(independent_error_);
+  return &acceleration_error_;
 }
 
 SystemStepper::Statistics PartitionedStepper::statistics() const {

@@ -34,6 +34,7 @@ class PartitionedStepper final : public SystemStepper {
   void evaluate(double time, Level level) override;
   void evaluate_end_approximately(Level level) override;
   const ConstrainedEquations& equations() const override { return ode_.equations().constrained(); }
+  const Eigen::VectorXd* estimate_acceleration_error() override;
   EnergyFlow energy_flow() const override { return {ode_.dissipated(y_), ode_.input(y_)}; }
   SmoothPiece& piece() override { return ode_.piece(); }
   Statistics statistics() const override;
@@ -50,7 +51,9 @@ class PartitionedStepper final : public SystemStepper {
   PartitionedOde ode_;
   std::unique_ptr<Integrator> integrator_;
   std::function<void(double)> on_repartition_;
-  std::vector<double> y_;  // evaluated last
+  std::vector<double> y_;        // evaluated last
+  double evaluated_time_ = 0.0;  // likewise
+  Eigen::VectorXd independent_error_, acceleration_error_;
   double start_time_ = 0.0, end_time_ = 0.0;
   bool is_running_ = false, is_at_start_ = false;
   double last_rescue_ = -std::numeric_limits<double>::infinity();

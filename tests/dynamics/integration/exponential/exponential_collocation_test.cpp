@@ -1,6 +1,7 @@
 // The parts of the exponential integrator, each against its definition.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -46,6 +47,40 @@ Eigen::MatrixXd random_positive(Eigen::Index n, std::mt19937& random) {
 }
 
 }  // namespace
+
+TEST_CASE("An estimated error vibrates on without growth, with what a constant error of the drive adds",
+          "[analysis]") {
+  // Damped vibration, vibration that grows, a free motion with damping; as coordinate and velocity.
+  dynamics::PairBlocks B;
+  B.b11 = Eigen::Array3d::Zero();
+  B.b12 = Eigen::Array3d::Ones();
+  B.b21 = Eigen::Array3d(-900.0, -400.0, 0.0);
+  B.b22 = Eigen::Array3d(-6.0, 2.0, -3.0);
+  const double length = 0.35, share = 0.3;
+  dynamics::LobattoPropagator propagator(3);
+  propagator.update(1.0, length, B);
+  Eigen::VectorXd u(6), g(6);
+  u << 0.3, -0.7, 0.4, 11.0, 5.0, 2.0;
+  g << 0.2, 0.5, -0.1, 31.0, -17.0, 9.0;
+  Eigen::VectorXd found = u;
+  propagator.carry_error(B, share, g, found);
+  for (const Eigen::Index m : {0, 1}) {
+    CAPTURE(m);
+    // e^{Bt} = e^{−dt} (cos ωt I + sin ωt (B + d I)/ω);   ∫ e^{Bσ} dσ = B⁻¹ (e^{Bt} − I).
+    const Eigen::Matrix2d block{{B.b11[m], B.b12[m]}, {B.b21[m], B.b22[m]}}, I = Eigen::Matrix2d::Identity();
+    const double d = -0.5 * block.trace(), omega = std::sqrt(block.determinant() - d * d);
+    const Eigen::Matrix2d free = std::exp(-d * length) * (std::cos(omega * length) * I +
+                                                          std::sin(omega * length) / omega * (block + d * I));
+    const Eigen::Matrix2d forced = block.inverse() * (free - I);
+    const double growth = std::max(1.0, std::exp(-d * length)),
+                 decay = std::min(1.0, std::exp(-0.5 * d * length));
+    const Eigen::Vector2d expected = free * Eigen::Vector2d(u[m], u[3 + m]) / growth +
+                                     share * decay * (forced * Eigen::Vector2d(g[m], g[3 + m]));
+    CHECK((Eigen::Vector2d(found[m], found[3 + m]) - expected).norm() < 1e-11 * expected.norm());
+  }
+  CHECK(found[2] == 0.0);
+  CHECK(found[5] == 0.0);
+}
 
 TEST_CASE("An oscillator's response composes: two spans of time are one", "[analysis]") {
   // All regimes: free, slow, fast, critical, far beyond critical, unstable by damping or by stiffness.
