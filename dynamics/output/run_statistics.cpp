@@ -8,6 +8,14 @@
 
 namespace sprung::dynamics {
 
+namespace {
+
+double calc_rms(double sum_of_squares, long count) {
+  return count == 0 ? 0.0 : std::sqrt(sum_of_squares / static_cast<double>(count));
+}
+
+}  // namespace
+
 void RunStatistics::Accumulator::add(double value) {
   minimum = std::min(minimum, value);
   maximum = std::max(maximum, value);
@@ -16,7 +24,7 @@ void RunStatistics::Accumulator::add(double value) {
 
 SampleStatistics RunStatistics::Accumulator::result(long count) const {
   if (count == 0) return {};
-  return {minimum, maximum, std::sqrt(sum_of_squares / static_cast<double>(count))};
+  return {minimum, maximum, calc_rms(sum_of_squares, count)};
 }
 
 namespace {
@@ -57,7 +65,8 @@ RunStatistics::RunStatistics(const Model& model, const std::vector<std::string>&
   for (const std::string& name : points) {
     const int marker = model.find_marker(name);
     if (marker < 0) throw std::invalid_argument(fmt::format("RunStatistics: there is no point '{}'", name));
-    points_.push_back({marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}, {}});
+    points_.push_back(
+        {marker, terms.markers()[static_cast<std::size_t>(marker)].r.y(), {}, {}, {}, 0.0, 0.0});
   }
   bending_ = make_body_bending(vehicle, model, sections);
   const std::vector<VehiclePoint> of_vehicle = list_points(vehicle);
@@ -93,12 +102,15 @@ void RunStatistics::add(const Snapshot& snapshot) {
   const bool is_stored = num_outputs_++ % window_.stored_every == 0;
   if (!is_counted(snapshot.time)) return;
   ++num_samples_;
+  if (snapshot.acceleration_error != nullptr) ++num_estimates_;
   sections_.add(snapshot.time);
   for (Point& point : points_) {
     const auto marker = static_cast<std::size_t>(point.marker);
     point.displacement.add(terms.markers()[marker].r.y() - point.reference_height);
     const Eigen::Vector2d acceleration = snapshot.calc_acceleration(marker);
     point.acceleration.add(acceleration.y());
+    point.squared_acceleration += acceleration.squaredNorm();
+    point.squared_error += snapshot.calc_acceleration_error(marker).squaredNorm();
     for (Eigen::Index i = 0; i < 2; ++i) {
       SampleDensity& density = point.density[static_cast<std::size_t>(i)];
       if (is_stored) {
@@ -153,7 +165,8 @@ std::vector<PointStatistics> RunStatistics::point_statistics() const {
   for (const Point& point : points_) {
     all.push_back({model_->markers[static_cast<std::size_t>(point.marker)].name,
                    point.displacement.result(num_samples_), point.acceleration.result(num_samples_),
-                   point.density});
+                   point.density, calc_rms(point.squared_acceleration, num_samples_),
+                   calc_rms(point.squared_error, num_estimates_)});
   }
   return all;
 }
@@ -171,12 +184,15 @@ void RunStatistics::transfer(Bytes& bytes, Statistics& statistics) {
       bytes.transfer(sample->sum_of_squares);
     }
     for (auto& density : point.density) SampleDensity::transfer(bytes, density);
+    bytes.transfer(point.squared_acceleration);
+    bytes.transfer(point.squared_error);
   }
   SectionStatistics::transfer(bytes, statistics.sections_);
   for (auto& body : statistics.bending_) BodyBending::transfer(bytes, body);
   for (auto& body : statistics.certified_) CertifiedError::transfer(bytes, body);
   bytes.transfer(statistics.num_samples_);
   bytes.transfer(statistics.num_outputs_);
+  bytes.transfer(statistics.num_estimates_);
   bytes.transfer(statistics.constraint_violation_);
   bytes.transfer(statistics.has_first_);
   auto& first = statistics.first_;

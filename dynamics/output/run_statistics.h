@@ -28,6 +28,8 @@ struct PointStatistics {
   SampleStatistics displacement;         ///< [m]
   SampleStatistics acceleration;         ///< [m/s²]
   std::array<SampleDensity, 2> density;  ///< of the stored accelerations along x and y
+  double acceleration_rms = 0.0;         ///< of its length, x and y [m/s²]
+  double acceleration_error_rms = 0.0;   ///< likewise of its estimated error; 0 without an estimate [m/s²]
 };
 
 /// Which outputs are counted.
@@ -84,6 +86,7 @@ class RunStatistics {
     double reference_height;
     Accumulator displacement, acceleration;
     std::array<SampleDensity, 2> density;
+    double squared_acceleration = 0.0, squared_error = 0.0;  // sums [m²/s⁴]
   };
 
   void add_to_energy_size(const Energy& now, const SystemTerms& terms);
@@ -98,7 +101,7 @@ class RunStatistics {
   SectionStatistics sections_;
   std::vector<BodyBending> bending_;
   std::vector<CertifiedError> certified_;
-  long num_samples_ = 0, num_outputs_ = 0;
+  long num_samples_ = 0, num_outputs_ = 0, num_estimates_ = 0;
   double constraint_violation_ = 0.0;
   Eigen::VectorXd phi_;  // constraint residual
   bool has_first_ = false;

@@ -19,6 +19,7 @@ constexpr double kClosed = 1e-6;             // gap of a joint, of the largest m
 constexpr double kSmallestScale = 1e-4;      // m: a hundred thousand times the dead band of switches
 constexpr double kTooRough = 0.4;            // SampleDensity::roughness: about five samples per period
 constexpr double kMissedPeak = 0.1;          // SampleDensity::missed
+constexpr double kUnconverged = 0.1;         // estimated error of an acceleration, of its r.m.s.
 constexpr double kSmallAcceleration = 1e-3;  // of the natural acceleration: smaller ones are not judged
 constexpr const char* kSummary = "summary";  // kinds of numbers that a warning concerns
 constexpr const char* kModes = "modes";
@@ -85,11 +86,41 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
   warnings.push_back({kModes, {body}, text});
 }
 
+// Accelerations below this count as this: a share of gravity, at least of one length scale per s² [m/s²].
+double find_smallest_acceleration(const Model& model) {
+  return kSmallAcceleration * std::max(model.gravity.norm(), model.length_scale);
+}
+
+void warn_of_unconverged_accelerations(const Model& model, const RunStatistics& statistics,
+                                       std::vector<RunWarning>& warnings) {
+  const std::vector<PointStatistics> all = statistics.point_statistics();
+  std::vector<std::string> points;
+  const PointStatistics* worst = nullptr;
+  double worst_share = kUnconverged;
+  for (const PointStatistics& point : all) {
+    const double share =
+        point.acceleration_error_rms / std::max(find_smallest_acceleration(model), point.acceleration_rms);
+    if (!(share > kUnconverged)) continue;
+    points.push_back(point.point);
+    if (share < worst_share) continue;
+    worst = &point;
+    worst_share = share;
+  }
+  if (worst == nullptr) return;
+  warnings.push_back(
+      {kSummary, points,
+       fmt::format(
+           "the accelerations are not converged: the estimated error of that of {} is {:.2g} m/s² "
+           "r.m.s., where it has {:.3g} m/s² r.m.s.: vibration of stiff modes, which steps excite; take "
+           "a smaller integrator.relative_tolerance, or fewer modes, or compare with "
+           "integrator.method = \"generalized-alpha\"",
+           worst->point, worst->acceleration_error_rms, worst->acceleration_rms)});
+}
+
 // Of accelerations that the outputs may have missed the peaks of.
 void warn_of_coarse_outputs(const Model& model, const RunStatistics& statistics,
                             std::vector<RunWarning>& warnings) {
-  // That of gravity, at least one length scale per s².
-  const double floor = kSmallAcceleration * std::max(model.gravity.norm(), model.length_scale);
+  const double floor = find_smallest_acceleration(model);
   const std::vector<PointStatistics> all = statistics.point_statistics();
   std::vector<std::string> points;
   std::string reason;
@@ -191,6 +222,7 @@ std::vector<RunWarning> list_run_warnings(const Vehicle& vehicle, const Model& m
   const JudgedQuantities& judged = vehicle.judged;
   std::vector<RunWarning> warnings;
   warn_of_energy(statistics, warnings);
+  warn_of_unconverged_accelerations(model, statistics, warnings);
   if (adaptivity != nullptr && judged.points) {
     warn_of_missing_modes(model, statistics, transient, *adaptivity, warnings);
   }
