@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "reduce/design/design_frame.h"
@@ -28,6 +30,21 @@ struct NodeLine {
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();
 };
 
+// Each node is joined with the next one. Nodes of an arc, for instance, do not lie on the line between its
+// ends.
+void require_elements(const fem::Mesh& mesh, const NodeLine& line, const TomlValue& to) {
+  std::set<std::pair<int, int>> joined;
+  for (const fem::Mesh::Element& element : mesh.elements)
+    joined.insert(std::minmax(element.first, element.second));
+  for (std::size_t i = 0; i + 1 < line.nodes.size(); ++i) {
+    const int first = line.nodes[i], second = line.nodes[i + 1];
+    if (joined.count(std::minmax(first, second)) > 0) continue;
+    throw to.error(fmt::format(
+        "is not reached from the first point along a straight line of elements: none joins {} and {}",
+        fem::describe_node(mesh, first), fem::describe_node(mesh, second)));
+  }
+}
+
 NodeLine find_line(const fem::Mesh& mesh, const TomlValue& from, const TomlValue& to) {
   const Eigen::Vector2d first = mesh.node_positions.col(find_named_node(mesh, from)),
                         last = mesh.node_positions.col(find_named_node(mesh, to));
@@ -48,6 +65,7 @@ NodeLine find_line(const fem::Mesh& mesh, const TomlValue& from, const TomlValue
     line.places.push_back(place);
     line.nodes.push_back(node);
   }
+  require_elements(mesh, line, to);
   return line;
 }
 

@@ -11,7 +11,7 @@ namespace sprung::reduce {
 struct SizeRange {
   double smallest, largest;
 };
-inline constexpr SizeRange kLengths{1e-12, 1e12};          // m
+inline constexpr SizeRange kLengths{1e-12, 1e9};           // m
 inline constexpr SizeRange kAreas{1e-24, 1e24};            // m²
 inline constexpr SizeRange kSecondMoments{1e-48, 1e48};    // m⁴
 inline constexpr SizeRange kSectionModuli{1e-36, 1e36};    // m³

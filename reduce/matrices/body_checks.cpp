@@ -22,6 +22,7 @@ constexpr double kRigidForce = 2e-5;
 constexpr double kRounding = 1e-9;       // of entries, of those that their places in the matrix let expect
 constexpr double kSmallestMass = 1e-9;   // of a mass matrix scaled to unit diagonal, to rounding of files
 constexpr double kMassTolerance = 1e-5;  // of the mass, and of mass times the body's extent
+constexpr double kLargestRadius = 3.0;   // of gyration about the middle, of the extent
 
 std::string list_freedoms(const MatrixBody& body, const std::vector<Eigen::Index>& freedoms) {
   std::string text;
@@ -187,9 +188,18 @@ void require_mass_of_a_body(const MatrixBody& body) {
                                  "them by {:.3g} kg); a body has one mass",
                                  mass, along_y, Mx.dot(motions.along_y)));
   }
-  if (body.is_reduced) return;
   const double extent =
       (body.node_positions.rowwise().maxCoeff() - body.node_positions.rowwise().minCoeff()).norm();
+  const double radius = std::sqrt(std::max(motions.rotation.dot(body.mass * motions.rotation), 0.0) / mass);
+  if (radius > kLargestRadius * extent) {
+    throw InputError(
+        where,
+        fmt::format("the body's mass is {:.6g} kg, and its radius of gyration {:.3g} m, though its nodes are "
+                    "within {:.3g} m; masses and moments of inertia in different units, or in units "
+                    "that are not those of the nodes, are usual causes",
+                    mass, radius, extent));
+  }
+  if (body.is_reduced) return;
   const double by_rotation = My.dot(motions.rotation), by_places = Mx.dot(motions.places);
   const double y_by_rotation = -Mx.dot(motions.rotation), y_by_places = My.dot(motions.places);
   if (std::max(std::abs(by_rotation - by_places), std::abs(y_by_rotation - y_by_places)) >

@@ -136,10 +136,12 @@ void require_checks(const std::vector<CheckResult>& checks, const Design& design
           "stiffer reference node, or the basis \"free\"",
           check.value, check.tolerance));
     }
-    throw NumericalError(
-        fmt::format("the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; refine the "
-                    "mesh less or ask for fewer modes",
-                    check.name, check.value, check.tolerance));
+    throw NumericalError(fmt::format(
+        "the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; {}", check.name, check.value,
+        check.tolerance,
+        design.matrices ? "the matrices are not exactly those of a body: masses that act along one axis "
+                          "more than along the other, and numbers that were cut short, are usual causes"
+                        : "refine the mesh less or ask for fewer modes"));
   }
 }
 

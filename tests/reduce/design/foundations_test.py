@@ -216,6 +216,8 @@ mass = 30.0
             (('part = "part"\nnormal', 'on = ["part"]\nnormal'), "names 1 points"),
             (('part = "part"\nnormal', 'on = ["part", "left"]\nnormal'), "do not face"),
             (('to = "right"\npart', 'to = "left"\npart'), "is at the place of the line's first point"),
+            (('to = "middle"\n', f'to = "middle"\nvia = {place(LENGTH / 4, 0.1)}\n'),
+             "is not reached from the first point along a straight line of elements: none joins node"),
             (("normal_stiffness = 100000.0", "normal_stiffness = -1.0"), "normal_stiffness"),
         ):
             self.assertIn(change[0], text)

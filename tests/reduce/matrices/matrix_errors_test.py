@@ -291,6 +291,15 @@ class MatrixErrorsTest(ReduceTestCase):
         files.write_freedoms(self.folder / "f.csv", [FREEDOMS[i] for i in keep])
         self.assert_error("k.mtx: error: y of node 2 is missing, as if a boundary condition held it")
 
+    def test_masses_in_other_units_than_the_nodes(self):
+        # In t and mm displacements have 1e-3, rotations 1e3 of the numbers in kg and m; the stiffness stays in N and m.
+        scale = np.tile(np.sqrt([1e-3, 1e-3, 1e3]), 3)
+        mass = scale[:, None] * self.mass * scale
+        self.write_mass(mass)
+        rotation = np.array([0.0, -1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0])  # about the middle node
+        self.assert_error("m.mtx: error: the body's mass is 0.84 kg, and its radius of gyration "
+                          f"{np.sqrt(rotation @ mass @ rotation / 0.84):.3g} m, though its nodes are within 2 m")
+
     def test_masses_of_no_body(self):
         changed = self.mass.copy()
         changed[3, 3] = -1.0
