@@ -15,7 +15,7 @@ from sprung_tools.files.whole_file import write_whole
 SPACING = 0.5  # m between crossings
 NUM_MODES = 20
 COLUMNS = 3 * NUM_MODES  # solutions that as many modes need at least
-MOST_CALCULIX = 150_000  # freedoms; at 100 000 version 2.20 needs 4 GB
+CALCULIX_BYTES = 40_000  # of memory for each freedom, by version 2.20 with 100 000 and 300 000
 DESIGN = """mesh = "lattice.msh"
 [materials.steel]
 youngs_modulus = 2.1e11
@@ -173,7 +173,8 @@ def measure_build(programs: Path, lattice: Lattice, folder: Path) -> BuildCost:
     assert limit is not None
     cholmod = measure_limit(steps, lattice, folder, "--cholmod")
     scipy = measure_scipy(program, lattice, folder)
-    ccx = shutil.which("ccx") if lattice.freedoms <= MOST_CALCULIX else None
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    ccx = shutil.which("ccx") if CALCULIX_BYTES * lattice.freedoms < memory else None
     calculix = measure_calculix(ccx, lattice, folder) if ccx else None
     return BuildCost(lattice, build, outcome, limit, cholmod, scipy, calculix)
 
