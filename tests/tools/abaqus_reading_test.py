@@ -7,6 +7,7 @@ from polygons import integrate
 from small_decks import ABAQUS
 from tool_test_case import ToolTestCase
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.abaqus_deck import read_abaqus
 
 # A leg of 2 m along x, of two lines; its second instance stands upright at x = 3: moved by (3, 0), then turned by 90°
@@ -27,6 +28,12 @@ class Reading(ToolTestCase):
     def read(self, text, name="a.inp"):
         (self.folder / name).write_text(text, encoding="utf-8")
         return read_abaqus(str(self.folder / name))
+
+    def assert_refused(self, text, message):
+        """Asserts that a deck is refused with a message that begins with the line."""
+        with self.assertRaises(InputError) as caught:
+            self.read(text, "b.inp")
+        self.assertIn(f"b.inp:{message}", str(caught.exception))
 
     def find_shape(self, section):
         """The shape of a section that all elements have."""
@@ -331,6 +338,18 @@ class Reading(ToolTestCase):
                 (self.folder / "b.inp").write_text(ABAQUS + data, encoding="utf-8")
                 process = self.run_tool("convert_mesh", "b.inp", "a.msh")
                 self.assert_refuses(process, f"b.inp:{where}: error: *", message)
+
+    def test_digits_that_no_deck_means_are_refused(self):
+        # Python's float() and int() take 0.0_5, and digits of other scripts.
+        section = "*BEAM SECTION, ELSET=A, SECTION=RECT\n{}, .2\n"
+        for text, message in (
+            (ABAQUS + section.format("0.0_5"), "9: error: *BEAM SECTION: '0.0_5' is not a number"),
+            (ABAQUS + section.format("٠.٥"), "9: error: *BEAM SECTION: '٠.٥' is not a number"),
+            (ABAQUS.replace("3, 1., 1.", "1_0, 1., 1."), "4: error: *NODE: '1_0' is not a number"),
+            (ABAQUS.replace("2, 2, 3", "2, 2, ٣"), "7: error: *ELEMENT: '٣' is not a number"),
+        ):
+            with self.subTest(message):
+                self.assert_refused(text, message)
 
     def test_a_tapered_section_has_its_direction_and_moduli_behind_both_ends(self):
         # Keywords Reference, *BEAM GENERAL SECTION with TAPER: the second line has the dimensions at node B.

@@ -81,6 +81,7 @@ class AsterMeshTest(ToolTestCase):
             ("FINSF\nFIN\n", "", "GROUP_NO of line 26 has no FINSF: the file is truncated"),
             ("3.0     0.0\n", "3.0\n", "a.mail:9: error: COOR_2D: node 'D' has 1 coordinates, expected 2"),
             ("3.0E+00", "three", "a.mail:8: error: COOR_2D: 'three' is not a number"),
+            ("3.0E+00", "3_0.", "a.mail:8: error: COOR_2D: '3_0.' is not a number"),
             ("3.0E+00", "1e999", "a.mail:8: error: COOR_2D: '1e999' is not finite"),
             (" C  3.0", " B  3.0", "a.mail:8: error: COOR_2D: node 'B' is defined twice"),
             ("S3 C D", "S3 C X", "names the node 'X', which is not there"),

@@ -7,6 +7,7 @@ from polygons import box, integrate
 from small_decks import NASTRAN
 from tool_test_case import ToolTestCase
 
+from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.frame_properties import Shape
 from sprung_tools.mesh_import.nastran_deck import read_nastran
 
@@ -20,6 +21,18 @@ class Reading(ToolTestCase):
     def read(self, text, name="a.bdf"):
         (self.folder / name).write_text(text, encoding="utf-8")
         return read_nastran(str(self.folder / name))
+
+    def assert_refused(self, text, message):
+        """Asserts that a deck is refused with a message that begins with the line."""
+        with self.assertRaises(InputError) as caught:
+            self.read(text, "b.bdf")
+        self.assertIn(f"b.bdf:{message}", str(caught.exception))
+
+    def test_digits_that_no_deck_means_are_refused(self):
+        # Python's float() and int() take 1_0, and digits of other scripts.
+        self.assert_refused(NASTRAN.replace("GRID,2,,1.", "GRID,2,,1_0."), "3: error: GRID: '1_0.' is no coordinate")
+        self.assert_refused(NASTRAN.replace("GRID,2", "GRID,2_0"), "3: error: GRID: '2_0' is no node number")
+        self.assert_refused(NASTRAN.replace("GRID,2", "GRID,٢"), "3: error: GRID: '٢' is no node number")
 
     def test_negative_areas_and_second_moments_are_refused(self):
         for card, message in (

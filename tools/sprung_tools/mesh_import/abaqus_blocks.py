@@ -12,6 +12,7 @@ from typing import NamedTuple, NoReturn
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
+from sprung_tools.mesh_import.number_text import parse_real, parse_whole
 
 SPELLINGS = {  # without blanks → as it is spelled here, of what the reader asks for; all other words have no blanks
     text.replace(" ", ""): text
@@ -149,7 +150,7 @@ def read_integer(block: Block, line: int, text: str, default: int | None = None)
     if not text and default is not None:
         return default
     try:
-        number = int(text)
+        number = parse_whole(text)
     except ValueError:
         block.fail(f"'{text}' is not a number" if text else "expects a number, but the field is blank", line)
     if abs(number) > LARGEST_NUMBER:
@@ -160,7 +161,7 @@ def read_integer(block: Block, line: int, text: str, default: int | None = None)
 def read_real(block: Block, line: int, text: str, before: str = "") -> float:
     """A finite number; InputError at its line if it is none. before: what stands before it, for the message."""
     try:
-        value = float(text.upper().replace("D", "E"))  # Fortran's 1.0D0
+        value = parse_real(text)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):

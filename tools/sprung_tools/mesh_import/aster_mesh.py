@@ -8,6 +8,7 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members
+from sprung_tools.mesh_import.number_text import parse_real
 
 DIMENSIONS = {"COOR_1D": 1, "COOR_2D": 2, "COOR_3D": 3}
 NODES_OF = {"POI1": 1, "SEG2": 2, "SEG3": 3, "SEG4": 4}
@@ -119,7 +120,7 @@ def read_nodes(path: str, blocks: Iterable[Block]) -> tuple[dict[str, int], np.n
 def read_number(block: Block, line: int, word: str) -> float:
     """A finite number, with an exponent as Fortran writes it or as C does."""
     try:
-        value = float(word.upper().replace("D", "E"))
+        value = parse_real(word)
     except ValueError:
         block.fail(f"'{word}' is not a number", line)
     if not np.isfinite(value):

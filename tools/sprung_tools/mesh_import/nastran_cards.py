@@ -8,6 +8,7 @@ import numpy as np
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
+from sprung_tools.mesh_import.number_text import parse_real, parse_whole
 
 SHORT_EXPONENT = re.compile(r"([0-9.])([+-]\d+)$")  # 1.5-3 is 1.5e-3
 KNOWN = re.compile(rb"(GRID|C(BAR|BEAM|ROD|ONROD|TUBE|QUAD4|TRIA3|HEXA|TETRA)|MAT1|INCLUDE)[ \t,*]", re.IGNORECASE)
@@ -36,7 +37,7 @@ class Card(NamedTuple):
         if not text and default is not None:
             return default
         try:
-            number = int(text)
+            number = parse_whole(text)
         except ValueError:
             self.fail(f"'{text}' is no {what}" if text else f"has no {what}: truncated?")
         if abs(number) > LARGEST_NUMBER:
@@ -47,7 +48,7 @@ class Card(NamedTuple):
         """A field's number, 0 if it is blank. what: its meaning, for the message."""
         text = SHORT_EXPONENT.sub(r"\1e\2", self.field(place).upper().replace("D", "E"))
         try:
-            value = float(text or 0.0)
+            value = parse_real(text or "0")
         except ValueError:
             value = np.nan
         if not np.isfinite(value):
