@@ -443,6 +443,48 @@ class Reading(ToolTestCase):
         self.assertEqual((mass.node, mass.mass, inertia.node, inertia.mass), (2, 5.0, 2, 0.0))
         np.testing.assert_array_equal(inertia.inertia, [[1, 4, 5], [4, 2, 6], [5, 6, 3]])
 
+    def test_a_set_holds_a_member_once_and_so_a_mass_is_taken_once(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=MASS, ELSET=Q\n8, 1\n"
+        for sets, nodes in (
+            ("*ELSET, ELSET=P\n7\n", [2]),
+            ("*ELSET, ELSET=P\n7, P\n", [2]),
+            ("*ELSET, ELSET=P, GENERATE\n7, 7, 1\n", [2]),
+            ("*ELSET, ELSET=R\nP, Q\n*ELSET, ELSET=P\nP, R, 8\n*ELSET, ELSET=Q\nR\n", [2, 0]),
+        ):
+            with self.subTest(sets):
+                found = self.read(f"{ABAQUS}{points}{sets}*MASS, ELSET=P\n5.\n").point_masses
+                self.assertEqual([(one.node, one.mass) for one in found], [(node, 5.0) for node in nodes])
+
+    def test_a_mass_that_is_given_or_defined_twice_is_refused(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
+        mass, inertia = "*MASS, ELSET=P\n5.\n", "*ROTARY INERTIA, ELSET=R\n1.\n"
+        again = "*ELSET, ELSET=Q\n7, 8\n"
+        for data, message in (
+            (mass + mass, "14: error: *MASS: gives element 7 what *MASS, ELSET=P (line 12) has given it"),
+            (again + mass + mass.replace("P", "Q"), "16: error: *MASS: gives element 7 what *MASS, ELSET=P (line 14)"),
+            (inertia + inertia, "14: error: *ROTARY INERTIA: gives element 8 what *ROTARY INERTIA, ELSET=R (line 12)"),
+            ("*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n", "13: error: *ELEMENT: element 7 is defined twice"),
+        ):
+            with self.subTest(data):
+                self.assert_refused(ABAQUS + points + data, message)
+        self.assertEqual(len(self.read(ABAQUS + points + mass + inertia).point_masses), 2)
+
+    def test_a_mass_has_as_many_numbers_as_it_should_have(self):
+        points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
+        for data, message in (
+            ("*MASS, ELSET=P\n", "12: error: *MASS: has no number of its mass"),
+            ("*MASS, ELSET=P\n\n,\n", "12: error: *MASS: has no number of its mass"),
+            ("*MASS, ELSET=P\n5., 6.\n", "13: error: *MASS: has 2 numbers of its mass, expected 1 at most"),
+            ("*MASS, ELSET=P\n5.\n6.\n", "14: error: *MASS: has a further data line behind its mass"),
+            ("*ROTARY INERTIA, ELSET=R\n", "12: error: *ROTARY INERTIA: has no number of its moments of inertia"),
+            ("*ROTARY INERTIA, ELSET=R\n1., 2., 3., 4., 5., 6., 7.\n", "13: error: *ROTARY INERTIA: has 7 numbers"),
+        ):
+            with self.subTest(data):
+                self.assert_refused(ABAQUS + points + data, message)
+        left_behind = self.read(f"{ABAQUS}{points}*MASS, ELSET=P\n5., , ,\n").left_behind
+        self.assertIn("elements 8 of type ROTARYI, to which no *ROTARY INERTIA gives anything", left_behind)
+        self.assertNotIn("no *MASS", " ".join(left_behind))
+
     def test_masses_that_have_no_axes_of_the_frame_are_left_out(self):
         points = "*ELEMENT, TYPE=MASS, ELSET=P\n7, 3\n*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n"
         gifts = "*MASS, ELSET=P, TYPE=ANISOTROPIC\n5., 6., 7.\n*ROTARY INERTIA, ELSET=R, ORIENTATION=O\n1., 2., 3.\n"

@@ -121,7 +121,7 @@ class Assembly(Part):
                 found = [member + (one.nodes if kind == "N" else one.elements) for member in members]
         if found is None:
             block.fail(f"names the set '{name}', which is not there", line)
-        return list(found)
+        return found
 
     def name_sets(self, kind: str) -> dict[str, list[int]]:
         """All sets by the names that they get: those of instances (INSTANCE.SET if there are several), then the
@@ -137,7 +137,7 @@ class Assembly(Part):
                 named[full] = [member + offset for member in members]
                 taken.add(full.upper())
         for name, members in (self.node_sets if kind == "N" else self.element_sets).items():
-            named[IN_ASSEMBLY + name if name.upper() in taken else name] = list(members)
+            named[IN_ASSEMBLY + name if name.upper() in taken else name] = members
         return named
 
 

@@ -169,6 +169,18 @@ def read_real(block: Block, line: int, text: str, before: str = "") -> float:
     return value
 
 
+def read_reals(block: Block, place: int, most: int, what: str) -> list[float]:
+    """The numbers of a data line, blank fields between them as 0; none if there is no such line. Blank fields at its
+    end do not count. InputError if there are more than `most`. what: the numbers' meaning, for the message."""
+    if place >= len(block.data):
+        return []
+    line, fields = block.data[place]
+    given = max((number for number, text in enumerate(fields, start=1) if text), default=0)
+    if given > most:
+        block.fail(f"has {given} numbers of {what}, expected {most} at most", line)
+    return [read_real(block, line, text) if text else 0.0 for text in fields[:given]]
+
+
 def join_rows(
     block: Block, least: int | None, find_number: Callable[[int, str, bool], int]
 ) -> list[tuple[int, list[int]]]:

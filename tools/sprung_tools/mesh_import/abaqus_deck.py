@@ -24,7 +24,7 @@ KINDS = {  # how a beam of that type deforms in Abaqus
     "B22": "shear-flexible", "B32": "shear-flexible",
     "B23": "cubic, without shear", "B33": "cubic, without shear", "T2D2": "axial alone", "T3D2": "axial alone",
 }  # fmt: skip
-POINT_KINDS = ("MASS", "ROTARYI")
+POINT_KINDS = {"MASS": "MASS", "ROTARYI": "ROTARY INERTIA"}  # type of elements → what gives them something
 SILENT = {
     "HEADING", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "END STEP",
     "USER ELEMENT",
@@ -69,6 +69,7 @@ class Deck:
         self.part: Part | None = None  # that is being read
         self.instance: tuple[Block, Part] | None = None  # that is being read
         self.materials = abaqus_properties.Materials()
+        self.weighed: dict[tuple[str, int], Block] = {}  # (keyword, element) → block that gives it a mass
         self.left_behind: list[str] = []
 
     def read(self, block: Block) -> None:
@@ -216,6 +217,9 @@ class Deck:
             element = self.assembly.elements.get(one)
             if element is None or len(element.nodes) != 1 or element.nodes[0] not in number:
                 block.fail(f"names element {one}, which is not an element of one node")
+            before = self.weighed.setdefault((block.keyword, one), block)
+            if before is not block:
+                block.fail(f"gives element {one} what {before.describe()} has given it")
             node = element.nodes[0]
             text = f"*{block.keyword} (line {block.line}) at node {node}"
             mesh.point_masses.append(PointMass(text, number[node], mass, inertia, left_out))
@@ -237,6 +241,13 @@ class Deck:
                 texts.append(f"connectors of type {kind}, which join nodes {ends}")
             elif kind not in POINT_KINDS:
                 texts.append(f"{count} elements of type {kind or '?'}, which are not lines")
+        for kind, keyword in POINT_KINDS.items():
+            bare = [
+                number
+                for number, element in self.assembly.elements.items()
+                if element.kind == kind and (keyword, number) not in self.weighed
+            ]
+            texts += [f"elements {shorten(bare)} of type {kind}, to which no *{keyword} gives anything"] if bare else []
         texts += tell_split(len(owners) - len(set(owners)))
         moved = [(one.name, one.nodes, one.elements) for one in self.assembly.instances.values()]
         if any(block.keyword in ("NODE", "ELEMENT") for block in self.of_assembly):

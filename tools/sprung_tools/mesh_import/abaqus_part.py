@@ -46,20 +46,20 @@ class SetTable:
     """Sets by their names; in Abaqus, capitals and small letters are the same."""
 
     def __init__(self) -> None:
-        self._sets: dict[str, tuple[str, list[int]]] = {}
+        self._sets: dict[str, tuple[str, dict[int, None]]] = {}  # capitals → (name, members in their order)
 
     def add(self, name: str, members: Iterable[int]) -> None:
-        """Adds members to a set, which is new or not."""
-        self._sets.setdefault(name.upper(), (name, []))[1].extend(members)
+        """Adds members to a set, which is new or not. It holds each once."""
+        self._sets.setdefault(name.upper(), (name, {}))[1].update(dict.fromkeys(members))
 
     def find(self, name: str) -> list[int] | None:
         """The members of a set; None if there is no such set."""
         found = self._sets.get(name.upper())
-        return found[1] if found else None
+        return list(found[1]) if found else None
 
     def items(self) -> Iterable[tuple[str, list[int]]]:
         """(name as first written, members) of all sets."""
-        return self._sets.values()
+        return [(name, list(members)) for name, members in self._sets.values()]
 
 
 class Part:
@@ -132,9 +132,8 @@ class Part:
             self.element_sets.add(block.parameters["ELSET"], [row[0] for _, row in rows])
 
     def add_element(self, number: int, element: Element) -> None:
-        """Adds an element. InputError if there is another one of its number, or the same line once more."""
-        known = self.elements.setdefault(number, element)
-        if known is not element and (element.is_line or known[:3] != element[:3]):
+        """Adds an element. InputError if there is one of its number."""
+        if self.elements.setdefault(number, element) is not element:
             element.block.fail(f"element {number} is defined twice", element.line)
 
     def read_node_set(self, block: Block) -> None:
@@ -195,7 +194,7 @@ class Part:
         found = sets.find(name)
         if found is None:
             block.fail(f"names the set '{name}', which is not there", line)
-        return list(found)
+        return found
 
     def generate_nodes(self, block: Block) -> None:
         """*NGEN on a straight line: first node, last node, increment of the numbers."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, read_real, spell
+from sprung_tools.mesh_import.abaqus_blocks import Block, read_real, read_reals, spell
 from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
@@ -251,13 +251,19 @@ class Materials:
 
 def read_mass(block: Block) -> tuple[float, Floats | None, str]:
     """Reads a *MASS or a *ROTARY INERTIA. Returns (mass, moments of inertia [3×3] or None, why it cannot be taken or
-    an empty text)."""
+    an empty text). InputError if it has no number, or more than it can have."""
     check_numbers(block)
-    row = (read_row(block, 0) + [0.0] * 6)[:6]
+    kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
+    is_one_number = block.keyword == "MASS" and kind.startswith("ISO")
+    what = "its mass" if block.keyword == "MASS" else "its moments of inertia"
+    row = read_reals(block, 0, 1 if is_one_number else 6, what)
+    if not row:
+        block.fail(f"has no number of {what}")
+    if len(block.data) > 1:
+        block.fail(f"has a further data line behind {what}", block.data[1][0])
     if block.keyword == "MASS":
-        kind = block.parameters.get("TYPE", "ISOTROPIC").upper()
-        return row[0], None, "" if kind.startswith("ISO") else f"its type is {kind}"
-    i11, i22, i33, i12, i13, i23 = row
+        return row[0], None, "" if is_one_number else f"its type is {kind}"
+    i11, i22, i33, i12, i13, i23 = (row + [0.0] * 6)[:6]
     turned = "ORIENTATION" in block.parameters
     left_out = f"its axes are those of the orientation {block.parameters['ORIENTATION']}" if turned else ""
     return 0.0, np.array([[i11, i12, i13], [i12, i22, i23], [i13, i23, i33]]), left_out
