@@ -82,6 +82,38 @@ class Reading(ToolTestCase):
         process = self.run_tool("convert_mesh", "b.inp", "a.msh")
         self.assert_refuses(process, "names the instance 'L-3', which is not there")
 
+    def test_an_instance_has_its_part_s_nodes_and_elements_alone(self):
+        # L-2 has nodes 1001 to 1003: neither L-1.1001 nor L-2.-998 is one.
+        joint = "*ELEMENT, TYPE=B23, ELSET=J\n1, L-1.3, {}\n"
+        for data, message in (
+            (joint.format("L-1.1001"), "22: error: *ELEMENT: L-1 has no node 1001"),
+            (joint.format("L-2.-998"), "22: error: *ELEMENT: L-2 has no node -998"),
+            ("*NSET, NSET=A\nL-2.-998\n", "22: error: *NSET: L-2 has no node -998"),
+            ("*NSET, NSET=A, INSTANCE=L-1, GENERATE\n1002, 1003, 1\n", "22: error: *NSET: L-1 has no node 1002"),
+            ("*NSET, NSET=A, INSTANCE=L-1, GENERATE\n1, 1002\n", "22: error: *NSET: L-1 has no node 1002"),
+            ("*ELSET, ELSET=A\nL-2.2, L-1.1002\n", "22: error: *ELSET: L-1 has no element 1002"),
+            ("*NSET, NSET=A\n1002\n*NSET, NSET=B, INSTANCE=L-3\nA\n", "24: error: *NSET: names the instance 'L-3'"),
+        ):
+            with self.subTest(data):
+                self.assert_refused(PART + ASSEMBLY.format(sets=data), message)
+
+    def test_a_set_s_name_beside_an_instance_is_the_instance_s(self):
+        sets = "*NSET, NSET=TIP, INSTANCE=L-1\n1\n*NSET, NSET=A, INSTANCE=L-2\nTIP\n*NSET, NSET=B\nTIP, L-2.TIP\n"
+        sets += "*NSET, NSET=OWN, INSTANCE=L-1\n2\n*NSET, NSET=C, INSTANCE=L-2\nOWN\n"
+        mesh = self.read(PART + ASSEMBLY.format(sets=sets))
+        found = {name: mesh.node_ids[nodes].tolist() for name, nodes in mesh.node_sets.items()}
+        self.assertEqual((found["A"], found["B"], found["C"]), ([1003], [1, 1003], [2]))
+
+    def test_surplus_numbers_of_an_instance_are_refused(self):
+        for data, message in (
+            ("0., 0., 0., 0., 0., 1., 90.\n", "18: error: *INSTANCE: has 7 numbers of its translation, expected 3 at"),
+            ("0.\n3., 0., 0., 3., 0., 1., 90., 1.\n", "19: error: *INSTANCE: has 8 numbers of its rotation, expected"),
+            ("0.\n3., 0., 0., 3., 0., 1., 90.\n1.\n", "20: error: *INSTANCE: has a further data line behind those o"),
+        ):
+            with self.subTest(data):
+                placed = ASSEMBLY.format(sets="").replace("3., 0., 0.\n3., 0., 0., 3., 0., 1., 90.\n", data)
+                self.assert_refused(PART + placed, message)
+
     def test_an_assembly_has_elements_of_its_own_on_nodes_of_its_instances(self):
         own = (
             "*ELEMENT, TYPE=B33, ELSET=JOINT\n1, L-1.3, 1\n2, l-2.1, 2, L-2.2\n*NODE\n1, 2.5, 0.\n2, 3., -1., 0.\n"
@@ -104,7 +136,7 @@ class Reading(ToolTestCase):
         self.assertIn("(L-2: 1000 and 1000, the assembly's own: 2000 and 2000)", " ".join(mesh.left_behind))
         for data, message in (
             ("*ELEMENT, TYPE=MASS\n1, L-3.1\n", "b.inp:22: error: *ELEMENT: names the instance 'L-3', which is not"),
-            ("*ELEMENT, TYPE=B23\n1, L-1.1, L-1.4\n", "b.inp:22: error: *ELEMENT: element 2001 names node 4, which is"),
+            ("*ELEMENT, TYPE=B23\n1, L-1.1, L-1.4\n", "b.inp:22: error: *ELEMENT: L-1 has no node 4"),
             ("*ELEMENT, TYPE=B23\n1, L-1.1, L-1\n", "b.inp:22: error: *ELEMENT: 'L-1' is not a number"),
             ("*ELEMENT, TYPE=B23\n-1, L-1.1, L-1.2\n", "b.inp:22: error: *ELEMENT: numbers begin at 1"),
             ("*ELEMENT, TYPE=MASS\n1, L-1.1\n1, L-1.2\n", "b.inp:23: error: *ELEMENT: element 2001 is defined twice"),
@@ -150,7 +182,18 @@ class Reading(ToolTestCase):
         mesh = self.read(turned + nodes + lines + "*ELEMENT, TYPE=B31\n1, 1, 2\n2, 3, 4\n")
         expected = [[-4, 6, 9], [-1, 2, 10], [7, 8, 9], [1.5, 1.25, 0], [3, 4, 1]]
         np.testing.assert_allclose(mesh.positions, expected, atol=1e-14)
-        for data, where in (("1., 2., 3., 1., 2., 3.\n", 2), ("0., 0., 0., 1., 0., 1.\n", 2),
+        for origin in ("1.,,", "1.,,,", "1., 0., 0.,", "1.,,,,,,", "1.,,,\n,"):  # blank fields at the end do not count
+            with self.subTest(origin):
+                mesh = self.read(f"*SYSTEM\n{origin}\n*NODE\n1, 1., 2., 3.\n2, 0.\n*ELEMENT, TYPE=B31\n1, 1, 2\n")
+                np.testing.assert_array_equal(mesh.positions, [[2, 2, 3], [1, 0, 0]])
+        for data, message in (
+            ("1., 2., 3., 4., 5., 6., 7.\n", "2: error: *SYSTEM: has 7 numbers of its origin and a point of its x-axis"),
+            ("1., 2., 3., 4., 5., 6.\n1., 2., 3., 4.\n", "3: error: *SYSTEM: has 4 numbers of a point, expected 3 at"),
+            ("0., 0., 0., 1.\n0., 1.\n1.\n", "4: error: *SYSTEM: has a further data line behind those of its points"),
+        ):
+            with self.subTest(data):
+                self.assert_refused(f"*SYSTEM\n{data}{nodes}", message)
+        for data, where in (("0., 0., 0.,\n0., 1.\n", 3), ("1., 2., 3., 1., 2., 3.\n", 2), ("0., 0., 0., 1., 0., 1.\n", 2),
                             ("0., 0., 0., 1., 0., 1.\n2., 0., 2.\n", 3)):  # fmt: skip
             (self.folder / "b.inp").write_text(f"*SYSTEM\n{data}{nodes}", encoding="utf-8")
             process = self.run_tool("convert_mesh", "b.inp", "a.msh")
@@ -475,7 +518,7 @@ class Reading(ToolTestCase):
             ("*MASS, ELSET=P\n", "12: error: *MASS: has no number of its mass"),
             ("*MASS, ELSET=P\n\n,\n", "12: error: *MASS: has no number of its mass"),
             ("*MASS, ELSET=P\n5., 6.\n", "13: error: *MASS: has 2 numbers of its mass, expected 1 at most"),
-            ("*MASS, ELSET=P\n5.\n6.\n", "14: error: *MASS: has a further data line behind its mass"),
+            ("*MASS, ELSET=P\n5.\n6.\n", "14: error: *MASS: has a further data line behind those of its"),
             ("*ROTARY INERTIA, ELSET=R\n", "12: error: *ROTARY INERTIA: has no number of its moments of inertia"),
             ("*ROTARY INERTIA, ELSET=R\n1., 2., 3., 4., 5., 6., 7.\n", "13: error: *ROTARY INERTIA: has 7 numbers"),
         ):

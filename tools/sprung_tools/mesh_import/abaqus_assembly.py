@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, read_integer, read_real
+from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_integer, read_reals
 from sprung_tools.mesh_import.abaqus_part import Part, SetTable
 from sprung_tools.mesh_import.line_mesh import LARGEST_NUMBER
 
@@ -28,16 +28,15 @@ class Instance(NamedTuple):
 def read_placement(block: Block) -> tuple[Floats, Floats]:
     """The rotation and the translation that an *INSTANCE gives: a translation, then a turn about the line through two
     points by an angle in degrees. A blank field is 0, and blank lines at the end are nothing."""
-    data = list(block.data)
-    while data and not any(data[-1][1]):
-        data.pop()
-    rows = [[read_real(block, line, text) if text else 0.0 for text in fields] for line, fields in data]
-    translation = np.array((rows[0] + [0.0] * 3)[:3]) if rows else np.zeros(3)
-    if len(rows) < 2:
+    check_rows(block, 2, "of its translation and of its rotation")
+    first, turn = read_reals(block, 0, 3, "its translation"), read_reals(block, 1, 7, "its rotation")
+    translation = np.array(first + [0.0] * (3 - len(first)))
+    if not turn:
         return np.eye(3), translation
-    if len(rows[1]) < 7:
+    if len(block.data[1][1]) < 7:
         block.fail("turns its part by two points and an angle, which are seven numbers", block.data[1][0])
-    begin, end, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), math.radians(rows[1][6])
+    turn += [0.0] * (7 - len(turn))
+    begin, end, angle = np.array(turn[:3]), np.array(turn[3:6]), math.radians(turn[6])
     length = np.linalg.norm(end - begin)
     if not length > 0.0:
         block.fail("turns its part about a line through one point", block.data[1][0])
@@ -96,7 +95,11 @@ class Assembly(Part):
         one = self.find_instance(block, name or block.parameters.get("INSTANCE", ""), line)
         if one is None:
             return self.read_own_number(block, line, text, kind)
-        return read_integer(block, line, number) + (one.nodes if kind == "N" else one.elements)
+        own, offset = (one.part.nodes, one.nodes) if kind == "N" else (one.part.elements, one.elements)
+        found = read_integer(block, line, number)
+        if found not in own:
+            block.fail(f"{one.name} has no {'node' if kind == 'N' else 'element'} {found}", line)
+        return found + offset
 
     def find_instance(self, block: Block, name: str, line: int | None) -> Instance | None:
         """The instance of a name; None for an empty one. InputError if it is not there."""
@@ -107,18 +110,16 @@ class Assembly(Part):
         return self.instances[name.upper()]
 
     def find_members(self, block: Block, sets: SetTable, kind: str, name: str, line: int | None = None) -> list[int]:
-        """The members of a set: the assembly's if it has one, else an instance's, named by INSTANCE.SET; of a single
-        instance by SET alone."""
-        found = sets.find(name)
-        instance, _, rest = name.rpartition(".")
-        one = self.instances.get((instance or block.parameters.get("INSTANCE", "")).upper())
-        if one is None and len(self.instances) == 1:
-            (one,), rest = self.instances.values(), name
-        if found is None and one is not None:
-            own = one.part.node_sets if kind == "N" else one.part.element_sets
-            members = own.find(rest)
-            if members is not None:
-                found = [member + (one.nodes if kind == "N" else one.elements) for member in members]
+        """The members of a set: that of the instance which the block names, else the assembly's, else an instance's,
+        named by INSTANCE.SET; of a single instance by SET alone."""
+        found = find_in_instance(self.find_instance(block, block.parameters.get("INSTANCE", ""), line), kind, name)
+        if found is None:
+            found = sets.find(name)
+        if found is None:
+            instance, _, rest = name.rpartition(".")
+            found = find_in_instance(self.instances.get(instance.upper()), kind, rest)
+        if found is None and len(self.instances) == 1:
+            found = find_in_instance(*self.instances.values(), kind, name)
         if found is None:
             block.fail(f"names the set '{name}', which is not there", line)
         return found
@@ -139,6 +140,15 @@ class Assembly(Part):
         for name, members in (self.node_sets if kind == "N" else self.element_sets).items():
             named[IN_ASSEMBLY + name if name.upper() in taken else name] = members
         return named
+
+
+def find_in_instance(one: Instance | None, kind: str, name: str) -> list[int] | None:
+    """The members of an instance's set, by their numbers in the assembly; None if there is no such set."""
+    if one is None:
+        return None
+    own, offset = (one.part.node_sets, one.nodes) if kind == "N" else (one.part.element_sets, one.elements)
+    members = own.find(name)
+    return None if members is None else [member + offset for member in members]
 
 
 def find_offset(block: Block, there: Iterable[int], new: Iterable[int]) -> int:

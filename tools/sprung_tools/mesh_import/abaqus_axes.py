@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, read_real
+from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_reals
 
 STRAIGHT = 1e-9  # sine of an angle that counts as none
 
@@ -31,16 +31,17 @@ def read_axes(block: Block) -> Axes:
     """Reads a *SYSTEM: origin and a point of the x-axis, then a point of the x–y plane, which is parallel to the global
     one if it is not given. Without data these are the global axes, with an origin alone they are
     moved ones. InputError if the points give none."""
-    rows = [[read_real(block, line, text) if text else 0.0 for text in fields] for line, fields in block.data]
-    if not rows:
+    check_rows(block, 2, "of its points")
+    first, second = read_reals(block, 0, 6, "its origin and a point of its x-axis"), read_reals(block, 1, 3, "a point")
+    if not block.data:
         return GLOBAL
-    numbers = np.array((rows[0] + [0.0] * 6)[:6])
+    numbers = np.array(first + [0.0] * (6 - len(first)))
     origin, along = numbers[:3], numbers[3:] - numbers[:3]
-    if len(rows[0]) <= 3:
+    if len(first) <= 3 and not second:
         return Axes(origin, np.eye(3))
-    length = float(np.linalg.norm(along))
-    towards = np.array((rows[1] + [0.0] * 3)[:3]) - origin if len(rows) > 1 else np.zeros(3)
-    normal = np.cross(along, towards) if len(rows) > 1 else np.array([0.0, 0.0, 1.0])
+    length = float(np.linalg.norm(along)) if len(first) > 3 else 0.0
+    towards = np.array(second + [0.0] * (3 - len(second))) - origin if second else np.zeros(3)
+    normal = np.cross(along, towards) if second else np.array([0.0, 0.0, 1.0])
     size = float(np.linalg.norm(normal))
     least = STRAIGHT * length * float(np.linalg.norm(towards))
     if not (length > 0.0 and size > least and abs(normal @ along) <= STRAIGHT * size * length):

@@ -169,6 +169,14 @@ def read_real(block: Block, line: int, text: str, before: str = "") -> float:
     return value
 
 
+def check_rows(block: Block, most: int, what: str) -> None:
+    """Throws InputError if a block has more data lines than `most`; blank ones do not count. what: the lines' meaning,
+    for the message."""
+    for line, fields in block.data[most:]:
+        if any(fields):
+            block.fail(f"has a further data line behind those {what}", line)
+
+
 def read_reals(block: Block, place: int, most: int, what: str) -> list[float]:
     """The numbers of a data line, blank fields between them as 0; none if there is no such line. Blank fields at its
     end do not count. InputError if there are more than `most`. what: the numbers' meaning, for the message."""

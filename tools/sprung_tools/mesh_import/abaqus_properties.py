@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.abaqus_blocks import Block, read_real, read_reals, spell
+from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_real, read_reals, spell
 from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
@@ -259,8 +259,7 @@ def read_mass(block: Block) -> tuple[float, Floats | None, str]:
     row = read_reals(block, 0, 1 if is_one_number else 6, what)
     if not row:
         block.fail(f"has no number of {what}")
-    if len(block.data) > 1:
-        block.fail(f"has a further data line behind {what}", block.data[1][0])
+    check_rows(block, 1, f"of {what}")
     if block.keyword == "MASS":
         return row[0], None, "" if is_one_number else f"its type is {kind}"
     i11, i22, i33, i12, i13, i23 = (row + [0.0] * 6)[:6]
