@@ -34,12 +34,14 @@ class Reading(ToolTestCase):
         self.assert_refused(NASTRAN.replace("GRID,2", "GRID,2_0"), "3: error: GRID: '2_0' is no node number")
         self.assert_refused(NASTRAN.replace("GRID,2", "GRID,٢"), "3: error: GRID: '٢' is no node number")
 
-    def test_negative_areas_and_second_moments_are_refused(self):
+    def test_areas_and_second_moments_that_no_section_has_are_refused(self):
         for card, message in (
             ("PBAR,1,1,.1,-.2,.3", "b.bdf:5: error: PBAR: its I1 is -0.2, expected ≥ 0"),
             ("PBAR,1,1,.1,.2,-.3", "b.bdf:5: error: PBAR: its I2 is -0.3, expected ≥ 0"),
             ("PBAR,1,1,-.1,.2,.3", "b.bdf:5: error: PBAR: its area is -0.1, expected ≥ 0"),
             ("PBEAM,1,1,.1,-.2,.3", "b.bdf:5: error: PBEAM: its I1 is -0.2, expected ≥ 0"),
+            ("PBEAM,1,1,.1,.2,.3,.25", "b.bdf:5: error: PBEAM: its I12 is 0.25, but I12² ≤ I1·I2, which is 0.06"),
+            ("PBAR,1,1,.1,.2,.3\n,\n,,,-.25", "b.bdf:5: error: PBAR: its I12 is -0.25, but I12² ≤ I1·I2, which is"),
         ):
             with self.subTest(card):
                 (self.folder / "b.bdf").write_text(NASTRAN.replace("ENDDATA", f"{card}\nENDDATA"), encoding="utf-8")
@@ -108,6 +110,32 @@ class Reading(ToolTestCase):
             with self.subTest(orientation):
                 deck = NASTRAN.replace("GRID,1,,0.,0.,0.\n", turned).replace("CBAR,1,1,1,2,0.,1.,0.", orientation)
                 np.testing.assert_allclose(self.read(deck).heights, [expected], atol=1e-15)
+
+    def test_a_mass_that_is_defined_twice_is_refused(self):
+        mass = "CONM2,9,2,,5.\n"
+        for again in (mass, "CONM2,9,1,,5.\n", "CONM2,09,2,,6.\n"):
+            with self.subTest(again):
+                text = NASTRAN.replace("ENDDATA", f"{mass}{again}ENDDATA")
+                self.assert_refused(text, "6: error: CONM2: 9 is defined twice")
+
+    def test_a_line_in_free_fields_has_ten_of_them(self):
+        # Name, eight data fields (four after a *), and the mark of the continuation: more would be lost.
+        bulk = NASTRAN.replace("ENDDATA", "{}\nENDDATA")
+        for card, message in (
+            ("CONM2,5,2,0,50.,,,,,1.,0.,1.,0.,0.,3.", "5: error: CONM2: has '1.' behind its 8 data fields"),
+            ("SET1,7,1,1,1,1,1,1,2,1", "5: error: SET1: has '1' behind its 8 data fields, where only the mark"),
+            ("SET1,7,1,1,1,1,1,1,2,,1", "5: error: SET1: has '1' behind its 8 data fields"),
+            ("CONM2,5,2,0,50.,,,,,+1.", "5: error: CONM2: has '+1.' behind its 8 data fields"),
+            ("SET1,7,1,1,1,1,1,1,2,,+", "5: error: SET1: has '+' behind its 8 data fields"),
+            ("SET1,7,1,1,1,1,1,1,2,+A,2", "5: error: SET1: has '+A' behind its 8 data fields"),
+            ("SET1,7\n,1,1,1,1,1,1,1,1,2", "6: error: continuation: has '2' behind its 8 data fields"),
+            ("GRID*,7,,1.,2.,3.", "5: error: GRID*: has '3.' behind its 4 data fields"),
+        ):
+            with self.subTest(card):
+                self.assert_refused(bulk.format(card), message)
+        for card in ("SET1,7,1,1,1,1,1,1,1,+\n+,2,,,,,,,,", "SET1,7,1,1,1,1,1,1,1,,,,$,2\n,2", "SET1,7,1,2"):
+            self.assertEqual(self.read(bulk.format(card)).node_sets["set_7"].tolist(), [0, 1])
+        self.assertEqual(self.read(bulk.format("GRID*,7,,1.,2.,*A\n*A,3.")).positions[2].tolist(), [1.0, 2.0, 3.0])
 
     def test_a_mass_whose_position_is_in_the_basic_system(self):
         # Quick Reference Guide, CONM2: with CID = -1, X1 to X3 are the position of the mass in the basic system, and

@@ -12,7 +12,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.mesh_import.abaqus_blocks import Block, check_rows, read_real, read_reals, spell
-from sprung_tools.mesh_import.frame_properties import Material, Section, Shape
+from sprung_tools.mesh_import.frame_properties import Material, Section, Shape, are_possible
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
     make_box,
@@ -167,6 +167,8 @@ def make_shape(block: Block, kind: str, numbers: Sequence[float]) -> tuple[Shape
             for name, value in (("area", area), ("I11", i11), ("I22", i22)):
                 if value < 0.0:
                     block.fail(f"its {name} is {value:g}, expected ≥ 0", block.data[0][0])
+            if not are_possible(i11, i22, i12):
+                block.fail(f"its I12 is {i12:g}, but I12² ≤ I11·I22, which is {i11 * i22:g}", block.data[0][0])
             return (Shape(area, i11, i22, i12), "") if area > 0.0 else (None, "its area, which is not positive")
         if kind == "CIRC" and len([one for one in numbers if one]) == 2:
             return make_ellipse(numbers[0], numbers[1]), ""  # CalculiX: the lengths of both axes

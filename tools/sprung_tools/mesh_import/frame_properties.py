@@ -1,8 +1,11 @@
 """What a source knows of a frame beside its mesh: materials, sections and point masses, in the source's units."""
 
+import math
 from typing import NamedTuple
 
 from sprung_tools.files.array_types import Floats
+
+MOMENTS_ROUNDING = 1e-3  # relative, of second moments of a thin wall that are given with four digits
 
 
 class Material(NamedTuple):
@@ -23,6 +26,11 @@ class Shape(NamedTuple):
     hw: float = 0.0  # ∫h w dA
     w: float = 0.0  # where the centroid is, from the origin that the section's description has
     h: float = 0.0
+
+
+def are_possible(hh: float, ww: float, hw: float) -> bool:
+    """Whether a section can have these second moments: (∫h w dA)² ≤ ∫h² dA · ∫w² dA, but for their rounding."""
+    return abs(hw) <= (1.0 + MOMENTS_ROUNDING) * math.sqrt(hh) * math.sqrt(ww)
 
 
 class Section(NamedTuple):

@@ -93,6 +93,18 @@ def split_marks(line: str) -> tuple[str, str]:
     return begin, end
 
 
+def check_width(path: str, number: int, line: str) -> None:
+    """Throws InputError if a line in free fields has more than its name, the data and the mark by which the next line
+    continues it (MSC Nastran, Quick Reference Guide, "Format of Bulk Data Entries")."""
+    parts = [part.strip() for part in line.partition("$")[0].split(",")]
+    width = 4 if "*" in parts[0] else 8
+    rest = [part for part in parts[width + 1 :] if part]
+    is_mark = len(rest) == 1 and parts[width + 1][:1] in ("+", "*") and "." not in rest[0]
+    if rest and not is_mark:
+        what = f"has '{rest[0]}' behind its {width} data fields, where only the mark of a continuation (+…) can stand"
+        raise InputError(f"{path}:{number}: error: {parts[0] or 'continuation'}: {what}")
+
+
 def read_lines(path: str) -> list[str]:
     """The lines of a text file. InputError if it cannot be read."""
     try:
@@ -142,6 +154,7 @@ def add_cards(path: str, lines: list[str], begin: int, cards: list[Card], taken:
                 text += lines[line_after].strip()
             include(path, place + 1, text.strip("'\""), cards, taken)
             continue
+        check_width(path, place + 1, line)
         name, fields = split_fields(line)
         mark, following = split_marks(line)
         if name[:1] == "=" or "=" in fields:

@@ -57,7 +57,7 @@ class Deck:
         self.elements: dict[int, tuple[Card, list[int]]] = {}  # id → (card, node ids)
         self.properties: dict[str, Card] = {}  # id → card
         self.materials: dict[str, Card] = {}  # id → card
-        self.masses: list[Card] = []
+        self.masses: dict[int, Card] = {}  # id → card
         self.mass_factor: float | None = None  # PARAM,WTMASS
         self.node_sets: dict[str, list[int]] = {}  # name → node ids
         self.others: dict[str, list[str]] = {}  # name of any other card → ids
@@ -81,7 +81,7 @@ class Deck:
         elif card.name in nastran_sections.MATERIAL_CARDS:
             self.keep(card, self.materials)
         elif card.name in nastran_sections.MASS_CARDS:
-            self.masses.append(card)
+            self.read_mass(card)
         elif card.name == "PARAM" and card.field(0).upper() == "WTMASS":
             self.read_mass_factor(card)
         elif card.name == "SET1":
@@ -97,6 +97,12 @@ class Deck:
         if card.field(0) in kept and kept[card.field(0)].fields != card.fields:
             card.fail(f"{card.field(0)} is defined twice")
         kept[card.field(0)] = card
+
+    def read_mass(self, card: Card) -> None:
+        number = card.integer(0, "element number")
+        if number in self.masses:
+            card.fail(f"{number} is defined twice")
+        self.masses[number] = card
 
     def read_mass_factor(self, card: Card) -> None:
         """Reads PARAM,WTMASS. InputError if it is not positive, or differs from an earlier one."""
@@ -196,7 +202,7 @@ class Deck:
             section_of=section_of,
             heights=np.array([self.find_height(*one) for one in self.elements.values()]).reshape(-1, 3),
             materials=materials,
-            point_masses=[nastran_sections.read_mass(card, number, self.find_node) for card in self.masses],
+            point_masses=[nastran_sections.read_mass(card, number, self.find_node) for card in self.masses.values()],
         )  # fmt: skip
 
     def read_sections(self) -> tuple[list[Section], np.ndarray]:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape
+from sprung_tools.mesh_import.frame_properties import Material, PointMass, Section, Shape, are_possible
 from sprung_tools.mesh_import.nastran_cards import Card
 from sprung_tools.mesh_import.section_shapes import (
     make_angle,
@@ -94,11 +94,13 @@ def read_rod_section(card: Card) -> Section:
 
 def make_general(card: Card, area: float, moments: Sequence[float]) -> Shape | None:
     """A shape from its numbers: area; I1, I2, I12 with z to the other side than w. None without an area. InputError if
-    one is negative that must not be."""
+    one is negative that must not be, or if no section has such moments."""
     first, second, product = moments
     for name, value in (("area", area), ("I1", first), ("I2", second)):
         if value < 0.0:
             card.fail(f"its {name} is {value:g}, expected ≥ 0")
+    if not are_possible(first, second, product):
+        card.fail(f"its I12 is {product:g}, but I12² ≤ I1·I2, which is {first * second:g}")
     return Shape(area, first, second, -product) if area > 0.0 else None
 
 
