@@ -58,6 +58,15 @@ class AsterMeshTest(ToolTestCase):
         self.assertEqual({name: list(nodes) for name, nodes in mesh.node_sets.items()}, {"FEET": [0, 3]})
         self.assertIn("elements TRIA3, which are not lines", mesh.left_behind)
 
+    def test_a_line_with_middle_nodes_is_lines_from_node_to_node_in_each_of_its_groups(self):
+        # Both ends stand before the middle nodes: of SEG4 at one third and at two thirds.
+        mesh = read_aster_mesh(self.write(PORTAL.replace("S1 A B  S2 B C\n S3 C D", "S1 A B\nFINSF\nSEG4\n S2 A C B D\n"
+                                                         "FINSF\nSEG3\n S3 B D C")))  # fmt: skip
+        self.assertEqual(mesh.lines.tolist(), [[0, 1], [0, 1], [1, 3], [3, 2], [1, 2], [2, 3]])
+        self.assertEqual({name: lines.tolist() for name, lines in mesh.element_sets.items()},
+                         {"POSTS": [0, 4, 5], "ALL": [0, 1, 2, 3, 4, 5]})  # fmt: skip
+        self.assertIn("middle nodes of 2 lines: each has become straight ones from node to node", mesh.left_behind)
+
     def test_a_mesh_is_converted_and_its_design_leaves_open_what_the_command_file_has(self):
         self.write(PORTAL.replace("GROUP_MA NOM=ALL\n S1 S2 S3 T1", "GROUP_MA NOM=BEAM\n S2"), "portal.mail")
         result = self.run_tool("convert_mesh", "portal.mail", "portal.msh")
@@ -88,7 +97,7 @@ class AsterMeshTest(ToolTestCase):
             ("S3 C D", "S1 C D", "element 'S1' is defined twice"),
             ("S3 C D", "S3 C", "element 'S3' has 1 nodes, expected 2"),
             ("FEET A D", "FEET A X", "the group 'FEET' names 'X', which is not there"),
-            ("SEG2", "SEG3", "lines with middle nodes"),
+            ("S3 C D", "S3 C D\nFINSF\nSEG3\n S4 A D", "a.mail:17: error: SEG3: element 'S4' has 2 nodes, expected 3"),
             ("COOR_2D", "COORDS", "0 tables of coordinates"),
         ):
             with self.subTest(new):

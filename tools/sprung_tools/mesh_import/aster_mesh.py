@@ -1,17 +1,17 @@
 """Reading the lines of a Code_Aster mesh in its own text format (.mail)."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, NoReturn
 
 import numpy as np
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, pick_members
+from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, pick_members, tell_split
 from sprung_tools.mesh_import.number_text import parse_real
 
 DIMENSIONS = {"COOR_1D": 1, "COOR_2D": 2, "COOR_3D": 3}
-NODES_OF = {"POI1": 1, "SEG2": 2, "SEG3": 3, "SEG4": 4}
+NODES_OF = {"SEG2": 2, "SEG3": 3, "SEG4": 4}  # middle nodes stand behind both ends
 OTHER_CELLS = re.compile(r"(TRIA|QUAD|TETRA|PENTA|PYRAM|HEXA)\d+")
 ATTRIBUTE = re.compile(r"(NOM|NUMIN|NUMAX|NUMED|NBOBJ|NBLIGE|NBLIGT|AUTEUR|DATE)=")  # of a block, not of its table
 GROUPS = ("GROUP_NO", "GROUP_MA")
@@ -41,16 +41,18 @@ def read_aster_mesh(path: str) -> LineMesh:
     """Reads nodes, lines and groups; other elements are left behind. InputError if it is not a whole mesh."""
     blocks = read_blocks(path)
     names, positions = read_nodes(path, blocks)
+    nodes = {name: [place] for name, place in names.items()}
     lines, cells = read_lines(blocks, names)
+    split = sum(len(halves) > 1 for halves in cells.values())
     groups: dict[str, dict[str, list[int]]] = {keyword: {} for keyword in GROUPS}
     others: dict[str, int] = {}
     for block in blocks:
         if block.keyword in GROUPS:
-            name, members = read_group(block, names if block.keyword == "GROUP_NO" else cells)
+            name, members = read_group(block, nodes if block.keyword == "GROUP_NO" else cells)
             groups[block.keyword][name] = members
         elif OTHER_CELLS.fullmatch(block.keyword) or block.keyword == "POI1":
             others[block.keyword] = others.get(block.keyword, 0) + 1
-    left_behind = [f"elements {kind}, which are not lines" for kind in others]
+    left_behind = tell_split(split) + [f"elements {kind}, which are not lines" for kind in others]
     left_behind.append("sections, materials and orientations: they stand in the command file (.comm)")
     element_sets = pick_members(groups["GROUP_MA"], {place: place for place in range(len(lines))})
     return LineMesh(
@@ -128,18 +130,17 @@ def read_number(block: Block, line: int, word: str) -> float:
     return value
 
 
-def read_lines(blocks: Iterable[Block], names: dict[str, int]) -> tuple[list[tuple[int, int]], dict[str, int]]:
-    """Returns (pairs of nodes, name of a cell → number of its line; -1 for other cells)."""
+def read_lines(blocks: Iterable[Block], names: dict[str, int]) -> tuple[list[tuple[int, int]], dict[str, list[int]]]:
+    """Returns (pairs of nodes, name of a cell → numbers of its lines; none for other cells). A cell with middle nodes
+    becomes a line from node to node."""
     lines: list[tuple[int, int]] = []
-    cells: dict[str, int] = {}
+    cells: dict[str, list[int]] = {}
     for block in blocks:
         if OTHER_CELLS.fullmatch(block.keyword) or block.keyword == "POI1":
-            cells.update((word, -1) for _, word in block.words if word not in names)
-        if not block.keyword.startswith("SEG"):
-            continue
+            cells.update((word, []) for _, word in block.words if word not in names)
         size = NODES_OF.get(block.keyword, 0)
-        if size != 2:
-            block.fail("lines with middle nodes, expected two-node lines (SEG2)")
+        if not size:
+            continue
         for at in range(0, len(block.words), size + 1):
             row = block.words[at : at + size + 1]
             line, name = row[0]
@@ -150,13 +151,14 @@ def read_lines(blocks: Iterable[Block], names: dict[str, int]) -> tuple[list[tup
             for place, node in row[1:]:
                 if node not in names:
                     block.fail(f"element '{name}' names the node '{node}', which is not there", place)
-            cells[name] = len(lines)
-            lines.append((names[row[1][1]], names[row[2][1]]))
+            along = [names[row[1 + place][1]] for place in order_along(size)]
+            cells[name] = list(range(len(lines), len(lines) + size - 1))
+            lines += zip(along, along[1:])
     return lines, cells
 
 
-def read_group(block: Block, numbers: dict[str, int]) -> tuple[str, list[int]]:
-    """Returns (name, members), of which cells that are not lines are left out by the caller."""
+def read_group(block: Block, numbers: Mapping[str, Sequence[int]]) -> tuple[str, list[int]]:
+    """Returns (name, members). numbers: name of a node or a cell → numbers of its nodes or lines."""
     words = block.words if block.name else block.words[1:]
     name = block.name or (block.words[0][1] if block.words else "")
     if not name:
@@ -164,4 +166,4 @@ def read_group(block: Block, numbers: dict[str, int]) -> tuple[str, list[int]]:
     for line, word in words:
         if word not in numbers:
             block.fail(f"the group '{name}' names '{word}', which is not there", line)
-    return name, [numbers[word] for _, word in words]
+    return name, [number for _, word in words for number in numbers[word]]

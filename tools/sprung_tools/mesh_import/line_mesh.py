@@ -51,6 +51,11 @@ def shorten(items: Iterable[object], most: int = 8) -> str:
     return ", ".join(texts[:most]) + (f", … ({len(texts)} in all)" if len(texts) > most else "")
 
 
+def order_along(size: int) -> list[int]:
+    """The places of a line's nodes from end to end, where the middle nodes stand behind both ends. size: ≥ 2 nodes."""
+    return [0, *range(2, size), 1]
+
+
 def tell_split(count: int) -> list[str]:
     """What becomes of lines with middle nodes, of which there are `count`: one text, or none."""
     return [f"middle nodes of {count} lines: each has become straight ones from node to node"] if count else []

@@ -8,7 +8,7 @@ import numpy as np
 
 from sprung_tools.files.array_types import Integers
 from sprung_tools.files.errors import InputError
-from sprung_tools.mesh_import.line_mesh import LineMesh, shorten, tell_split
+from sprung_tools.mesh_import.line_mesh import LineMesh, order_along, shorten, tell_split
 from sprung_tools.mesh_import.meshio_process import run_meshio
 
 # These cell data number the source's own entities or families; the names of these are read elsewhere.
@@ -55,7 +55,7 @@ def split_lines(mesh: meshio.Mesh) -> None:
         if block.type not in WITH_MIDDLE_NODES:
             continue
         size = WITH_MIDDLE_NODES[block.type]
-        along = [0, *range(2, size), 1]
+        along = order_along(size)
         pairs = np.asarray(block.data)[:, list(zip(along, along[1:]))].reshape(-1, 2)
         mesh.cells[place] = meshio.CellBlock("line", pairs)
         for blocks in mesh.cell_data.values():
