@@ -87,6 +87,48 @@ class Ladder(StarterCase):
         expected = 80.0 + DENSITY * (3 * 2 * HALF_WIDTH * area + rods)
         self.assertAlmostEqual(total / expected, 1.0, places=12)
 
+    def test_masses_where_members_across_meet_go_to_the_rails_by_the_lever_rule(self):
+        # Rods from the second and the fourth place of both rails meet in the middle plane, nearer to the second one,
+        # with a mass; so do bars over the second place. A straight rod's centroid is in its middle.
+        def brace(text):
+            rods = "CROD,601,3,2,601\nCROD,602,3,601,104\nCROD,603,3,102,601\nCROD,604,3,601,4\nPROD,3,7,1.-3\n"
+            arch = "GRID,701,,1.,0.,.9\nCBAR,701,2,2,701,1.,0.,0.\nCBAR,702,2,701,102,1.,0.,0.\n"
+            masses = "CONM2,801,601,,100.\nCONM2,802,701,,50.,,,,\n,1.,,2.\nENDDATA"
+            return text.replace("ENDDATA", f"GRID,601,,1.5,0.,.7\n{rods}{arch}{masses}")
+
+        told, text = self.convert_text("a.bdf", write_ladder(brace), "--plane", "xz", "--unite-rails")
+        self.assertIn("joints of members across at an angle alone, 601, 701: their masses are at the nearest", told)
+        self.assertIn("by the lever rule along x, up to 0.3 away along z", told)  # 701 over node 2, at z = 0.6
+        self.assertIn("CONM2 801 at node 601, 0.75 of it", text)
+        design = tomllib.loads(text)
+        found = np.array([(one["mass"], *design["points"][one["point"]]) for one in design["point_masses"]])
+        area = np.pi * (TUBE[0] ** 2 - TUBE[1] ** 2)
+        expected = [(80.0, RAIL_X[2]), (100.0, 1.5), (50.0, 1.0)]
+        expected += [(DENSITY * 2 * HALF_WIDTH * area, RAIL_X[k]) for k in ACROSS]
+        expected += [(2 * DENSITY * area * np.hypot(HALF_WIDTH, 0.3), 1.0)]
+        for k in (1, 3):
+            length = np.linalg.norm((RAIL_X[k] - 1.5, HALF_WIDTH, RAIL_Z[k] - 0.7))
+            expected.append((2 * DENSITY * 1e-3 * length, (RAIL_X[k] + 1.5) / 2.0))
+        mass, place = np.array(expected).T
+        np.testing.assert_allclose(found[:, 0].sum(), mass.sum(), rtol=1e-12)
+        np.testing.assert_allclose(found[:, 0] @ found[:, 1], mass @ place, rtol=1e-12)
+        self.assertEqual(sorted(set(found[:, 1])), list(RAIL_X))
+        polar = np.pi * (TUBE[0] ** 4 - TUBE[1] ** 4) / 2.0
+        inertia = sum(one["inertia"] for one in design["point_masses"])
+        self.assertAlmostEqual(inertia, 2.0 + 3 * 2 * HALF_WIDTH * DENSITY * polar, places=12)
+
+    def test_a_mass_that_rails_cannot_carry_is_refused(self):
+        hitch = "GRID,801,,-1.,0.,.5\nCBAR,801,2,1,801,0.,0.,1.\nCBAR,802,2,801,101,0.,0.,1.\nENDDATA"
+        loose = "GRID,801,,1.5,.1,.5\nGRID,802,,1.5,-.1,.5\nCBAR,801,2,801,802,0.,0.,1.\nENDDATA"
+        for members, place in ((hitch, "-1"), (loose, "1.5")):
+            with self.subTest(place):
+                deck = write_ladder(lambda text, new=members: text.replace("ENDDATA", new))
+                (self.folder / "a.bdf").write_text(deck, encoding="utf-8")
+                process = self.run_tool("convert_mesh", "a.bdf", "frame.msh", "--plane", "xz", "--unite-rails")
+                self.assert_refuses(process, f"a.bdf: error: node 801 at x = {place} has a mass, but only members")
+        weightless = write_ladder(lambda text: text.replace("ENDDATA", hitch).replace(f",{DENSITY}", ""))
+        self.convert_text("a.bdf", weightless, "--plane", "xz", "--unite-rails")  # no mass, nothing to carry
+
     def test_masses_on_one_side_are_told(self):
         for changed, node in (("", "3"), ("CONM2,502,103,,41.\n", "3, 103")):
             with self.subTest(changed):

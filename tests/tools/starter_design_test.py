@@ -248,10 +248,8 @@ class OfDecks(StarterCase):
         self.assertIn("Design: frame.toml is there already and stays as it is", told)
 
     def test_a_second_moment_in_the_plane_that_is_not_positive_is_told_with_its_value(self):
-        # At 45° between its axes: (I1 + I2) / 2 − I12 = 2 − 3.
-        bar = NASTRAN.replace("0.,1.,0.", "0.,1.,1.").replace("ENDDATA", "PBAR,1,1,1.,2.,2.\n,,,,,,,,\n,,,3.\nENDDATA")
-        _, text = self.convert_text("a.bdf", bar)
-        self.assertIn("# of section 'property_1': its second moment, which is -1\n", text)
+        _, text = self.convert_text("a.bdf", NASTRAN.replace("ENDDATA", "PBAR,1,1,1.,,2.\nENDDATA"))
+        self.assertIn("# of section 'property_1': its second moment, which is 0\n", text)
         self.assertNotIn("second_moment", self.read(text)["sections"]["property_1"])
 
     def test_non_structural_mass_without_a_density_or_an_area_is_not_lost(self):
@@ -267,10 +265,15 @@ class OfDecks(StarterCase):
         self.assertIn("# mass_per_length =   # kg/m: density · area, and 250 of non-structural mass", text)
 
     def test_masses_that_cannot_be_taken_are_listed(self):
-        masses = "CONM2,8,2,,5.,.1,,,\nCONM2,9,1,,7.\nENDDATA"
+        masses = "CONM2,8,2,,5.,.1,,,\nCONM2,9,1,,7.\nGRID,3,,0.5,0.,0.\nCONM2,10,3,,6.\nENDDATA"
         _, text = self.convert_text("a.bdf", NASTRAN.replace("ENDDATA", masses))
-        self.assertIn("# CONM2 8, 5 at node 2: it is away from its node by 0.1, 0, 0", text)
+        self.assertIn("# CONM2 8 at node 2, 5 kg: it is away from its node by 0.1, 0, 0", text)
+        self.assertIn("# CONM2 10 at node 3, 6 kg: its node has no line", text)
         self.assertEqual([one["mass"] for one in self.read(text)["point_masses"]], [7.0])
+        inertia = "*ELEMENT, TYPE=ROTARYI, ELSET=R\n8, 3\n*ROTARY INERTIA, ELSET=R, ORIENTATION=O\n1., 2., 3.\n"
+        (self.folder / "frame.toml").unlink()
+        _, text = self.convert_text("a.inp", ABAQUS + inertia, "--scale", "1e-3")  # N mm s² = 1000 kg mm² = 1e-3 kg m²
+        self.assertIn("# *ROTARY INERTIA (line 10) at node 3, moments of inertia up to 0.003 kg m²: its axes are", text)
 
     def test_a_taper_and_a_shape_that_is_not_known_are_listed(self):
         beam = NASTRAN.replace("CBAR", "CBEAM")

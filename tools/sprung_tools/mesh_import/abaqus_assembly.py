@@ -95,11 +95,10 @@ class Assembly(Part):
         one = self.find_instance(block, name or block.parameters.get("INSTANCE", ""), line)
         if one is None:
             return self.read_own_number(block, line, text, kind)
-        own, offset = (one.part.nodes, one.nodes) if kind == "N" else (one.part.elements, one.elements)
         found = read_integer(block, line, number)
-        if found not in own:
+        if found not in (one.part.nodes.keys() if kind == "N" else one.part.elements.keys()):
             block.fail(f"{one.name} has no {'node' if kind == 'N' else 'element'} {found}", line)
-        return found + offset
+        return found + (one.nodes if kind == "N" else one.elements)
 
     def find_instance(self, block: Block, name: str, line: int | None) -> Instance | None:
         """The instance of a name; None for an empty one. InputError if it is not there."""
@@ -119,7 +118,7 @@ class Assembly(Part):
             instance, _, rest = name.rpartition(".")
             found = find_in_instance(self.instances.get(instance.upper()), kind, rest)
         if found is None and len(self.instances) == 1:
-            found = find_in_instance(*self.instances.values(), kind, name)
+            found = find_in_instance(next(iter(self.instances.values())), kind, name)
         if found is None:
             block.fail(f"names the set '{name}', which is not there", line)
         return found

@@ -4,18 +4,19 @@ The in-plane motion of a frame that is symmetric about the plane is symmetric, t
 node leaves its distance from the plane in first order. So a line and its mirror image become one line of two parallel
 members. A member that runs straight across turns as a whole with its ends: it is a mass with a moment of inertia about
 its own axis. Its bending between its ends, and its torsion in unsymmetric motion, are left out. So are members that run
-across at an angle, but for their mass.
+across at an angle, but for their mass (carried_masses.py).
 """
 
 import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NoReturn
 
 import numpy as np
 
 from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
+from sprung_tools.mesh_import.carried_masses import Carriers, merge_masses
 from sprung_tools.mesh_import.frame_properties import PointMass, Section
 from sprung_tools.mesh_import.line_mesh import LineMesh, shorten
 from sprung_tools.mesh_import.place_index import PlaceIndex
@@ -127,6 +128,8 @@ def unite_rails(mesh: LineMesh, plane: str) -> LineMesh:
     place = {int(line): number for number, line in enumerate(kept)}
     counts = np.where(kinds.rail[kept], 2, 1)
     masses, mass_remarks = list_masses(mirror, kinds)
+    carriers = Carriers(mesh, united, kept, np.flatnonzero(kinds.oblique), plane, mirror.near)
+    point_masses = [*carriers.carry(mesh.point_masses), *merge_masses(carriers.carry(masses))]
     positions = mesh.positions.copy()
     positions[:, mirror.normal] = mirror.middle
     sets, set_remarks = map_sets(mesh, mirror, kinds, place)
@@ -141,11 +144,11 @@ def unite_rails(mesh: LineMesh, plane: str) -> LineMesh:
         section_of=mesh.section_of[kept],
         heights=mesh.heights[kept],
         counts=counts,
-        point_masses=[
-            *(one._replace(node=int(united[one.node])) for one in mesh.point_masses),
-            *(one._replace(node=int(united[one.node])) for one in masses),
+        point_masses=point_masses,
+        left_behind=[
+            *describe(mirror, kinds), *carriers.describe(), *list_one_sided(mirror), *mass_remarks, *set_remarks,
+            *mesh.left_behind,
         ],
-        left_behind=[*describe(mirror, kinds), *list_one_sided(mirror), *mass_remarks, *set_remarks, *mesh.left_behind],
     )
 
 
@@ -179,7 +182,7 @@ def find_mass(mesh: LineMesh, line: int) -> tuple[float, Section] | None:
 
 
 def list_masses(mirror: Mirror, kinds: Kinds) -> tuple[list[PointMass], list[str]]:
-    """Returns (the masses in place of the members across, remarks)."""
+    """Returns (the masses in place of the members across, at their own ends; remarks)."""
     mesh = mirror.mesh
     masses: list[PointMass] = []
     unknown: list[int] = []
@@ -198,7 +201,7 @@ def list_masses(mirror: Mirror, kinds: Kinds) -> tuple[list[PointMass], list[str
         text = f"half of element {mesh.line_ids[line]} across, {section.text}"
         masses += [PointMass(text, int(end), per_length * length / 2.0, inertia) for end in ends]
     remarks = [f"masses of members across, whose section is not known: {shorten(unknown)}"] if unknown else []
-    return merge_masses(masses, unite_nodes(mirror, kinds)), remarks
+    return masses, remarks
 
 
 def list_one_sided(mirror: Mirror) -> list[str]:
@@ -215,19 +218,6 @@ def list_one_sided(mirror: Mirror) -> list[str]:
     if not unlike:
         return []
     return [f"rolling, which masses cause that have no equal one on the other side: nodes {shorten(unlike)}"]
-
-
-def merge_masses(masses: Sequence[PointMass], united: Integers) -> list[PointMass]:
-    """The masses with those of one united node as one."""
-    merged: dict[int, PointMass] = {}
-    for one in masses:
-        node = int(united[one.node])
-        before = merged.get(node)
-        if before is None or before.inertia is None or one.inertia is None:
-            merged[node] = one._replace(node=node, text="members across")
-        else:
-            merged[node] = before._replace(mass=before.mass + one.mass, inertia=before.inertia + one.inertia)
-    return list(merged.values())
 
 
 def map_sets(

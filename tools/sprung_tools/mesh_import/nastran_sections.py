@@ -193,5 +193,4 @@ def read_mass(card: Card, number: Mapping[int, int], find_node: Callable[[Card, 
         reason = f"it is away from its node by {', '.join(f'{one:g}' for one in offset)}"
     elif system > 0 and np.any(inertia):
         reason = f"its moments of inertia are in coordinate system {card.field(2)}"
-    mass = card.real(3, "mass")
-    return PointMass(f"CONM2 {card.field(0)}, {mass:g} at node {node}", number[node], mass, inertia, reason)
+    return PointMass(f"CONM2 {card.field(0)} at node {node}", number[node], card.real(3, "mass"), inertia, reason)

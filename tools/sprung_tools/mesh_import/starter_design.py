@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.mesh_import.frame_properties import Material
+from sprung_tools.mesh_import.frame_properties import Material, PointMass
 from sprung_tools.mesh_import.line_mesh import LineMesh
 from sprung_tools.mesh_import.plane_frame import PlaneFrame
 from sprung_tools.mesh_import.plane_section import PlaneSection, choose_section
@@ -149,7 +149,8 @@ def list_masses(
     for one in mesh.point_masses:
         place = number.get(int(mesh.node_ids[one.node]))
         if one.left_out or place is None or one.mass < 0.0:
-            remarks.append(f"{one.text}: {one.left_out or ('its node has no line' if place is None else 'it is < 0')}")
+            why = one.left_out or ("its node has no line" if place is None else "it is < 0")
+            remarks.append(f"{one.text}, {describe_size(one, units)}: {why}")
             continue
         if place not in names:
             names[place] = make_name(f"node_{frame.node_ids[place]}", frame)
@@ -160,6 +161,13 @@ def list_masses(
             f"mass = {float(units.mass * one.mass)!r}", f"inertia = {inertia!r}",
         ])  # fmt: skip
     return points, tables, remarks
+
+
+def describe_size(one: PointMass, units: Units) -> str:
+    """A mass for people, or its moments of inertia where it has these alone."""
+    if one.mass or one.inertia is None:
+        return f"{units.mass * one.mass:g} kg"
+    return f"moments of inertia up to {units.inertia * float(np.max(np.abs(one.inertia))):g} kg m²"
 
 
 def make_name(wanted: str, frame: PlaneFrame) -> str:
