@@ -13,7 +13,7 @@ from sprung_tools.mesh_import.ladder_frame import unite_rails
 from sprung_tools.mesh_import.line_mesh import LineMesh
 from sprung_tools.mesh_import.mesh_file import read_mesh
 from sprung_tools.mesh_import.plane_frame import PlaneFrame, make_plane_frame
-from sprung_tools.mesh_import.starter_design import find_doubts, format_design
+from sprung_tools.mesh_import.starter_design import find_doubts, format_design, list_left_out
 from sprung_tools.mesh_import.units import Units
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
@@ -22,7 +22,7 @@ MOST_POINTS = 24  # points that are listed by name
 PLANES = ("xy", "xz", "yz", "yx", "zx", "zy")
 
 
-def print_report(mesh: LineMesh, frame: PlaneFrame, plane: str, output: str) -> None:
+def print_report(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units, output: str) -> None:
     """Prints what was kept, what became of the rest, and what the source holds that a mesh cannot hold."""
     width, height = frame.positions.max(axis=0) - frame.positions.min(axis=0)
     print(
@@ -38,7 +38,10 @@ def print_report(mesh: LineMesh, frame: PlaneFrame, plane: str, output: str) -> 
     print(format_table(("physical", "name", "holds"), rows))
     for heading, texts in (
         ("Not kept as it was", frame.remarks),
-        ("In the source, but neither in the mesh nor in the starter design", mesh.left_behind),
+        (
+            "In the source, but neither in the mesh nor in the starter design",
+            [*mesh.left_behind, *list_left_out(mesh, frame, plane, units)],
+        ),
     ):
         if texts:
             print(f"\n{heading}")
@@ -96,7 +99,7 @@ def main() -> int:
     write_msh(frame, arguments.output)
     units = Units(arguments.scale, arguments.force)
     design = format_design(mesh, frame, arguments.plane, units, os.path.basename(arguments.output))
-    print_report(mesh, frame, arguments.plane, arguments.output)
+    print_report(mesh, frame, arguments.plane, units, arguments.output)
     write_design(design, arguments.output.removesuffix(".msh") + ".toml")
     for doubt in (*mesh.doubts, *find_doubts(mesh, frame, units)):
         print(f"Remark: {doubt}")

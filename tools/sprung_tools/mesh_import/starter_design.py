@@ -31,11 +31,8 @@ def format_design(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units, m
     """The text of the design. mesh_name: the mesh's file beside it."""
     name = os.path.splitext(mesh_name)[0]
     sections = {curve: choose_section(mesh, lines, plane) for curve, lines in frame.curves.items()}
-    left_out = [*frame.remarks, *mesh.left_behind]
-    points, masses, mass_remarks = list_masses(mesh, frame, plane, units)
-    left_out += mass_remarks
-    for curve, section in sections.items():
-        left_out += [f"of section '{curve}': {text}" for text in section.left_out]
+    left_out = [*frame.remarks, *mesh.left_behind, *list_left_out(mesh, frame, plane, units)]
+    points, masses, _ = list_masses(mesh, frame, plane, units)
     reference = name_reference(frame, points)
     parts = [
         make_comment(f"Starter design of {os.path.basename(mesh.path)} ({mesh.format}), written by tools/convert_mesh: "
@@ -53,6 +50,14 @@ def format_design(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units, m
         [line for text in ("Not taken from the source:", *left_out) for line in make_comment(text)] if left_out else [],
     ]  # fmt: skip
     return "\n\n".join("\n".join(part) for part in parts if part) + "\n"
+
+
+def list_left_out(mesh: LineMesh, frame: PlaneFrame, plane: str, units: Units) -> list[str]:
+    """What of the masses and sections is not in the design, a text each."""
+    texts = list_masses(mesh, frame, plane, units)[2]
+    for curve, lines in frame.curves.items():
+        texts += [f"of section '{curve}': {text}" for text in choose_section(mesh, lines, plane).left_out]
+    return texts
 
 
 def quote(text: str) -> str:
