@@ -110,10 +110,10 @@ void ExponentialIntegrator::linearise() {
 // The estimated error remains where the coordinates in y are the same.
 void ExponentialIntegrator::update_pairs() {
   const bool remains = last_.length > 0.0 && version_ == system_.coordinate_version();
-  Vector error = Vector::Zero(2 * system_.num_freedoms());
-  if (remains) coordinates_.to_state_change(vibration_error_.at_end(), error);
+  error_change_.setZero(2 * system_.num_freedoms());
+  if (remains) coordinates_.to_state_change(vibration_error_.at_end(), error_change_);
   coordinates_.update(small_motion_, system_.elastic_freedoms(), y_);
-  coordinates_.to_pair_change(error, error_pairs_);
+  coordinates_.to_pair_change(error_change_, error_pairs_);
   vibration_error_.set_at_end(error_pairs_);
 }
 

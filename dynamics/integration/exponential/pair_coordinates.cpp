@@ -43,7 +43,7 @@ void PairCoordinates::to_state_change(const Eigen::VectorXd& u, Eigen::VectorXd&
   shear_.add(change.data());
 }
 
-void PairCoordinates::to_pair_change(Eigen::VectorXd change, Eigen::VectorXd& u) const {
+void PairCoordinates::to_pair_change(Eigen::VectorXd& change, Eigen::VectorXd& u) const {
   shear_.remove(change.data());
   u.resize(2 * f_);
   basis_.to_pairs(change.data(), u.data());

@@ -35,7 +35,7 @@ class PairCoordinates {
   void to_state(const PairedMotion& motion, Eigen::VectorXd& y) const;
   /// What a small change of the pairs changes in positions and velocities, and back. @param u, change  2f
   void to_state_change(const Eigen::VectorXd& u, Eigen::VectorXd& change) const;
-  void to_pair_change(Eigen::VectorXd change, Eigen::VectorXd& u) const;
+  void to_pair_change(Eigen::VectorXd& change, Eigen::VectorXd& u) const;  ///< overwrites `change`
   /// The drive at a node of a step: the part of the derivatives ẏ that the pairs do not explain.
   void calc_drive(const Eigen::VectorXd& y_dot, const PairedMotion& motion, Drive& drive, int node);
 

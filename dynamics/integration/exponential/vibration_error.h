@@ -19,7 +19,7 @@ class VibrationError {
                    Eigen::VectorXd& u) const;
   const Eigen::VectorXd& at_end() const { return at_end_; }  ///< of the last step, 2f
   /// For a change of the pairs. @param u  the same error in the new ones, 2f
-  void set_at_end(const Eigen::VectorXd& u) { at_end_ = u; }
+  void set_at_end(const Eigen::Ref<const Eigen::VectorXd>& u) { at_end_ = u; }
 
  private:
   Eigen::VectorXd at_start_, at_end_;  // of the last step, 2f
