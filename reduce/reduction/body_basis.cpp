@@ -32,11 +32,6 @@ constexpr Eigen::Index kBandMode = 20;
 constexpr std::size_t kLargeFrame = 20'000;         // freedoms
 constexpr std::size_t kMemoryPerFreedom = 8 << 10;  // bytes, by measured builds
 
-// Displacements of all nodes, from vectors of the held frame.
-Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {
-  return fem::move_followers(design.model.couplings, insert_node(vectors, design.reference_node));
-}
-
 // Rigid motions of the nodes that have freedoms of their own.
 RigidMotions make_leaders_motions(const Design& design, RigidMotions rigid) {
   for (const fem::Coupling& coupling : design.model.couplings)
@@ -198,6 +193,10 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
 }
 
 }  // namespace
+
+Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {
+  return fem::move_followers(design.model.couplings, insert_node(vectors, design.reference_node));
+}
 
 fem::AssembledMatrices make_full_matrices(const Design& design) {
   if (!design.matrices) return fem::assemble(design.model);

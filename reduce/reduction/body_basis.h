@@ -31,6 +31,9 @@ fem::AssembledMatrices make_full_matrices(const Design& design);
 /// @throws support::NumericalError if the stiffness is not positive definite to rounding
 BodyMatrices make_body_matrices(const Design& design);
 
+/// Displacements of all nodes, from vectors of the held frame. @param vectors  (3N−3)×n   @return 3N×n
+Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors);
+
 /// Integrals over the mass of a design's beams, or of the matrices in their place.
 fem::MassMoments make_mass_moments(const Design& design, const Eigen::Vector2d& origin);
 

@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "fem/beam_element.h"
-#include "fem/coupling.h"
 #include "reduce/matrices/matrix_body.h"
-#include "reduce/modes/held_node.h"
 #include "reduce/modes/rounding_error.h"
 #include "reduce/reduction/held_rounding.h"
 #include "tools/support/errors/numerical_error.h"
@@ -19,11 +17,6 @@ namespace {
 
 constexpr double kMostOfTheEnergy = 0.9;
 constexpr double kMeasuredBelow = 1e-2;  // estimated errors up to which shapes are good enough to measure by
-
-// Displacements of all nodes, from a vector of the held frame.
-Eigen::VectorXd make_shape(const Design& design, const Eigen::VectorXd& vector) {
-  return fem::move_followers(design.model.couplings, insert_node(vector, design.reference_node));
-}
 
 // How the second end of an element moves relative to its first end, which carries it along rigidly.
 Eigen::Vector3d calc_relative_motion(const fem::Mesh& mesh, const fem::Mesh::Element& element,
@@ -116,7 +109,7 @@ double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& s
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
     double found = estimate_rounding_error(stiffness, modes.vectors.col(i), modes.omega_squared(i));
     if (found > kMaxRoundingError && found <= kMeasuredBelow && !design.matrices) {
-      const double energy = calc_energies(design.model, make_shape(design, modes.vectors.col(i))).sum();
+      const double energy = calc_energies(design.model, make_shapes(design, modes.vectors.col(i))).sum();
       found = std::abs(energy / modes.omega_squared(i) - 1.0);
     }
     if (found <= error) continue;
@@ -125,7 +118,7 @@ double check_rounding(const Design& design, const Eigen::SparseMatrix<double>& s
   }
   if (error <= kMaxRoundingError) return error;
   const double frequency_hz = calc_frequency_hz(modes.omega_squared(worst));
-  const Eigen::VectorXd energies = calc_energies(design.model, make_shape(design, modes.vectors.col(worst)));
+  const Eigen::VectorXd energies = calc_energies(design.model, make_shapes(design, modes.vectors.col(worst)));
   Eigen::Index softest = 0;
   const double largest = energies.size() > 0 ? energies.maxCoeff(&softest) : 0.0;
   if (design.model.mesh.num_elements() > 2 && largest > kMostOfTheEnergy * energies.sum()) {
@@ -151,7 +144,7 @@ void refuse_indefinite(const Design& design, const BodyMatrices& matrices, const
   constexpr double kAllOfTheBody = 1e-3;
   const Eigen::VectorXd held = find_loose_motion(matrices.free.stiffness);
   if (held.size() == 0) throw support::NumericalError(reason);
-  const Eigen::VectorXd shape = make_shape(design, held), bent = remove_momentum(matrices.rigid, shape);
+  const Eigen::VectorXd shape = make_shapes(design, held), bent = remove_momentum(matrices.rigid, shape);
   if (bent.dot(matrices.full.mass * bent) < kAllOfTheBody * shape.dot(matrices.full.mass * shape))
     throw support::NumericalError(describe_soft_reference(design, matrices));
   const fem::Mesh& mesh = design.model.mesh;
