@@ -170,9 +170,12 @@ def make_shape(block: Block, kind: str, numbers: Sequence[float]) -> tuple[Shape
             if not are_possible(i11, i22, i12):
                 block.fail(f"its I12 is {i12:g}, but I12² ≤ I11·I22, which is {i11 * i22:g}", block.data[0][0])
             return (Shape(area, i11, i22, i12), "") if area > 0.0 else (None, "its area, which is not positive")
+        count, make = SHAPES.get(kind, (0, None))
+        most = {"CIRC": 2, "GENERAL": 7, "LINEAR": 7}.get(kind, count)
+        if most and any(numbers[most:]):
+            block.fail(f"its shape {kind} has {len(numbers)} numbers, expected {most} at most", block.data[0][0])
         if kind == "CIRC" and len([one for one in numbers if one]) == 2:
             return make_ellipse(numbers[0], numbers[1]), ""  # CalculiX: the lengths of both axes
-        count, make = SHAPES.get(kind, (0, None))
         if make is None:
             return None, f"the shape {kind}"
         if kind == "BOX" and len(numbers) == 3:
