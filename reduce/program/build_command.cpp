@@ -110,8 +110,9 @@ std::string find_reason(const PreviousFile& previous, const fs::path& design, co
 
 void build_one(const fs::path& design, const fs::path& output, const BuildOptions& options) {
   support::remove_left_over(output);
-  const PreviousFile previous = read_previous_file(output);
+  PreviousFile previous = read_previous_file(output);
   const std::string reason = find_reason(previous, design, output, options);
+  if (previous.superelement) previous.superelement->resultants.resize(0, 0);  // large, and not compared
   if (reason.empty()) {
     report(options, fmt::format("{}: up to date", output.string()));
     return;

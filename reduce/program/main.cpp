@@ -1,15 +1,12 @@
 #include <CLI/CLI.hpp>
-#include <cstdlib>  // defines __GLIBC__
+#include <cstddef>
 #include <functional>
 #include <string>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "reduce/design/program_version.h"
 #include "reduce/export/export.h"
 #include "reduce/program/commands.h"
+#include "tools/support/processes/large_heap.h"
 #include "tools/support/terminal/program.h"
 
 namespace {
@@ -114,19 +111,12 @@ int run(const CLI::App& app, const Arguments& arguments) {
   return reduce::run_diff(arguments.old_file, arguments.new_file, arguments.json);
 }
 
-// glibc gives each large block back to the system when it is freed, and gets it again page by page; vectors
-// of large frames come and go all the time. Without that a build of 100 000 freedoms takes 8 % less time.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-#endif
-}
+constexpr std::size_t kHeap = std::size_t{1} << 30U;  // bytes of address space, for files of large bodies
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_freed_memory();
+  support::prepare_large_heap(kHeap);
   return support::run_program("sprung-reduce", [&]() -> int {
     CLI::App app("Reduces planar frames of beams to superelements for vehicle dynamics.", "sprung-reduce");
     app.set_version_flag("--version", std::string("sprung-reduce ") + reduce::get_program_version());

@@ -91,6 +91,10 @@ void unpack(const FieldValue& value, Eigen::PlainObjectBase<Derived>& matrix) {
   }
 }
 
+void unpack(FieldValue& value, RowMatrix& matrix) {  // large: not copied
+  matrix.swap(value.reals.front());
+}
+
 template <int Rows, int Columns>
 void unpack(const FieldValue& value, Eigen::Matrix<int, Rows, Columns>& matrix) {
   const auto size = static_cast<Eigen::Index>(value.integers.size());
@@ -111,15 +115,15 @@ void unpack(const FieldValue& value, std::vector<std::array<Eigen::MatrixXd, 3>>
 
 template <auto Member>
 constexpr FieldMember member = {[](const S& s) { return pack(s.*Member); },
-                                [](S& s, const FieldValue& value) { unpack(value, s.*Member); }};
+                                [](S& s, FieldValue& value) { unpack(value, s.*Member); }};
 
 template <auto Part, auto Member>
 constexpr FieldMember member_of = {[](const S& s) { return pack((s.*Part).*Member); },
-                                   [](S& s, const FieldValue& value) { unpack(value, (s.*Part).*Member); }};
+                                   [](S& s, FieldValue& value) { unpack(value, (s.*Part).*Member); }};
 
 template <auto Part, auto Member>
 constexpr FieldMember member_of_optional = {[](const S& s) { return pack((*(s.*Part)).*Member); },
-                                            [](S& s, const FieldValue& value) {
+                                            [](S& s, FieldValue& value) {
                                               if (!(s.*Part)) (s.*Part).emplace();
                                               unpack(value, (*(s.*Part)).*Member);
                                             }};
@@ -131,7 +135,7 @@ constexpr FieldMember column = {
       for (const auto& record : s.*List) values.push_back(record.*Member);
       return pack(values);
     },
-    [](S& s, const FieldValue& value) {
+    [](S& s, FieldValue& value) {
       std::vector<std::remove_cvref_t<decltype((s.*List).front().*Member)>> values;
       unpack(value, values);
       (s.*List).resize(values.size());
@@ -145,7 +149,7 @@ constexpr FieldMember column_of_optional = {
       for (const auto& record : (*(s.*Part)).*List) values.push_back(record.*Member);
       return pack(values);
     },
-    [](S& s, const FieldValue& value) {
+    [](S& s, FieldValue& value) {
       if (!(s.*Part)) (s.*Part).emplace();
       auto& list = (*(s.*Part)).*List;
       std::vector<std::remove_cvref_t<decltype(list.front().*Member)>> values;
@@ -171,7 +175,7 @@ constexpr FieldMember interface = column_of_optional<&S::certificate, &C::interf
 
 constexpr FieldMember kNodePositions = {  // a node is a column of the struct, a row of the file
     [](const S& s) { return pack(s.node_positions.transpose()); },
-    [](S& s, const FieldValue& value) { s.node_positions = value.reals.front().transpose(); }};
+    [](S& s, FieldValue& value) { s.node_positions = value.reals.front().transpose(); }};
 
 constexpr std::string_view kShapeUnit = "m, m, rad per unit modal coordinate (m·√kg)";
 constexpr std::string_view kResultantUnit = "N, N, N·m per unit modal coordinate (m·√kg)";

@@ -40,7 +40,7 @@ enum class FieldHash { kWhole, kRows, kPoints, kRigidInertia, kChecks, kWithPrev
 /// The member of the struct that holds a field.
 struct FieldMember {
   FieldValue (*get)(const Superelement&);
-  void (*set)(Superelement&, const FieldValue&);  ///< the value has the field's shape
+  void (*set)(Superelement&, FieldValue&);  ///< the value has the field's shape; it is of no use afterwards
 };
 
 /// A dataset of the superelement file: writer, reader, content hash and faults follow it.

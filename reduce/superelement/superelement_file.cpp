@@ -69,20 +69,42 @@ void check_unit(const Hdf5Reader& file, const SuperelementField& field) {
   throw dataset_error(file, path, fmt::format("has the unit '{}', expected '{}'", unit, field.unit));
 }
 
+// A single matrix is read where it will stand, since that of the resultants is large.
+std::vector<std::int64_t> read_matrices(const Hdf5Reader& file, const SuperelementField& field,
+                                        const std::vector<std::int64_t>& expected,
+                                        std::vector<support::RowMatrix>& matrices) {
+  const std::string path(field.path);
+  if (field.type == FieldType::kReals) {
+    return file.read_reals(path, expected, [&](const std::vector<std::int64_t>& found) {
+      const auto [num_matrices, rows, columns] = calc_matrices(field, found);
+      support::RowMatrix& matrix = matrices.emplace_back(rows, columns);
+      return std::span(matrix.data(), static_cast<std::size_t>(matrix.size()));
+    });
+  }
+  const std::vector<double> numbers = file.reals(path, expected);
+  const std::vector<std::int64_t> found = file.shape(path);
+  const auto [num_matrices, rows, columns] = calc_matrices(field, found);
+  for (std::int64_t i = 0; i < num_matrices; ++i)
+    matrices.emplace_back(
+        Eigen::Map<const support::RowMatrix>(numbers.data() + i * rows * columns, rows, columns));
+  return found;
+}
+
 FieldValue read_field(const Hdf5Reader& file, const SuperelementField& field, FieldCounts& counts) {
   const std::string path(field.path);
   const std::vector<std::int64_t> expected = calc_extents(field, counts);
   FieldValue value;
-  std::vector<double> numbers;
+  std::vector<std::int64_t> found;
   if (field.type == FieldType::kTexts) {
     value.texts = file.strings(path, expected);
+    found = file.shape(path);
   } else if (field.type == FieldType::kIntegers) {
     value.integers = file.integers(path, expected);
+    found = file.shape(path);
   } else {
-    numbers = file.reals(path, expected);
+    found = read_matrices(file, field, expected, value.reals);
   }
   check_unit(file, field);
-  const std::vector<std::int64_t> found = file.shape(path);
   add_counts(field, found, counts);
   if (field.rule == FieldRule::kIndex) {
     const auto bad = std::find_if(value.integers.begin(), value.integers.end(), [](std::int64_t index) {
@@ -92,11 +114,6 @@ FieldValue read_field(const Hdf5Reader& file, const SuperelementField& field, Fi
       throw dataset_error(file, path,
                           fmt::format("has the value {}, expected a number ≥ 0 that fits 31 bits", *bad));
     }
-  }
-  const auto [num_matrices, rows, columns] = calc_matrices(field, found);
-  for (std::int64_t i = 0; i < num_matrices; ++i) {
-    value.reals.emplace_back(
-        Eigen::Map<const support::RowMatrix>(numbers.data() + i * rows * columns, rows, columns));
   }
   return value;
 }
@@ -138,7 +155,8 @@ Superelement read_superelement(const std::filesystem::path& path) {
   FieldCounts counts = {{'1', 1}};
   for (const SuperelementField& field : superelement_fields()) {
     if (field.since <= version) {
-      field.member.set(s, read_field(file, field, counts));
+      FieldValue value = read_field(file, field, counts);
+      field.member.set(s, value);
     } else if (file.has(std::string(field.path))) {
       throw dataset_error(file, field.path,
                           fmt::format("belongs to version {} of the format, the file is of version {}",

@@ -105,7 +105,7 @@ TEST_CASE("the extents of a shape are products of its numbers and counts, if all
 }
 
 // The fault of the body with a changed value of a field.
-std::string find_fault_with(const SuperelementField& field, const FieldValue& value) {
+std::string find_fault_with(const SuperelementField& field, FieldValue value) {
   Superelement body = testing::make_two_armed_body();
   field.member.set(body, value);
   const std::optional<SuperelementFault> fault = find_fault(body);

@@ -69,6 +69,18 @@ std::vector<double> Hdf5Reader::reals(const std::string& dataset,
   });
 }
 
+std::vector<std::int64_t> Hdf5Reader::read_reals(
+    const std::string& dataset, const std::vector<std::int64_t>& shape,
+    const std::function<std::span<double>(const std::vector<std::int64_t>&)>& place) const {
+  return attempt([&] {
+    const hdf5::StoredDataset stored(file_.get(), dataset, file_size_, compression_ == Compression::kAllowed);
+    stored.expect_shape(shape);
+    std::vector<std::int64_t> found(stored.shape().begin(), stored.shape().end());
+    stored.read_doubles(place(found));
+    return found;
+  });
+}
+
 std::vector<double> Hdf5Reader::real_rows(const std::string& dataset, std::size_t first,
                                           std::size_t count) const {
   return attempt([&] {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +32,10 @@ class Hdf5Reader {
   std::vector<std::int64_t> integers(const std::string& dataset,
                                      const std::vector<std::int64_t>& shape) const;
   std::vector<std::string> strings(const std::string& dataset, const std::vector<std::int64_t>& shape) const;
+  /// Likewise, into the memory that `place` gives for the shape that the dataset has. @return this shape
+  std::vector<std::int64_t> read_reals(
+      const std::string& dataset, const std::vector<std::int64_t>& shape,
+      const std::function<std::span<double>(const std::vector<std::int64_t>&)>& place) const;
   /// Rows first to first + count − 1 of a dataset of any rank ≥ 1.
   std::vector<double> real_rows(const std::string& dataset, std::size_t first, std::size_t count) const;
 

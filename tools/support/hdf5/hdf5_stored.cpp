@@ -195,8 +195,13 @@ void StoredDataset::read(std::int64_t memory_type, void* values) const {
 }
 
 std::vector<double> StoredDataset::read_doubles() const {
-  expect_real(type_.get(), label_);
   std::vector<double> values(count_);
+  read_doubles(values);
+  return values;
+}
+
+void StoredDataset::read_doubles(std::span<double> values) const {
+  expect_real(type_.get(), label_);
   if (count_ > 0) read(H5T_NATIVE_DOUBLE, values.data());
   const auto bad =
       std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
@@ -204,7 +209,6 @@ std::vector<double> StoredDataset::read_doubles() const {
     throw Failure(fmt::format("{} has {} at {}", label_, *bad,
                               format_index(static_cast<std::size_t>(bad - values.begin()), shape_)));
   }
-  return values;
 }
 
 std::vector<std::int64_t> StoredDataset::read_integers() const {

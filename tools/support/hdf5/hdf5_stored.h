@@ -27,6 +27,7 @@ class StoredDataset {
 
   // Row-major. @throws Failure on another type, a checksum that does not fit, NaN or infinity
   std::vector<double> read_doubles() const;
+  void read_doubles(std::span<double> values) const;  ///< @param values  as many as the shape has
   std::vector<std::int64_t> read_integers() const;
   std::vector<std::string> read_strings() const;
 
