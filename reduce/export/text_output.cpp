@@ -6,6 +6,7 @@
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/files/output_target.h"
+#include "tools/support/files/unfinished_file.h"
 
 namespace sprung::reduce {
 
@@ -17,6 +18,7 @@ void write_text_file(const std::filesystem::path& path, std::string_view text) {
   support::check_target(path);
   const std::filesystem::path temporary = support::temporary_name(path);
   support::check_temporary(path, temporary);
+  const support::UnfinishedFile unfinished(temporary);
   std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   stream.close();

@@ -7,14 +7,18 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <string>
 
 #include "tests/catch.h"
 #include "tests/tools/support/child_process.h"
+#include "tests/tools/support/temporary_folder.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/hdf5/hdf5_file.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/progress_bar.h"
 
@@ -80,6 +84,25 @@ TEST_CASE("an interruption ends the program where it is, with a message") {
   });
   CHECK(result.exit_code == 130);
   CHECK(result.output == "sprung-test: interrupted: the files made before are whole\n");
+}
+
+TEST_CASE("an interruption removes the file that is being written, and no other one") {
+  const TemporaryFolder folder;
+  Hdf5Writer(folder / "whole.h5").commit();
+  const ChildResult result = run([&]() -> int {
+    Hdf5Writer(folder / "earlier.h5").commit();
+    Hdf5Writer first(folder / "first.h5"), second(folder / "whole.h5");
+    Hdf5Writer kept(folder / "run.h5", folder / "run.partial.h5");
+    kept.checkpoint();
+    std::raise(SIGTERM);
+    return 50;
+  });
+  CHECK(result.exit_code == 130);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+    names.insert(entry.path().filename().string());
+  CHECK(names == std::set<std::string>{"earlier.h5", "run.partial.h5", "whole.h5"});
+  const Hdf5Reader whole(folder / "whole.h5"), partial(folder / "run.partial.h5");
 }
 
 TEST_CASE("the first interruption that is deferred sets a flag and does not end the program") {

@@ -25,6 +25,7 @@ ExchangeFile::ExchangeFile(std::filesystem::path target)
   hdf5::initialize();
   check_target(target_);
   check_temporary(target_, temporary_);
+  unfinished_.emplace(temporary_);
   // MBSim's reader takes objects in the order in which they were made.
   try {
     attempt([this] { file_ = hdf5::create_file(temporary_, true); });
@@ -142,6 +143,7 @@ void ExchangeFile::commit() {
     hdf5::check(H5Fclose(id), "cannot be written");
   });
   rename_to_target(temporary_, target_);
+  unfinished_.reset();
   committed_ = true;
 }
 

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/support/files/unfinished_file.h"
 #include "tools/support/hdf5/hdf5_handle.h"
 
 namespace sprung::support {
@@ -45,6 +47,7 @@ class ExchangeFile {
                    const void* values, const std::vector<std::uint64_t>& shape);
 
   std::filesystem::path target_, temporary_;
+  std::optional<UnfinishedFile> unfinished_;
   Hdf5Handle file_;
   bool committed_ = false;
 };

@@ -75,6 +75,7 @@ Hdf5Writer::Hdf5Writer(fs::path target, fs::path partial)
   check_temporary(target_, temporary_);
   if (!partial_.empty()) check_temporary(target_, partial_);
   try {
+    unfinished_.emplace(temporary_);
     attempt([this] { file_ = hdf5::create_file(temporary_); });
   } catch (const InputError&) {
     remove_left_over(target_);  // on a full disk an empty file was made
@@ -249,12 +250,12 @@ Hdf5GrowingDataset& Hdf5Writer::make_growing(const std::string& dataset, std::si
   attempt([&] {
     prepare_dataset(dataset);
     ChunkCompressor* compressor = nullptr;
-    if (precision == Hdf5Precision::kCompressedSingle) {
+    if (precision != Hdf5Precision::kDouble) {
       if (!compressor_) compressor_ = std::make_unique<ChunkCompressor>();
       compressor = compressor_.get();
     }
     growing_.try_emplace(dataset, open(hdf5::parent_path(dataset)), dataset, columns, unit, compressor,
-                         chunk_rows);
+                         precision == Hdf5Precision::kCompressedRounded, chunk_rows);
   });
   return growing_.at(dataset);
 }
@@ -299,6 +300,7 @@ void Hdf5Writer::move_to(const fs::path& name) {
   if (error)
     throw InputError({.path = target_.string()}, fmt::format("cannot be written: {}", error.message()));
   name_ = name;
+  unfinished_.reset();  // what was moved once holds a checkpoint
 }
 
 void Hdf5Writer::overwrite(const std::string& dataset, std::span<const double> values) {
@@ -367,6 +369,7 @@ void Hdf5Writer::close() {
 void Hdf5Writer::commit() {
   close();
   rename_to_target(temporary_, target_);
+  unfinished_.reset();
   finished_ = true;
   std::error_code ignored;
   if (!partial_.empty()) fs::remove(partial_, ignored);

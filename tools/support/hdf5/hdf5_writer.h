@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tools/support/files/unfinished_file.h"
 #include "tools/support/hdf5/hdf5_growing_dataset.h"
 #include "tools/support/hdf5/hdf5_handle.h"
 #include "tools/support/hdf5/row_matrix.h"
@@ -20,7 +22,8 @@ namespace sprung::support {
 /// How the numbers of a growing dataset are stored.
 enum class Hdf5Precision {
   kDouble,
-  kCompressedSingle,  ///< relative accuracy 6e-8, and 3 bytes or less for a value of a smooth history
+  kCompressedSingle,   ///< relative accuracy 6e-8, and 3 bytes or less for a value of a smooth history
+  kCompressedRounded,  ///< likewise 8e-6, and 2 bytes
 };
 
 /// Writes an HDF5 file under a temporary name beside the target; `commit` renames it when it is whole.
@@ -131,6 +134,7 @@ class Hdf5Writer {
   std::unique_ptr<ChunkCompressor> compressor_;  // where a dataset needs it
   std::map<std::string, Hdf5GrowingDataset> growing_;
   bool finished_ = false;
+  std::optional<UnfinishedFile> unfinished_;  // the temporary one, until there is a checkpoint
 };
 
 }  // namespace sprung::support

@@ -15,6 +15,7 @@
 
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
+#include "tools/support/files/unfinished_file.h"
 #include "tools/support/terminal/print.h"
 
 namespace sprung::support {
@@ -33,6 +34,7 @@ const std::function<bool()>* question = nullptr;  // of the program that we are 
 
 // Only calls that are safe in a signal handler.
 [[noreturn]] void end_at_once() {
+  remove_unfinished_files();
   for (const char* text : {program_name, ": interrupted: the files made before are whole\n"})
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
   ::_exit(kInterrupted);
