@@ -74,8 +74,9 @@ OutputSettings read_output(const support::TomlTable& table, double output_step) 
   settings.points = read_reported(table);
   settings.size = table.number_or("size", settings.size, support::positive("MB"));
   if (const std::optional<support::TomlValue> precision = table.find("precision")) {
-    static const std::vector<std::string> kPrecisions{"double", "single"};
-    settings.is_single = precision->one_of(kPrecisions) == "single";
+    static const std::vector<std::string> kPrecisions{"double", "single", "rounded"};
+    const auto found = std::find(kPrecisions.begin(), kPrecisions.end(), precision->one_of(kPrecisions));
+    settings.precision = static_cast<StoredPrecision>(found - kPrecisions.begin());
   }
   const std::optional<support::TomlTable> store = table.find_table("store"), steps = table.find_table("step");
   for (std::size_t g = 0; g < kStoredGroupKeys.size(); ++g) {

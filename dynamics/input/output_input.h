@@ -24,6 +24,12 @@ enum class StoredGroup {
 inline constexpr std::array<std::string_view, 6> kStoredGroupNames{"points", "bodies",   "joints",
                                                                    "forces", "wrenches", "recovery"};
 
+enum class StoredPrecision {
+  kDouble,
+  kSingle,   ///< compressed
+  kRounded,  ///< likewise, and numbers of which five digits are enough have no more
+};
+
 /// Which histories of a group are stored, and how often.
 struct StorageRequest {
   enum class Which { kBySize, kAll, kReported, kNone, kListed };
@@ -36,8 +42,8 @@ struct StorageRequest {
 /// `[output]` of a run file.
 struct OutputSettings {
   std::vector<PointReference> points;  ///< reported in the summary; if empty, the vehicle's `monitor`
-  double size = 20.0;             ///< that the histories take at most where nothing else is asked for [MB]
-  std::optional<bool> is_single;  ///< precision; none: by size
+  double size = 20.0;  ///< that the histories take at most where nothing else is asked for [MB]
+  std::optional<StoredPrecision> precision;  ///< none: by size
   std::array<StorageRequest, kStoredGroupNames.size()> groups;
 
   const StorageRequest& of(StoredGroup group) const { return groups[static_cast<std::size_t>(group)]; }

@@ -15,6 +15,12 @@ constexpr std::int64_t kResultsVersion = 2;
 constexpr std::size_t kMostBuffered = std::size_t{1} << 28U;  // bytes of rows that are not written yet
 constexpr std::size_t kRowsAtOnce = 1024;                     // whole chunks of most histories
 
+support::Hdf5Precision to_hdf5(StoredPrecision precision) {
+  if (precision == StoredPrecision::kDouble) return support::Hdf5Precision::kDouble;
+  return precision == StoredPrecision::kSingle ? support::Hdf5Precision::kCompressedSingle
+                                               : support::Hdf5Precision::kCompressedRounded;
+}
+
 }  // namespace
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header)
@@ -83,11 +89,9 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
   }
   const std::size_t most_rows = kMostBuffered / row_size;
   for (Stored& stored : stored_) {
-    using support::Hdf5Precision;
     const History& history = *stored.history;
     stored.dataset = &file_.make_growing(
-        history.name, history.columns, history.unit,
-        storage_->is_single(history) ? Hdf5Precision::kCompressedSingle : Hdf5Precision::kDouble,
+        history.name, history.columns, history.unit, to_hdf5(storage_->precision(history)),
         std::min(stored.num_rows(static_cast<std::size_t>(num_outputs)), most_rows));
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});

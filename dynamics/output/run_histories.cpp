@@ -48,8 +48,12 @@ void RunHistories::begin(std::optional<StoredGroup> group, const std::string& ob
 
 History& RunHistories::add(const std::string& name, std::size_t columns, const std::string& unit,
                            std::function<void(const Snapshot&, std::span<double>)> fill) {
-  const StoredHistory stored{
-      .name = name, .row_size = std::max<std::size_t>(columns, 1), .group = group_, .object = object_};
+  using Kind = StoredHistory::Kind;
+  const StoredHistory stored{.name = name,
+                             .row_size = std::max<std::size_t>(columns, 1),
+                             .group = group_,
+                             .object = object_,
+                             .kind = unit == "m" || unit == "rad" ? Kind::kPlace : Kind::kOther};
   histories_.push_back({stored, columns, unit, std::move(fill)});
   return histories_.back();
 }

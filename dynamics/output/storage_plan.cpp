@@ -11,15 +11,17 @@ namespace sprung::dynamics {
 namespace {
 
 constexpr double kBytesOfDouble = 8.0;
-constexpr double kBytesOfSingle = 2.9;  // compressed, measured on vehicles on rough roads
-constexpr double kCoarseStep = 0.01;    // s
+constexpr double kBytesOfSingle = 2.9,
+                 kBytesOfRounded = 2.4;     // compressed, measured on vehicles on rough roads
+constexpr double kBytesOfDataset = 3000.0;  // of HDF5's own, measured
+constexpr double kCoarseStep = 0.01;        // s
 constexpr double kMegabyte = 1e6;
 
 }  // namespace
 
 StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<StoredHistory>& histories,
                          StorageConditions conditions)
-    : conditions_(std::move(conditions)), is_single_(settings.is_single.value_or(false)) {
+    : conditions_(std::move(conditions)), precision_(settings.precision.value_or(StoredPrecision::kDouble)) {
   for (std::size_t g = 0; g < choices_.size(); ++g) {
     const StorageRequest& request = settings.groups[g];
     choices_[g] = {request.which, {request.names.begin(), request.names.end()}, request.every.value_or(1)};
@@ -27,6 +29,12 @@ StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<Store
   }
   size_ = estimate(histories);
   reduce(settings, histories);
+  num_stored_ = std::count_if(histories.begin(), histories.end(),
+                              [&](const StoredHistory& history) { return every(history) > 0; });
+}
+
+double StoragePlan::size() const {
+  return size_ + static_cast<double>(num_stored_) * kBytesOfDataset / kMegabyte;
 }
 
 void StoragePlan::reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories) {
@@ -41,9 +49,13 @@ void StoragePlan::reduce(const OutputSettings& settings, const std::vector<Store
     choice(StoredGroup::kPoints).which = StorageRequest::Which::kReported;
     accept("only points of the summary (the tools compute the others)");
   }
-  if (too_large() && !settings.is_single) {
-    is_single_ = true;
+  if (too_large() && !settings.precision) {
+    precision_ = StoredPrecision::kSingle;
     accept("single precision");
+  }
+  if (too_large() && !settings.precision) {
+    precision_ = StoredPrecision::kRounded;
+    accept("forces, accelerations and rates to five digits");
   }
   if (too_large() && thin_out(settings, StoredGroup::kRecovery)) accept("stress resultants " + interval);
   if (too_large()) {
@@ -77,10 +89,9 @@ double StoragePlan::estimate(const std::vector<StoredHistory>& histories) const 
   double bytes = 0.0;
   for (const StoredHistory& history : histories) {
     const long rows_between = every(history);
-    const bool takes_nothing = is_single(history) && history.kind == StoredHistory::Kind::kFlags;
-    if (rows_between == 0 || takes_nothing) continue;
+    if (rows_between == 0) continue;
     bytes += conditions_.num_outputs / static_cast<double>(rows_between) *
-             static_cast<double>(history.row_size) * (is_single(history) ? kBytesOfSingle : kBytesOfDouble);
+             static_cast<double>(history.row_size) * count_bytes(history);
   }
   return bytes / kMegabyte;
 }
@@ -106,8 +117,18 @@ long StoragePlan::every(const StoredHistory& history) const {
   }
 }
 
-bool StoragePlan::is_single(const StoredHistory& history) const {
-  return is_single_ && history.group.has_value();
+// Of a value.
+double StoragePlan::count_bytes(const StoredHistory& history) const {
+  const StoredPrecision stored = precision(history);
+  if (stored == StoredPrecision::kDouble) return kBytesOfDouble;
+  if (history.kind == StoredHistory::Kind::kFlags) return 0.0;
+  return stored == StoredPrecision::kRounded ? kBytesOfRounded : kBytesOfSingle;
+}
+
+StoredPrecision StoragePlan::precision(const StoredHistory& history) const {
+  if (!history.group) return StoredPrecision::kDouble;
+  const bool may_be_rounded = history.kind == StoredHistory::Kind::kOther;
+  return precision_ == StoredPrecision::kRounded && !may_be_rounded ? StoredPrecision::kSingle : precision_;
 }
 
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings) {

@@ -14,8 +14,9 @@ namespace sprung::dynamics {
 /// A time history of the results file, as far as the choice of what is stored asks.
 struct StoredHistory {
   enum class Kind {
-    kOther,
+    kOther,   ///< a force, an acceleration or a rate, of which five digits are enough
     kMotion,  ///< a position, a velocity or a deflection: it is smooth
+    kPlace,   ///< a length or an angle
     kFlags,   ///< it hardly ever changes, so that it takes nothing when it is compressed
   };
   std::string name;                       ///< of its dataset: "/points/chassis.seat/position"
@@ -36,10 +37,10 @@ struct StorageConditions {
 
 /// Which histories of a run are stored, how often, and in which precision: what `[output]` asks for, and for
 /// the rest all that fits into `output.size`. What does not fit is reduced in this order, until it does:
-/// single precision, compressed; only the points in the summary, of which the others follow from the motion
-/// of bodies and modes; stress resultants every 10 ms; reactions and wrenches every 10 ms; positions and
-/// velocities, which are smooth, every 10 ms. Checked by
-/// tests/dynamics/output/storage_plan_test.cpp
+/// only the points in the summary, of which the others follow from the motion of bodies and modes; single
+/// precision, compressed; forces, accelerations and rates rounded to five digits; stress resultants every 10
+/// ms; reactions and wrenches every 10 ms; positions and velocities, which are smooth, every 10 ms. Checked
+/// by tests/dynamics/output/storage_plan_test.cpp
 class StoragePlan {
  public:
   StoragePlan(const OutputSettings& settings, const std::vector<StoredHistory>& histories,
@@ -47,9 +48,9 @@ class StoragePlan {
 
   /// Outputs from one stored row of a history to the next; 0 if it is not stored.
   long every(const StoredHistory& history) const;
-  /// Whether a history is stored in single precision. Time and energies are not.
-  bool is_single(const StoredHistory& history) const;
-  double size() const { return size_; }  ///< estimate for all histories [MB]
+  /// Time and energies are doubles always; lengths, angles and motion are not rounded.
+  StoredPrecision precision(const StoredHistory& history) const;
+  double size() const;  ///< estimate for the file [MB]
   /// What was reduced to make it fit, in words.
   const std::vector<std::string>& reductions() const { return reductions_; }
 
@@ -65,11 +66,13 @@ class StoragePlan {
   bool thin_out(const OutputSettings& settings, StoredGroup group);
   bool thin_out_motion(const OutputSettings& settings);
   double estimate(const std::vector<StoredHistory>& histories) const;
+  double count_bytes(const StoredHistory& history) const;
 
   StorageConditions conditions_;
-  bool is_single_ = false;
+  StoredPrecision precision_ = StoredPrecision::kDouble;
   std::array<Choice, kStoredGroupNames.size()> choices_;
-  double size_ = 0.0;
+  double size_ = 0.0;  // of the values of all histories [MB]
+  std::ptrdiff_t num_stored_ = 0;
   std::vector<std::string> reductions_;
 };
 

@@ -30,7 +30,7 @@ store = { points = "reported", joints = "none", forces = ["tyre"], bodies = "all
 step = { recovery = 0.01, joints = 1e-3 })");
   CHECK(settings.points.size() == 1);
   CHECK(settings.size == 50.0);
-  CHECK(settings.is_single == true);
+  CHECK(settings.precision == dynamics::StoredPrecision::kSingle);
   CHECK(settings.of(StoredGroup::kPoints).which == Which::kReported);
   CHECK(settings.of(StoredGroup::kJoints).which == Which::kNone);
   CHECK(settings.of(StoredGroup::kForces).which == Which::kListed);
@@ -45,7 +45,7 @@ step = { recovery = 0.01, joints = 1e-3 })");
 TEST_CASE("Without [output] the size of 20 MB chooses") {
   const dynamics::OutputSettings settings;
   CHECK(settings.size == 20.0);
-  CHECK_FALSE(settings.is_single.has_value());
+  CHECK_FALSE(settings.precision.has_value());
   for (const dynamics::StorageRequest& group : settings.groups) CHECK(group.which == Which::kBySize);
 }
 

@@ -13,7 +13,7 @@ using Which = StorageRequest::Which;
 
 // 10,001 outputs of 8 bytes: 0.08 MB for a column.
 using enum StoredGroup;
-constexpr auto kMotion = StoredHistory::Kind::kMotion;
+constexpr auto kMotion = StoredHistory::Kind::kMotion, kPlace = StoredHistory::Kind::kPlace;
 const std::vector<StoredHistory> kHistories{
     {"/time", 1},
     {"/points/frame.seat/acceleration", 20, kPoints, "frame.seat"},
@@ -23,7 +23,8 @@ const std::vector<StoredHistory> kHistories{
     {"/bodies/frame/acceleration", 10, kBodies, "frame"},
     {"/bodies/frame/center_of_mass/position", 20, kPoints, "frame.center_of_mass", kMotion},
     {"/joints/pivot/reaction", 20, kJoints, "pivot"},
-    {"/forces/tyre/force", 20, kForces, "tyre"},
+    {"/forces/tyre/force", 10, kForces, "tyre"},
+    {"/forces/tyre/length", 10, kForces, "tyre", kPlace},
     {"/forces/tyre/on_wheel", 20, kWrenches, "tyre"},
     {"/recovery/frame/moment", 40, kRecovery, "frame"},
     {"/energy/kinetic", 1},
@@ -42,8 +43,8 @@ StoragePlan make_plan(const OutputSettings& settings) {
                       .stiffened_bodies = {"blade"}});
 }
 
-// A column of 10,001 rows [MB], in double and in single precision.
-constexpr double kDouble = 0.080008, kSingle = 0.0290029;
+// A column of 10,001 rows in each precision, and what HDF5 takes for a dataset [MB].
+constexpr double kOfDouble = 0.080008, kOfSingle = 0.0290029, kOfRounded = 0.0240024, kOfDataset = 0.003;
 
 }  // namespace
 
@@ -51,9 +52,9 @@ TEST_CASE("What fits into the size is stored at every output in double precision
   const StoragePlan plan = make_plan({});
   for (const StoredHistory& one : kHistories) {
     CHECK(plan.every(one) == 1);
-    CHECK_FALSE(plan.is_single(one));
+    CHECK(plan.precision(one) == StoredPrecision::kDouble);
   }
-  CHECK_THAT(plan.size(), WithinRel(202 * kDouble, 1e-9));
+  CHECK_THAT(plan.size(), WithinRel(202 * kOfDouble + 13 * kOfDataset, 1e-9));
   CHECK(plan.reductions().empty());
   CHECK(describe_storage(plan, {}) == "about 16 MB");
 }
@@ -67,16 +68,27 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   CHECK(plan.every(history("/bodies/frame/center_of_mass/position")) == 0);
   CHECK(plan.every(history("/points/blade.tip/acceleration")) ==
         1);  // it does not follow from the body's motion
-  CHECK_FALSE(plan.is_single(history("/points/frame.seat/acceleration")));
-  CHECK_THAT(plan.size(), WithinRel(162 * kDouble, 1e-9));
+  CHECK(plan.precision(history("/points/frame.seat/acceleration")) == StoredPrecision::kDouble);
+  CHECK_THAT(plan.size(), WithinRel(162 * kOfDouble + 11 * kOfDataset, 1e-9));
 
   settings.size = 5.0;
   plan = make_plan(settings);
-  CHECK(plan.is_single(history("/points/frame.seat/acceleration")));
-  CHECK_FALSE(plan.is_single(history("/time")));
-  CHECK_FALSE(plan.is_single(history("/energy/kinetic")));
+  CHECK(plan.precision(history("/points/frame.seat/acceleration")) == StoredPrecision::kSingle);
+  CHECK(plan.precision(history("/time")) == StoredPrecision::kDouble);
+  CHECK(plan.precision(history("/energy/kinetic")) == StoredPrecision::kDouble);
   CHECK(plan.every(history("/recovery/frame/moment")) == 1);
-  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + 160 * kSingle, 1e-9));
+  CHECK_THAT(plan.size(), WithinRel(2 * kOfDouble + 160 * kOfSingle + 11 * kOfDataset, 1e-9));
+
+  settings.size = 4.5;
+  plan = make_plan(settings);
+  CHECK(plan.precision(history("/recovery/frame/moment")) == StoredPrecision::kRounded);
+  CHECK(plan.precision(history("/bodies/frame/acceleration")) == StoredPrecision::kRounded);
+  CHECK(plan.precision(history("/bodies/frame/position")) == StoredPrecision::kSingle);
+  CHECK(plan.precision(history("/forces/tyre/length")) == StoredPrecision::kSingle);
+  CHECK(plan.precision(history("/energy/kinetic")) == StoredPrecision::kDouble);
+  CHECK(plan.every(history("/recovery/frame/moment")) == 1);
+  CHECK_THAT(plan.size(),
+             WithinRel(2 * kOfDouble + 20 * kOfSingle + 140 * kOfRounded + 11 * kOfDataset, 1e-9));
 
   settings.size = 4.0;
   plan = make_plan(settings);
@@ -95,17 +107,18 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   CHECK(plan.every(history("/bodies/frame/position")) == 10);
   CHECK(plan.every(history("/bodies/frame/acceleration")) == 1);
   CHECK(plan.every(history("/points/frame.seat/acceleration")) == 1);
-  CHECK_THAT(plan.size(), WithinRel(2 * kDouble + (70 + 1 + 8) * kSingle, 1e-9));
+  CHECK_THAT(plan.size(),
+             WithinRel(2 * kOfDouble + 11 * kOfSingle + 68 * kOfRounded + 11 * kOfDataset, 1e-9));
   CHECK(describe_storage(plan, settings) ==
-        "about 2.5 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
-        "single precision; stress resultants every 10 ms; reactions of joints and loads of force elements "
-        "every 10 ms; positions and velocities every 10 ms");
+        "about 2.1 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
+        "single precision; forces, accelerations and rates to five digits; stress resultants every 10 ms; "
+        "reactions of joints and loads of force elements every 10 ms; positions and velocities every 10 ms");
 }
 
 TEST_CASE("What the run file asks for is stored, however large it is") {
   OutputSettings settings;
   settings.size = 1.0;
-  settings.is_single = false;
+  settings.precision = StoredPrecision::kDouble;
   settings.groups[static_cast<std::size_t>(StoredGroup::kPoints)].which = Which::kAll;
   settings.groups[static_cast<std::size_t>(StoredGroup::kBodies)].every = 3;
   settings.groups[static_cast<std::size_t>(StoredGroup::kRecovery)].every = 5;
@@ -113,7 +126,7 @@ TEST_CASE("What the run file asks for is stored, however large it is") {
       .which = Which::kListed, .names = {"spring"}, .locations = {}, .every = {}};
   settings.groups[static_cast<std::size_t>(StoredGroup::kJoints)].which = Which::kNone;
   const StoragePlan plan = make_plan(settings);
-  CHECK_FALSE(plan.is_single(history("/bodies/frame/position")));
+  CHECK(plan.precision(history("/bodies/frame/position")) == StoredPrecision::kDouble);
   CHECK(plan.every(history("/bodies/frame/position")) == 3);
   CHECK(plan.every(history("/bodies/frame/acceleration")) == 3);
   CHECK(plan.every(history("/points/frame.front/acceleration")) == 1);

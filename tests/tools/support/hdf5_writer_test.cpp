@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/catch.h"
@@ -198,14 +199,51 @@ TEST_CASE("compressed histories are those that were written, to single precision
         }) == path + ": error: dataset 'rows' is compressed or coded by a filter, which is not read");
 }
 
-TEST_CASE("a value beyond single precision is refused, not stored as infinity") {
+TEST_CASE("rounded histories have 17 binary digits, the last one rounded, and take less space again") {
   const TemporaryFolder folder;
-  Hdf5Writer writer(folder / "a.h5");
-  Hdf5GrowingDataset& x = writer.make_growing("x", 0, "m", Hdf5Precision::kCompressedSingle);
-  writer.append(x, std::vector{1e39});
-  const std::string path = folder / "a.h5";
-  CHECK(error_message<InputError>([&] { writer.commit(); }) ==
-        path + ": error: dataset 'x' cannot hold 1e+39: single precision ends at 3.4e+38");
+  const auto value = [](int i) { return (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + 1e-3 * std::sin(0.7 * i * i)); };
+  for (const Hdf5Precision precision :
+       {Hdf5Precision::kCompressedSingle, Hdf5Precision::kCompressedRounded}) {
+    const bool is_rounded = precision == Hdf5Precision::kCompressedRounded;
+    Hdf5Writer writer(folder / (is_rounded ? "rounded.h5" : "single.h5"), folder / "partial.h5");
+    Hdf5GrowingDataset& x = writer.make_growing("x", 0, "N", precision);
+    for (int i = 0; i < 5000; ++i) {
+      writer.append(x, std::vector{value(i)});
+      if (i == 1500) writer.checkpoint();
+    }
+    for (const double exact : {0.0, 65537.0, 131071.0, 1e-40}) writer.append(x, std::vector{exact});
+    writer.commit();
+  }
+  const Hdf5Reader file(folder / "rounded.h5", Hdf5Reader::Compression::kAllowed);
+  const std::vector<double> found = file.reals("x", {5004});
+  double largest = 0.0, mean = 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    const double error = (found[static_cast<std::size_t>(i)] - value(i)) / value(i);
+    largest = std::max(largest, std::abs(error));
+    mean += error / 5000;
+  }
+  CHECK(largest <= std::ldexp(1.0, -17) + 6e-8);
+  CHECK(largest > std::ldexp(1.0, -18));
+  CHECK(std::abs(mean) < 0.05 * largest);  // rounded, not cut off
+  CHECK(found[5000] == 0.0);
+  CHECK(found[5001] == 65537.0);  // 17 digits
+  CHECK(found[5002] == 131071.0);
+  CHECK(std::abs(found[5003] - 1e-40) < 1e-43);
+  CHECK(100 * read_bytes(folder / "rounded.h5").size() < 80 * read_bytes(folder / "single.h5").size());
+}
+
+TEST_CASE("a value beyond single precision is refused, not stored as infinity") {
+  for (const auto& [precision, value, words] :
+       {std::tuple(Hdf5Precision::kCompressedSingle, 1e39, "1e+39"),
+        std::tuple(Hdf5Precision::kCompressedRounded, 3.40282e38, "3.4e+38")}) {
+    const TemporaryFolder folder;
+    Hdf5Writer writer(folder / "a.h5");
+    Hdf5GrowingDataset& x = writer.make_growing("x", 0, "m", precision);
+    writer.append(x, std::vector{value});
+    const std::string path = folder / "a.h5";
+    CHECK(error_message<InputError>([&] { writer.commit(); }) ==
+          path + ": error: dataset 'x' cannot hold " + words + ": single precision ends at 3.4e+38");
+  }
 }
 
 TEST_CASE("a dataset of doubles can be written anew, with as many values") {

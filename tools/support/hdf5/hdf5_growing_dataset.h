@@ -27,9 +27,10 @@ class Hdf5GrowingDataset {
   /// @param path        of the dataset, from the root
   /// @param columns     0 for rank 1
   /// @param compressor  null for doubles that are not compressed; otherwise it has to outlive this
+  /// @param is_rounded  whether values are rounded before they are compressed
   /// @param chunk_rows  the most rows of a chunk
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t columns, std::string_view unit,
-                     ChunkCompressor* compressor, std::size_t chunk_rows);
+                     ChunkCompressor* compressor, bool is_rounded, std::size_t chunk_rows);
   /// A dataset of texts, rank 1. @param text_size  the most bytes of a text: what goes beyond is cut off
   Hdf5GrowingDataset(std::int64_t parent, const std::string& path, std::size_t text_size);
 
@@ -62,6 +63,7 @@ class Hdf5GrowingDataset {
   std::size_t filled_ = 0;       // values in the present chunk
   std::vector<double> chunk_;    // as it is written to the file, with space for the checksum
   ChunkCompressor* compressor_ = nullptr;
+  bool is_rounded_ = false;
   bool pending_is_written_ = false;        // the present chunk is in the file, not compressed
   std::vector<std::uint8_t> replacement_;  // of the chunk at replaced_row_; empty if there is none
   std::size_t replaced_row_ = 0;
