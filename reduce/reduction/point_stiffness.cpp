@@ -5,7 +5,6 @@
 #include "fem/assembly.h"
 #include "fem/axial_force.h"
 #include "fem/geometric_stiffness.h"
-#include "reduce/factors/tall_products.h"
 #include "reduce/modes/held_node.h"
 
 namespace sprung::reduce {
@@ -39,7 +38,7 @@ Eigen::MatrixXd unpack(const Eigen::VectorXd& column, Eigen::Index m) {
 }
 
 // Φᵀ K_G Φ of elements `begin` … `begin + count` under unit axial forces, packed: one column each.
-Eigen::MatrixXd calc_element_stiffness(const fem::BeamModel& model, const Eigen::MatrixXd& shapes,
+Eigen::MatrixXd calc_element_stiffness(const fem::BeamModel& model, const TallMatrix& shapes,
                                        Eigen::Index begin, Eigen::Index count) {
   Eigen::MatrixXd packed(count_entries(shapes.cols()), count);
   Eigen::Matrix<double, 6, Eigen::Dynamic> ends(6, shapes.cols());
@@ -78,7 +77,7 @@ Eigen::MatrixXd calc_point_forces(const fem::BeamModel& model, int reference_nod
 
 // K_G is linear in the axial forces: the matrices of the elements are made once for all loads.
 PointStiffness calc_by_loads(const fem::BeamModel& model, int reference_node, const StiffnessFactor& factor,
-                             const Eigen::MatrixXd& shapes) {
+                             const TallMatrix& shapes) {
   const Eigen::MatrixXd forces = calc_point_forces(model, reference_node, factor);
   const Eigen::Index m = shapes.cols(), num_elements = model.mesh.num_elements();
   Eigen::MatrixXd packed = Eigen::MatrixXd::Zero(count_entries(m), forces.cols());
@@ -101,7 +100,7 @@ PointStiffness calc_by_loads(const fem::BeamModel& model, int reference_node, co
 // entry i, j for a load f is fᵀ K⁻¹ g with g = Σ_elements T_e φᵢᵀ K_e φⱼ: a solution for each pair, of which
 // the points' rows are taken.
 PointStiffness calc_by_pairs(const fem::BeamModel& model, int reference_node, const StiffnessFactor& factor,
-                             const Eigen::MatrixXd& shapes) {
+                             const TallMatrix& shapes) {
   const Eigen::Index m = shapes.cols();
   const std::vector<fem::Mesh::NamedNode>& points = model.mesh.named_nodes;
   const auto num_elements = static_cast<std::size_t>(model.mesh.num_elements());
@@ -143,7 +142,7 @@ PointStiffness calc_by_pairs(const fem::BeamModel& model, int reference_node, co
 }  // namespace
 
 PointStiffness calc_point_stiffness(const fem::BeamModel& model, int reference_node,
-                                    const StiffnessFactor& factor, const Eigen::MatrixXd& shapes) {
+                                    const StiffnessFactor& factor, const TallMatrix& shapes) {
   const auto num_loads = static_cast<Eigen::Index>(3 * model.mesh.named_nodes.size());
   return num_loads > count_entries(shapes.cols()) ? calc_by_pairs(model, reference_node, factor, shapes)
                                                   : calc_by_loads(model, reference_node, factor, shapes);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fem/beam_model.h"
+#include "reduce/factors/tall_products.h"
 #include "reduce/modes/stiffness_factor.h"
 
 namespace sprung::reduce {
@@ -20,6 +21,6 @@ using PointStiffness = std::vector<std::array<Eigen::MatrixXd, 3>>;
 /// @param shapes          3N×n
 /// Checked by tests/reduce/reduction/reference_stiffness_test.cpp
 PointStiffness calc_point_stiffness(const fem::BeamModel& model, int reference_node,
-                                    const StiffnessFactor& factor, const Eigen::MatrixXd& shapes);
+                                    const StiffnessFactor& factor, const TallMatrix& shapes);
 
 }  // namespace sprung::reduce

@@ -156,7 +156,7 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   const fem::BeamModel& model = design.model;
   options.tell("factors of the stiffness");
   const BodyMatrices matrices = make_body_matrices(design);
-  const BodyBasis basis = make_body_basis(design, matrices, options);
+  BodyBasis basis = make_body_basis(design, matrices, options);
 
   options.tell("inertia, section loads and checks");
   Superelement s;
@@ -167,13 +167,14 @@ Superelement make_superelement(const Design& design, const ClampedModeOptions& o
   s.damping_ratio = expand_damping(design, basis.kind);
   s.cluster = basis.cluster;
   s.kind = basis.kind;
-  s.shapes = basis.shapes.topRows(3 * model.mesh.num_nodes());
   add_inertia_and_loads(design, matrices, basis.shapes, s);
   s.stiffness = basis.stiffness;
   s.mass = s.inertia.M_ff;
   s.damping = (4.0 * std::numbers::pi * s.damping_ratio.cwiseProduct(s.frequency_hz)).asDiagonal();
   s.certificate = basis.certificate;
   s.resultants = calc_mode_resultants(model, basis.shapes);
+  s.shapes = std::move(basis.shapes);
+  s.shapes.conservativeResize(3 * model.mesh.num_nodes(), Eigen::NoChange);  // without internal freedoms
   s.provenance = design.provenance;
 
   s.checks = basis.checks;

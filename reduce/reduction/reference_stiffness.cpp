@@ -27,7 +27,7 @@ Eigen::MatrixXd calc_displacements(const fem::BeamModel& model, int reference_no
 // K_G of the inertia of the frame in each of the accelerations, of which a part is spread over the elements.
 std::vector<Eigen::MatrixXd> calc_inertia_stiffness(
     const fem::BeamModel& model, int reference_node, const StiffnessFactor& factor,
-    const fem::MassMoments& moments, const Eigen::MatrixXd& shapes,
+    const fem::MassMoments& moments, const TallMatrix& shapes,
     const std::vector<fem::FrameAcceleration>& accelerations) {
   const Eigen::MatrixXd displacements =
       calc_displacements(model, reference_node, factor, moments, accelerations);
@@ -48,7 +48,7 @@ GeometricStiffness calc_reference_stiffness(const fem::BeamModel& model, int ref
                                             const StiffnessFactor& factor, const fem::MassMoments& moments,
                                             const Eigen::MatrixXd& shapes) {
   const Eigen::Index m = std::min<Eigen::Index>(shapes.cols(), kMaxStiffenedModes);
-  const Eigen::MatrixXd lowest = shapes.leftCols(m);
+  const TallMatrix lowest = shapes.leftCols(m);
   const std::vector<Eigen::MatrixXd> of_inertia = calc_inertia_stiffness(
       model, reference_node, factor, moments, lowest,
       {{.omega_squared = 1.0}, {.angular = 1.0}, {.linear = {1.0, 0.0}}, {.linear = {0.0, 1.0}}});
