@@ -82,7 +82,7 @@ std::vector<std::int64_t> read_matrices(const Hdf5Reader& file, const Supereleme
     });
   }
   const std::vector<double> numbers = file.reals(path, expected);
-  const std::vector<std::int64_t> found = file.shape(path);
+  std::vector<std::int64_t> found = file.shape(path);
   const auto [num_matrices, rows, columns] = calc_matrices(field, found);
   for (std::int64_t i = 0; i < num_matrices; ++i)
     matrices.emplace_back(
