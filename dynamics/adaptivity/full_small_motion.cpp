@@ -1,11 +1,18 @@
 #include "dynamics/adaptivity/full_small_motion.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "dynamics/system/partitioned_equations.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
+
+namespace {
+
+constexpr double kLeastPivot = 1e-6;  // of the largest entry
+
+}  // namespace
 
 FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::VectorXd& q,
                                  const std::vector<int>& points, const LinearisedSystem* linearised)
@@ -22,7 +29,10 @@ FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::Ve
     }
     independent_ = linearised->partition.independent;
     motion_ = {linearised->mass, linearised->damping, linearised->stiffness};
+    known_ = {independent_, motion_};
     directions = linearised->directions;
+    for (const int coordinate : modal_) make_independent(coordinate, directions);
+    sort_coordinates(directions);
   } catch (const support::NumericalError&) {
     // Near a singular position: no small motion.
   }
@@ -45,6 +55,46 @@ FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::Ve
   }
 }
 
+bool FullSmallMotion::is_modal(int coordinate) const {
+  return std::binary_search(modal_.begin(), modal_.end(), coordinate);
+}
+
+// Exchanges a dependent coordinate with the independent one, no mode, that moves it most for its mass;
+// nothing where there is none. With row = ∂(coordinate)/∂x of the present ones, x = T x': x_i = (x'_i − Σ_k≠i
+// row_k x_k)/row_i.
+void FullSmallMotion::make_independent(int coordinate, Eigen::MatrixXd& directions) {
+  if (std::find(independent_.begin(), independent_.end(), coordinate) != independent_.end()) return;
+  const Eigen::RowVectorXd row = directions.row(coordinate);
+  const Eigen::RowVectorXd size =
+      row.cwiseAbs().cwiseQuotient(motion_.mass.diagonal().cwiseSqrt().transpose());
+  Eigen::Index pivot = -1;
+  double largest = kLeastPivot * (size.size() > 0 ? size.maxCoeff() : 0.0);
+  for (Eigen::Index i = 0; i < size.size(); ++i) {
+    if (size[i] <= largest || is_modal(independent_[static_cast<std::size_t>(i)])) continue;
+    largest = size[i];
+    pivot = i;
+  }
+  if (pivot < 0) return;
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(row.size(), row.size());
+  T.row(pivot) = -row / row[pivot];
+  T(pivot, pivot) = 1.0 / row[pivot];
+  directions = (directions * T).eval();
+  for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness})
+    *matrix = (T.transpose() * *matrix * T).eval();
+  independent_[static_cast<std::size_t>(pivot)] = coordinate;
+}
+
+void FullSmallMotion::sort_coordinates(Eigen::MatrixXd& directions) {
+  std::vector<int> order(independent_.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto coordinate = [&](int i) { return independent_[static_cast<std::size_t>(i)]; };
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return coordinate(a) < coordinate(b); });
+  directions = directions(Eigen::all, order).eval();
+  for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness})
+    *matrix = (*matrix)(order, order).eval();
+  std::sort(independent_.begin(), independent_.end());
+}
+
 Eigen::Index FullSmallMotion::find_independent(int coordinate) const {
   const auto found = std::lower_bound(independent_.begin(), independent_.end(), coordinate);
   return found == independent_.end() || *found != coordinate ? -1 : found - independent_.begin();
@@ -54,8 +104,7 @@ std::vector<Eigen::Index> FullSmallMotion::find_free(const std::vector<bool>& is
   std::vector<Eigen::Index> free;
   for (std::size_t i = 0; i < independent_.size(); ++i) {
     const auto found = std::lower_bound(modal_.begin(), modal_.end(), independent_[i]);
-    const bool is_modal = found != modal_.end() && *found == independent_[i];
-    if (!is_modal || is_active[static_cast<std::size_t>(found - modal_.begin())])
+    if (!is_modal(independent_[i]) || is_active[static_cast<std::size_t>(found - modal_.begin())])
       free.push_back(static_cast<Eigen::Index>(i));
   }
   return free;
@@ -64,15 +113,17 @@ std::vector<Eigen::Index> FullSmallMotion::find_free(const std::vector<bool>& is
 std::optional<KnownMotion> FullSmallMotion::calc_held_motion(const HeldModes& held) const {
   KnownMotion known;
   std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < independent_.size(); ++i) {
-    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), independent_[i]);
-    if (place == held.coordinates.end() || *place != independent_[i]) continue;
+  for (std::size_t i = 0; i < known_.independent.size(); ++i) {
+    const int coordinate = known_.independent[i];
+    const auto place = std::lower_bound(held.coordinates.begin(), held.coordinates.end(), coordinate);
+    if (place == held.coordinates.end() || *place != coordinate) continue;
     free.push_back(static_cast<Eigen::Index>(i));
     known.independent.push_back(static_cast<int>(place - held.coordinates.begin()));
   }
   const std::size_t num_held = static_cast<std::size_t>(full_->num_coordinates) - held.coordinates.size();
-  if (independent_.empty() || independent_.size() - free.size() != num_held) return std::nullopt;
-  known.motion = {motion_.mass(free, free), motion_.damping(free, free), motion_.stiffness(free, free)};
+  if (free.empty() || known_.independent.size() - free.size() != num_held) return std::nullopt;
+  const auto& [M, C, K] = known_.motion;
+  known.motion = {M(free, free), C(free, free), K(free, free)};
   return known;
 }
 

@@ -10,8 +10,11 @@
 
 namespace sprung::dynamics {
 
-/// Small motion of a full model about the start of a run, in its f independent coordinates, and the motion of
-/// the points asked for. Near a singular position there is none: then f = 0. nq coordinates.
+/// Small motion of a full model about the start of a run, in f independent coordinates, and the motion of the
+/// points asked for. Near a singular position there is none: then f = 0. nq coordinates.
+///
+/// The modes are among the independent coordinates, as far as the joints leave them free: a mode that is held
+/// stands still only if it is one of them (adaptivity, "Indicator"). An integrator may have chosen others.
 class FullSmallMotion {
  public:
   /// @param full        with every mode that could be active; has to outlive this
@@ -36,13 +39,19 @@ class FullSmallMotion {
 
   /// Small motion where modes are held: without their rows and columns.
   /// @param held  of the full model
-  /// @return none where a mode that is held is not independent in the full model
+  /// @return in the independent coordinates of `linearised`; none where a mode that is held is not one of
+  /// them
   std::optional<KnownMotion> calc_held_motion(const HeldModes& held) const;
 
  private:
+  bool is_modal(int coordinate) const;
+  void make_independent(int coordinate, Eigen::MatrixXd& directions);
+  void sort_coordinates(Eigen::MatrixXd& directions);
+
   const Model* full_;
   std::vector<int> modal_, independent_;
   SmallMotion motion_;
+  KnownMotion known_;  // in the coordinates of the linearisation
   std::vector<Eigen::Matrix2Xd> point_motion_;
   std::vector<Eigen::MatrixXd> reduced_motion_;
 };

@@ -34,6 +34,11 @@ std::string describe_cell(std::string_view text) {
   return fmt::format("'{}'{}", text, has_comma ? ", which has a decimal comma instead of a point" : "");
 }
 
+std::string_view without_brackets(std::string_view unit) {
+  const bool has_brackets = unit.size() >= 2 && (unit.front() == '[' || unit.front() == '(');
+  return has_brackets ? trim(unit.substr(1, unit.size() - 2)) : unit;
+}
+
 }  // namespace
 
 // Gives the lines with cells, one after the other; blank lines and comments have none.
@@ -70,13 +75,18 @@ ColumnFile ColumnFile::read(const std::filesystem::path& path) {
   return file;
 }
 
-// Cells in double quotes may contain separators. A separator at the end of the line adds no cell.
+// Cells in double quotes may contain separators. A separator at the end of the line adds no cell, unless one
+// is missing.
 void ColumnFile::split(std::string_view line, std::vector<Cell>& cells) const {
   cells.clear();
   std::size_t at = 0;
   while (true) {
     at = std::min(line.find_first_not_of(separator_ == '\t' ? " \r" : " \t\r", at), line.size());
-    if (at == line.size() && !cells.empty()) return;
+    if (at == line.size() && !cells.empty()) {
+      const bool is_missing = separator_ != ' ' && cells.size() + 1 == columns_.size();
+      if (is_missing) cells.push_back({{}, static_cast<int>(at) + 1});
+      return;
+    }
     const bool is_quoted = at < line.size() && line[at] == '"';
     const std::size_t begin = is_quoted ? at + 1 : at;
     const std::size_t close = is_quoted ? std::min(line.find('"', begin), line.size()) : at;
@@ -115,19 +125,23 @@ void ColumnFile::read_header() {
   const std::optional<Line> second = lines.next();
   if (!second) throw support::InputError({.path = path_}, "has no lines below the names of the columns");
   split(second->text, cells);
-  const bool has_number = std::any_of(cells.begin(), cells.end(),
-                                      [](const Cell& cell) { return parse_number(cell.text).has_value(); });
-  if (!has_number) read_units(cells, *second);
+  if (are_units(cells)) read_units(cells, *second);
+}
+
+// Whether cells are units and no numbers; "1" is both, and a unit beside others that are known.
+bool ColumnFile::are_units(const std::vector<Cell>& cells) {
+  const auto is_number = [](const Cell& cell) { return parse_number(cell.text).has_value(); };
+  if (std::none_of(cells.begin(), cells.end(), is_number)) return true;
+  return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) { return !is_number(cell); }) &&
+         std::all_of(cells.begin(), cells.end(),
+                     [](const Cell& cell) { return find_unit(without_brackets(cell.text)).has_value(); });
 }
 
 void ColumnFile::read_units(const std::vector<Cell>& cells, const Line& line) {
   check_number_of_cells(cells, line);
   num_header_lines_ = 2;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::string_view unit = cells[i].text;
-    if (unit.size() >= 2 && (unit.front() == '[' || unit.front() == '(')) {
-      unit = trim(unit.substr(1, unit.size() - 2));
-    }
+    const std::string_view unit = without_brackets(cells[i].text);
     std::string& known = columns_[i].unit;
     if (!known.empty() && known != unit) {
       throw support::InputError(

@@ -47,6 +47,7 @@ class ColumnFile {
   void read_header();
   void read_units(const std::vector<Cell>& cells, const Line& line);
   void split(std::string_view line, std::vector<Cell>& cells) const;
+  static bool are_units(const std::vector<Cell>& cells);
   void check_number_of_cells(const std::vector<Cell>& cells, const Line& line) const;
 
   std::string path_, text_, hash_;

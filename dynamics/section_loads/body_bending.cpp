@@ -11,6 +11,9 @@ namespace {
 
 // Axial forces change the lowest modes of a body most; more of them would cost more than they tell.
 constexpr Eigen::Index kMostModes = 12;
+// A mode is one of axial deformation alone if axial forces change its stiffness by less than this share of
+// what they change in another one. Its strain energy, which is large in a column, says nothing about bending.
+constexpr double kUnaffected = 1e-3;
 // Squares of deflections above the largest by less than this are the same: a body at rest stays at its first.
 constexpr double kBeyondRounding = 1.0 + 1e-12;
 
@@ -62,9 +65,10 @@ BodyBending::BodyBending(const Body& body, const reduce::Superelement& superelem
   displacement_ = Eigen::VectorXd::Zero(2 * num_nodes);
   if (body.stiffening || !superelement.geometric_stiffness) return;
   geometric_ = make_geometric(body, *superelement.geometric_stiffness, loads);
-  stiffness_ = body.stiffness.diagonal();
   present_ = Eigen::VectorXd::Zero(geometric_.rows());
   half_ = Eigen::VectorXd::Zero(std::lround(std::sqrt(static_cast<double>(geometric_.rows()))));
+  strain_ = affected_ = half_;
+  stiffness_ = body.stiffness.diagonal().head(half_.size());
 }
 
 void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd& q) {
@@ -78,13 +82,17 @@ void BodyBending::add(double time, const BodyLoads& loads, const Eigen::VectorXd
   const Eigen::Index m = half_.size();
   if (m == 0) return;
   support::multiply(geometric_, loads.coefficients().data(), present_.data());
-  half_.noalias() = Eigen::Map<const Eigen::MatrixXd>(present_.data(), m, m) * eta.head(m);
+  const Eigen::Map<const Eigen::MatrixXd> K_G(present_.data(), m, m);
+  half_.noalias() = K_G * eta.head(m);
   stiffening_ += eta.head(m).dot(half_);
-  strain_ += stiffness_.dot(eta.cwiseAbs2());
+  strain_.array() += stiffness_.array() * eta.head(m).array().square();
+  affected_.array() += K_G.diagonal().array().abs() / stiffness_.array();
 }
 
 double BodyBending::axial_effect() const {
-  return deflection_share() > kNoDeflection && strain_ > 0.0 ? std::abs(stiffening_) / strain_ : 0.0;
+  const double least = affected_.size() > 0 ? kUnaffected * affected_.maxCoeff() : 0.0;
+  const double strain = (affected_.array() >= least).select(strain_, 0.0).sum();
+  return deflection_share() > kNoDeflection && strain > 0.0 ? std::abs(stiffening_) / strain : 0.0;
 }
 
 }  // namespace sprung::dynamics

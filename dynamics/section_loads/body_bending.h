@@ -35,6 +35,7 @@ class BodyBending {
     bytes.transfer(bending.deflection_.time);
     bytes.transfer(bending.stiffening_);
     bytes.transfer(bending.strain_);
+    bytes.transfer(bending.affected_);
   }
 
  private:
@@ -47,12 +48,13 @@ class BodyBending {
   double length_;                   // [m]
   Eigen::MatrixXd shapes_;          // x and y of each node, 2N×n
   Eigen::MatrixXd geometric_;       // K_G of unit loads, m² × coefficients; empty: not judged
-  Eigen::VectorXd stiffness_;       // of each mode
+  Eigen::VectorXd stiffness_;       // of the lowest m modes
   Eigen::VectorXd displacement_;    // 2N
   Eigen::VectorXd present_, half_;  // K_G, m²; K_G η, m
   Peak deflection_;                 // [m]
   double stiffening_ = 0.0;         // sum of ηᵀK_Gη over the outputs [J]
-  double strain_ = 0.0;             // sum of ηᵀKη [J]
+  // Of each of the lowest m modes: sums of Kη² [J], and of the share of K by which axial forces change it.
+  Eigen::VectorXd strain_, affected_;
 };
 
 }  // namespace sprung::dynamics

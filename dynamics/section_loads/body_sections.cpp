@@ -1,11 +1,16 @@
 #include "dynamics/section_loads/body_sections.h"
 
+#include <algorithm>
+
 #include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/wide_product.h"
 
 namespace sprung::dynamics {
 
 namespace {
+
+constexpr double kLeastGravity =
+    1.0;  // m/s², in the weight beside which moments are judged, also without gravity
 
 Eigen::MatrixXd join_columns(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) {
   Eigen::MatrixXd joined(left.rows(), left.cols() + right.cols());
@@ -31,7 +36,7 @@ BodySections::BodySections(const Model& model, int body, const reduce::Superelem
     positions_.row(station) = superelement.node_positions.col(node).transpose();
   }
   length_ = (positions_.colwise().maxCoeff() - positions_.colwise().minCoeff()).norm();
-  weight_ = moving.mass * model.gravity.norm();
+  weight_ = moving.mass * std::max(model.gravity.norm(), kLeastGravity);
   if (const std::optional<reduce::SectionSizes>& of_elements = superelement.section_sizes) {
     const auto at_ends = [](const Eigen::VectorXd& values) -> Eigen::VectorXd {
       return values.transpose().replicate(2, 1).reshaped();

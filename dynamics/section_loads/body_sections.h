@@ -26,7 +26,7 @@ class BodySections {
   /// Undeformed positions of the stations, body axes, stations×2 [m].
   const Eigen::MatrixXd& positions() const { return positions_; }
   double length() const { return length_; }  ///< diagonal of the stations [m]
-  double weight() const { return weight_; }  ///< [N]
+  double weight() const { return weight_; }  ///< [N], of the mass at 1 m/s² at least
   /// Area [m²] and section modulus [m³] at each station, 0: not known; none where the superelement has none.
   const std::optional<reduce::SectionSizes>& sizes() const { return sizes_; }
   bool has_modes() const { return num_modes_ > 0; }

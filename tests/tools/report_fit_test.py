@@ -127,7 +127,7 @@ class Fit(PageTestCase):
 
     def test_a_run_that_is_too_short_for_the_mtvv_says_so(self):
         ride = self.open("semi.html").evaluate("document.getElementById('ride-problem').textContent")
-        self.assertIn("flexible: the MTVV is the largest r.m.s. over 1 s, and the run has only 0.5 s", ride)
+        self.assertIn("flexible: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.5 s", ride)
 
     def test_a_run_without_the_motion_of_its_bodies_is_judged_but_not_drawn(self):
         page = self.open("seat.html")

@@ -39,6 +39,14 @@ class RideAssessment(ToolTestCase):
         power = 0.5 * (SEAT_AMPLITUDE * FEET_PER_METRE * abs(calc_response(SEAT_FREQUENCY))) ** 2
         self.assertAlmostEqual(found.power / power, 1.0, delta=5e-3)
 
+    def test_vibration_before_the_span_does_not_count_in_its_largest_running_rms(self):
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            time = file["time"][:]
+            file["points/body.seat/acceleration"][time < 1.6, :] *= 100.0
+        with open_results(self.folder / "b.h5") as results:
+            found = calc_assessment(results, "points/body.seat", WINDOW)
+        self.assertLessEqual(found.mtvv, found.crest * found.vertical)  # no r.m.s. exceeds the largest value
+
     def test_a_centre_of_mass_is_judged_as_a_seat_is(self):
         found = calc_assessment(self.results, "bodies/body/center_of_mass", WINDOW)
         seat = calc_assessment(self.results, "points/body.seat", WINDOW)

@@ -192,11 +192,11 @@ class Tool(ToolTestCase):
         units = [word.rpartition(" ")[2] for word in re.split(r" {2,}", heading.strip())[2:]]
         self.assertEqual(units, ["m/s²", "m/s²", "m/s²", "m/s^1.75", "m/s²", "factor", "m/s²", "rad/s²", "m/s²", "W"])
 
-    def test_a_run_that_is_too_short_for_the_mtvv_is_remarked_on(self):
+    def test_a_span_that_is_too_short_for_the_mtvv_is_remarked_on(self):
         write_ride_results(self.folder / "a.h5")  # from 0 s
-        for end, is_short in (("0.4", True), ("1.0", False)):
-            printed = self.run_tool("ride", "truck=a.h5", "--from", "0", "--to", end).stdout
-            remark = "note: truck: the MTVV is the largest r.m.s. over 1 s, and the run has only 0.4 s until the end"
+        for begin, end, is_short in (("0", "0.4", True), ("2.0", "2.4", True), ("0", "1.0", False)):
+            printed = self.run_tool("ride", "truck=a.h5", "--from", begin, "--to", end).stdout
+            remark = "note: truck: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.4 s: what is"
             self.assertEqual(remark in printed, is_short)
 
     def test_no_share_of_travel_is_given_if_the_vehicle_rests_on_its_stop(self):

@@ -306,6 +306,14 @@ class LinearBending(VerificationCase):
             self.assertEqual(bending["axial_effect"] > 0.1, is_told)
             self.assertAlmostEqual(bending["axial_effect"], abs(deflection / right - 1.0), delta=0.1)
 
+    def test_a_column_under_load_is_told_whatever_it_stores_by_compression(self):
+        # Clamped at one end it buckles at π² EI/4L² = 2467 N. Its compression stores far more than its bending does.
+        beam = CANTILEVER.format(wall="origin", held="left", loaded="right")
+        for force, is_told in (("[-1700.0, -1.0]", True), ("[-100.0, -1.0]", False)):
+            results = self.run_text(beam.replace("[0.0, -10.0]", force), "duration = 0.01\n[modes]\nbeam = 16\n")
+            effect = results.summary["bending"]["beam"]["axial_effect"]
+            self.assertEqual(effect > 0.06, is_told, effect)
+
     def test_a_deflection_beyond_a_tenth_of_the_length_is_told(self):
         # A cantilever with EI = 4000 N m² and L = 2 m deflects by F L³/3EI under the force F at its tip.
         for share, told in ((0.09, False), (0.12, True)):

@@ -53,6 +53,8 @@ TEST_CASE("Units stand beside the names or in a line of their own") {
   CHECK(columns_of("time;front\ns;mm\n0;1\n1;2\n") == "time|s front|mm");
   CHECK(columns_of("\xEF\xBB\xBF\"time\",\"front, left\"\n[s],[mm]\n0,1\n1,2\n") == "time|s front, left|mm");
   CHECK(columns_of("time,front\n0,1\n1,2\n") == "time| front|");
+  CHECK(columns_of("time;front;grade\ns;mm;1\n0;1;2\n1;1;2\n") == "time|s front|mm grade|1");
+  CHECK(columns_of("time;front;note\n1;1;x\n2;1;y\n") == "time| front| note|");  // x is no unit
   CHECK(read("time;front\ns;mm\n0;1\n1;2\n").read_column(1) == std::vector<double>{1.0, 2.0});
   CHECK(error_of("time [s],front [mm]\ns,m\n0,1\n1,2\n") ==
         "signals.csv:2:3: error: the column 'front' has the unit 'mm' in the line of names, and 'm' here");
@@ -62,6 +64,10 @@ TEST_CASE("Columns that are not read may hold anything") {
   const ColumnFile file = read("time,remark,z\n0,start,1\n1,\"a, b\",2\n2,,3\n");
   CHECK(file.read_column(2) == std::vector<double>{1.0, 2.0, 3.0});
   CHECK_THROWS_AS(file.read_column(1), support::InputError);
+  const ColumnFile last = read("time,z,remark\n0,1,start\n1,2,\n2,3, \r\n");
+  CHECK(last.read_column(1) == std::vector<double>{1.0, 2.0, 3.0});
+  CHECK(error_of("time,z,remark\n0,1,start\n1,2\n").find("the line has 2 cells, expected 3") !=
+        std::string::npos);
 }
 
 TEST_CASE("The place of a cell counts comments and blank lines") {
@@ -85,7 +91,7 @@ TEST_CASE("Files that do not fit are refused at the line and column") {
   CHECK(error_of("time,z\n0,1\n1,nan\n") ==
         "signals.csv:3:3: error: 'z' must be a finite number within ±1e+15, got 'nan'");
   CHECK(error_of("time,z\n0,1\n1,\n2,3\n") ==
-        "signals.csv:3:1: error: the line has 1 cells, expected 2, one for each name: 'time', 'z'");
+        "signals.csv:3:3: error: 'z' must be a finite number within ±1e+15, got an empty cell");
   CHECK(error_of("time,y,z\n0,1,1\n1,,2\n") ==
         "signals.csv:3:3: error: 'y' must be a finite number within ±1e+15, got an empty cell");
   CHECK(error_of("time;z\n0;1\n1;0,5\n") ==

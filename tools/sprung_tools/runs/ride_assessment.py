@@ -84,15 +84,16 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
 
 def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
     """Which measures of points are left out because the file does not tell the rotation of their bodies, and why;
-    whether the run is too short for the MTVV, or its filters have just begun; and what is said of values in static
+    whether the span is too short for the MTVV, or its filters have just begun; and what is said of values in static
     equilibrium."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
     remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
-    length = float(results.time[samples_between(results, *window)][-1] - results.time[0])
+    times = results.time[samples_between(results, *window)]
+    length = float(times[-1] - times[0])
     if points and length < RUNNING * (1.0 - ROUNDING):
         remarks.append(
-            f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the run has only {length:.3g} s until the end of "
-            "the span: what is missing counts as 0, so that the MTVV is too low"
+            f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the span has only {length:.3g} s: what is missing "
+            "counts as 0, so that the MTVV is too low"
         )
     settled = float(results.time[0]) + RUNNING
     if points and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
@@ -141,7 +142,7 @@ def calc_assessment(results: ResultsFile, point: str, window: Span, vibration: V
     power = calc_absorbed_power(results.series(f"{point}/acceleration.y")[0], step)[inside]
     return Assessment(
         fore_aft, vertical, pitch, None if pitch is None else calc_total(fore_aft, vertical, pitch),
-        float(np.max(felt.running[inside])), calc_dose(felt.vertical[inside], step),
+        float(np.max(calc_running_rms(felt.vertical[inside], step))), calc_dose(felt.vertical[inside], step),
         float(np.max(np.abs(felt.vertical[inside]))) / vertical if vertical > 0.0 else 0.0, float(np.mean(power)),
     )  # fmt: skip
 
