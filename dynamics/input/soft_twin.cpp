@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 
@@ -45,6 +46,15 @@ Eigen::MatrixXd calc_soft_shapes(const reduce::Superelement& superelement, Eigen
       shapes.row(one.freedom) = certificate.soft_loads.col(static_cast<Eigen::Index>(j)).transpose();
   }
   return shapes;
+}
+
+// Whether the errors at all three freedoms of a node are bounded.
+bool has_in_interface(const reduce::Superelement& superelement, Eigen::Index node) {
+  std::array<bool, 3> found{};
+  for (const reduce::InterfaceError& one : superelement.certificate->interface)
+    if (superelement.points[static_cast<std::size_t>(one.point)].node == node)
+      found[static_cast<std::size_t>(one.freedom)] = true;
+  return std::all_of(found.begin(), found.end(), [](bool is_found) { return is_found; });
 }
 
 // S r φ of a row of rotations φ: the displacement of a point at r that turns with them, 2×q.
@@ -103,7 +113,7 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement,
 }  // namespace
 
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
-  SoftTwin twin{.model = model, .highest_hz = std::numeric_limits<double>::infinity()};
+  SoftTwin twin{.model = model, .highest_hz = std::numeric_limits<double>::infinity(), .unproved = {}};
   const std::vector<VehiclePoint> points = list_points(vehicle);
   const std::vector<UncoveredLoad> uncovered = find_uncovered_loads(vehicle, model);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -116,6 +126,9 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
     twin.highest_hz = std::min(twin.highest_hz, certificate.highest_hz);
     Eigen::Index reference = 0;
     superelement.node_positions.colwise().norm().minCoeff(&reference);
+    const bool is_whole = certificate.soft_loads.rows() == 0;
+    if (!is_whole && model.gravity.norm() > 0.0 && !has_in_interface(superelement, reference))
+      twin.unproved.push_back(description.name);
     const Eigen::MatrixXd of_reference = calc_soft_shapes(superelement, reference);
     add_soft_modes(twin.model.bodies[b], superelement, of_reference);
     for (std::size_t i = 0; i < points.size(); ++i) {

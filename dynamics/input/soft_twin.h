@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "dynamics/input/vehicle.h"
 #include "dynamics/system/model.h"
@@ -12,6 +14,9 @@ namespace sprung::dynamics {
 struct SoftTwin {
   Model model;
   double highest_hz = 0.0;  ///< the end of the band in which this holds; infinite if no body misses anything
+  /// Bodies for which it is not proved: they have weight, which turns with a reference node whose freedoms
+  /// are not all in the interface.
+  std::vector<std::string> unproved;
 };
 
 /// @param model  of the vehicle, with the whole basis of each body that has modes

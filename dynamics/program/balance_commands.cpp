@@ -18,11 +18,35 @@ namespace {
 
 // The stiffness is that at the equilibrium of the model: forces that depend on the state nonlinearly are the
 // same in both models.
-FrequencyBracket calc_bracket(const PreparedRun& prepared) {
+constexpr double kUncertain = 1e-7;  // natural sizes: an equilibrium that is less exact is warned of
+
+void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& warnings) {
+  if (equilibrium.last_step <= kUncertain) return;
+  warnings.push_back(
+      {"modes",
+       {"equilibrium"},
+       fmt::format(
+           "the equilibrium is exact to {:.1e} of the natural size only, limited by rounding beside the "
+           "largest stiffness: frequencies that weight or preload cause may be wrong; leave out the "
+           "stiffest modes, or start nearer to the equilibrium",
+           equilibrium.last_step)});
+}
+
+// Appends to `warnings` where the bounds are not proved.
+FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest())
     throw support::InputError({.path = "--bracket"},
                               "is for frequencies about rest, not about steady motion");
   const SoftTwin twin = make_soft_twin(prepared.vehicle, prepared.balance_model);
+  for (const std::string& body : twin.unproved) {
+    warnings.push_back(
+        {"modes",
+         {body},
+         fmt::format(
+             "{}: the brackets are not proved: its weight turns with its reference node, whose freedoms "
+             "are not in its interface; name a point there, in [interface] with \"xyr\"",
+             body)});
+  }
   const Eigen::VectorXd q = insert_soft_modes(prepared.balance_model, twin, prepared.equilibrium->q);
   return {.lower_hz = calc_undamped_frequencies(twin.model, q), .highest_hz = twin.highest_hz};
 }
@@ -56,9 +80,10 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   VehicleSections sections(prepared.vehicle, model);
   const RestingSections resting =
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
-  const std::vector<RunWarning> warnings = list_balance_warnings(prepared.vehicle, resting, prepared.remarks);
+  std::vector<RunWarning> warnings = list_balance_warnings(prepared.vehicle, resting, prepared.remarks);
+  warn_of_rounding(*prepared.equilibrium, warnings);
   std::optional<FrequencyBracket> bracket;
-  if (output.bracket) bracket = calc_bracket(prepared);
+  if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {
     support::print(request.streams.out, "{}",
                    format_report_json(request, make_modes_json(model, prepared.vehicle, modes, resting.loads,
