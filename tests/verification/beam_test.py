@@ -35,6 +35,55 @@ class Bodies(VerificationCase):
         for coarse, fine in zip(errors, errors[1:]):
             self.assertAlmostEqual(math.log2(coarse / fine), 4.0, delta=0.1)
 
+    def test_frequencies_about_an_equilibrium_that_rounding_hides_are_doubted(self):
+        # A stiff beam that hangs from its end. Its reference is the other end, so that its swing is small beside the
+        # stiffness of its modes. Started a little off, the search ends where rounding does not let it go on.
+        design = """
+            [materials.steel]
+            youngs_modulus = 2.1e11
+            density = 7850.0
+            [sections.bar]
+            material = "steel"
+            shape = "rectangle"
+            width = 0.05
+            height = 0.1
+            [points]
+            a = [0.0, 0.0]
+            b = [4.0, 0.0]
+            [[lines]]
+            from = "a"
+            to = "b"
+            section = "bar"
+            elements = 32
+            [reference]
+            point = "b"
+            [modes]
+            all = true
+            damping_ratio = 0.0
+        """
+        (self.folder / "hanging.toml").write_text(design, encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "hanging.toml", "--output-dir", "."], cwd=self.folder,
+                    check=True)  # fmt: skip
+        vehicle = """
+            name = "hanging"
+            [bodies.beam]
+            superelement = "hanging"
+            position = [0.0, -4.0]
+            angle = {angle}
+            [[joints]]
+            name = "pin"
+            type = "revolute"
+            a = "ground.origin"
+            b = "beam.a"
+        """
+        right = 0.305203  # Hz, by finite elements with the weight's own stiffness, and with 2 to 90 modes alike
+        for angle in (-math.pi / 2.0, -1.57079632, -1.5707963, -1.57):
+            run_file = self.write_model(vehicle.format(angle=angle), 'duration = 1.0\n[modes]\nbeam = "all"\n')
+            found = self.program("modes", run_file, superelements=self.folder)
+            is_doubted = any("limited by rounding" in one["text"] for one in found["warnings"])
+            if not is_doubted:
+                self.assert_close(found["modes"][0]["undamped_frequency"], right, relative=1e-4)
+
     def test_thick_cantilever_with_shear_and_rotary_inertia(self):
         # Bending and axial frequencies from an independent Timoshenko program with 128 elements.
         frequencies = reduce_frequencies(f"{SUPERELEMENTS}/timoshenko_cantilever.h5")[:5]
