@@ -13,7 +13,7 @@ namespace {
 constexpr double kBytesOfDouble = 8.0;
 constexpr double kBytesOfSingle = 2.9,
                  kBytesOfRounded = 2.4;     // compressed, measured on vehicles on rough roads
-constexpr double kBytesOfDataset = 3000.0;  // of HDF5's own, measured
+constexpr double kBytesOfDataset = 2000.0;  // of HDF5's own, measured
 constexpr double kCoarseStep = 0.01;        // s
 constexpr double kMegabyte = 1e6;
 

@@ -7,8 +7,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kTooMuchMissing = 0.05;   // of the largest bending moment or deflection
-constexpr double kLargeDeflection = 0.1;   // over the length of the body
+constexpr double kTooMuchMissing = 0.05;    // of the largest bending moment or deflection
+constexpr double kLargeDeflection = 0.1;    // over the length of the body
 constexpr double kLargeAxialEffect = 0.06;  // work of axial forces in bending over that of the stiffness
 
 // What a body can have besides its modes.
