@@ -23,7 +23,7 @@ namespace sprung::support {
 enum class Hdf5Precision {
   kDouble,
   kCompressedSingle,   ///< relative accuracy 6e-8, and 3 bytes or less for a value of a smooth history
-  kCompressedRounded,  ///< likewise 8e-6, and 2 bytes
+  kCompressedRounded,  ///< likewise 8e-6, and 2.5 bytes or less
 };
 
 /// Writes an HDF5 file under a temporary name beside the target; `commit` renames it when it is whole.
