@@ -7,6 +7,7 @@
 #include "reduce/certificate/certify.h"
 #include "reduce/modes/modes_below.h"
 #include "reduce/superelement/certificate.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
 
@@ -28,12 +29,13 @@ struct FreeBodyBasis {
 /// What a basis has to serve.
 struct BasisRequest {
   std::vector<InterfaceFreedom> interface;
-  Eigen::MatrixXd loads;      ///< of the interface: unit loads, balanced, n×b
-  double highest_hz = 0.0;    ///< the end of the band
-  double tolerance = 0.01;    ///< share of the static flexibility that may be missing
-  bool all_residual = false;  ///< the static response to every load, whatever the tolerance
-  double rounding = 0.0;      ///< largest relative rounding error of an ω² (rounding_error.h)
-  Progress progress = {};     ///< may be empty
+  Eigen::MatrixXd loads;               ///< of the interface: unit loads, balanced, n×b
+  double highest_hz = 0.0;             ///< the end of the band
+  double tolerance = 0.01;             ///< share of the static flexibility that may be missing
+  bool all_residual = false;           ///< the static response to every load, whatever the tolerance
+  double rounding = 0.0;               ///< largest relative rounding error of an ω² (rounding_error.h)
+  Progress progress = {};              ///< may be empty
+  support::SourceLocation where = {};  ///< for messages
 };
 
 /// The free modes that a band needs are those below this multiple of its end.

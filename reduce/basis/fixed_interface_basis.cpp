@@ -4,13 +4,14 @@
 #include "reduce/modes/held_node.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/dense/orthogonal_factors.h"
+#include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
 
 namespace {
 
-using support::NumericalError;
+using support::InputError;
 
 constexpr double kSmallestHold = 1e-6;  // singular value of the rigid motions at an interface that holds
 constexpr double kDependentVector =
@@ -66,14 +67,15 @@ struct Components {
 
 // Displacements of the interface, unit vectors, that complement its rigid motions. Rotation is measured by
 // the body's radius.
-Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions& rigid) {
+Eigen::MatrixXd find_deformations(const Partition& partition, const RigidMotions& rigid,
+                                  const support::SourceLocation& where) {
   Eigen::MatrixXd motion = rigid.shapes(partition.interface, Eigen::all);
   motion.col(2) /= rigid.shapes.col(2).cwiseAbs().maxCoeff();
   const support::SingularPairs pairs = support::calc_left_singular_pairs(motion);
   if (pairs.values.size() < 3 || !(pairs.values(2) > kSmallestHold * pairs.values(0))) {
-    throw NumericalError(
-        "basis 'fixed-interface': the interface freedoms do not hold the body, which still moves as a "
-        "whole; name more of them in [interface], or take the basis \"free\"");
+    throw InputError(where,
+                     "basis \"fixed-interface\": the interface freedoms do not hold the body, which still "
+                     "moves as a whole; name more of them in [interface], or take the basis \"free\"");
   }
   return pairs.vectors.rightCols(pairs.vectors.cols() - 3);
 }
@@ -104,7 +106,7 @@ Components make_components(const Eigen::SparseMatrix<double>& stiffness,
 Eigen::MatrixXd find_independent(const Eigen::MatrixXd& energy) {
   const Eigen::VectorXd scale = energy.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = support::solve_symmetric(scale.asDiagonal() * energy * scale.asDiagonal());
-  if (!pairs) throw NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
+  if (!pairs) throw support::NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
   const Eigen::Index dropped = (pairs->values.array() < kDependentVector).count();
   return scale.asDiagonal() * pairs->vectors.rightCols(energy.rows() - dropped);
 }
@@ -130,12 +132,12 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
                                          const Eigen::SparseMatrix<double>& stiffness,
                                          const Eigen::SparseMatrix<double>& mass) {
   const Partition partition = make_partition(stiffness.rows(), request.interface);
-  const Components components =
-      make_components(stiffness, mass, partition, find_deformations(partition, rigid), request.highest_hz);
+  const Components components = make_components(
+      stiffness, mass, partition, find_deformations(partition, rigid, request.where), request.highest_hz);
   if (components.shapes.cols() == 0) {
-    throw NumericalError(
-        "basis 'fixed-interface': the body held at its interface has no mode in the band, and the "
-        "interface only holds it; ask for a higher highest_frequency");
+    throw InputError(request.where,
+                     "basis \"fixed-interface\": the body held at its interface has no mode in the band, and "
+                     "the interface only holds it; ask for a higher highest_frequency");
   }
   const Eigen::MatrixXd at_reference = components.shapes.middleRows(3 * rigid.reference_node, 3);
   const Eigen::MatrixXd shapes =

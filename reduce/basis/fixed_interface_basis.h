@@ -16,7 +16,8 @@ namespace sprung::reduce {
 /// request.highest_hz
 /// @param rigid            its shapes are zero at nodes that follow others, which have no freedoms
 /// @param stiffness, mass  3N×3N, of the free frame
-/// @throws support::NumericalError if the interface freedoms do not hold the body, or no vector is left
+/// @throws support::InputError at request.where if the interface freedoms do not hold the body, or no vector
+/// is left
 /// Checked by tests/reduce/basis/fixed_interface_basis_test.cpp
 FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const StiffnessFactor& factor,
                                          const ModesBelow& modes, const BasisRequest& request,

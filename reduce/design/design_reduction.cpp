@@ -9,6 +9,7 @@
 
 #include "reduce/design/design_frame.h"
 #include "reduce/design/known_keys.h"
+#include "reduce/design/sizes.h"
 
 namespace sprung::reduce {
 
@@ -105,9 +106,8 @@ Reduction read_reduction(const TomlTable& root, const fem::Mesh& mesh, int refer
   reduction.where = table->location();
   reduction.basis = read_basis(*table, modes_by_number);
   reject_keys(*table, reduction);
-  if (const auto highest = table->find("highest_frequency")) {
-    reduction.highest_hz = highest->number(support::positive("Hz"));
-  }
+  if (table->has("highest_frequency"))
+    reduction.highest_hz = read_size(*table, "highest_frequency", "Hz", kFrequencies);
   reduction.tolerance = table->number_or("tolerance", reduction.tolerance,
                                          {.unit = "", .at_least = kSmallestTolerance, .at_most = 1.0});
   if (const auto residual = table->find("residual_vectors")) {

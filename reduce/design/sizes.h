@@ -20,7 +20,7 @@ inline constexpr SizeRange kDensities{1e-6, 1e12};         // kg/m³
 inline constexpr SizeRange kMassesPerLength{1e-24, 1e24};  // kg/m
 inline constexpr SizeRange kShearCoefficients{1e-6, 1.0};  // of the area
 inline constexpr SizeRange kStiffnesses{1e-24, 1e24};      // N/m, N·m, of springs
-inline constexpr SizeRange kFrequencies{1e-15, 1e15};      // Hz
+inline constexpr SizeRange kFrequencies{1e-15, 1e9};       // Hz
 inline constexpr double kLargestMass = 1e24;               // kg, of a point
 inline constexpr double kLargestInertia = 1e48;            // kg·m², of a point
 

@@ -26,13 +26,15 @@ std::string format_nodes(const fem::Mesh& mesh) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> write_frame_matrices(const Design& design, const std::string& prefix) {
+std::vector<std::filesystem::path> write_frame_matrices(const Design& design,
+                                                        const std::filesystem::path& file,
+                                                        const std::string& prefix) {
   if (design.matrices) {
     throw support::InputError({.path = design.matrices->stiffness_path},
                               fmt::format("'{}' has no beams: its matrices are there already", design.name));
   }
   if (!design.model.couplings.empty()) {
-    throw support::InputError({.path = design.name},
+    throw support::InputError({.path = file.string()},
                               "has points that follow others ([[rigid_offsets]], [[averages]]); they have no "
                               "freedoms in the matrices of the whole frame");
   }

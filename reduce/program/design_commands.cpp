@@ -76,7 +76,7 @@ int run_sweep(const SweepCommand& command) {
 
 int run_matrices(const MatricesOptions& options) {
   const Design design = read_design(options.design);
-  for (const std::filesystem::path& path : write_frame_matrices(design, options.prefix))
+  for (const std::filesystem::path& path : write_frame_matrices(design, options.design.path, options.prefix))
     support::print(stdout, "{}\n", path.string());
   return support::kGood;
 }

@@ -98,7 +98,8 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
                        .loads = {},
                        .highest_hz = highest_hz,
                        .tolerance = design.reduction.tolerance,
-                       .all_residual = design.reduction.all_residual};
+                       .all_residual = design.reduction.all_residual,
+                       .where = design.reduction.where};
   const auto num_nodes = static_cast<int>(matrices.full.stiffness.rows() / 3);
   request.loads = balance_loads(
       matrices.rigid,

@@ -8,7 +8,7 @@
 #include "tests/reduce/coupled_vehicle.h"
 #include "tests/reduce/free_body_truth.h"
 #include "tests/reduce/test_bodies.h"
-#include "tools/support/errors/numerical_error.h"
+#include "tools/support/errors/input_error.h"
 
 namespace sprung::reduce {
 namespace {
@@ -59,8 +59,10 @@ TEST_CASE("a basis of fixed interface is exact at rest under loads in equilibriu
 TEST_CASE("an interface that does not hold the body is refused") {
   Design design = make_fixed(0);
   design.reduction.interface.resize(2);
-  const std::string message = message_of<support::NumericalError>([&] { make_superelement(design); });
-  CHECK_THAT(message, Contains("the interface freedoms do not hold the body"));
+  design.reduction.where = {.path = "design.toml", .line = 3, .column = 1};
+  const std::string message = message_of<support::InputError>([&] { make_superelement(design); });
+  CHECK_THAT(message, Contains("design.toml:3:1: error: basis \"fixed-interface\": the interface freedoms do "
+                               "not hold the body"));
 }
 
 // Two halves of a beam of 4 m, each with its reference at its middle. Expected: the full model of the whole

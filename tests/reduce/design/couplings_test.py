@@ -227,6 +227,13 @@ point = "wall"
             self.assertRegex(result.stderr, message)
             self.assertRegex(result.stderr, r"body\.toml:\d+:\d+: error: ")
 
+    def test_matrices_of_a_frame_with_followers_are_refused_by_its_file(self):
+        (self.folder / "body.toml").write_text(make_eccentric(2))
+        result = self.run_program("matrices", "body.toml", "-o", "frame")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"^body\.toml: error: has points that follow others")
+        self.assertEqual(list(self.folder.glob("frame_*")), [])
+
 
 if __name__ == "__main__":
     run_tests()
