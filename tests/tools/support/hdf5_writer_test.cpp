@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -197,6 +198,32 @@ TEST_CASE("compressed histories are those that were written, to single precision
   CHECK(error_message<InputError>([&] {
           Hdf5Reader(path).reals("rows", {5000, 3});
         }) == path + ": error: dataset 'rows' is compressed or coded by a filter, which is not read");
+}
+
+// Their trailing bytes are stored as they are: those of 80 columns in more than one block of deflate.
+TEST_CASE(
+    "compressed histories of random numbers come back to the bit, and take no more than their "
+    "bytes") {
+  const TemporaryFolder folder;
+  const int columns = GENERATE(1, 80);
+  constexpr int kRows = 1500;  // the last chunk is not full
+  std::mt19937 random(3);
+  std::vector<double> written;
+  Hdf5Writer writer(folder / "noise.h5");
+  Hdf5GrowingDataset& noise =
+      writer.make_growing("noise", static_cast<std::size_t>(columns), "m", Hdf5Precision::kCompressedSingle);
+  for (int row = 0; row < kRows; ++row) {
+    std::vector<double> values;
+    for (int column = 0; column < columns; ++column)
+      values.push_back(static_cast<float>(std::ldexp(static_cast<double>(random()) - 2147483648.0, -31)));
+    writer.append(noise, values);
+    written.insert(written.end(), values.begin(), values.end());
+  }
+  writer.commit();
+  const Hdf5Reader reader(folder / "noise.h5", Hdf5Reader::Compression::kAllowed);
+  CHECK(reader.reals("noise", {kRows, columns}) == written);
+  const std::size_t in_whole_chunks = 2048 * sizeof(float) * static_cast<std::size_t>(columns);
+  CHECK(read_bytes(folder / "noise.h5").size() < in_whole_chunks + 8192);
 }
 
 TEST_CASE("rounded histories have 17 binary digits, the last one rounded, and take less space again") {

@@ -13,7 +13,9 @@ namespace sprung::support {
 
 /// Packs chunks of numbers of single precision as HDF5's filters "fletcher32", "shuffle" and "deflate" do,
 /// one after the other: the checksum follows the values, then come all first bytes of the numbers, all second
-/// ones and so on, and these are compressed. Neighbours in a history have the same leading bytes.
+/// ones and so on, and these are compressed. Neighbours in a history have the same leading bytes. The
+/// trailing ones are often as if drawn at random; those are stored as they are, which deflate allows, for
+/// compressing them takes as long as the rest and gains nothing.
 class ChunkCompressor {
  public:
   /// @param values  of a chunk, an even number of them
@@ -28,7 +30,7 @@ class ChunkCompressor {
     void operator()(libdeflate_compressor* compressor) const;
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor_;  // made with the first chunk
-  std::vector<std::uint8_t> shuffled_;
+  std::vector<std::uint8_t> shuffled_;  // four parts: first bytes of all numbers, second ones and so on
 };
 
 }  // namespace sprung::support
