@@ -19,21 +19,33 @@ ModeIndicator::ModeIndicator(const Model& full, double time, const Eigen::Vector
       sizes_(full, points),
       unbalanced_(full),
       state_{.time = time, .oscillators = std::vector<Oscillator>(active_.size())},
-      responses_(active_.size()),
       accelerations_(active_.size()),
-      amplitudes_(active_.size()) {}
+      amplitudes_(active_.size()) {
+  update_left_out();
+}
+
+void ModeIndicator::update_left_out() {
+  left_out_ = {};
+  for (std::size_t j = 0; j < active_.size(); ++j) {
+    if (active_[j]) continue;
+    left_out_.modes.push_back(j);
+    left_out_.stiffness.push_back(effective_[j].stiffness / effective_[j].mass);
+    left_out_.decay.push_back(0.5 * effective_[j].damping / effective_[j].mass);
+  }
+  left_out_.responses.resize(left_out_.modes.size());
+}
 
 void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   for (std::size_t j = 0; j < active_.size(); ++j) {
     const bool now = is_active_coordinate[static_cast<std::size_t>(modal_coordinates()[j])];
     if (now != active_[j]) state_.oscillators[j] = {.is_fresh = state_.has_begun};
     active_[j] = now;
-    responses_[j] = {};
     accelerations_[j] = 0.0;
     amplitudes_[j] = {};
   }
   const EffectiveModes before = effective_;
   effective_.update(active_);
+  update_left_out();
   for (std::size_t j = 0; j < active_.size(); ++j) {
     Oscillator& one = state_.oscillators[j];
     if (before[j].stiffness > 0.0 && effective_[j].stiffness > 0.0) {
@@ -59,18 +71,20 @@ void ModeIndicator::update(double time, const ConstrainedEquations& run, const E
   unbalanced_.update(run.terms(), run.multipliers(), q, v, v_dot);
   sizes_.update(q, v, v_dot);
   const double step = state_.has_begun ? time - state_.time : 0.0;
-  for (std::size_t j = 0; j < active_.size(); ++j) {
-    if (!active_[j]) follow(j, step);
+  if (step > 0.0 && std::abs(step - left_out_.step) > kSameStep * step) {
+    calc_oscillator_responses(left_out_.stiffness, left_out_.decay, step, 1, left_out_.responses);
+    left_out_.step = step;
   }
+  for (std::size_t place = 0; place < left_out_.modes.size(); ++place) follow(place, step);
   state_.time = time;
   state_.has_begun = true;
 }
 
 // Follows one mode left out over a step in which the force changed linearly to its present value.
-void ModeIndicator::follow(std::size_t mode, double step) {
-  const EffectiveModes::Mode& effective = effective_[mode];
-  const double mass = effective.mass, decay = 0.5 * effective.damping / mass,
-               stiffness = effective.stiffness / mass;
+void ModeIndicator::follow(std::size_t place, double step) {
+  const std::size_t mode = left_out_.modes[place];
+  const double mass = effective_[mode].mass, decay = left_out_.decay[place],
+               stiffness = left_out_.stiffness[place];
   Oscillator& one = state_.oscillators[mode];
   const double before = one.force / mass;
   one.force = unbalanced_.force()[modal_coordinates()[mode]];
@@ -78,14 +92,10 @@ void ModeIndicator::follow(std::size_t mode, double step) {
   one.is_fresh = false;
   const double force = one.force / mass;
   if (step > 0.0) {
-    Response& known = responses_[mode];
-    if (std::abs(step - known.step) > kSameStep * step) {
-      known = {.step = step, .response = calc_oscillator_response(stiffness, decay, step, 1)};
-    }
-    const OscillatorResponse& r = known.response;
-    const double slope = (force - before) / step, place = one.place, rate = one.rate;
-    one.place = r.c * place + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
-    one.rate = r.c_rate * place + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
+    const OscillatorResponse& r = left_out_.responses[place];
+    const double slope = (force - before) / step, x = one.place, rate = one.rate;
+    one.place = r.c * x + r.s * rate + r.forced[0] * before + r.forced[1] * slope;
+    one.rate = r.c_rate * x + r.s_rate * rate + r.forced_rate(0) * before + r.forced_rate(1) * slope;
   }
   if (!state_.has_begun && stiffness > 0.0)
     one.place = force / stiffness;  // in balance at the start: no vibration

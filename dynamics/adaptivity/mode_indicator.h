@@ -96,12 +96,15 @@ class ModeIndicator {
   void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
 
  private:
-  // The exact response of a mode over a step of that length.
-  struct Response {
+  // Of the modes left out: the exact responses to a step of that length.
+  struct LeftOut {
+    std::vector<std::size_t> modes;
+    std::vector<double> stiffness, decay;  // ω² and d [1/s², 1/s]
+    std::vector<OscillatorResponse> responses;
     double step = 0.0;
-    OscillatorResponse response = {};
   };
-  void follow(std::size_t mode, double step);
+  void update_left_out();
+  void follow(std::size_t place, double step);  // the mode at that place among those left out
   template <class Bytes, class Indicator>
   static void transfer(Bytes& bytes, Indicator& indicator);
 
@@ -111,7 +114,7 @@ class ModeIndicator {
   ReferenceSizes sizes_;
   UnbalancedForce unbalanced_;
   State state_;
-  std::vector<Response> responses_;
+  LeftOut left_out_;
   std::vector<double> accelerations_;  // ξ̈ of each mode, 0 of active ones
   std::vector<ModeAmplitude> amplitudes_;
 };

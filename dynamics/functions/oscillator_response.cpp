@@ -1,5 +1,6 @@
 #include "dynamics/functions/oscillator_response.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <iterator>
 
@@ -38,34 +39,43 @@ double power_term(int k, double time) {
   return value;
 }
 
+// Oscillators whose series are summed at the same time: each term of a series waits for the one before.
+constexpr std::size_t kLanes = 4;
+using Lanes = Eigen::Array<double, kLanes, 1>;
+
 // The highest two forced responses by their power series, the lower ones by the differential equation, which
 // needs products only.
-OscillatorResponse by_series(double stiffness, double decay, double time, int top) {
+std::array<OscillatorResponse, kLanes> by_series(const Lanes& stiffness, const Lanes& decay, double time,
+                                                 int top) {
   // X_top = Σ b_m t^m, m(m−1) b_m = −2d (m−1) b_{m−1} − ω² b_{m−2}; a term is b_m t^m.
-  double before = 0.0, term = power_term(top + 2, time);
-  double value = term, rate = (top + 2) * term;
-  const double damping = -2.0 * decay * time, spring = -stiffness * time * time;
+  Lanes before = Lanes::Zero(), term = Lanes::Constant(power_term(top + 2, time));
+  Lanes value = term, rate = (top + 2) * term;
+  const Lanes damping = -2.0 * time * decay, spring = -time * time * stiffness;
   for (int m = top + 3; m < kMaxTerms; ++m) {
     const auto& [once, twice] = kSeriesDivisors[static_cast<std::size_t>(m)];
-    const double next = damping * once * term + spring * twice * before;
+    const Lanes next = once * damping * term + twice * spring * before;
     before = term;
     term = next;
     value += term;
     rate += m * term;
-    if (std::abs(term) + std::abs(before) < 1e-18 * std::abs(value)) break;
+    if ((term.abs() + before.abs() < 1e-18 * value.abs()).all()) break;
   }
-  OscillatorResponse r{};
-  std::array<double, kTop + 3> X{};  // X_{−2} … X_top
+  std::array<Lanes, kTop + 3> X;  // X_{−2} … X_top
   X[static_cast<std::size_t>(top) + 2] = value;
   X[static_cast<std::size_t>(top) + 1] = rate / time;
   for (int k = top; k >= 0; --k) {
     const auto i = static_cast<std::size_t>(k);
     X[i] = power_term(k, time) - 2.0 * decay * X[i + 1] - stiffness * X[i + 2];
   }
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = X[k + 2];
-  r.s = X[1];
-  r.s_rate = X[0];
-  return r;
+  std::array<OscillatorResponse, kLanes> responses{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    OscillatorResponse& r = responses[lane];
+    const auto j = static_cast<Eigen::Index>(lane);
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(top); ++k) r.forced[k] = X[k + 2][j];
+    r.s = X[1][j];
+    r.s_rate = X[0][j];
+  }
+  return responses;
 }
 
 OscillatorResponse by_recurrence(double stiffness, double decay, double time, int top) {
@@ -137,16 +147,49 @@ OscillatorResponse by_two_rates(double stiffness, double decay, double time, int
 }  // namespace
 
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time, int max_power) {
-  if (time <= 0.0) return {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
-  const double omega = std::sqrt(std::abs(stiffness));
-  const bool has_two_rates = stiffness < 0.0 || std::abs(decay) > kOverdamped * omega;
-  OscillatorResponse r = (omega + std::abs(decay)) * time <= kSeriesLimit
-                             ? by_series(stiffness, decay, time, max_power)
-                         : has_two_rates ? by_two_rates(stiffness, decay, time, max_power)
-                                         : by_recurrence(stiffness, decay, time, max_power);
-  r.c = r.s_rate + 2.0 * decay * r.s;
-  r.c_rate = -stiffness * r.s;
-  return r;
+  OscillatorResponse response;
+  calc_oscillator_responses({&stiffness, 1}, {&decay, 1}, time, max_power, {&response, 1});
+  return response;
+}
+
+void calc_oscillator_responses(std::span<const double> stiffness, std::span<const double> decay, double time,
+                               int max_power, std::span<OscillatorResponse> responses) {
+  if (time <= 0.0) {
+    for (OscillatorResponse& r : responses)
+      r = {.c = 1.0, .c_rate = 0.0, .s = 0.0, .s_rate = 1.0, .forced = {}};
+    return;
+  }
+  std::array<std::size_t, kLanes> in_lane{};
+  Lanes lane_stiffness, lane_decay;
+  std::size_t num_lanes = 0;
+  const auto sum_series = [&] {
+    for (std::size_t lane = num_lanes; lane < kLanes; ++lane) {  // repeats one where none is left
+      lane_stiffness[static_cast<Eigen::Index>(lane)] = lane_stiffness[0];
+      lane_decay[static_cast<Eigen::Index>(lane)] = lane_decay[0];
+    }
+    const auto found = by_series(lane_stiffness, lane_decay, time, max_power);
+    for (std::size_t lane = 0; lane < num_lanes; ++lane) responses[in_lane[lane]] = found[lane];
+    num_lanes = 0;
+  };
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const double omega = std::sqrt(std::abs(stiffness[i]));
+    if ((omega + std::abs(decay[i])) * time <= kSeriesLimit) {
+      lane_stiffness[static_cast<Eigen::Index>(num_lanes)] = stiffness[i];
+      lane_decay[static_cast<Eigen::Index>(num_lanes)] = decay[i];
+      in_lane[num_lanes++] = i;
+      if (num_lanes == kLanes) sum_series();
+      continue;
+    }
+    const bool has_two_rates = stiffness[i] < 0.0 || std::abs(decay[i]) > kOverdamped * omega;
+    responses[i] = has_two_rates ? by_two_rates(stiffness[i], decay[i], time, max_power)
+                                 : by_recurrence(stiffness[i], decay[i], time, max_power);
+  }
+  if (num_lanes > 0) sum_series();
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    OscillatorResponse& r = responses[i];
+    r.c = r.s_rate + 2.0 * decay[i] * r.s;
+    r.c_rate = -stiffness[i] * r.s;
+  }
 }
 
 }  // namespace sprung::dynamics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 namespace sprung::dynamics {
 
@@ -24,5 +25,10 @@ struct OscillatorResponse {
 /// @param max_power  highest k of the forced responses, at most kMaxPower; higher ones are set to zero
 OscillatorResponse calc_oscillator_response(double stiffness, double decay, double time,
                                             int max_power = OscillatorResponse::kMaxPower);
+
+/// Those of several oscillators at the same time, which takes less than one after the other.
+/// @param stiffness, decay, responses  of each oscillator
+void calc_oscillator_responses(std::span<const double> stiffness, std::span<const double> decay, double time,
+                               int max_power, std::span<OscillatorResponse> responses);
 
 }  // namespace sprung::dynamics

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/functions/oscillator_response.h"
-
 namespace sprung::dynamics {
 
 namespace {
@@ -15,7 +13,10 @@ static_assert(OscillatorResponse::kMaxPower == kNumNodes);
 
 }  // namespace
 
-LobattoPropagator::LobattoPropagator(Eigen::Index num_pairs) {
+LobattoPropagator::LobattoPropagator(Eigen::Index num_pairs)
+    : determinant_(static_cast<std::size_t>(num_pairs)),
+      decay_(static_cast<std::size_t>(num_pairs)),
+      responses_(static_cast<std::size_t>(num_pairs)) {
   alpha_start_ = beta_start_ = alpha_quartic_ = beta_quartic_ = Eigen::ArrayXd::Zero(num_pairs);
   alpha_.fill(alpha_start_);
   beta_.fill(alpha_start_);
@@ -28,11 +29,16 @@ void LobattoPropagator::update(double theta, double length, const PairBlocks& bl
   std::array<double, kNumNodes + 1> scale;
   scale[0] = 1.0;
   for (std::size_t k = 1; k <= kNumNodes; ++k) scale[k] = scale[k - 1] * static_cast<double>(k) / length;
+  // e^{Bt} = c I + s B, where c and s belong to the oscillator of the same trace and determinant, and its
+  // integrals.
   for (Eigen::Index m = 0; m < f; ++m) {
-    // e^{Bt} = c I + s B, where c and s belong to the oscillator of the same trace and determinant, and its
-    // integrals.
+    determinant_[static_cast<std::size_t>(m)] = blocks.determinant(m);
+    decay_[static_cast<std::size_t>(m)] = -0.5 * blocks.trace(m);
+  }
+  calc_oscillator_responses(determinant_, decay_, theta * length, kNumNodes, responses_);
+  for (Eigen::Index m = 0; m < f; ++m) {
+    const OscillatorResponse& r = responses_[static_cast<std::size_t>(m)];
     const double two_d = -blocks.trace(m);
-    const OscillatorResponse r = calc_oscillator_response(blocks.determinant(m), 0.5 * two_d, theta * length);
     alpha_start_[m] = r.c;
     beta_start_[m] = r.s;
     Eigen::Vector4d alpha, beta;

@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
+#include "dynamics/functions/oscillator_response.h"
 #include "dynamics/integration/exponential/vibration_basis.h"
 #include "dynamics/integration/lobatto_points.h"
 
@@ -44,6 +46,8 @@ class LobattoPropagator {
   std::array<Eigen::ArrayXd, lobatto::kNumNodes> alpha_, beta_;
   std::array<double, lobatto::kNumNodes> integral_{};
   double integral_quartic_ = 0.0;
+  std::vector<double> determinant_, decay_;  // of the oscillator that belongs to each pair
+  std::vector<OscillatorResponse> responses_;
 };
 
 }  // namespace sprung::dynamics
