@@ -28,6 +28,7 @@ FirstOrderForm make_first_order_form(const Eigen::MatrixXd& mass, const Eigen::M
   order.insert(order.end(), bound.begin(), bound.end());
   form.V = modes.vectors(Eigen::all, order);
   form.scale = modes.omega_squared(bound).cwiseAbs().cwiseSqrt();
+  form.rounding = modes.rounding(order);
   // The modes are those of the symmetric part. The skew part, of forces without a potential, couples them.
   Eigen::MatrixXd K = form.V.transpose() * (0.5 * (stiffness - stiffness.transpose())) * form.V;
   K.diagonal() = modes.omega_squared(order);

@@ -13,6 +13,7 @@ struct FirstOrderForm {
   Eigen::MatrixXd V;          ///< f×f, VᵀMV = 1
   Eigen::Index num_free = 0;  ///< number of free modes
   Eigen::VectorXd scale;      ///< σ of the others [rad/s], f − num_free
+  Eigen::VectorXd rounding;   ///< of each ω² (linear, eq. 15) [rad²/s²], f
   Eigen::MatrixXd A;          ///< s×s, s = 2f − num_free
 
   Eigen::Index num_bound() const { return scale.size(); }

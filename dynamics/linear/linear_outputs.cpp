@@ -84,6 +84,7 @@ ForceEffects solve_force_effects(const SystemTerms& terms) {
     const int first = body.first_coordinate, size = body.num_coordinates();
     whole.block(first, first, size, size) = terms.mass(b);
   }
+  whole.diagonal().segment(terms.model().first_state(), terms.model().num_states()).setOnes();
   whole.bottomLeftCorner(m, n) = terms.jacobian().dense();
   whole.topRightCorner(n, m) = whole.bottomLeftCorner(m, n).transpose();
   const Eigen::MatrixXd solution = support::solve_lu(whole, Eigen::MatrixXd::Identity(n + m, n));

@@ -47,15 +47,16 @@ Eigen::VectorXd select_independent(const PartitionedEquations& equations, const 
 }
 
 // DᵀM D ρ̈_i at the state that the equations were last evaluated at, with more generalized forces: of
-// DᵀM q̈ = Dᵀ Q, in which Dᵀφ_qᵀ λ = 0, all but the part of q̈ that follows ρ̈_i is brought to the right.
+// DᵀM q̈ = Dᵀ Q, in which Dᵀφ_qᵀ λ = 0, all but the part of q̈ that follows ρ̈_i is brought to the right. About
+// rest there is no such part: it is of second order in the velocities, and prescribed motion is held.
 // @param forces  Q and the additional ones, nq
 Eigen::VectorXd calc_relative_force(const PartitionedEquations& equations, const Eigen::VectorXd& forces,
                                     const SteadyMotion& motion) {
-  Eigen::VectorXd relative = select_independent(equations, equations.v_dot());
-  if (!motion.is_rest()) {
-    relative -= select_independent(
-        equations, motion.calc_acceleration(equations.terms().model(), equations.q(), equations.v()));
-  }
+  if (motion.is_rest()) return equations.calc_reduced(forces);
+  const Eigen::VectorXd relative =
+      select_independent(equations, equations.v_dot()) -
+      select_independent(equations,
+                         motion.calc_acceleration(equations.terms().model(), equations.q(), equations.v()));
   const Eigen::VectorXd others = equations.v_dot() - equations.calc_free_motion(relative);
   return equations.calc_reduced(forces - equations.apply_mass(others));
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dynamics/linear/first_order_form.h"
+#include "dynamics/linear/undamped_modes.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -24,16 +25,19 @@ struct DampedModes {
   std::vector<std::complex<double>> eigenvalues;
   std::vector<Eigen::VectorXcd> shapes;  // of length 1
 
-  // Removes and returns the eigenvalue whose shape is most similar to u by the modal assurance criterion. The
-  // two of a motion that does not oscillate have equal shapes: the larger one is taken.
+  // Removes and returns the eigenvalue whose shape is most similar to u by the modal assurance criterion.
+  // Those of a motion that does not oscillate have equal shapes: the largest one is taken. One that
+  // oscillates goes before the decay of an internal state with the same shape.
   std::complex<double> take_most_similar(const Eigen::VectorXcd& u) {
     if (shapes.empty()) throw support::NumericalError("modes: fewer damped modes than undamped ones");
     std::size_t best = 0;
     double most = -1.0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       const double likeness = std::norm(shapes[i].dot(u));
-      const bool is_faster = std::abs(eigenvalues[i]) > std::abs(eigenvalues[best]);
-      if (likeness <= most + (is_faster ? -kSameShape : kSameShape)) continue;
+      const auto rank = [&](std::size_t j) {
+        return std::pair(eigenvalues[j].imag() > 0.0, std::abs(eigenvalues[j]));
+      };
+      if (likeness <= most + (rank(i) > rank(best) ? -kSameShape : kSameShape)) continue;
       best = i;
       most = likeness;
     }
@@ -62,8 +66,10 @@ DampedModes calc_damped_modes(const FirstOrderForm& form) {
 
 // A mode of the system without damping.
 struct UndampedMode {
-  double omega = 0.0;      // [rad/s]; 0 for a free mode
-  Eigen::VectorXcd shape;  // in the undamped modes of stiffness and mass alone
+  double omega = 0.0;                         // [rad/s]; 0 for a free mode
+  Eigen::VectorXcd shape;                     // in the undamped modes of stiffness and mass alone
+  double rounding = 0.0;                      // of ω² [rad²/s²]
+  std::complex<double> damped_eigenvalue{0};  // [rad/s]
 };
 
 // The modes of M̂ and K̂, free ones first.
@@ -71,7 +77,9 @@ std::vector<UndampedMode> list_undamped_modes(const FirstOrderForm& form) {
   const Eigen::Index f = form.V.rows();
   std::vector<UndampedMode> modes;
   for (Eigen::Index k = 0; k < f; ++k) {
-    modes.push_back({k < form.num_free ? 0.0 : form.scale[k - form.num_free], Eigen::VectorXcd::Unit(f, k)});
+    modes.push_back({.omega = k < form.num_free ? 0.0 : form.scale[k - form.num_free],
+                     .shape = Eigen::VectorXcd::Unit(f, k),
+                     .rounding = form.rounding[k]});
   }
   return modes;
 }
@@ -84,14 +92,56 @@ std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
   for (std::size_t i = 0; i < complex_modes.shapes.size(); ++i) {
     const Eigen::VectorXcd& u = complex_modes.shapes[i];
     const std::complex<double> square = u.cwiseProduct(u).sum();
-    modes.push_back({std::abs(complex_modes.eigenvalues[i]), u * std::polar(1.0, -0.5 * std::arg(square))});
+    modes.push_back({.omega = std::abs(complex_modes.eigenvalues[i]),
+                     .shape = u * std::polar(1.0, -0.5 * std::arg(square))});
   }
   // Two free modes that Coriolis forces couple have one pair of eigenvalues here, since positions of free
   // modes are no states. The mode that is then missing is free.
   while (static_cast<Eigen::Index>(modes.size()) < form.V.rows()) {
-    modes.push_back({0.0, Eigen::VectorXcd::Unit(form.V.rows(), 0)});
+    modes.push_back({.omega = 0.0, .shape = Eigen::VectorXcd::Unit(form.V.rows(), 0)});
   }
   return modes;
+}
+
+// The modes without damping, free ones first, and without internal states of force elements, which are no
+// motion: these damp and stiffen the modes. @param form  of the damped system, in whose V the shapes are
+// given
+std::vector<UndampedMode> list_modes(const LinearisedSystem& system, Eigen::Index num_states, bool turns,
+                                     const FirstOrderForm& form) {
+  const Eigen::Index n = system.mass.rows() - num_states;  // states are the last freedoms
+  const auto motion = [n](const Eigen::MatrixXd& A) -> Eigen::MatrixXd { return A.topLeftCorner(n, n); };
+  const FirstOrderForm undamped =
+      make_first_order_form(motion(system.mass), 0.5 * motion(system.damping - system.damping.transpose()),
+                            motion(system.stiffness), motion(system.stiffness_rounding));
+  std::vector<UndampedMode> modes = turns ? list_gyroscopic_modes(undamped) : list_undamped_modes(undamped);
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const UndampedMode& a, const UndampedMode& b) { return a.omega < b.omega; });
+  // A motion that does not oscillate has two real eigenvalues.
+  const auto count = static_cast<std::size_t>(n);
+  if (modes.size() > count) modes.erase(modes.begin(), modes.end() - static_cast<std::ptrdiff_t>(count));
+  const Eigen::MatrixXd to_form = form.V.transpose() * system.mass.leftCols(n) * undamped.V;
+  for (UndampedMode& mode : modes) mode.shape = to_form * mode.shape;
+  return modes;
+}
+
+// Each mode with stiffness takes the eigenvalue of the most similar shape. An oscillation that is left then,
+// as internal states can hold a motion that no other element resists, or resist it more than the others,
+// belongs to the most similar mode of those that do not oscillate otherwise.
+void assign_damped(DampedModes damped, std::vector<UndampedMode>& modes) {
+  for (UndampedMode& mode : modes)
+    if (mode.omega > 0.0) mode.damped_eigenvalue = damped.take_most_similar(mode.shape);
+  for (std::size_t i = 0; i < damped.eigenvalues.size(); ++i) {
+    if (!(damped.eigenvalues[i].imag() > 0.0)) continue;
+    UndampedMode* best = nullptr;
+    double most = 0.0;
+    for (UndampedMode& mode : modes) {
+      const double likeness = std::norm(damped.shapes[i].dot(mode.shape));
+      if (mode.damped_eigenvalue.imag() > 0.0 || likeness <= most) continue;
+      best = &mode;
+      most = likeness;
+    }
+    if (best != nullptr) best->damped_eigenvalue = damped.eigenvalues[i];
+  }
 }
 
 // The bodies with the most kinetic energy, the largest share first. A body whose own modes have more than a
@@ -134,20 +184,11 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   }
   if (model.num_freedoms() == 0) return {};
   const LinearisedSystem& system = equilibrium.linearised;
-  const auto make_form = [&](const Eigen::MatrixXd& damping) {
-    return make_first_order_form(system.mass, damping, system.stiffness, system.stiffness_rounding);
-  };
-  const FirstOrderForm form = make_form(system.damping);
-  const bool turns = equilibrium.motion.omega != 0.0;
+  const FirstOrderForm form =
+      make_first_order_form(system.mass, system.damping, system.stiffness, system.stiffness_rounding);
   std::vector<UndampedMode> undamped =
-      turns ? list_gyroscopic_modes(make_form(0.5 * (system.damping - system.damping.transpose())))
-            : list_undamped_modes(form);
-  std::stable_sort(undamped.begin(), undamped.end(),
-                   [](const UndampedMode& a, const UndampedMode& b) { return a.omega < b.omega; });
-  // A motion that does not oscillate has two real eigenvalues.
-  const auto f = static_cast<std::size_t>(form.V.rows());
-  if (undamped.size() > f) undamped.erase(undamped.begin(), undamped.end() - static_cast<std::ptrdiff_t>(f));
-  DampedModes damped = calc_damped_modes(form);
+      list_modes(system, model.num_states(), equilibrium.motion.omega != 0.0, form);
+  assign_damped(calc_damped_modes(form), undamped);
 
   SystemTerms terms(model);
   terms.update_positions(0.0, equilibrium.q);
@@ -157,31 +198,37 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   for (const UndampedMode& one : undamped) {
     VehicleMode mode;
     mode.shape = system.directions * (form.V * one.shape.real().normalized());
-    // An internal state of a force element is no mode, but it damps and stiffens the others.
-    if (mode.shape.head(model.first_state()).isZero(0.0)) continue;
     mode.participants = find_participants(model, terms, equilibrium.q, mode.shape);
     mode.is_rigid_body = one.omega == 0.0;
-    if (!mode.is_rigid_body) {
-      mode.undamped_frequency_hz = one.omega / (2.0 * pi);
-      const std::complex<double> s = damped.take_most_similar(one.shape);
+    mode.undamped_frequency_hz = one.omega / (2.0 * pi);
+    mode.largest_frequency_hz = std::sqrt(one.omega * one.omega + one.rounding) / (2.0 * pi);
+    const std::complex<double> s = one.damped_eigenvalue;
+    if (s.imag() > 0.0) {
       mode.damped_frequency_hz = s.imag() / (2.0 * pi);
-      mode.damping_ratio = s.imag() > 0.0 ? -s.real() / std::abs(s) : -s.real() / one.omega;
+      mode.damping_ratio = -s.real() / std::abs(s);
+    } else if (!mode.is_rigid_body) {
+      mode.damping_ratio = -s.real() / one.omega;
     }
     modes.push_back(std::move(mode));
   }
   return modes;
 }
 
-Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::VectorXd& q) {
+FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
   const LinearisedSystem system = linearise(equations, 0.0, q);
   // Internal states, the last coordinates, have no stiffness and are no modes.
   const Eigen::Index n = system.mass.rows() - model.num_states();
-  const auto pairs = support::solve_undamped(system.stiffness.topLeftCorner(n, n).eval(),
-                                             system.mass.topLeftCorner(n, n).eval());
-  if (!pairs) throw support::NumericalError("modes: the undamped eigenvalue problem does not converge");
-  return pairs->values.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
+  const UndampedModes modes =
+      calc_undamped_modes(system.stiffness.topLeftCorner(n, n), system.mass.topLeftCorner(n, n),
+                          system.stiffness_rounding.topLeftCorner(n, n));
+  const auto sort_frequencies = [](Eigen::VectorXd omega_squared) -> Eigen::VectorXd {
+    std::sort(omega_squared.begin(), omega_squared.end());
+    return omega_squared.cwiseMax(0.0).cwiseSqrt() / (2.0 * pi);
+  };
+  return {.lower = sort_frequencies(modes.omega_squared - modes.rounding),
+          .upper = sort_frequencies(modes.omega_squared + modes.rounding)};
 }
 
 }  // namespace sprung::dynamics

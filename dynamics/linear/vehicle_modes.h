@@ -19,10 +19,11 @@ struct Participant {
 /// One vibration of the assembled vehicle about its equilibrium.
 struct VehicleMode {
   double undamped_frequency_hz = 0.0;  ///< 0 for a rigid-body mode
+  double largest_frequency_hz = 0.0;   ///< the undamped one at most, with the rounding of the stiffness
   double damped_frequency_hz = 0.0;    ///< 0 where the mode does not oscillate
   double damping_ratio = 0.0;  ///< −Re s/|s|; where the mode does not oscillate, −s/ω of the larger s
-  bool is_rigid_body = false;
-  Eigen::VectorXd shape;                  ///< nq, undamped, mass-normalised
+  bool is_rigid_body = false;  ///< no element resists it at rest; internal states may make it oscillate
+  Eigen::VectorXd shape;       ///< nq, undamped, mass-normalised
   std::vector<Participant> participants;  ///< the bodies that move, that with the most kinetic energy first
 };
 
@@ -32,10 +33,15 @@ struct VehicleMode {
 /// Checked by tests/dynamics/linear/vehicle_modes_test.cpp
 std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibrium& equilibrium);
 
-/// Undamped frequencies of a vehicle linearised about rest at q, also where q is no equilibrium, ascending;
-/// those of rigid-body modes are 0 to rounding.
-/// @return one for each freedom of the motion, without internal states [Hz]
+/// Bounds on the undamped frequencies of a model, for each freedom of the motion, without internal states
+/// [Hz]. The k-th frequency in ascending order lies between the k-th of both, whatever rounding has done to
+/// the stiffness (linear, eqs. 14, 15). The two are equal but for that.
+struct FrequencyBounds {
+  Eigen::VectorXd lower, upper;  ///< ascending
+};
+
+/// Those of a vehicle linearised about rest at q, also where q is no equilibrium.
 /// @throws support::NumericalError as linearise
-Eigen::VectorXd calc_undamped_frequencies(const Model& model, const Eigen::VectorXd& q);
+FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q);
 
 }  // namespace sprung::dynamics

@@ -153,7 +153,7 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
   for (const VehicleMode& mode : modes) {
     ++number;
     const std::string movers = describe_moving_bodies(model, vehicle, mode);
-    if (mode.is_rigid_body) {
+    if (mode.is_rigid_body && mode.damped_frequency_hz == 0.0) {
       table.add_row({fmt::format("{}", number), "0", "0", "", "rigid-body mode: " + movers});
     } else {
       table.add_row({fmt::format("{}", number), fmt::format("{:.4f}", mode.undamped_frequency_hz),
@@ -174,9 +174,9 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
   for (std::size_t k = 0; k < modes.size(); ++k) {
     if (!bracket.holds(modes, k)) continue;
     const double lower = bracket.lower_hz[static_cast<Eigen::Index>(k)],
-                 upper = modes[k].undamped_frequency_hz;
+                 upper = bracket.upper_hz[static_cast<Eigen::Index>(k)];
     table.add_row({fmt::format("{}", k + 1), fmt::format("{:.6f}", lower), fmt::format("{:.6f}", upper),
-                   fmt::format("{:.1e}", upper / lower - 1.0)});
+                   lower > 0.0 ? fmt::format("{:.1e}", upper / lower - 1.0) : ""});
   }
   const std::string band =
       std::isfinite(bracket.highest_hz) ? fmt::format(" up to {:.6g} Hz", bracket.highest_hz) : "";
@@ -198,8 +198,8 @@ Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vect
                     {"rigid_body", mode.is_rigid_body},
                     {"participants", describe_moving_bodies(model, vehicle, mode)}});
     if (bracket != nullptr && bracket->holds(modes, list.size() - 1)) {
-      list.back()["bracket"] = {bracket->lower_hz[static_cast<Eigen::Index>(list.size()) - 1],
-                                mode.undamped_frequency_hz};
+      const auto k = static_cast<Eigen::Index>(list.size()) - 1;
+      list.back()["bracket"] = {bracket->lower_hz[k], bracket->upper_hz[k]};
     }
   }
   return {{"modes", list},

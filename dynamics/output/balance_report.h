@@ -32,8 +32,8 @@ std::vector<RunWarning> list_balance_warnings(const Vehicle& vehicle, const Rest
 
 /// Lower bounds of the vehicle's undamped frequencies; the modes found are upper ones.
 struct FrequencyBracket {
-  Eigen::VectorXd lower_hz;  ///< of mode 1, 2, …, rigid-body modes among them
-  double highest_hz = 0.0;   ///< up to which the bounds hold
+  Eigen::VectorXd lower_hz, upper_hz;  ///< of mode 1, 2, …, rigid-body modes among them
+  double highest_hz = 0.0;             ///< up to which the bounds hold
   /// Whether the bounds of a mode hold. @param mode  0-based
   bool holds(const std::vector<VehicleMode>& modes, std::size_t mode) const;
 };

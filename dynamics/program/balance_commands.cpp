@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "dynamics/input/soft_twin.h"
@@ -32,6 +35,37 @@ void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& w
            equilibrium.last_step)});
 }
 
+// Modes whose frequency rounding leaves open: by more than a ten-thousandth, or, of one that is taken for
+// rigid, by more than a hundredth of the lowest other one.
+void warn_of_rounded_modes(const std::vector<VehicleMode>& modes, std::vector<RunWarning>& warnings) {
+  constexpr double kExact = 1e-4, kRigid = 1e-2;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const VehicleMode& mode : modes)
+    if (!mode.is_rigid_body) lowest = std::min(lowest, mode.undamped_frequency_hz);
+  std::vector<std::string> open;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const VehicleMode& mode = modes[k];
+    const double exact = mode.is_rigid_body ? kRigid * lowest : (1.0 + kExact) * mode.undamped_frequency_hz;
+    if (mode.largest_frequency_hz > exact)
+      open.push_back(fmt::format("{} (up to {:.5g} Hz)", k + 1, mode.largest_frequency_hz));
+  }
+  if (open.empty()) return;
+  constexpr std::size_t kNamed = 5;
+  if (open.size() > kNamed) {
+    const std::size_t others = open.size() - kNamed;
+    open.resize(kNamed);
+    open.push_back(fmt::format("and {} more", others));
+  }
+  warnings.push_back(
+      {"modes",
+       {"frequencies"},
+       fmt::format(
+           "rounding beside the largest stiffness leaves the frequencies of these modes open: {}; take "
+           "stiffer reference nodes, at which the body frames sit, or leave out the stiffest modes and "
+           "elements",
+           fmt::join(open, ", "))});
+}
+
 // Appends to `warnings` where the bounds are not proved.
 FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest())
@@ -48,7 +82,9 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
              body)});
   }
   const Eigen::VectorXd q = insert_soft_modes(prepared.balance_model, twin, prepared.equilibrium->q);
-  return {.lower_hz = calc_undamped_frequencies(twin.model, q), .highest_hz = twin.highest_hz};
+  return {.lower_hz = calc_frequency_bounds(twin.model, q).lower,
+          .upper_hz = calc_frequency_bounds(prepared.balance_model, prepared.equilibrium->q).upper,
+          .highest_hz = twin.highest_hz};
 }
 
 }  // namespace
@@ -82,6 +118,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
   std::vector<RunWarning> warnings = list_balance_warnings(prepared.vehicle, resting, prepared.remarks);
   warn_of_rounding(*prepared.equilibrium, warnings);
+  warn_of_rounded_modes(modes, warnings);
   std::optional<FrequencyBracket> bracket;
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {

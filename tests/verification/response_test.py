@@ -12,6 +12,62 @@ from verification_case import EXAMPLES, MODELS
 QUARTER_CAR = EXAMPLES / "quarter_car_run.toml"
 HALF_CAR = MODELS / "half_car_run.toml"
 
+# A wheel on a massless arm under a body that slides up and down.
+ARM = """
+name = "massless arm"
+[bodies.body]
+mass = 300.0
+inertia = 100.0
+position = [0.0, 1.0]
+points = { pivot = [0.5, -0.5], top = [0.0, -0.4] }
+[bodies.arm]
+mass = 0.0
+inertia = 0.0
+position = [0.25, 0.4]
+points = { a = [0.25, 0.1], b = [-0.25, -0.1] }
+[bodies.wheel]
+mass = 40.0
+inertia = 1.0
+position = [0.0, 0.3]
+[[joints]]
+name = "slide"
+type = "translational"
+a = "ground.origin"
+b = "body.origin"
+axis = [0.0, 1.0]
+[[joints]]
+name = "pivot"
+type = "revolute"
+a = "body.pivot"
+b = "arm.a"
+[[joints]]
+name = "hub"
+type = "fixed"
+a = "arm.b"
+b = "wheel.origin"
+[[forces]]
+name = "spring"
+type = "spring-damper"
+a = "wheel.origin"
+b = "body.top"
+free_length = { static = 0.3 }
+spring = { polynomial = [0.0, 2e4] }
+damper = { coefficient = 1500.0 }
+[[forces]]
+name = "tyre"
+type = "tyre"
+wheel = "wheel.origin"
+radius = 0.32
+spring = { polynomial = [0.0, 2e5] }
+[[forces]]
+name = "rubber"
+type = "bushing"
+a = "body.top"
+b = "wheel.origin"
+free_position = [0.0, -0.3]
+y = { relaxation = { stiffness = 2e4, time = 0.02 } }
+"""
+
 
 class QuarterCar(ResponseCase):
     """300 kg on 20 kN/m and 1500 N·s/m on 40 kg on 200 kN/m."""
@@ -54,6 +110,22 @@ class QuarterCar(ResponseCase):
         for name in expected.report["outputs"]:
             size = np.max(np.abs(expected[name]))
             self.assert_close(massless[name], expected[name], absolute=1e-8 * size + 1e-6)
+
+    def test_a_massless_arm_beside_a_part_that_relaxes(self):
+        # A wheel on an arm under a body that slides. Expected: reactions and all else of a light arm.
+        arm, light = "mass = 0.0\ninertia = 0.0\n", "mass = 1e-6\ninertia = 1e-8\n"
+        self.assertIn(arm, ARM)
+        run = "duration = 1.0\nspeed = 5.0\n[response]\nnumber = 3\n"
+        found, expected = (self.response_text(ARM.replace(arm, given), run) for given in (arm, light))
+        names = list(expected.report["outputs"])
+        self.assertIn("joints/pivot/reaction.x", names)
+        self.assertGreater(np.max(np.abs(expected["joints/pivot/reaction.x"])), 1e3)
+        for name in names:
+            with self.subTest(name):
+                unit = expected.report["outputs"][name]["unit"]
+                largest = max(np.max(np.abs(expected[one])) for one in names
+                              if expected.report["outputs"][one]["unit"] == unit)
+                self.assert_close(found[name], expected[name], absolute=1e-6 * largest)
 
     def test_known_transmissibilities(self):
         # Independent values, given to six digits.

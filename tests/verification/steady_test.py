@@ -5,6 +5,7 @@ import math
 import os
 import unittest
 
+import numpy as np
 
 from verification_case import VerificationCase, run_program
 
@@ -88,6 +89,30 @@ class Steady(VerificationCase):
             omega, num_rigid = self.modes_of(ROTOR, speed)
             self.assertEqual(num_rigid, 1)
             self.assert_close(omega, sorted([abs(20.0 - speed), 20.0 + speed]), relative=1e-6)
+
+    def test_whirl_of_a_disc_on_parts_that_relax(self):
+        # A bushing of 2000 N/m each way that turns with the hub, and a part that relaxes along its x: undamped
+        # frequencies are those of the disc alone, as above; damped ones those of (x, y, ẋ, ẏ, e) seen from the hub.
+        stiffness, time, speed, mass = 600.0, 0.05, 7.0, 5.0
+        laws = "spring = { polynomial = [0.0, 2000.0] }"
+        bushing = (
+            '[[forces]]\nname = "mount"\ntype = "bushing"\na = "hub.origin"\nb = "disc.origin"\n'
+            f"x = {{ {laws}, relaxation = {{ stiffness = {stiffness}, time = {time} }} }}\ny = {{ {laws} }}\n"
+        )
+        disc = ROTOR[: ROTOR.index("[[forces]]")]
+        self.write(HUB.format(speed=speed, rest=disc + bushing))
+        modes = self.program("modes", self.folder / "run.toml")["modes"]
+        self.assertEqual([mode["rigid_body"] for mode in modes], [True, False, False])
+        undamped = [2.0 * math.pi * mode["undamped_frequency"] for mode in modes[1:]]
+        self.assert_close(undamped, [20.0 - speed, 20.0 + speed], relative=1e-6)
+        k = 2000.0 / mass - speed**2
+        matrix = np.array([[0.0, 0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0, 0.0],
+                           [-k, 0.0, 0.0, 2.0 * speed, -stiffness / mass],
+                           [0.0, -k, -2.0 * speed, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, -1.0 / time]])  # fmt: skip
+        damped = sorted((s for s in np.linalg.eigvals(matrix) if s.imag > 0.0), key=lambda s: s.imag)
+        for mode, s in zip(modes[1:], damped, strict=True):
+            self.assert_close(mode["damped_frequency"], s.imag / (2.0 * math.pi), relative=1e-6)
+            self.assert_close(mode["damping_ratio"], -s.real / abs(s), relative=1e-5)
 
     def test_internal_damping_makes_a_fast_shaft_unstable(self):
         # Damping that rotates with the shaft makes the whirl unstable above its critical speed.

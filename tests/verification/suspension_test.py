@@ -196,6 +196,26 @@ rotation = { spring = { polynomial = [0.0, 60.0] }, damper = { coefficient = 0.5
                 self.assert_close(mode["damped_frequency"], s.imag / (2.0 * math.pi), relative=1e-7)
                 self.assert_close(mode["damping_ratio"], -s.real / abs(s), relative=1e-7)
 
+    def test_modes_that_a_part_holds_more_than_the_spring(self):
+        # Of the cubic's roots the pair oscillates, however far it is from the frequency of the spring alone. The first
+        # part has the share of the spring that a rigid-body mode is told by: none.
+        for spring, stiffness, time in ((0.0, 1e4, 0.05), (8.0, 1e4, 0.05), (800.0, 3e6, 10.0)):
+            with self.subTest(spring=spring):
+                law = f"spring = {{ polynomial = [0.0, {spring}] }}, " if spring else ""
+                laws = f"x = {{ {law}relaxation = {{ stiffness = {stiffness}, time = {time} }} }}"
+                run = self.write_model(
+                    DISC.format(gravity="[0.0, 0.0]", position="[0.0, 0.0]") + BUSHING.format(laws=laws),
+                    "duration = 0.1\n",
+                )
+                matrix = np.array([[0.0, 1.0, 0.0], [-spring / 2.0, 0.0, -stiffness / 2.0], [0.0, 1.0, -1.0 / time]])
+                s = max(np.linalg.eigvals(matrix), key=lambda value: value.imag)
+                modes = self.program("modes", run)["modes"]
+                (mode,) = (mode for mode in modes if mode["damped_frequency"] > 0.0)
+                self.assert_close(mode["undamped_frequency"], math.sqrt(spring / 2.0) / (2.0 * math.pi), relative=1e-6,
+                                  absolute=1e-9)
+                self.assert_close(mode["damped_frequency"], s.imag / (2.0 * math.pi), relative=1e-6)
+                self.assert_close(mode["damping_ratio"], -s.real / abs(s), relative=1e-6, absolute=1e-9)
+
     def test_response_with_a_part_that_relaxes(self):
         # The quarter car with a suspension of dynamic stiffness k + c s + k_r τs/(1 + τs).
         ms, mu, k, c, kt, kr, tau = 300.0, 40.0, 2.0e4, 1500.0, 2.0e5, 3.0e4, 0.02
