@@ -84,15 +84,18 @@ void ColumnFile::split(std::string_view line, std::vector<Cell>& cells) const {
     at = std::min(line.find_first_not_of(separator_ == '\t' ? " \r" : " \t\r", at), line.size());
     if (at == line.size() && !cells.empty()) {
       const bool is_missing = separator_ != ' ' && cells.size() + 1 == columns_.size();
-      if (is_missing) cells.push_back({{}, static_cast<int>(at) + 1});
+      if (is_missing) cells.push_back({.text = {}, .column = static_cast<int>(at) + 1, .behind = {}});
       return;
     }
     const bool is_quoted = at < line.size() && line[at] == '"';
     const std::size_t begin = is_quoted ? at + 1 : at;
     const std::size_t close = is_quoted ? std::min(line.find('"', begin), line.size()) : at;
     const std::size_t end = std::min(line.find(separator_, close), line.size());
-    const std::string_view text = line.substr(begin, (is_quoted ? close : end) - begin);
-    cells.push_back({trim(text), static_cast<int>(begin) + 1});
+    Cell cell{.text = trim(line.substr(begin, (is_quoted ? close : end) - begin)),
+              .column = static_cast<int>(begin) + 1,
+              .behind = {}};
+    if (is_quoted) cell.behind = close < line.size() ? trim(line.substr(close + 1, end - close - 1)) : "\"";
+    cells.push_back(cell);
     if (end == line.size()) return;
     at = end + 1;
   }
@@ -116,6 +119,16 @@ void ColumnFile::read_header() {
           fmt::format("the first line must have the names of the columns, got the number '{}'", cell.text));
     }
     columns_.push_back(split_name(cell.text));
+    if (!cell.behind.empty()) {
+      const Signal unit = split_name(cell.behind);
+      if (!unit.name.empty() || !columns_.back().unit.empty()) {
+        throw support::InputError(here,
+                                  fmt::format("expected the end of the cell or a unit in brackets behind "
+                                              "the name in quotes, got '{}'",
+                                              cell.behind));
+      }
+      columns_.back() = {std::string(cell.text), unit.unit};
+    }
     const std::string& name = columns_.back().name;
     if (name.empty()) throw support::InputError(here, "a column must have a name");
     const auto same = [&](const Signal& other) { return other.name == name; };
@@ -171,6 +184,11 @@ std::vector<double> ColumnFile::read_column(std::size_t column) const {
     split(line->text, cells);
     check_number_of_cells(cells, *line);
     const Cell& cell = cells[column];
+    if (!cell.behind.empty()) {
+      throw support::InputError(
+          {path_, line->number, cell.column},
+          fmt::format("expected the end of the cell behind the number in quotes, got '{}'", cell.behind));
+    }
     const std::optional<double> value = parse_number(cell.text);
     if (!value || !(std::abs(*value) <= kLargestCell)) {
       throw support::InputError({path_, line->number, cell.column},

@@ -40,7 +40,8 @@ class ColumnFile {
   class Lines;  // those that hold cells
   struct Cell {
     std::string_view text;
-    int column = 0;  // 1-based place in the line
+    int column = 0;           // 1-based place in the line
+    std::string_view behind;  // the closing quote, up to the separator; of a cell without its end the quote
   };
 
   ColumnFile() = default;

@@ -52,6 +52,7 @@ TEST_CASE("Units stand beside the names or in a line of their own") {
         "time|s front|mm left wheel|kN");
   CHECK(columns_of("time;front\ns;mm\n0;1\n1;2\n") == "time|s front|mm");
   CHECK(columns_of("\xEF\xBB\xBF\"time\",\"front, left\"\n[s],[mm]\n0,1\n1,2\n") == "time|s front, left|mm");
+  CHECK(columns_of("\"time\" [ms],\"front, left\" (kN)\n0,1\n1,2\n") == "time|ms front, left|kN");
   CHECK(columns_of("time,front\n0,1\n1,2\n") == "time| front|");
   CHECK(columns_of("time;front;grade\ns;mm;1\n0;1;2\n1;1;2\n") == "time|s front|mm grade|1");
   CHECK(columns_of("time;front;note\n1;1;x\n2;1;y\n") == "time| front| note|");  // x is no unit
@@ -100,6 +101,14 @@ TEST_CASE("Files that do not fit are refused at the line and column") {
         "instead of a point");
   CHECK_THAT(error_of("time,z\n0,1\n1,1e300\n"), Contains("got '1e300'"));
   CHECK_THAT(error_of("time,z\n0,1\n1,0x10\n"), Contains("got '0x10'"));
+  CHECK(
+      error_of("time,\"z\" mm\n0,1\n1,2\n") ==
+      "signals.csv:1:7: error: expected the end of the cell or a unit in brackets behind the name in quotes, "
+      "got 'mm'");
+  CHECK_THAT(error_of("time,\"z\"\"y\"\n0,1\n1,2\n"), Contains("behind the name in quotes, got '\"y\"'"));
+  CHECK(error_of("time,z\n0,\"1\"5\n1,2\n") ==
+        "signals.csv:2:4: error: expected the end of the cell behind the number in quotes, got '5'");
+  CHECK_THAT(error_of("time,z\n0,\"1\n1,2\n"), Contains("signals.csv:2:4: error"));
 }
 
 TEST_CASE("Content that is not text is refused at its byte, which is not repeated") {
