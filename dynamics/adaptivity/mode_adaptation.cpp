@@ -30,6 +30,7 @@ ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const dynamics:
         "ModeAdaptation: active must have an entry for each coordinate of the full model");
   }
   indicator_.set_active(active_);
+  if (options.continues) indicator_.continue_run();
 }
 
 int ModeAdaptation::num_active_modes() const {

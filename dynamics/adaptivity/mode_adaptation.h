@@ -23,6 +23,7 @@ struct AdaptivityOptions {
   const LinearisedSystem* linearised = nullptr;
   std::vector<bool> active;  ///< at the start, for each coordinate of `full`
   std::vector<int> points;   ///< markers whose motion is asked for
+  bool continues = false;    ///< whether the start is the end of an earlier run
   bool changes = true;       ///< false: modes stay as they are, the indicator alone is followed
   AdaptivityThresholds thresholds;
 };

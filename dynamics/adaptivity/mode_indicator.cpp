@@ -54,6 +54,10 @@ void ModeIndicator::set_active(const std::vector<bool>& is_active_coordinate) {
   }
 }
 
+void ModeIndicator::continue_run() {
+  for (Oscillator& one : state_.oscillators) one.is_fresh = true;
+}
+
 ModeShare ModeIndicator::calc_share(std::size_t mode, const ModeAmplitude& amplitude) const {
   return sizes_.calc_share(calc_deflection(mode, amplitude),
                            [&](std::size_t point) { return calc_acceleration(mode, point, amplitude); });

@@ -45,6 +45,9 @@ class ModeIndicator {
   void set_active(const std::vector<bool>& is_active_coordinate);
   const std::vector<bool>& active() const { return active_; }  ///< of each mode
 
+  /// Before the first update: the run continues an earlier one, whose forces have held the modes left out.
+  void continue_run();
+
   /// Continues to the next instant of the run, or to the same one again where forces have jumped.
   /// @param run          equations of the model that is run, accelerations up to date
   /// @param q, v, v_dot  in coordinates of `full`, held ones at rest
@@ -69,7 +72,8 @@ class ModeIndicator {
   /// [m/s²].
   Eigen::Vector2d calc_missing_acceleration(std::size_t point) const;
   /// The part of the force that the run leaves unbalanced on a mode left out that was there before the last
-  /// update: without the part that has jumped at that very instant, or with which the run starts.
+  /// update: without the part that has jumped at that very instant, or with which the run starts, unless it
+  /// continues another.
   double held_force(std::size_t mode) const { return state_.oscillators[mode].held_force; }
   /// Frequency with everything else giving way [Hz].
   double calc_frequency(std::size_t mode) const { return effective_.calc_frequency(mode); }

@@ -293,6 +293,7 @@ std::optional<AdaptivityOptions> make_adaptivity(const PreparedRun& prepared, st
     if (full->num_coordinates == prepared.model.num_coordinates) return std::nullopt;
     options.full = &*full;
   }
+  options.continues = !prepared.run.continue_from.empty();
   options.active.assign(static_cast<std::size_t>(options.full->num_coordinates), true);
   for (const Body& body : options.full->bodies) {
     const auto selected = prepared.selection.find(body.name);

@@ -10,6 +10,7 @@
 #include "dynamics/output/response_writer.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "dynamics/program/start_state.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/numerical_error.h"
 #include "tools/support/hdf5/foreign_file.h"
@@ -20,7 +21,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kSameSpeed = 1e-6;
 constexpr double kLifting = 3.0;  // r.m.s. values: a normal variable falls so low in a thousandth of the time
 
 void check_request(const Run& run) {
@@ -57,25 +57,6 @@ void check_inputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   }
 }
 
-// Warns of wheels whose velocity at the start of a run differs from `speed`, because of prescribed motion.
-void remark_on_speed(const PreparedRun& prepared, const LinearVehicle& vehicle,
-                     std::vector<std::string>& warnings) {
-  const Model& model = prepared.model;
-  Eigen::VectorXd v = make_start_velocities(prepared.run, prepared.vehicle, model);
-  project_velocities(model, 0.0, prepared.start.q, v);
-  SystemTerms terms(model);
-  terms.update_positions(0.0, prepared.start.q);
-  terms.update_velocities(v);
-  for (const RoadInput& input : vehicle.inputs()) {
-    const int marker = model.forces[static_cast<std::size_t>(input.force)]->markers().front();
-    const double speed = prepared.vehicle.direction * terms.markers()[static_cast<std::size_t>(marker)].v.x();
-    if (std::abs(speed - prepared.run.speed) <= kSameSpeed * prepared.run.speed) continue;
-    warnings.push_back(
-        fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
-                    input.name, speed, prepared.run.speed));
-  }
-}
-
 std::vector<std::string> list_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   std::vector<std::string> warnings;
   for (const RoadInput& input : vehicle.inputs()) {
@@ -89,7 +70,11 @@ std::vector<std::string> list_warnings(const PreparedRun& prepared, const Linear
         fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
                     kink.element));
   }
-  remark_on_speed(prepared, vehicle, warnings);
+  for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
+    warnings.push_back(
+        fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
+                    wheel.name, wheel.speed, prepared.run.speed));
+  }
   return warnings;
 }
 

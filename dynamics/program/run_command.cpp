@@ -14,6 +14,7 @@
 #include "dynamics/output/run_report.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
+#include "dynamics/program/start_state.h"
 #include "dynamics/simulation/transient.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/errors/numerical_error.h"
@@ -92,6 +93,21 @@ void warn_of_missed_road(const PreparedRun& prepared, std::vector<RunWarning>& w
   std::string text = describe_missed_road(run.road, *prepared.road, run.speed, run.statistics_to);
   if (text.empty()) return;
   warnings.push_back({"summary", {std::string(kComputation)}, std::move(text)});
+}
+
+// Where the given speed is not that of the start. Velocities of [initial] are meant as they are.
+void warn_of_other_speed(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
+  const Run& run = prepared.run;
+  if (!run.continue_from.empty() || !run.initial.empty() || run.start == Run::Start::kSteady) return;
+  for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
+    warnings.push_back(
+        {"summary",
+         {std::string(kComputation)},
+         fmt::format(
+             "'{}' starts at {:.6g} m/s and not at 'speed', {:g} m/s, which prescribed motion or joints "
+             "do not allow: the run begins with a jolt; give both the same speed",
+             wheel.name, wheel.speed, run.speed)});
+  }
 }
 
 // CPU time of the program so far [s].
@@ -230,6 +246,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
       list_model_warnings(prepared.model, prepared.assembly, prepared.start,
                           prepared.equilibrium ? &*prepared.equilibrium : nullptr);
   warn_of_missed_road(prepared, model_warnings);
+  warn_of_other_speed(prepared, model_warnings);
   print_of_computation(streams.err, model_warnings);
   for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
     model_warnings.push_back(std::move(remark));

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dynamics/linear/joint_rates.h"
 #include "dynamics/output/last_state.h"
+#include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
 
 namespace sprung::dynamics {
@@ -55,6 +58,8 @@ std::vector<JointRate> find_joint_rates(const Run& run, const Model& model) {
   return rates;
 }
 
+constexpr double kSameSpeed = 1e-6;
+
 }  // namespace
 
 State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
@@ -81,6 +86,27 @@ State find_start_state(Eigen::VectorXd q, PreparedRun& prepared) {
   prepared.initial_velocities = project_velocities(model, 0.0, q, v);
   impose_joint_rates(model, q, find_joint_rates(run, model), v);
   return make_state(model, q, v);
+}
+
+std::vector<WheelSpeed> find_wheels_of_other_speed(const PreparedRun& prepared) {
+  const Model& model = prepared.model;
+  Eigen::VectorXd v = make_start_velocities(prepared.run, prepared.vehicle, model);
+  project_velocities(model, prepared.start.time, prepared.start.q, v);
+  SystemTerms terms(model);
+  terms.update_positions(prepared.start.time, prepared.start.q);
+  terms.update_velocities(v);
+  std::vector<int> branches(static_cast<std::size_t>(model.num_branches));
+  terms.choose_branches(branches);
+  std::vector<WheelSpeed> wheels;
+  for (std::size_t f = 0; f < model.forces.size(); ++f) {
+    const ForceElement& force = *model.forces[f];
+    if (!force.find_road_place(terms.instant_of(f), model.branches_of(f, branches))) continue;
+    const auto marker = static_cast<std::size_t>(force.markers().front());
+    const double speed = prepared.vehicle.direction * terms.markers()[marker].v.x();
+    if (std::abs(speed - prepared.run.speed) > kSameSpeed * std::max(prepared.run.speed, std::abs(speed)))
+      wheels.push_back({force.name, speed});
+  }
+  return wheels;
 }
 
 }  // namespace sprung::dynamics

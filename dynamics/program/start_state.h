@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "dynamics/program/prepared_run.h"
 
@@ -15,5 +17,13 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
 /// @param prepared  with the model on its road
 /// @throws support::InputError for motion that the joints do not allow, or another run that does not fit
 State find_start_state(Eigen::VectorXd q, PreparedRun& prepared);
+
+/// A wheel whose velocity at the start of a run differs from `speed`, because prescribed motion or joints
+/// allow no other.
+struct WheelSpeed {
+  std::string name;    ///< of the force element
+  double speed = 0.0;  ///< along the vehicle's direction [m/s]
+};
+std::vector<WheelSpeed> find_wheels_of_other_speed(const PreparedRun& prepared);
 
 }  // namespace sprung::dynamics

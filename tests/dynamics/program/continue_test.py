@@ -95,6 +95,20 @@ class Continue(DynamicsTestCase):
             for name in ("time", "bodies/chassis/position", "bodies/chassis/modal/acceleration"):
                 np.testing.assert_array_equal(first[name][()], small[name][()], err_msg=name)
 
+    def test_modes_that_join_at_the_start_of_a_continued_run_are_not_released_at_once(self):
+        # The forces that held modes left out were there before. 0.1 s after the bump few modes are active.
+        adaptive = ("--set", "adaptivity.enabled=true", "--set", "adaptivity.recall=0.02")
+        self.assertEqual(self.run_until(0.9, "first.h5", *adaptive).returncode, 0)
+        for name, arguments in (("long.h5", ()), ("second.h5", FROM_FIRST)):
+            process = self.run_until(1.2, name, *adaptive, *arguments)
+            self.assertEqual(process.returncode, 0, process.stderr)
+        with h5py.File(self.folder / "long.h5") as whole, h5py.File(self.folder / "second.h5") as second:
+            active = second["bodies/chassis/modal/active"][()].sum(axis=1)
+            self.assertGreater(active.max(), whole["bodies/chassis/modal/active"][900].sum())  # some join
+            expected = whole["bodies/chassis/acceleration"][900:, :2]
+            off = second["bodies/chassis/acceleration"][:, :2] - expected
+            self.assertLess(np.abs(off).max(), 0.1 * np.abs(expected).max())
+
     def test_what_does_not_fit_is_refused(self):
         self.make_first()
         self.assert_refused(self.run_until(0.5, "b.h5", *FROM_FIRST), "--set 3", "ends at 0.5 s, 'duration' must be")
