@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "dynamics/input/soft_twin.h"
 #include "dynamics/linear/vehicle_modes.h"
 #include "dynamics/output/balance_report.h"
+#include "dynamics/output/run_warnings.h"
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
 #include "dynamics/section_loads/resting_sections.h"
@@ -66,6 +68,17 @@ void warn_of_rounded_modes(const std::vector<VehicleMode>& modes, std::vector<Ru
            fmt::join(open, ", "))});
 }
 
+// Of the model, which are told at once as in a run, and of the balance.
+std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const RestingSections& resting,
+                                      std::FILE* err) {
+  std::vector<RunWarning> warnings =
+      list_model_warnings(prepared.balance_model, prepared.assembly, prepared.start, nullptr);
+  for (const RunWarning& one : warnings) support::print(err, "warning: {}\n", one.text);
+  for (RunWarning& one : list_balance_warnings(prepared.vehicle, resting, prepared.remarks))
+    warnings.push_back(std::move(one));
+  return warnings;
+}
+
 // Appends to `warnings` where the bounds are not proved.
 FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest())
@@ -102,7 +115,7 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle),
                              &resting.loads,
-                             list_balance_warnings(prepared.vehicle, resting, prepared.remarks)};
+                             list_warnings(prepared, resting, request.streams.err)};
   support::print(request.streams.out, "{}",
                  json ? format_report_json(request, make_equilibrium_json(report))
                       : describe_static_lengths(prepared) + format_equilibrium(report));
@@ -116,7 +129,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   VehicleSections sections(prepared.vehicle, model);
   const RestingSections resting =
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
-  std::vector<RunWarning> warnings = list_balance_warnings(prepared.vehicle, resting, prepared.remarks);
+  std::vector<RunWarning> warnings = list_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(modes, warnings);
   std::optional<FrequencyBracket> bracket;

@@ -147,9 +147,23 @@ std::int64_t read_count_of_blocks(Cursor& cursor, bool is_binary) {
   return cursor.read_binary<std::int64_t>();
 }
 
+// gmsh takes as many lines as are declared, and leaves out the others without a word.
+void check_lines(const Cursor& cursor, const char* what, std::int64_t declared, std::int64_t found) {
+  if (declared != found)
+    cursor.fail(fmt::format("declares {} {}, but has lines for {}", declared, what, found));
+}
+
+void check_text_nodes(Cursor& cursor, std::int64_t declared) {
+  cursor.skip_line();
+  std::int64_t found = 0;
+  for (; !cursor.at_end(); ++found) cursor.skip_line();
+  check_lines(cursor, "nodes", declared, found);
+}
+
 void read_text_groups(Cursor& cursor, MshDeclaration& declaration) {
   cursor.skip_line();
-  while (!cursor.at_end()) {
+  std::int64_t found = 0;
+  for (; !cursor.at_end(); ++found) {
     const std::int64_t id = cursor.read_number();
     const std::int64_t type = cursor.read_number();
     const std::int64_t num_tags = cursor.read_number();
@@ -158,6 +172,7 @@ void read_text_groups(Cursor& cursor, MshDeclaration& declaration) {
     if (get_num_nodes_of_type(type) > 0) declaration.element_groups.emplace(id, static_cast<int>(group));
     cursor.skip_line();
   }
+  check_lines(cursor, "elements", declaration.num_elements, found);
 }
 
 void read_binary_groups(Cursor& cursor, MshDeclaration& declaration) {
@@ -204,6 +219,7 @@ MshDeclaration parse_msh_declaration(std::string_view file, const std::string& n
   if (format.is_binary) {
     read_binary_groups(elements, declaration);
   } else {
+    check_text_nodes(nodes, declaration.num_nodes);
     read_text_groups(elements, declaration);
   }
   return declaration;

@@ -104,7 +104,8 @@ fem::SectionGeometry read_geometry(const SectionTable& table, const fem::Materia
     try {
       geometry = calc_shape(shape->one_of(kShapes), table, poissons_ratio);
     } catch (const std::invalid_argument& fault) {
-      throw table.table().error(fmt::format("is no possible section: {}", fault.what()));
+      const std::string_view what = fault.what();  // "function: what was found and expected"
+      throw table.table().error(fmt::format("is no possible section: {}", what.substr(what.find(": ") + 2)));
     }
     if (!(geometry.area > 0.0 && geometry.second_moment > 0.0)) {
       throw table.table().error(

@@ -25,6 +25,18 @@ std::vector<ModeRange> list_clusters(const Superelement& s) {
   return ranges;
 }
 
+// Clusters of both bodies, by position in `old_ranges` and `new_ranges`.
+struct Clusters {
+  std::vector<ModeRange> old_ranges, new_ranges;
+};
+
+// Whether the modes of both are free, or clamped; true if one has none.
+bool are_modes_alike(const Superelement& old_body, const Superelement& new_body, const Clusters& clusters) {
+  if (clusters.old_ranges.empty() || clusters.new_ranges.empty()) return true;
+  return old_body.kind_of(static_cast<int>(clusters.old_ranges.front().begin)) ==
+         new_body.kind_of(static_cast<int>(clusters.new_ranges.front().begin));
+}
+
 Eigen::Index count_others(const Superelement& s, const std::vector<ModeRange>& modes) {
   Eigen::Index num = s.cluster.size();
   for (const ModeRange& range : modes) num -= range.size();
@@ -68,11 +80,6 @@ std::vector<std::vector<Overlap>> calc_overlaps(const ShapeSamples& samples,
 }
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-// Clusters of both bodies, by position in `old_ranges` and `new_ranges`.
-struct Clusters {
-  std::vector<ModeRange> old_ranges, new_ranges;
-};
 
 ModeMatch make_match(const ModeRange& old_modes, const ModeRange& new_modes, double mac) {
   return {.old_modes = old_modes, .new_modes = new_modes, .old_hz = 0.0, .new_hz = 0.0, .mac = mac};
@@ -122,10 +129,12 @@ std::vector<ModeMatch> pair_by_overlap(const Clusters& clusters,
 Comparison compare_modes(const Superelement& old_body, const Superelement& new_body) {
   const ShapeSamples samples = sample_shapes(old_body, new_body);
   const Clusters clusters{.old_ranges = list_clusters(old_body), .new_ranges = list_clusters(new_body)};
-  const bool comparable = std::min(samples.share_of_old, samples.share_of_new) >= kLeastShare;
+  const bool are_alike = are_modes_alike(old_body, new_body, clusters);
+  const bool comparable = are_alike && std::min(samples.share_of_old, samples.share_of_new) >= kLeastShare;
   Comparison comparison{
       .num_points = samples.num_points,
       .comparable = comparable,
+      .are_alike = are_alike,
       .matches = comparable ? pair_by_overlap(
                                   clusters, calc_overlaps(samples, clusters.old_ranges, clusters.new_ranges))
                             : pair_in_order(clusters),

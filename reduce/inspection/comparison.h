@@ -18,8 +18,9 @@ struct ModeMatch {
 };
 
 struct Comparison {
-  int num_points = 0;              ///< places where both bodies' displacements are known
-  bool comparable = true;          ///< the places cover at least half of each body's nodes
+  int num_points = 0;      ///< places where both bodies' displacements are known
+  bool comparable = true;  ///< the places cover at least half of each body's nodes, and the next holds
+  bool are_alike = true;   ///< both have free modes, or both have modes of the held body
   std::vector<ModeMatch> matches;  ///< in the order of the old modes, then the new
   /// Vectors that are no modes of the body, such as residual ones, which are not compared.
   Eigen::Index num_other_old = 0, num_other_new = 0;
@@ -27,8 +28,8 @@ struct Comparison {
 
 /// Pairs the free or clamped modes of two bodies, cluster by cluster, by their displacements at the places
 /// that both have (nodes of one that lie on the other, interpolated there by the elements' cubic), weighted
-/// with the length that a node stands for. Where too few places are common the clusters are paired in order,
-/// without a MAC.
+/// with the length that a node stands for. Where too few places are common, or one has free
+/// modes and the other clamped ones, the clusters are paired in order, without a MAC.
 ///
 /// Source: [Allemang 2003]; [Björck & Golub 1973] for the angles — checked by
 /// tests/reduce/inspection/comparison_test.cpp

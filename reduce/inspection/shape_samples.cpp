@@ -1,5 +1,6 @@
 #include "reduce/inspection/shape_samples.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,6 +15,45 @@ constexpr double kOnBody = 1e-6;  // of the radius
 
 double calc_radius(const Superelement& s) {
   return s.node_positions.colwise().norm().maxCoeff();
+}
+
+// Displacements of the vectors, 3N×n: of those of the free body about its mean axes, V = φ − R M_r⁻¹RᵀMφ,
+// which do not depend on the reference node (reduce/basis, eq. 1). The rigid part of φ, which vanishes there,
+// would make different modes look alike.
+Eigen::MatrixXd calc_shapes(const Superelement& s) {
+  Eigen::MatrixXd shapes = s.shapes;
+  Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();
+  rigid.diagonal() << s.mass, s.mass, s.second_moment;
+  rigid(0, 2) = rigid(2, 0) = -s.first_moment.y();
+  rigid(1, 2) = rigid(2, 1) = s.first_moment.x();
+  const Eigen::LDLT<Eigen::Matrix3d> factor(rigid);
+  for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
+    if (s.kind_of(static_cast<int>(mode)) == kClampedVector) continue;
+    const Eigen::Vector3d motion = factor.solve(Eigen::Vector3d(s.P(0, mode), s.P(1, mode), s.c(mode)));
+    for (Eigen::Index node = 0; node < s.num_nodes(); ++node) {
+      const double x = s.node_positions(0, node), y = s.node_positions(1, node);
+      shapes(3 * node, mode) -= motion[0] - y * motion[2];
+      shapes(3 * node + 1, mode) -= motion[1] + x * motion[2];
+      shapes(3 * node + 2, mode) -= motion[2];
+    }
+  }
+  return shapes;
+}
+
+// How far the places of the new body are from those of the old one in the axes of each, because its reference
+// node is another: if all points that both name are that far. Else 0.
+Eigen::Vector2d find_offset(const Superelement& old_body, const Superelement& new_body) {
+  std::optional<Eigen::Vector2d> offset;
+  for (const NamedPoint& one : old_body.points) {
+    for (const NamedPoint& other : new_body.points) {
+      if (other.name != one.name) continue;
+      const Eigen::Vector2d here =
+          new_body.node_positions.col(other.node) - old_body.node_positions.col(one.node);
+      if (offset && (here - *offset).norm() > kOnBody * calc_radius(old_body)) return {0.0, 0.0};
+      if (!offset) offset = here;
+    }
+  }
+  return offset.value_or(Eigen::Vector2d(0.0, 0.0));
 }
 
 // Place on an element, ξ from 0 to 1; of a body without elements a node.
@@ -66,25 +106,25 @@ class PlaceFinder {
 };
 
 // 2×n: axial linear, bending by the Hermite cubic of end displacements and rotations.
-Eigen::MatrixXd interpolate(const Superelement& s, const Place& place) {
+Eigen::MatrixXd interpolate(const Superelement& s, const Eigen::MatrixXd& shapes, const Place& place) {
   const Eigen::Index first = 3 * s.elements(0, place.element), second = 3 * s.elements(1, place.element);
   const Eigen::Vector2d span =
       s.node_positions.col(s.elements(1, place.element)) - s.node_positions.col(s.elements(0, place.element));
   const double length = span.norm(), xi = place.xi;
   const Eigen::Vector2d tangent = span / length, normal(-tangent.y(), tangent.x());
-  const Eigen::MatrixXd a = s.shapes.middleRows(first, 2), b = s.shapes.middleRows(second, 2);
+  const Eigen::MatrixXd a = shapes.middleRows(first, 2), b = shapes.middleRows(second, 2);
   const Eigen::RowVectorXd u = (1.0 - xi) * tangent.transpose() * a + xi * tangent.transpose() * b;
   const Eigen::RowVectorXd w = (1.0 - 3.0 * xi * xi + 2.0 * xi * xi * xi) * normal.transpose() * a +
                                (3.0 * xi * xi - 2.0 * xi * xi * xi) * normal.transpose() * b +
-                               length * (xi - 2.0 * xi * xi + xi * xi * xi) * s.shapes.row(first + 2) +
-                               length * (xi * xi * xi - xi * xi) * s.shapes.row(second + 2);
+                               length * (xi - 2.0 * xi * xi + xi * xi * xi) * shapes.row(first + 2) +
+                               length * (xi * xi * xi - xi * xi) * shapes.row(second + 2);
   return tangent * u + normal * w;
 }
 
 // 2×n: along the elements of a body or, without elements, at its nodes.
-Eigen::MatrixXd calc_displacements(const Superelement& s, const Place& place) {
-  if (s.elements.cols() > 0) return interpolate(s, place);
-  return s.shapes.middleRows(3 * place.element, 2);
+Eigen::MatrixXd calc_displacements(const Superelement& s, const Eigen::MatrixXd& shapes, const Place& place) {
+  if (s.elements.cols() > 0) return interpolate(s, shapes, place);
+  return shapes.middleRows(3 * place.element, 2);
 }
 
 // Half the length of the elements at each node; 1 of a body without elements.
@@ -105,17 +145,25 @@ struct Rows {
   double share = 0.0;
 };
 
-// The nodes of `body` that lie on `other`, both bodies' displacements there.
-Rows sample_nodes(const Superelement& body, const Superelement& other) {
+// A body and what calc_shapes gives of it.
+struct ShapedBody {
+  const Superelement& body;
+  const Eigen::MatrixXd& shapes;
+};
+
+// The nodes of a body that lie on another one, both bodies' displacements there.
+// @param offset  of the other one's places from those of the body
+Rows sample_nodes(const ShapedBody& of_nodes, const ShapedBody& of_other, const Eigen::Vector2d& offset) {
+  const Superelement &body = of_nodes.body, &other = of_other.body;
   Rows rows;
   const Eigen::VectorXd weights = calc_weights(body);
   const PlaceFinder finder(other);
   for (Eigen::Index node = 0; node < body.num_nodes(); ++node) {
-    const std::optional<Place> place = finder.find(body.node_positions.col(node));
+    const std::optional<Place> place = finder.find(body.node_positions.col(node) + offset);
     if (!place) continue;
     const double weight = std::sqrt(weights(node));
-    rows.of_nodes.emplace_back(weight * body.shapes.middleRows(3 * node, 2));
-    rows.of_other.emplace_back(weight * calc_displacements(other, *place));
+    rows.of_nodes.emplace_back(weight * of_nodes.shapes.middleRows(3 * node, 2));
+    rows.of_other.emplace_back(weight * calc_displacements(other, of_other.shapes, *place));
   }
   rows.share = static_cast<double>(rows.of_nodes.size()) / body.num_nodes();
   return rows;
@@ -137,8 +185,11 @@ Eigen::MatrixXd stack(const std::vector<Eigen::MatrixXd>& first, const std::vect
 }  // namespace
 
 ShapeSamples sample_shapes(const Superelement& old_body, const Superelement& new_body) {
-  const Rows old_nodes = sample_nodes(old_body, new_body);
-  const Rows new_nodes = sample_nodes(new_body, old_body);
+  const Eigen::MatrixXd old_shapes = calc_shapes(old_body), new_shapes = calc_shapes(new_body);
+  const ShapedBody before{old_body, old_shapes}, after{new_body, new_shapes};
+  const Eigen::Vector2d offset = find_offset(old_body, new_body);
+  const Rows old_nodes = sample_nodes(before, after, offset);
+  const Rows new_nodes = sample_nodes(after, before, -offset);
   return {.old_shapes = stack(old_nodes.of_nodes, new_nodes.of_other, old_body.shapes.cols()),
           .new_shapes = stack(old_nodes.of_other, new_nodes.of_nodes, new_body.shapes.cols()),
           .num_points = static_cast<int>(old_nodes.of_nodes.size() + new_nodes.of_nodes.size()),

@@ -165,7 +165,11 @@ std::string format_comparison(const Comparison& comparison) {
                    std::isnan(match.mac) ? "" : fmt::format("{:.4f}", match.mac)});
   }
   std::string text = table.str();
-  if (!comparison.comparable) {
+  if (!comparison.are_alike) {
+    text +=
+        "Free modes of one body and clamped modes of the other have no MAC; they are paired by their "
+        "order.\n";
+  } else if (!comparison.comparable) {
     text += "The two bodies have too few places in common for a MAC; modes are paired by their order.\n";
   }
   if (comparison.num_other_old + comparison.num_other_new > 0) {

@@ -86,7 +86,8 @@ int count_modes_below(const ModalProblem& problem, double omega_squared) {
             ? fmt::format("relative residual {:.3g}, tolerance {:.0e}", residual, kResidualTolerance)
             : "a pivot vanishes";
     throw support::NumericalError(fmt::format(
-        "count of modes below {:.9g} Hz: K − σM could not be factored, {}; ask for another number of modes",
+        "count of modes below {:.9g} Hz: K − σM could not be factored, {}; ask for other modes or another "
+        "highest_frequency",
         std::sqrt(omega_squared) / (2.0 * std::numbers::pi), fault));
   }
   return inertia->num_negative;

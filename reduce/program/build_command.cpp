@@ -4,7 +4,7 @@
 #include <map>
 
 #include "reduce/design/design.h"
-#include "reduce/design/unit_remarks.h"
+#include "reduce/design/design_remarks.h"
 #include "reduce/inspection/certificate_tables.h"
 #include "reduce/inspection/comparison.h"
 #include "reduce/inspection/superelement_tables.h"
@@ -120,7 +120,7 @@ void build_one(const fs::path& design, const fs::path& output, const BuildOption
   report(options, fmt::format("{}: building from {} ({})", output.string(), design.string(), reason));
   support::ProgressBar progress(output.filename().string(), options.quiet);
   const Design read = read_design({design, options.overrides});
-  for (const std::string& remark : list_unit_remarks(read))
+  for (const std::string& remark : list_design_remarks(read))
     report(options, fmt::format("{}: remark: {}", design.string(), remark));
   for (const std::string& remark : read.matrices ? read.matrices->remarks : std::vector<std::string>{})
     report(options, fmt::format("{}: remark: {}", design.string(), remark));

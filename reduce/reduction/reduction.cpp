@@ -133,8 +133,9 @@ void require_checks(const std::vector<CheckResult>& checks, const Design& design
       throw NumericalError(fmt::format(
           "the reference node is held too softly: in some mode nearly all of the body moves rigidly "
           "against it (condition of the mass matrix of frame and modes {:.3g}, tolerance {:.3g}); take a "
-          "stiffer reference node, or the basis \"free\"",
-          check.value, check.tolerance));
+          "reference node that is stiffer or has more mass about it{}",
+          check.value, check.tolerance,
+          design.reduction.basis == BasisKind::kFree ? "" : ", or the basis \"free\""));
     }
     throw NumericalError(fmt::format(
         "the check '{}' of the reduced body failed: {:.3g}, tolerance {:.3g}; {}", check.name, check.value,

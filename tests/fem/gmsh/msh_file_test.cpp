@@ -56,6 +56,21 @@ TEST_CASE("Numbers that no file can have are refused before anything is made of 
         "2147483647");
 }
 
+TEST_CASE("Lines beyond the declared number are not left out without a word") {
+  const std::string text = test::read_file(test::get_data("portal_22.msh"));
+  for (const std::string section : {"Nodes", "Elements"}) {
+    const std::size_t at = text.find("$" + section + "\n") + section.size() + 2;
+    const std::size_t end = text.find('\n', at);
+    const int declared = std::stoi(text.substr(at, end - at));
+    const std::string what = section == "Nodes" ? "nodes" : "elements";
+    for (const int other : {declared - 1, declared + 1}) {
+      CHECK(message(text.substr(0, at) + std::to_string(other) + text.substr(end)) ==
+            fmt::format("declaration.msh: error: ${}: declares {} {}, but has lines for {}", section, other,
+                        what, declared));
+    }
+  }
+}
+
 TEST_CASE("A file that is no complete gmsh mesh is refused") {
   const std::string text = test::read_file(test::get_data("portal_22.msh"));
   const std::string binary = test::read_file(test::get_data("portal_22_binary.msh"));

@@ -105,6 +105,40 @@ TEST_CASE("bodies without nodes at common positions are compared by frequency on
   CHECK_THAT(format_comparison(comparison), Contains("too few places in common for a MAC"));
 }
 
+// Expected: free modes of one frame are mass-orthogonal, whatever the reference, and the same for any
+// reference.
+TEST_CASE("free modes are compared about the mean axes") {
+  const auto reduce = [](int reference_node) {
+    Design design = testing::make_random_design(1, 0.01);
+    design.reference_node = reference_node;
+    design.reduction.highest_hz = 3.0 * make_superelement(design).certificate->cutoff_hz;
+    return make_superelement(design);
+  };
+  const Superelement at_first = reduce(0), at_last = reduce(at_first.num_nodes() - 1);
+  REQUIRE(at_first.node_positions.col(0).norm() == 0.0);
+  REQUIRE(at_last.node_positions.col(0).norm() > 0.0);
+  for (const Comparison& comparison : {compare_modes(at_first, at_last), compare_modes(at_last, at_last)}) {
+    REQUIRE(comparison.comparable);
+    REQUIRE(comparison.matches.size() > 3);
+    for (const ModeMatch& match : comparison.matches) {
+      CHECK(match.old_modes.begin == match.new_modes.begin);
+      CHECK(match.mac == Approx(1.0).epsilon(1e-6));
+      CHECK(match.old_hz == Approx(match.new_hz).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("free modes are not compared with clamped ones") {
+  const Superelement held = reduce_star(5);
+  Superelement free = held;
+  free.kind.assign(6, kFreeVector);
+  const Comparison comparison = compare_modes(held, free);
+  CHECK_FALSE(comparison.are_alike);
+  CHECK_FALSE(comparison.comparable);
+  CHECK(std::isnan(comparison.matches[0].mac));
+  CHECK_THAT(format_comparison(comparison), Contains("have no MAC"));
+}
+
 // A wider band adds free modes, and other residual vectors: the modes of the first band stay as they are.
 TEST_CASE("residual vectors are counted, and not compared as if they were modes") {
   const auto reduce = [](double highest_hz) {

@@ -1,4 +1,4 @@
-#include "reduce/design/unit_remarks.h"
+#include "reduce/design/design_remarks.h"
 
 #include "tests/catch.h"
 #include "tests/tools/support/temporary_folder.h"
@@ -18,7 +18,7 @@ std::vector<std::string> remarks_on(const std::string& modulus, const std::strin
                   std::to_string(length) +
                   ", 0]\n[[lines]]\nthrough = [\"a\", \"b\"]\nsection = \"bar\"\nelements = "
                   "2\n[reference]\npoint = \"a\"\n[modes]\ncount = 1\ndamping_ratio = 0.01\n");
-  return reduce::list_unit_remarks(reduce::read_design(folder / "beam.toml"));
+  return reduce::list_design_remarks(reduce::read_design(folder / "beam.toml"));
 }
 
 }  // namespace
@@ -47,4 +47,23 @@ TEST_CASE("A section modulus beyond what area and second moment allow is remarke
         std::vector<std::string>{
             "'sections.bar.section_modulus' is 200 m³ (parallel members together); a section of this "
             "area and second moment has at most 0.0003162 m³"});
+}
+
+TEST_CASE("A line that ends on another one without being joined to it is remarked on") {
+  const auto remarks = [](int elements) {
+    const TemporaryFolder folder;
+    write_bytes(
+        folder / "tee.toml",
+        "[materials.steel]\nyoungs_modulus = 2.1e11\ndensity = 7850\n[sections.bar]\nmaterial = "
+        "\"steel\"\narea = 0.01\nsecond_moment = 1e-5\n[points]\na = [0, 0]\nb = [2, 0]\nm = [0.6, 0]\n"
+        "c = [0.6, 1]\nd = [2, 1]\n[[lines]]\nthrough = [\"a\", \"b\", \"d\", \"c\"]\nsection = \"bar\"\n"
+        "elements = " +
+            std::to_string(elements) +
+            "\n[[lines]]\nthrough = [\"c\", \"m\"]\nsection = \"bar\"\nelements = 2\n[reference]\n"
+            "point = \"a\"\n[modes]\ncount = 1\ndamping_ratio = 0.01\n");
+    return reduce::list_design_remarks(reduce::read_design(folder / "tee.toml"));
+  };
+  REQUIRE(remarks(4).size() == 1);
+  CHECK_THAT(remarks(4)[0], Contains("'m'") &&
+                                Contains("lies on a line without being joined to it"));
 }

@@ -1,7 +1,9 @@
-#include "reduce/design/unit_remarks.h"
+#include "reduce/design/design_remarks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -46,9 +48,48 @@ void remark_on_section(const std::string& name, const fem::BeamProperties& secti
                   name, section.section_modulus, largest));
 }
 
+// Nodes inside an element that do not belong to it: lines are joined at common points only. Of large meshes
+// only the ends of lines are looked at.
+void remark_on_touching(const fem::Mesh& mesh, std::vector<std::string>& remarks) {
+  constexpr double kMostPairs = 1e8, kTouching = 1e-9;  // of the extent
+  constexpr std::size_t kMostNamed = 3;
+  std::vector<int> num_elements(static_cast<std::size_t>(mesh.num_nodes()), 0);
+  for (const fem::Mesh::Element& element : mesh.elements)
+    for (const int node : {element.first, element.second}) ++num_elements[static_cast<std::size_t>(node)];
+  const bool is_large = 1.0 * mesh.num_nodes() * mesh.num_elements() > kMostPairs;
+  std::vector<int> looked_at;
+  for (int node = 0; node < mesh.num_nodes(); ++node) {
+    const int num = num_elements[static_cast<std::size_t>(node)];
+    if (num > 0 && (num == 1 || !is_large)) looked_at.push_back(node);
+  }
+  if (1.0 * static_cast<double>(looked_at.size()) * mesh.num_elements() > kMostPairs) return;
+  const double tolerance = kTouching * fem::calc_extent(mesh);
+  std::vector<std::string> found;
+  for (const fem::Mesh::Element& element : mesh.elements) {
+    const Eigen::Vector2d start = mesh.node_positions.col(element.first);
+    const Eigen::Vector2d along = mesh.node_positions.col(element.second) - start;
+    for (const int node : looked_at) {
+      if (node == element.first || node == element.second) continue;
+      const Eigen::Vector2d to_node = mesh.node_positions.col(node) - start;
+      const double share = to_node.dot(along) / along.squaredNorm();
+      if (share > 0.0 && share < 1.0 && (to_node - share * along).norm() <= tolerance)
+        found.push_back(fem::describe_node(mesh, node));
+    }
+  }
+  if (found.empty()) return;
+  const std::size_t num_others = found.size() - std::min(found.size(), kMostNamed);
+  found.resize(std::min(found.size(), kMostNamed));
+  remarks.push_back(
+      fmt::format("{}{} on a line without being joined to it; lines are joined at common points only",
+                  fmt::join(found, ", "),
+                  num_others > 0     ? fmt::format(" and {} more lie", num_others)
+                  : found.size() > 1 ? " lie"
+                                     : " lies"));
+}
+
 }  // namespace
 
-std::vector<std::string> list_unit_remarks(const Design& design) {
+std::vector<std::string> list_design_remarks(const Design& design) {
   std::vector<std::string> remarks;
   const support::TomlDocument document =
       support::TomlDocument::parse(design.provenance.design_text, design.name);
@@ -62,6 +103,8 @@ std::vector<std::string> list_unit_remarks(const Design& design) {
   if (longest > kLongest) {
     remarks.push_back(fmt::format("the frame is {:.4g} m long; lengths are in m, not in mm", longest));
   }
+  const bool joins_otherwise = document.root().has("foundations") || !design.model.couplings.empty();
+  if (!joins_otherwise) remark_on_touching(design.model.mesh, remarks);
   return remarks;
 }
 
