@@ -185,6 +185,17 @@ class Report(ToolTestCase):
         for channel in (one for one in data["runs"][0]["channels"] if one["group"] == "Vertical motion"):
             self.assertFalse(np.any(decode(channel["v"])), channel["name"])
 
+    def test_a_spectrum_holds_the_mean_square_of_a_short_run_wherever_the_bump_lies(self):
+        for duration in ("2", "6"):  # less and more than a segment
+            self.drive("quarter_car", "bump.h5", "--set", f"duration={duration}")  # the bump begins after 0.4 s
+            _, data = self.report("bump.h5")
+            with h5py.File(self.folder / "bump.h5") as file:
+                expected = np.var(file["points/sprung.origin/acceleration"][:, 1])
+            (packed,) = [one for one in data["runs"][0]["spectra"] if one["name"] == "sprung.origin"]
+            frequency, density = decode(packed["f"]), decode(packed["p"])
+            # The lines at 0 Hz and above 200 Hz are not drawn.
+            self.assertAlmostEqual(float(np.sum(density)) * frequency[0] / expected, 1.0, delta=0.02)
+
     def test_a_page_that_would_be_too_large_is_drawn_by_fewer_samples_with_the_same_numbers(self):
         self.drive("quarter_car", "car.h5", "--set", "duration=8")
         runs = open_runs([str(self.folder / "car.h5")])  # 8001 samples

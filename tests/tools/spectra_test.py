@@ -10,6 +10,7 @@ from sprung_tools.signals.spectra import (
     calc_band_rms,
     calc_power_spectrum,
     calc_rms,
+    calc_whole_spectrum,
     count_upward_crossings,
     find_dominant_frequency,
 )
@@ -58,6 +59,19 @@ class Spectra(unittest.TestCase):
         frequency, density = calc_power_spectrum(values, STEP, 1.0)
         self.assertAlmostEqual(np.sum(density) * frequency[1] / np.var(values), 1.0, delta=0.02)
         # White: 2 σ² Δt everywhere
+        self.assertAlmostEqual(np.mean(density[50:450]) / (2.0 * STEP), 1.0, delta=0.03)
+
+    def test_a_whole_spectrum_has_the_mean_square_of_the_signal_wherever_its_power_lies(self):
+        def check(values, duration):
+            frequency, density = calc_whole_spectrum(values, STEP, duration)
+            self.assertAlmostEqual(np.sqrt(np.sum(density) * frequency[1]) / calc_rms(values), 1.0, places=12)
+
+        for size in (9, 2001, 11501, 11998):
+            check(noise(3, size), 4.0)
+        for at in (0, 300, 5750, 11500):  # a bump at the begin, near it, in the middle, at the end
+            check(np.exp(-(((np.arange(11501) - at) / 20.0) ** 2)), 4.0)
+        # White: 2 σ² Δt everywhere
+        _, density = calc_whole_spectrum(noise(2, 40000), STEP, 1.0)
         self.assertAlmostEqual(np.mean(density[50:450]) / (2.0 * STEP), 1.0, delta=0.03)
 
     def test_segments_longer_than_the_signal_are_refused(self):

@@ -23,10 +23,10 @@ from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.report.shown_motion import choose_axes, is_vehicle, name_axis, read_motion
 from sprung_tools.runs.labelled_runs import Shown
 from sprung_tools.runs.section_stress import ENDINGS, list_sources
-from sprung_tools.signals.spectra import calc_power_spectrum
+from sprung_tools.signals.spectra import calc_whole_spectrum
 
 MOST_MODES = 8  # modes of a body whose amplitudes are drawn: the largest ones, as many as the page has colours
-SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart
+SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart; a shorter run is one segment long
 HIGHEST_FREQUENCY = 200.0  # Hz drawn
 
 
@@ -138,22 +138,19 @@ def pack_channel(channel: Channel, time: Floats, most: int) -> Packed:
 
 
 def calc_spectra(results: ResultsFile) -> list[Packed]:
-    """The power spectral densities of the monitored points' accelerations, up to HIGHEST_FREQUENCY; none of a point
-    that does not move."""
+    """The power spectral densities of the monitored points' accelerations less their means, up to HIGHEST_FREQUENCY;
+    none of a point that does not move, or of less than eight samples."""
     step = float(np.median(np.diff(results.time)))
-    even = np.arange(results.time[0], results.time[-1], step)
+    even = np.arange(results.time[0], results.time[-1] + 0.5 * step, step)
     spectra = []
     for point in list_monitored(results):
         axis = choose_axes(results, point)[0]
-        if not results.has(f"points/{point}/acceleration.{axis}"):
+        if even.size < 8 or not results.has(f"points/{point}/acceleration.{axis}"):
             continue
         values = np.interp(even, results.time, read_motion(results, point, "acceleration", axis)[0])
         if not np.any(values):
             continue
-        duration = min(SEGMENT, step * (values.size // 2) if step * values.size > 2.0 * SEGMENT else step * values.size)
-        if round(duration / step) < 8:
-            continue
-        frequency, density = calc_power_spectrum(values, step, duration)
+        frequency, density = calc_whole_spectrum(values - values.mean(), step, SEGMENT)
         shown = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
         name = f"{point}{name_axis(results, axis)}"
         spectra.append({"name": name, "f": encode(frequency[shown]), "p": encode(density[shown])})

@@ -57,6 +57,26 @@ def calc_power_spectrum(values: Floats, step: float, segment_duration: float) ->
     return np.fft.rfftfreq(size, step), density
 
 
+def calc_whole_spectrum(values: Floats, step: float, segment_duration: float) -> tuple[Floats, Floats]:
+    """One-sided power spectral density whose sum times the distance of its lines is the signal's mean square, wherever
+    in the signal its power lies. Returns (frequency [m], density [m] in unit²/Hz).
+
+    Periodograms of segments with Hann windows are averaged. The segments overlap by three quarters and reach beyond
+    both ends, where the signal counts as 0, so that the squares of the windows that cover a sample have the same sum
+    for each sample. A segment is not longer than the signal; it has a multiple of four samples, at least eight.
+    """
+    size = 4 * max(2, round(min(segment_duration, step * values.size) / (4.0 * step)))
+    hop = size // 4
+    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(size) / size)
+    padded = np.concatenate([np.zeros(size - hop), values, np.zeros(size)])
+    density = np.zeros(size // 2 + 1)
+    for start in range(0, size - hop + values.size, hop):
+        density += np.abs(np.fft.rfft(window * padded[start : start + size])) ** 2
+    density[1:-1] *= 2.0  # the size is even: only the first and the last line have no negative counterpart
+    density *= step / (1.5 * values.size)  # 1.5: sum of the squares of the windows at a sample
+    return np.fft.rfftfreq(size, step), density
+
+
 def find_dominant_frequency(values: Floats, step: float, segment_duration: float) -> float:
     """The frequency where the power spectral density is highest, by a parabola through its highest three values'
     logs."""
