@@ -56,7 +56,16 @@ class RideAssessment(ToolTestCase):
     def test_the_sine_is_in_its_band(self):
         bands = calc_bands(self.results, "points/body.seat", WINDOW)
         self.assertEqual(NOMINAL[int(np.argmax(bands))], SEAT_FREQUENCY)
-        self.assertAlmostEqual(np.max(bands), SEAT_AMPLITUDE / np.sqrt(2.0), delta=0.01)
+        # In 2 s, ten periods, a part of it is in the bands beside. The filters overlap by π/3 on average.
+        self.assertAlmostEqual(np.max(bands), SEAT_AMPLITUDE / np.sqrt(2.0), delta=0.07)
+        self.assertAlmostEqual(np.sum(np.square(bands)) / (0.5 * SEAT_AMPLITUDE**2), np.pi / 3.0, delta=0.03)
+
+    def test_vibration_before_the_span_does_not_count_in_its_bands(self):
+        with h5py.File(write_ride_results(self.folder / "b.h5"), "a") as file:
+            file["points/body.seat/acceleration"][file["time"][:] < 1.99, :] *= 100.0
+        with open_results(self.folder / "b.h5") as results:
+            found = calc_bands(results, "points/body.seat", WINDOW)
+        self.assertEqual(found, calc_bands(self.results, "points/body.seat", WINDOW))
 
     def test_bands_that_the_samples_do_not_hold_are_not_known(self):
         # A sample every 10 ms is four in a period of 25 Hz. The sine of 5 Hz is in bands that both files hold.

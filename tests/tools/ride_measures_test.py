@@ -146,9 +146,11 @@ class ContinuedRun(ToolTestCase):
         self.assertEqual(sum(one.startswith(reason) for one in run["remarks"]), 1)
 
     def test_the_filters_of_weighted_values_begin_at_rest(self):
-        for start, is_early in (("1", True), ("1.25", False)):  # 1 s after the begin of the file, the τ of the MTVV
-            printed = self.run_tool("ride", "truck=a.h5", "--from", start).stdout
-            self.assertEqual("the MTVV and the other weighted values hold from 1.25 s on" in printed, is_early)
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file["time"][:] = np.linspace(0.25, 8.25, file["time"].size)
+        for start, is_early in (("1.25", True), ("4.1", True), ("4.2", False)):  # 0.25 s + 3.89 s
+            printed = self.run_tool("ride", "truck=a.h5", "--from", start, "--to", "8").stdout
+            self.assertEqual("the MTVV and the other weighted values hold from 4.137 s on" in printed, is_early)
 
 
 class Tool(ToolTestCase):

@@ -7,6 +7,8 @@ import tool_test_case  # noqa: F401  puts tools/ on the path
 from scipy.fft import next_fast_len
 
 from sprung_tools.signals.ride_weighting import (
+    LEFT,
+    MEMORY,
     WD,
     WE,
     WK,
@@ -79,6 +81,12 @@ class Weighting(unittest.TestCase):
         weighted = weight_acceleration(signal, STEP)
         # Samples of a band-limited pulse ring a little both ways; a filter that ran round the end would leave far more.
         self.assertLess(np.max(np.abs(weighted[:11000])), 1e-4 * np.max(np.abs(weighted)))
+
+    def test_a_thousandth_of_the_largest_response_to_a_pulse_is_left_after_the_memory(self):
+        for weighting in (WK, WD, WE):
+            with self.subTest(weighting.name):
+                response = np.abs(weight_acceleration(np.eye(1, 10000)[0], STEP, weighting))
+                self.assertLess(np.max(response[round(MEMORY / STEP) :]), LEFT * np.max(response))
 
     def test_a_transform_has_the_next_size_without_large_prime_factors(self):
         sizes = [*range(1, 400), 25001, 10**6 + 3]

@@ -4,7 +4,9 @@ moment of each flexible body.
 
 The span of time is that of the run file's [statistics], or the one given. Vibration is vertical, in m/s², the dose
 (VDV) in m/s^1.75; MTVV is the largest running r.m.s. of Wk over 1 s. Beside it stand the weighted r.m.s. fore and aft
-(Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Travel is from
+(Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Before the span,
+vibration of the run counts in these values as a person still feels it; the r.m.s. in third-octave bands, which --json
+gives, is of the span alone. Travel is from
 static equilibrium, compression is positive. Of a run that starts as given, in which no equilibrium was sought, static
 loads and deflections are mean values over the span; of one that continues another run they are not known. Loads are
 those of all parallel members together. A tyre is also without

@@ -20,6 +20,8 @@ from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import list_static_remarks, sampling_step
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
+    LEFT,
+    MEMORY,
     RUNNING,
     SAMPLES_PER_PERIOD,
     WD,
@@ -84,8 +86,8 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
 
 def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
     """Which measures of points are left out because the file does not tell the rotation of their bodies, and why;
-    whether the span is too short for the MTVV, or its filters have just begun; and what is said of values in static
-    equilibrium."""
+    whether the span is too short for the MTVV, or begins while the weightings lack the vibration before the run; and
+    what is said of values in static equilibrium."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
     remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     times = results.time[samples_between(results, *window)]
@@ -95,11 +97,12 @@ def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> l
             f"the MTVV is the largest r.m.s. over {RUNNING:g} s, and the span has only {length:.3g} s: what is missing "
             "counts as 0, so that the MTVV is too low"
         )
-    settled = float(results.time[0]) + RUNNING
+    settled = float(results.time[0]) + MEMORY
     if points and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
         remarks.append(
             f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as 0: "
-            f"the MTVV and the other weighted values hold from {settled:.6g} s on (--from)"
+            f"the MTVV and the other weighted values hold from {settled:.4g} s on (--from), when {LEFT:.1%} is left of "
+            "it in the filters"
         )
     return remarks + list_static_remarks(results)
 
@@ -158,7 +161,7 @@ def calc_bands(results: ResultsFile, point: str, window: Span) -> list[float | N
     step = sampling_step(results)
     results.check_every_output(f"{point}/acceleration.y")
     acceleration, _ = results.series(f"{point}/acceleration.y")
-    found = calc_third_octaves(acceleration, step, samples_between(results, *window))
+    found = calc_third_octaves(acceleration[samples_between(results, *window)], step)
     highest = (1.0 + ROUNDING) / (SAMPLES_PER_PERIOD * step)
     return [float(value) if centre <= highest else None for value, centre in zip(found, NOMINAL)]
 

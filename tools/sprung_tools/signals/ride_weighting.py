@@ -13,6 +13,11 @@ the weighted acceleration a_w.
 
 [ISO 2631-1:1997, 6.1 to 6.3 and annex A, with the parameters of ISO 8041:2005, table 3]
 
+After a shock the poles of Hh are the last to decay, as exp(−ω₁ t/√2). So what is left of vibration before a time falls
+to a thousandth within
+
+    t = √2 ln 1000/ω₁ = 3.9 s                                                                          (4)
+
 The Fourier transform of the samples is multiplied by the formula itself. A digital filter in its place would be warped
 towards half the sampling frequency.
 """
@@ -29,6 +34,9 @@ SETTLING = 20.0  # s of rest appended to a signal, so that the end of its respon
 HIGHEST = 80.0  # Hz, where the standard's table ends
 SAMPLES_PER_PERIOD = 4.0  # needed in a period of the highest frequency
 RUNNING = 1.0  # s, τ of (3)
+LOWEST = 0.4  # Hz, f₁
+LEFT = 1e-3  # share of earlier vibration
+MEMORY = float(np.sqrt(2.0) * np.log(1.0 / LEFT) / (2.0 * np.pi * LOWEST))  # s, by (4)
 
 Response = Callable[[Floats], ComplexNumbers]  # frequencies [Hz] → complex response
 
@@ -47,7 +55,7 @@ WK, WD, WE = Weighting("Wk", 12.5, True), Weighting("Wd", 2.0, False), Weighting
 def calc_weighting(weighting: Weighting, frequency: Floats) -> ComplexNumbers:
     """The complex response H of (1) at frequencies f ≥ 0 [Hz]."""
     s = 2j * np.pi * np.asarray(frequency, dtype=float)
-    w1, w2, w3, w5, w6 = 2.0 * np.pi * np.array([0.4, 100.0, weighting.transition, 2.37, 3.35])
+    w1, w2, w3, w5, w6 = 2.0 * np.pi * np.array([LOWEST, 100.0, weighting.transition, 2.37, 3.35])
     q4, q5, q6 = 0.63, 0.91, 0.91
     high_pass = s**2 / (s**2 + np.sqrt(2.0) * w1 * s + w1**2)
     low_pass = w2**2 / (s**2 + np.sqrt(2.0) * w2 * s + w2**2)
