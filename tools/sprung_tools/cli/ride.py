@@ -6,15 +6,15 @@ The span of time is that of the run file's [statistics], or the one given. Vibra
 (VDV) in m/s^1.75; MTVV is the largest running r.m.s. of Wk over 1 s. Beside it stand the weighted r.m.s. fore and aft
 (Wd), of the pitch (We, rad/s²), and the total of all three; and the power that a person absorbs, W. Before the span,
 vibration of the run counts in these values as a person still feels it; the r.m.s. in third-octave bands, which --json
-gives, is of the span alone. Travel is from
-static equilibrium, compression is positive. Of a run that starts as given, in which no equilibrium was sought, static
-loads and deflections are mean values over the span; of one that continues another run they are not known. Loads are
-those of all parallel members together. A tyre is also without
-load where it reaches the road but rises faster than it springs back. A moment is positive where it stretches the side
-of -y. It is that from the loads on the body; beside it stand that from its modes and the largest difference of the
-two, which tells what the modes lack. With --superelements the tool also computes the bending moment of bodies that a
-run took as rigid, from the forces on them, where the file has none. Of a response file with the spectra on a random
-road (sprung-dynamics response), the tool prints the r.m.s. values and the absorbed power of the linear vehicle."""
+gives, is of the span alone. Travel is from static equilibrium, compression is positive. Of a run that starts as given,
+in which no equilibrium was sought, static loads and deflections are mean values over the span; of one that continues
+another run they are not known. Loads are those of all parallel members together. A tyre is also without load where it
+reaches the road but rises faster than it springs back. A moment is positive where it stretches the side of -y. It is
+that from the loads on the body; beside it stand that from its modes and the largest difference of the two, which tells
+what the modes lack. With --superelements the tool also computes the bending moment of bodies that a run took as rigid,
+from the forces on them, where the file has none: the run did not store 'recovery', or its program was older. Of a
+response file with the spectra on a random road (sprung-dynamics response), the tool prints the r.m.s. values and the
+absorbed power of the linear vehicle."""
 
 import argparse
 import json
@@ -25,7 +25,7 @@ from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5
 from sprung_tools.runs.labelled_responses import Response, open_responses
 from sprung_tools.runs.labelled_runs import Run, open_runs, split_label
-from sprung_tools.runs.largest_loads import MOMENT, calc_moment_difference, calc_peak, find_bending
+from sprung_tools.runs.largest_loads import MOMENT, calc_moment_difference, calc_peak, find_bending, list_moment_remarks
 from sprung_tools.runs.measures import (
     JSON_FORMAT,
     JSON_VERSION,
@@ -168,7 +168,8 @@ def make_json(
     for run, window in zip(runs, windows):
         objects = list_objects(run.results, window, points, superelements)
         packed.append({"label": run.label, "file": run.results.path, **describe_run(run.results, window),
-                       "remarks": list_remarks(run.results, find_points(run.results, points), window),
+                       "remarks": list_remarks(run.results, find_points(run.results, points), window)
+                       + list_moment_remarks(run.results, superelements),
                        "measures": pack_measures(calc_measures(objects))})  # fmt: skip
     for response in responses:
         packed.append({"label": response.label, "file": response.file.filename, **describe_response(response),
@@ -223,7 +224,8 @@ def main() -> int:
         text.append(f"{response.label}: linear, on its random road, from {low:g} to {high:g} Hz")
     doubts = list_doubts(runs)
     for run, some, window in zip(runs, points, windows):
-        doubts += [f"note: {run.label}: {remark}" for remark in list_remarks(run.results, some, window)]
+        remarks = list_remarks(run.results, some, window) + list_moment_remarks(run.results, arguments.superelements)
+        doubts += [f"note: {run.label}: {remark}" for remark in remarks]
     if doubts:
         text.append("\n".join(doubts))
     for headings, rows in tables:

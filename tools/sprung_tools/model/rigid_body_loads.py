@@ -1,13 +1,19 @@
 """The bending moment in a body that a run took as rigid, from the forces on it, its own inertia and its superelement.
 
-Without the deformation in the motion, the modal equations (bodies, eqs. 3–5) become a statics problem. Its loads are
-the forces F and torques T on the points and d'Alembert's forces of the rigid motion:
+The loads are the forces F and torques T on the points, in body axes, and d'Alembert's forces of the rigid motion. With
+the section loads L of unit loads, which the file of a superelement has (reduce, "Section loads"), the moments are those
+of the finite element model; sprung-dynamics computes the same (section_loads, eq. 2):
 
-    K η = Σ (Φᵀ Aᵀ F + φᵀ T) + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                  (1)
+    moments = Σ (L_x F_x + L_y F_y + L_ψ T) + (L_ax, L_ay)·Aᵀ(R̈ − g) + L_α θ̈ + L_ω θ̇²                   (1)
 
-Φ and φ are the displacement and the rotation of a point by the modes. The results file holds the forces and torques of
-joints and force elements on each of their points. (1) takes all modes of the superelement, so η is the finite element
-solution.
+A file without them has the modal equations without the deformation in the motion (bodies, eqs. 3–5), a statics problem:
+
+    K η = Σ (Φᵀ Aᵀ F + φᵀ T) + Pᵀ Aᵀ (g − R̈) − c θ̈ + d θ̇²,   moments = Σ resultants_k η_k                  (2)
+
+Φ and φ are the displacement and the rotation of a point by the modes. (2) is exact but for the load on an element times
+its length if the file has as many vectors as the model has freedoms. With fewer, its moments are those of these vectors
+alone, and mostly too small. The results file holds the forces and torques of joints and force elements on each of their
+points.
 """
 
 from pathlib import Path
@@ -19,14 +25,22 @@ from sprung_tools.files.array_types import Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text
 from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.files.stored_file import StoredFile
 from sprung_tools.model.resolved_model import Point, read_elements, read_gravity, read_point
 
 MOMENTS = (2, 5)  # the places of M among the resultants N, Q, M at both ends of an element
 
 
+class SectionLoads(NamedTuple):
+    """The moments of unit loads, S stations: both ends of each element."""
+
+    point_load: Floats  # S×3p, N·m per N, N, N·m on the node of each named point
+    acceleration: Floats  # S×4, N·m per m/s², m/s², rad/s², rad²/s²
+
+
 class Superelement(NamedTuple):
-    """The part of a superelement file (reduce/superelement/superelement.md) that (1) needs: n modes, N nodes, E
-    elements."""
+    """The part of a superelement file (reduce/superelement/superelement.md) that (1) and (2) need: n modes, N nodes, E
+    elements, p points."""
 
     path: str
     content_hash: str
@@ -38,10 +52,14 @@ class Superelement(NamedTuple):
     P: Floats  # 2×n
     c: Floats  # n
     d: Floats  # n
+    mass: float  # kg
+    point_nodes: Integers  # p
+    num_freedoms: int  # of the finite element model
+    section_loads: SectionLoads | None  # None: the file has none
 
 
 def read_superelement(path: str | Path) -> Superelement:
-    """Reads a superelement file for (1). InputError if it cannot be used."""
+    """Reads a superelement file for (1) and (2). InputError if it cannot be used."""
     with open_hdf5(str(path), SUPERELEMENT) as file:
         return Superelement(
             path=str(path),
@@ -54,7 +72,24 @@ def read_superelement(path: str | Path) -> Superelement:
             P=read_numbers(file, "inertia/P")[0],
             c=read_numbers(file, "inertia/c")[0],
             d=read_numbers(file, "inertia/d")[0],
+            mass=float(read_numbers(file, "inertia/mass")[0][0]),
+            point_nodes=read_numbers(file, "points/node")[0].astype(int),
+            num_freedoms=file.attribute("", "num_elastic_dofs", int),
+            section_loads=read_section_loads(file),
         )
+
+
+def read_section_loads(file: StoredFile) -> SectionLoads | None:
+    """Reads the moments of unit loads; None if the file has none."""
+    if not file.has_group("section_loads"):
+        return None
+    found = [read_numbers(file, f"section_loads/{name}")[0][:, MOMENTS, :] for name in SectionLoads._fields]
+    return SectionLoads(*(values.reshape(-1, values.shape[2]) for values in found))
+
+
+def has_all_loads(superelement: Superelement) -> bool:
+    """Whether the moments of a rigid body are those of the finite element model: by (1), or by (2) with all vectors."""
+    return superelement.section_loads is not None or superelement.stiffness.shape[0] >= superelement.num_freedoms
 
 
 def check_same(results: ResultsFile, body: str, superelement: Superelement) -> None:
@@ -105,20 +140,70 @@ def collect_loads(results: ResultsFile, body: str) -> list[tuple[Point, Floats]]
 
 
 def calc_rigid_moments(results: ResultsFile, body: str, superelement: Superelement) -> tuple[Floats, Floats]:
-    """The bending moments of a rigid body by (1). Returns (moments [m×stations] N·m, stations [stations×2] m) in the
-    layout of /recovery: both ends of each element. InputError if the superelement is not the run's.
+    """The bending moments of a rigid body by (1), or by (2) where the file of its superelement has no section loads.
+    Returns (moments [m×stations] N·m, stations [stations×2] m) in the layout of /recovery: both ends of each element.
+    InputError if the superelement is not the run's.
     """
     check_same(results, body, superelement)
-    position, _ = read_numbers(results.file, f"bodies/{body}/position")
-    velocity, _ = read_numbers(results.file, f"bodies/{body}/velocity")
-    acceleration, _ = read_numbers(results.file, f"bodies/{body}/acceleration")
-    angle = position[:, 2]
-    loads = turn_into_body(read_gravity(results) - acceleration[:, :2], angle) @ superelement.P
-    loads -= np.outer(acceleration[:, 2], superelement.c)
-    loads += np.outer(velocity[:, 2] ** 2, superelement.d)
-    for point, wrench in collect_loads(results, body):
-        shape = calc_point_shape(point, superelement)
-        loads += turn_into_body(wrench[:, :2], angle) @ shape[:2] + np.outer(wrench[:, 2], shape[2])
-    amplitudes = np.linalg.solve(superelement.stiffness, loads.T).T
-    moments = amplitudes @ superelement.resultants[:, MOMENTS, :].reshape(-1, superelement.stiffness.shape[0]).T
+    motion = read_motion(results, body)
+    wrenches = [
+        (point, np.column_stack([turn_into_body(wrench[:, :2], motion.angle), wrench[:, 2]]))
+        for point, wrench in collect_loads(results, body)
+    ]  # fmt: skip
+    if superelement.section_loads is None:
+        moments = calc_modal_moments(motion, wrenches, superelement)
+    else:
+        moments = calc_section_moments(motion, wrenches, superelement, superelement.section_loads)
     return moments, superelement.positions[superelement.elements].reshape(-1, 2)
+
+
+class RigidMotion(NamedTuple):
+    """The motion of a rigid body [m]."""
+
+    angle: Floats  # rad
+    acceleration: Floats  # [m×2] of the origin less gravity, body axes, m/s²
+    angular: Floats  # rad/s²
+    rate_squared: Floats  # rad²/s²
+
+
+Wrenches = list[tuple[Point, Floats]]  # point, [m×3] force x, y and torque, body axes
+
+
+def read_motion(results: ResultsFile, body: str) -> RigidMotion:
+    """Reads the motion of a rigid body."""
+    position, velocity, acceleration = (
+        read_numbers(results.file, f"bodies/{body}/{what}")[0] for what in ("position", "velocity", "acceleration")
+    )
+    relative = turn_into_body(acceleration[:, :2] - read_gravity(results), position[:, 2])
+    return RigidMotion(position[:, 2], relative, acceleration[:, 2], velocity[:, 2] ** 2)
+
+
+def calc_section_moments(
+    motion: RigidMotion, wrenches: Wrenches, superelement: Superelement, unit: SectionLoads
+) -> Floats:
+    """The moments by (1). A force at the centre of mass is spread as the mass is; a load on the body frame acts where
+    the body is held."""
+    causes = np.column_stack([motion.acceleration, motion.angular, motion.rate_squared])
+    moments = causes @ unit.acceleration.T
+    for point, wrench in wrenches:
+        if point.node >= 0:
+            first = 3 * int(np.flatnonzero(superelement.point_nodes == point.node)[0])
+            x, y = point.position - superelement.positions[point.node]
+            torque = wrench[:, 2] + x * wrench[:, 1] - y * wrench[:, 0]
+            on_node = np.column_stack([wrench[:, :2], torque])
+            moments += on_node @ unit.point_load[:, first : first + 3].T
+        elif point.name.endswith(".center_of_mass"):
+            moments -= wrench[:, :2] @ unit.acceleration[:, :2].T / superelement.mass
+    return moments
+
+
+def calc_modal_moments(motion: RigidMotion, wrenches: Wrenches, superelement: Superelement) -> Floats:
+    """The moments by (2)."""
+    loads = -motion.acceleration @ superelement.P
+    loads -= np.outer(motion.angular, superelement.c)
+    loads += np.outer(motion.rate_squared, superelement.d)
+    for point, wrench in wrenches:
+        loads += wrench @ calc_point_shape(point, superelement)
+    amplitudes = np.linalg.solve(superelement.stiffness, loads.T).T
+    by_mode = superelement.resultants[:, MOMENTS, :].reshape(-1, superelement.stiffness.shape[0])
+    return np.asarray(amplitudes @ by_mode.T)

@@ -9,7 +9,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.rigid_body_loads import calc_rigid_moments, read_superelement
+from sprung_tools.model.rigid_body_loads import Superelement, calc_rigid_moments, has_all_loads, read_superelement
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
 from sprung_tools.signals.spans import Span
@@ -60,12 +60,34 @@ def find_best_peak(results: ResultsFile, body: str, load: str, window: Span) -> 
 def find_bending(results: ResultsFile, body: str, window: Span, superelements: str | None) -> Peak | None:
     """A body's largest moment. Where the file has none of a rigid body, it takes the folder of its superelement, else
     the result is None."""
-    found = find_best_peak(results, body, MOMENT, window)
+    superelement = open_missing(results, body, superelements)
+    if superelement is None:
+        return find_best_peak(results, body, MOMENT, window)
+    return find_peak(results, *calc_rigid_moments(results, body, superelement), window)
+
+
+def open_missing(results: ResultsFile, body: str, superelements: str | None) -> Superelement | None:
+    """Reads the superelement by which the moments of a rigid body are computed that the file has not; None if it has
+    them, or no folder is given."""
     name = results.superelement(body)
-    if found is not None or superelements is None or not name:
-        return found
-    moments = calc_rigid_moments(results, body, read_superelement(os.path.join(superelements, f"{name}.h5")))
-    return find_peak(results, *moments, window)
+    is_there = any(has_load(results, body, MOMENT, source) for source in (FROM_LOADS, FROM_MODES))
+    if is_there or superelements is None or not name:
+        return None
+    return read_superelement(os.path.join(superelements, f"{name}.h5"))
+
+
+def list_moment_remarks(results: ResultsFile, superelements: str | None) -> list[str]:
+    """Of which rigid bodies find_bending() gives moments that lack something."""
+    remarks = []
+    for body in results.names("bodies"):
+        superelement = open_missing(results, body, superelements)
+        if superelement is not None and not has_all_loads(superelement):
+            count, total = superelement.stiffness.shape[0], superelement.num_freedoms
+            remarks.append(
+                f"{body}: the moment may be too small: {superelement.path} has no section loads, and {count} of the "
+                f"{total} vectors that the model has; build it again, or have the run store 'recovery'"
+            )
+    return remarks
 
 
 def calc_moment_difference(results: ResultsFile, body: str, window: Span) -> float | None:
