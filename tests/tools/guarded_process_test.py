@@ -5,6 +5,7 @@ import subprocess
 import sys
 import unittest
 
+from ride_results import write_ride_results
 from tool_test_case import TOOLS, ToolTestCase
 
 BEGIN = (
@@ -53,6 +54,14 @@ class Guarded(ToolTestCase):
                 self.assertEqual(process.stdout.readline(), "ready\n")
                 process.send_signal(number)
                 self.assertEqual(self.finish(process)[0], code)
+
+    def test_a_full_disk_for_the_output_is_an_error_in_one_line(self):
+        write_ride_results(self.folder / "a.h5")
+        for arguments in (("ride", "--help"), ("ride", "a.h5")):
+            with self.subTest(arguments), open("/dev/full", "w", encoding="utf-8") as full:
+                process = subprocess.run([TOOLS / arguments[0], *arguments[1:]], cwd=self.folder, stdout=full,
+                                         stderr=subprocess.PIPE, encoding="utf-8", check=False)  # fmt: skip
+                self.assert_refuses(process, "ride: error: No space left on device")
 
 
 if __name__ == "__main__":

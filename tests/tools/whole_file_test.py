@@ -40,6 +40,16 @@ class WholeFile(ToolTestCase):
             write_whole(pipe, "text")
         self.assertTrue(pipe.is_fifo())
 
+    def test_a_link_to_an_open_file_of_a_process_is_not_replaced(self):
+        # As /dev/stdout, where the output goes to a file.
+        link = self.folder / "link"
+        with open(self.folder / "output", "w", encoding="utf-8") as file:
+            link.symlink_to(f"/proc/self/fd/{file.fileno()}")
+            self.assertTrue(link.is_file())
+            with self.assertRaisesRegex(InputError, "link: error: cannot write the file .it is not a regular file"):
+                write_whole(link, "text")
+        self.assertTrue(link.is_symlink())
+
 
 if __name__ == "__main__":
     unittest.main()

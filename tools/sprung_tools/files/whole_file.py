@@ -13,7 +13,7 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
     InputError if the file cannot be written, or is a device or a pipe, which renaming would replace.
     """
     path = Path(path)
-    if path.exists() and not path.is_file() and not path.is_dir():
+    if is_device(path):
         raise InputError(f"{path}: error: cannot write the file (it is not a regular file)")
     data = content.encode("utf-8") if isinstance(content, str) else content
     unfinished = path.with_name(f".unfinished-{os.getpid()}-{path.name}") if path.name else path
@@ -27,6 +27,14 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
             raise
     except OSError as error:
         raise InputError(f"{path}: error: cannot write the file ({error.strerror})") from error
+
+
+def is_device(path: Path) -> bool:
+    """Whether a path is a device or a pipe, or leads to an open file of a process, as /dev/stdout does, also where that
+    is a regular file."""
+    is_special = path.exists() and not path.is_file() and not path.is_dir()
+    is_open_file = path.is_symlink() and os.readlink(path).startswith("/proc/")
+    return is_special or is_open_file or path.absolute().parent.resolve() == Path("/dev")
 
 
 def check_output(path: str | Path, inputs: Iterable[str | Path]) -> None:

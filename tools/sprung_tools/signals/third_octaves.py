@@ -33,7 +33,7 @@ BOUNDED = (1.0, 80.0)  # Hz, where there is a boundary
 def calc_third_octaves(values: Floats, step: float) -> Floats:
     """The r.m.s. of the samples of a span [n] in the bands of NOMINAL by (2) [23]. step: between samples [s]."""
     size = ROUND * int(np.ceil((values.size + FADING / step) / ROUND))
-    power: Floats = np.abs(np.fft.rfft(values, size)) ** 2
+    power: Floats = np.square(np.abs(np.fft.rfft(values, size)))
     power[1:-1] *= 2.0  # the size is even: only the first and the last line have no negative counterpart
     frequency = np.fft.rfftfreq(size, step)
     mean_squares = [
