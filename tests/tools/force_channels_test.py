@@ -58,13 +58,15 @@ class ForceChannels(ToolTestCase):
     def test_the_summary_has_the_largest_of_each_under_its_own_name(self):
         expected = {
             "stop": {"force": 2e4, "overlap": 0.03},
-            "leaf": {"force": 5e4, "friction": 3e3, "compression": 0.1},
-            "air": {"force": 7e4, "partner force": 8e4, "compression": 0.05, "partner compression": 0.06},
+            "leaf": {"force": 5e4, "friction": 3e3, "compression from the free length": 0.1},
+            "air": {"force": 7e4, "partner force": 8e4, "compression from the design height": 0.05,
+                    "partner compression from the design height": 0.06},
             "bush": {"force along x": 100.0, "force along y": 200.0, "torque": 5.0, "deflection along x": 0.01,
                      "deflection along y": 0.02, "turn": 0.3},
         }  # fmt: skip
+        every = np.ones(self.results.time.size, dtype=bool)
         for force, values in expected.items():
-            rows = {name: value for _, name, _, value in calc_force_rows(self.results, force)}
+            rows = {name: value for _, name, _, value in calc_force_rows(self.results, force, every)}
             self.assertEqual(set(rows), {f"{name}, largest" for name in values})
             for name, value in values.items():
                 self.assertAlmostEqual(rows[f"{name}, largest"], value, places=9)

@@ -3,6 +3,7 @@ moves in them, and that the tables of modes can be read on a telephone. Needs bo
 SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
 import os
+import shutil
 import unittest
 
 import h5py
@@ -43,6 +44,11 @@ class Fit(PageTestCase):
         cls.report("seat.html", "seat.h5")
         cls.report("semi.html", "rigid=rigid_semi.h5", "flexible=semi.h5")
         cls.report("mixed.html", "semi=semi.h5", "half car=half_car.h5")
+        spans = ("--set", "duration=0.5", "--set", "statistics.to=0.25")
+        cls.drive("templates/half_car_run.toml", "part", *spans)
+        cls.report("spans.html", "whole=half_car.h5", "again=half_car.h5", "part=part.h5")
+        shutil.copy(cls.folder / "semi.h5", cls.folder / "semi_on_a_rough_road.h5")
+        cls.report("labels.html", "semi.h5", "semi_on_a_rough_road.h5", "rigid_semi.h5")
 
     def assert_inside(self, extent, view, edge):
         left, top, right, bottom = extent
@@ -128,6 +134,30 @@ class Fit(PageTestCase):
     def test_a_run_that_is_too_short_for_the_mtvv_says_so(self):
         ride = self.open("semi.html").evaluate("document.getElementById('ride-problem').textContent")
         self.assertIn("flexible: the MTVV is the largest r.m.s. over 1 s, and the span has only 0.5 s", ride)
+
+    def test_runs_over_different_spans_are_not_compared_in_per_cent(self):
+        page = self.open("spans.html")
+        for table in ("summary-table", "ride-table"):
+            cells = page.evaluate(
+                f"[...document.querySelectorAll('#{table} td.number:nth-child(n+4)')].map((one) => one.innerText)"
+            )
+            self.assertTrue(any("%" in one for one in cells[0::2]), table)
+            self.assertFalse(any("%" in one for one in cells[1::2]), table)
+        spans = "spans that differ: whole 0 to 0.5 s; again 0 to 0.5 s; part 0 to 0.25 s."
+        for note in ("summary-note", "ride-note"):
+            self.assertIn(spans, page.evaluate(f"document.getElementById('{note}').textContent"))
+        self.assertNotIn("differ:", self.open("mixed.html").evaluate("document.body.innerText"))
+
+    def test_all_runs_with_long_labels_are_in_sight_beside_the_names_of_the_rows(self):
+        page = self.open("labels.html")
+        for table in ("summary-table", "ride-table"):
+            inside, around = page.evaluate(
+                f"((one) => [one.scrollWidth, one.clientWidth])(document.getElementById('{table}').parentElement)"
+            )
+            self.assertLessEqual(inside, around, table)
+            lines = page.evaluate(f"document.querySelector('#{table} th[scope=row]').getBoundingClientRect().height")
+            self.assertLess(lines, 40, table)  # px: one line
+        page.picture(PICTURES / "long_labels.png", "#summary")
 
     def test_a_run_without_the_motion_of_its_bodies_is_judged_but_not_drawn(self):
         page = self.open("seat.html")

@@ -90,6 +90,20 @@ class Report(ToolTestCase):
         self.assertEqual(channels["chosen"]["group"], "Asked for")
         self.assertEqual(decode(channels["chosen"]["t"]).size, NUM_SAMPLES)
 
+    def test_the_summary_is_over_the_span_of_the_statistics(self):
+        write_results(self.folder / "part.h5", settings={"statistics_from": 0.0, "statistics_to": 0.02})
+        (run,) = self.report("part.h5")[1]["runs"]
+        rows = {(row["of"], row["name"]): row["value"] for row in run["statistics"]}
+        with h5py.File(self.folder / "part.h5") as file:
+            inside = file["time"][:] <= 0.02
+            off = np.count_nonzero(file["forces/front_tyre/contact"][:][inside] < 0.5)
+            deflection = np.abs(file["points/chassis.front_end/deflection"][:, 1])
+        self.assertEqual(run["window"], [0.0, 0.02])
+        self.assertAlmostEqual(rows["front_tyre", "time off the road"], off * 1.0 / (NUM_SAMPLES - 1))
+        expected = np.max(deflection[inside])
+        self.assertLess(expected, 0.99 * np.max(deflection))
+        self.assertAlmostEqual(rows["chassis.front_end", "deflection, largest"], expected)
+
     def test_the_summary_is_of_all_samples(self):
         _, data = self.report("soft.h5")
         rows = {(row["of"], row["name"]): row["value"] for row in data["runs"][0]["statistics"]}

@@ -63,9 +63,10 @@ def describe_load(channel: ForceChannel) -> str:
     return describe_axis(channel.name) if channel.role in (FORCE, GIVEN, TORQUE) else ""
 
 
-def describe_deflection(channel: ForceChannel, on_road: bool) -> str:
-    """The name of a deflection: `compression` of a spring, `partner compression`, `penetration` of a tyre, `deflection
-    along x` of a bushing, `turn`; empty for other channels."""
+def describe_deflection(channel: ForceChannel, on_road: bool, kind: str) -> str:
+    """The name of a deflection of an element of some kind: `compression from the free length` of a spring, `partner
+    compression from the design height` of coupled air springs, `penetration` of a tyre, `deflection along x` of a
+    bushing, `turn`; empty for other channels."""
     if channel.role != DEFLECTION:
         return ""
     if on_road:
@@ -73,7 +74,10 @@ def describe_deflection(channel: ForceChannel, on_road: bool) -> str:
     if channel.unit == "rad":
         return "turn"
     name = describe_axis(channel.name)
-    return name.replace("deflection", "compression") if name.endswith("deflection") else name
+    if not name.endswith("deflection"):
+        return name
+    reference = "design height" if kind == "air-spring" else "free length"
+    return f"{name.replace('deflection', 'compression')} from the {reference}"
 
 
 def describe_axis(name: str) -> str:

@@ -17,7 +17,7 @@ from sprung_tools.model.force_channels import (
     describe_load,
     list_force_channels,
 )
-from sprung_tools.model.resolved_model import ROOT, read_elements
+from sprung_tools.model.resolved_model import ROOT, Element, read_elements
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
 from sprung_tools.report.shown_motion import choose_axes, is_vehicle, name_axis, read_motion
@@ -70,7 +70,7 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
     forces = read_elements(results, "forces")
     for force in results.names("forces"):
         for channel in list_force_channels(results, force):
-            name = describe_history(channel, on_road=forces[force].on_road)
+            name = describe_history(channel, forces[force])
             if name:  # an applied force may have only one of its components
                 unless_zero = channel.role in (GIVEN, TORQUE)
                 add("Forces", f"{force}, {name}", channel.quantity, unless_zero=unless_zero)
@@ -93,11 +93,11 @@ def list_motion_channels(results: ResultsFile, point: str) -> list[Channel]:
     ]
 
 
-def describe_history(channel: ForceChannel, on_road: bool) -> str:
+def describe_history(channel: ForceChannel, element: Element) -> str:
     """The page's name for a channel of a force element; empty for a channel that the page does not show."""
     if channel.role == EXTENT and channel.unit == "rad":
         return "angle"
-    return describe_load(channel) or describe_deflection(channel, on_road)
+    return describe_load(channel) or describe_deflection(channel, element.on_road, element.kind)
 
 
 def find_heavy(results: ResultsFile) -> list[str]:

@@ -77,7 +77,7 @@ def pack_ride(results: ResultsFile, vibrations: dict[str, Vibration], problem: s
     except InputError as error:  # unequally spaced samples; the rest of the page does not need equal ones
         problem = problem or str(error)
     remarks = list_remarks(results, list(vibrations), window)
-    return {"window": window, "problem": problem, "remarks": remarks, "points": points, "travel": travels,
+    return {"problem": problem, "remarks": remarks, "points": points, "travel": travels,
             "tyres": contacts}  # fmt: skip
 
 

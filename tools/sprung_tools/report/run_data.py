@@ -13,6 +13,7 @@ from sprung_tools.report.summary import calc_hash, calc_statistics, list_facts
 from sprung_tools.report.vehicle_modes import pack_vehicle_modes
 from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.runs.ride_assessment import Vibration
+from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
 
 FRAMES_OF_LOADS = 6  # the animation's instants for each one at which the loads along a body are drawn
@@ -38,6 +39,7 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "samples": int(results.time.size),
         "balanced": results.is_from_balance,
         "warnings": [one._asdict() for one in list_warnings(results)],
+        "window": read_window(results),
         "statistics": calc_statistics(results, channels),
         "vehicleModes": pack_vehicle_modes(results, bodies),
         "channels": [pack_channel(channel, results.time, most) for channel in channels],

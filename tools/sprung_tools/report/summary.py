@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from sprung_tools.files.array_types import Flags
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_real, read_text, read_texts
 from sprung_tools.files.results_file import ResultsFile
@@ -19,7 +20,7 @@ from sprung_tools.model.force_channels import (
     find_force_channel,
     list_force_channels,
 )
-from sprung_tools.model.resolved_model import read_road_settings, read_settings
+from sprung_tools.model.resolved_model import read_elements, read_road_settings, read_settings
 from sprung_tools.report.histories import Channel, list_monitored
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.shown_motion import VERTICAL, calc_size, choose_axes, clear_rounding, name_axis, read_motion
@@ -51,17 +52,18 @@ def calc_hash(path: str | Path) -> str:
 
 
 def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[Packed]:
-    """The rows of the summary, from all samples."""
+    """The rows of the summary, over the span of the run's statistics; those of the computation are of the whole run."""
+    inside = samples_between(results, *read_window(results))
     rows = list_point_rows(results)
     kinds = {force: results.force_kind(force) for force in results.names("forces")}
     many = {force for force, kind in kinds.items() if list(kinds.values()).count(kind) > MOST_ALIKE}
     for force in kinds:
-        rows += calc_force_rows(results, force)
+        rows += calc_force_rows(results, force, inside)
     for channel in channels:
         if channel.group == "Deflection":
             point, _, what = channel.name.partition(", ")
             largest = what if what.startswith("largest") else "deflection, largest"
-            rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values)))))
+            rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values[inside])))))
     there = results.file.attributes("summary") if results.file.has_group("summary") else {}
     rows += [
         ("computation", name, "", read_real(results.file, "summary", key))
@@ -111,27 +113,29 @@ def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dic
     return {"highest": float(values.max()), "lowest": float(values.min()), "r.m.s.": calc_rms(values)}
 
 
-def calc_force_rows(results: ResultsFile, force: str) -> list[Statistic]:
-    """The greatest loads of a force, and its time off the road (tyre) or its travel, as (force, quantity, unit,
-    value)."""
+def calc_force_rows(results: ResultsFile, force: str, inside: Flags) -> list[Statistic]:
+    """The greatest loads of a force among some samples, and its time off the road (tyre) or its travel, as (force,
+    quantity, unit, value)."""
     rows: list[Statistic] = []
     for channel in list_force_channels(results, force):
         name = describe_load(channel)
         if not name:
             continue
-        largest = float(np.max(np.abs(results.series(channel.quantity)[0])))
+        largest = float(np.max(np.abs(results.series(channel.quantity)[0][inside])))
         if largest > 0.0 or channel.role == FORCE:  # an applied torque has forces that are 0
             rows.append((force, f"{name}, largest", channel.unit, largest))
     contact = find_force_channel(results, force, CONTACT)
     if contact:
-        on_road = results.series(contact)[0] > 0.5
+        on_road = results.series(contact)[0][inside] > 0.5
         step = float(np.median(np.diff(results.time)))
         rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~on_road))))
         return rows
+    kind = read_elements(results, "forces")[force].kind
     for channel in list_force_channels(results, force):
-        name = describe_deflection(channel, on_road=False)
+        name = describe_deflection(channel, on_road=False, kind=kind)
         if name:
             values, unit = results.series(channel.quantity)
+            values = values[inside]
             both_ways = name == "turn" or " along " in name  # a stop that never touches has a negative overlap
             largest = float(np.max(np.abs(values) if both_ways else values))
             rows.append((force, f"{name}, largest", unit, largest))

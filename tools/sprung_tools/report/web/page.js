@@ -14,8 +14,8 @@ function fillHead() {
   byId("summary-note").textContent = (data.runs.length > 1 ? `Differences are to ${data.runs[0].label}. ` : "") +
     `Displacements and accelerations are vertical${data.runs.every((run) => run.vehicle.wheels.length) ? "" :
       ", or along the axis named: of a mechanism that along which the point moves more"}. Displacements are from ${data.runs.every((run) => run.balanced) ? "the run's static equilibrium" :
-      "static equilibrium or, where none was sought, from the start"}. The statistics of the points are ` +
-    "over the run's own statistics window.";
+      "static equilibrium or, where none was sought, from the start"}. All rows but those of the computation are over the ` +
+    `span of the run's [statistics], ${describeSpans()}`;
   byId("animation-heading").textContent = data.runs.some((run) => run.vehicle.wheels.length) ? "On the road" : "Motion";
   byId("spectra-heading").textContent = `Spectra of the ${data.runs.every((run) => run.vehicle.wheels.length) ? "vertical " : ""}acceleration`;
   byId("tyre-note").hidden = !data.runs.some((run) => run.vehicle.wheels.length);

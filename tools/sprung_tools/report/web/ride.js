@@ -41,9 +41,8 @@ function fillRide() {
   const remarks = data.runs.flatMap((run) => (run.ride ? run.ride.remarks.map((one) => `${run.label}: ${one}`) : []));
   byId("ride-problem").textContent = [problems.length ? `The vibration is not judged. ${problems.join("; ")}` : "", remarks.join("; ")].filter(Boolean).join(" ");
   byId("ride-problem").hidden = !problems.length && !remarks.length;
-  const spans = new Set(data.runs.filter((run) => run.ride).map((run) => run.ride.window.map((time) => `${format(time)} s`).join(" to ")));
   const seats = data.runs.some((run) => run.ride && run.ride.points.some((one) => one.name.endsWith(".seat")));
-  byId("ride-note").textContent = (seats ? "" : "No point is called seat: the points of the summary are judged. ") + `Over ${[...spans].join(" and ")}. ISO 2631-1 judges vibration by weighted accelerations, Wk, Wd and ` +
+  byId("ride-note").textContent = (seats ? "" : "No point is called seat: the points of the summary are judged. ") + `Over ${describeSpans()} ISO 2631-1 judges vibration by weighted accelerations, Wk, Wd and ` +
     "We. Above a crest factor of 9, with shocks, the r.m.s. values say too little: look at MTVV and VDV. The total adds the squares, " +
     "the pitch with 0.4 m/rad. Travel counts from equilibrium, of one member; loads are those of all members together.";
 }

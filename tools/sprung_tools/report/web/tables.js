@@ -19,6 +19,17 @@ function runHeadings() {
     element("th", {class: "number", scope: "col"}, element("span", {class: "key", style: `--c:${colourOf(index)}`}), run.label));
 }
 
+/** Whether the numbers of a run are over the same span of time as those of the first. */
+const sameSpan = (index) => data.runs[index].window.every((time, k) => Math.abs(time - data.runs[0].window[k]) < 1e-6);
+
+/** The spans of time that the numbers of the tables are over, with the runs where these differ. */
+function describeSpans() {
+  const print = (run) => `${run.window.map(formatTick).join(" to ")} s`;
+  if (data.runs.every((_, index) => sameSpan(index))) return `${print(data.runs[0])}.`;
+  return `spans that differ: ${data.runs.map((run) => `${run.label} ${print(run)}`).join("; ")}. Where a run's span is not that of ` +
+    `${data.runs[0].label}, no difference in per cent is given.`;
+}
+
 /** The difference to the first run, in per cent; nothing where the first is nearly 0. */
 function difference(value, first) {
   if (value === null || first === null || Math.abs(first) < 1e-12) return "";
@@ -46,7 +57,7 @@ function fillStatistics(table, rows) {
     const cells = row.values.map((value, index) => {
       const isText = typeof value === "string";
       const cell = element("td", {class: isText ? "number words" : "number"}, value === null ? "–" : isText ? value : format(factor * value));
-      if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" && !isText ? difference(value, row.values[0]) : ""));
+      if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" && !isText && sameSpan(index) ? difference(value, row.values[0]) : ""));
       return cell;
     });
     body.append(element("tr", {}, element("th", {scope: "row"}, row.name), element("td", {class: "unit"}, unit), ...cells));
