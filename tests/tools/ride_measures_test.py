@@ -257,6 +257,35 @@ class Tool(ToolTestCase):
             self.assertEqual(cells[("body", "a")][0], "-3")
             self.assertNotIn(("body", "b"), cells)
 
+    def test_of_too_few_samples_the_values_that_need_no_more_are_given(self):
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            file["time"][:] *= 10.0  # a sample every 10 ms
+            file.require_group("summary").attrs["energy_closure"] = 1e-9
+        process = self.run_tool("ride", "truck=a.h5")
+        self.assert_succeeds(process)
+        reason = "body.seat, body: without the weighted values and the absorbed power: a sample every 10 ms is too few"
+        self.assertIn(f"note: truck: {reason}", process.stdout)
+        rows = {line.split()[0]: line.split() for line in process.stdout.splitlines() if "truck" in line}
+        self.assertEqual(rows["body.seat"][2:], ["1.411", "2", *["–"] * 8])
+        self.assertEqual(rows["tyre"][2], "50.00")
+        process = self.run_tool("ride", "a.h5", "--json")
+        self.assert_succeeds(process)
+        (run,) = json.loads(process.stdout)["runs"]
+        self.assertAlmostEqual(run["measures"]["points/body.seat/peak"]["value"], SEAT_AMPLITUDE)
+        self.assertIsNone(run["measures"]["points/body.seat/crest_factor"]["value"])
+        self.assertTrue(run["remarks"][0].startswith(reason))
+
+    def test_the_rounding_of_a_vehicle_at_rest_is_no_vibration(self):
+        with h5py.File(write_ride_results(self.folder / "a.h5"), "a") as file:
+            for name in ("points/body.seat", "bodies/body/center_of_mass", "bodies/body"):
+                file[f"{name}/acceleration"][:] *= 1e-13
+            for name in ("deflection", "length"):
+                file[f"forces/link/{name}"][:] = 0.06 + 1e-12 * np.arange(file["time"].size)[::-1]
+        printed = self.run_tool("ride", "truck=a.h5").stdout
+        rows = {line.split()[0]: line.split() for line in printed.splitlines() if line}
+        self.assertEqual(rows["body.seat"][2:], ["0"] * 10)
+        self.assertEqual([rows["link"][2], rows["link"][4]], ["0.0", "0.0"])
+
     def test_missing_quantities_are_refused(self):
         write_ride_results(self.folder / "a.h5")
         self.assert_refuses(self.run_tool("ride", "b.h5"), "b.h5: error: no such file")

@@ -63,6 +63,9 @@ class RideOfResponse(ToolTestCase):
         self.assertIn("linear: linear, on its random road, from 0.02 to 250 Hz", process.stdout)
         (row,) = [line.split() for line in process.stdout.splitlines() if line.startswith("body.seat")]
         self.assertEqual(row[1:3], ["linear", f"{np.sqrt(0.08 * (HIGHEST - 0.02)):.4g}"])
+        for option, value in (("--from", "1"), ("--to", "2"), ("--superelements", ".")):
+            fault = f"{option}: error: a.h5 is a response, and the option is of runs"
+            self.assert_refuses(self.run_tool("ride", "linear=a.h5", option, value), fault)
         write_response(self.folder / "b.h5", {"x": None, "y": None, "angle": None})
         self.assert_refuses(self.run_tool("ride", "b.h5"), "b.h5: error: has no spectra")
         write_response(self.folder / "c.h5", {"y": 0.08})

@@ -53,6 +53,7 @@ def write_ride_results(path, with_moments=True, settings=(), stop=STOP):
             moment = 3e3 * np.cos(0.5 * np.pi * (time - 2.0))
             write_series(file, "recovery/body/moment", (0.5 * moment, -moment, 0.2 * moment), "N m")
             write_series(file, "recovery/body/station", np.array([[-1.0, 0.0], [0.25, 0.1], [1.0, 0.0]]), "m")
+        write_series(file, "model/resolved/gravity", np.array([0.0, -9.80665]), "m/s^2")
         equilibrium = file.create_group("model/equilibrium")
         equilibrium.attrs["is_static_equilibrium"] = 1
         write_settings(file, SETTINGS | dict(settings))

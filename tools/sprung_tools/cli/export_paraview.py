@@ -2,7 +2,9 @@
 
 A superelement gives one file for each mode: the frame bent by it, with the vectors `displacement` and `rotation`. A run
 gives one file for each instant: bodies as lines where they are, with `velocity`, `acceleration`, `deflection` at their
-nodes and the beam resultants at both ends of each element (first, second)."""
+nodes and the beam resultants at both ends of each element (first, second). The resultants are those from the modes,
+which those from the loads may exceed ('ride' prints both moments); of rigid bodies, and where the file has none, they
+are NaN."""
 
 import argparse
 import math

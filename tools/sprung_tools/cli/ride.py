@@ -30,6 +30,7 @@ from sprung_tools.runs.measures import (
     JSON_FORMAT,
     JSON_VERSION,
     calc_measures,
+    calc_point_values,
     describe_response,
     describe_run,
     find_points,
@@ -38,9 +39,8 @@ from sprung_tools.runs.measures import (
     pack_measures,
     point_name,
 )
-from sprung_tools.runs.ride_assessment import calc_assessment, list_remarks
+from sprung_tools.runs.ride_assessment import list_remarks
 from sprung_tools.runs.ride_measures import (
-    calc_comfort,
     calc_contact,
     calc_travel,
     find_suspensions,
@@ -81,10 +81,7 @@ def make_comfort_rows(
         for run, some, window in zip(runs, points, windows):
             if point not in some:
                 continue
-            one = calc_comfort(run.results, point, window)
-            more = calc_assessment(run.results, point, window)
-            numbers = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
-                       more.total, more.power)  # fmt: skip
+            numbers = calc_point_values(run.results, point, window)
             yield (point_name(point), run.label, *(MISSING if value is None else f"{value:.4g}" for value in numbers))
 
 
@@ -199,10 +196,19 @@ def parse_arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
+def check_arguments(arguments: argparse.Namespace, responses: Sequence[str]) -> None:
+    """Throws InputError for an option of runs where there is none."""
+    of_runs = {"--from": arguments.start, "--to": arguments.end, "--superelements": arguments.superelements}
+    for name, value in of_runs.items():
+        if len(responses) == len(arguments.runs) and value is not None:
+            raise InputError(f"{name}: error: {split_label(responses[0])[1]} is a response, and the option is of runs")
+
+
 def main() -> int:
     arguments = parse_arguments()
     files, response_files = part_files(arguments.runs)
     runs, responses = open_runs(files), open_responses(response_files)
+    check_arguments(arguments, response_files)
     windows = [read_window(run.results, arguments.start, arguments.end) for run in runs]
     if arguments.json:
         print(make_json(runs, windows, responses, arguments.points, arguments.superelements))

@@ -5,10 +5,10 @@ import numpy as np
 
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.results_file import ResultsFile
-from sprung_tools.model.resolved_model import has_resolved_model, read_elements, read_gravity
+from sprung_tools.model.resolved_model import read_elements
+from sprung_tools.runs.rounding import calc_size, clear_rounding
 
 VERTICAL = "y"
-ROUNDING = 1e-12  # of the largest size of a vector: a component that stays below is nothing but rounding
 
 
 def is_vehicle(results: ResultsFile) -> bool:
@@ -36,21 +36,4 @@ def name_axis(results: ResultsFile, axis: str) -> str:
 def read_motion(results: ResultsFile, point: str, what: str, axis: str) -> tuple[Floats, str]:
     """A point's displacement, position or acceleration [n] and its unit; 0 where it is nothing but rounding."""
     values, unit = results.series(f"points/{point}/{what}.{axis}")
-    return clear_rounding(values, calc_size(results, point, what)), unit
-
-
-def clear_rounding(values: Floats, size: float) -> Floats:
-    """Values; zeros if all are rounding of something of this size."""
-    return np.zeros_like(values) if np.max(np.abs(values)) < ROUNDING * size else values
-
-
-def calc_size(results: ResultsFile, point: str, what: str) -> float:
-    """The size that rounding of a point's motion is judged by: the largest of the vector over the run, of its position
-    for a displacement; an acceleration is at least of gravity's size."""
-    stored = "position" if what == "displacement" else what
-    size = 0.0
-    if results.has(f"points/{point}/{stored}"):
-        size = max(float(np.max(np.abs(results.series(f"points/{point}/{stored}.{axis}")[0]))) for axis in "xy")
-    if what == "acceleration" and has_resolved_model(results):
-        size = max(size, float(np.max(np.abs(read_gravity(results)))))
-    return size
+    return clear_rounding(values, calc_size(results, f"points/{point}", what)), unit

@@ -23,9 +23,10 @@ from sprung_tools.model.force_channels import (
 from sprung_tools.model.resolved_model import read_elements, read_road_settings, read_settings
 from sprung_tools.report.histories import Channel, list_monitored
 from sprung_tools.report.packing import Packed
-from sprung_tools.report.shown_motion import VERTICAL, calc_size, choose_axes, clear_rounding, name_axis, read_motion
+from sprung_tools.report.shown_motion import VERTICAL, choose_axes, name_axis, read_motion
 from sprung_tools.runs.labelled_runs import Run, samples_between
 from sprung_tools.runs.ride_measures import read_window
+from sprung_tools.runs.rounding import calc_size, clear_rounding
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.signals.spectra import calc_rms
@@ -98,7 +99,7 @@ def read_extremes(results: ResultsFile, point: str, what: str) -> dict[str, floa
     if not keys:
         return {}
     values = np.array([read_real(results.file, group, key) for key in keys.values()])
-    return dict(zip(keys, clear_rounding(values, calc_size(results, point, what)).tolist()))
+    return dict(zip(keys, clear_rounding(values, calc_size(results, f"points/{point}", what)).tolist()))
 
 
 def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dict[str, float]:

@@ -30,16 +30,20 @@ from sprung_tools.runs.ride_assessment import calc_assessment, calc_bands
 from sprung_tools.runs.ride_measures import (
     calc_comfort,
     calc_contact,
+    calc_plain,
     calc_travel,
     find_suspensions,
     find_tyres,
     list_seats,
+    sampling_step,
 )
 from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
+from sprung_tools.runs.rounding import read_acceleration
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
 from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
 from sprung_tools.runs.stored_histories import list_gaps
 from sprung_tools.runs.vehicle_modes import WHERE
+from sprung_tools.signals.ride_weighting import describe_fault
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.signals.third_octaves import NOMINAL
@@ -152,10 +156,19 @@ def list_mode_objects(results: ResultsFile) -> Objects:
 
 def measure_point(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
     """The vibration of a point. folder: its group, `points/chassis.seat` for example."""
+    return combine(name, POINT_UNITS, calc_point_values(results, folder, window))
+
+
+def calc_point_values(results: ResultsFile, folder: str, window: Span) -> tuple[float | None, ...]:
+    """The measures of a point in the order of POINT_UNITS; None for those that the file does not tell. folder: its
+    group, `points/chassis.seat` for example."""
+    if describe_fault(sampling_step(results)):
+        inside = samples_between(results, *window)
+        plain = calc_plain(read_acceleration(results, folder, "y")[inside])
+        return (*plain, *[None] * (len(POINT_UNITS) - len(plain)))
     one, more = calc_comfort(results, folder, window), calc_assessment(results, folder, window)
-    values = (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch,
-              more.total, more.power)  # fmt: skip
-    return combine(name, POINT_UNITS, values)
+    return (one.rms, one.peak, one.weighted_rms, one.dose, more.mtvv, more.crest, more.fore_aft, more.pitch, more.total,
+            more.power)  # fmt: skip
 
 
 def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:

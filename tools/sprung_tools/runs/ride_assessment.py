@@ -18,6 +18,7 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.resolved_model import read_point
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import list_static_remarks, sampling_step
+from sprung_tools.runs.rounding import calc_size, clear_rounding, read_acceleration
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import (
     LEFT,
@@ -30,6 +31,7 @@ from sprung_tools.signals.ride_weighting import (
     Weighting,
     calc_dose,
     calc_running_rms,
+    describe_fault,
     weight_acceleration,
 )
 from sprung_tools.signals.spans import Span
@@ -85,10 +87,15 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
 
 
 def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
-    """Which measures of points are left out because the file does not tell the rotation of their bodies, and why;
+    """Which measures of points are left out because the samples are too few, or because the file does not tell the
+    rotation of their bodies, and why;
     whether the span is too short for the MTVV, or begins while the weightings lack the vibration before the run; and
     what is said of values in static equilibrium."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
+    fault = describe_fault(sampling_step(results)) if points else ""
+    if fault:
+        names = ", ".join(point.split("/")[1] for point in points)
+        return [f"{names}: without the weighted values and the absorbed power: {fault}", *list_static_remarks(results)]
     remarks = [f"{point.split('/')[1]}: without We and the total: {gap}" for point, gap in gaps.items() if gap]
     times = results.time[samples_between(results, *window)]
     length = float(times[-1] - times[0])
@@ -115,7 +122,7 @@ def read_pitch_acceleration(results: ResultsFile, point: str) -> Floats:
     if group == "points" and results.num_modes(body):
         modal, _ = read_numbers(results.file, f"bodies/{body}/modal/acceleration")
         angular = angular + modal @ read_point(results, name).shapes[2]
-    return angular
+    return clear_rounding(angular, calc_size(results, point, "acceleration"))
 
 
 def calc_vibration(results: ResultsFile, point: str) -> Vibration:
@@ -128,8 +135,7 @@ def calc_vibration(results: ResultsFile, point: str) -> Vibration:
         except ValueError as error:
             raise InputError(f"{results.path}: error: {error}") from error
 
-    results.check_every_output(f"{point}/acceleration")
-    along, up = (results.series(f"{point}/acceleration.{axis}")[0] for axis in ("x", "y"))
+    along, up = (read_acceleration(results, point, axis) for axis in ("x", "y"))
     vertical = weigh(up, WK)
     pitch = None if find_pitch_gap(results, point) else weigh(read_pitch_acceleration(results, point), WE)
     return Vibration(weigh(along, WD), vertical, pitch, calc_running_rms(vertical, step))
@@ -142,7 +148,7 @@ def calc_assessment(results: ResultsFile, point: str, window: Span, vibration: V
     step = sampling_step(results)
     fore_aft, vertical = calc_rms(felt.fore_aft[inside]), calc_rms(felt.vertical[inside])
     pitch = None if felt.pitch is None else calc_rms(felt.pitch[inside])
-    power = calc_absorbed_power(results.series(f"{point}/acceleration.y")[0], step)[inside]
+    power = calc_absorbed_power(read_acceleration(results, point, "y"), step)[inside]
     return Assessment(
         fore_aft, vertical, pitch, None if pitch is None else calc_total(fore_aft, vertical, pitch),
         float(np.max(calc_running_rms(felt.vertical[inside], step))), calc_dose(felt.vertical[inside], step),
@@ -159,8 +165,7 @@ def calc_bands(results: ResultsFile, point: str, window: Span) -> list[float | N
     """The r.m.s. of a point's vertical acceleration in the third-octave bands over a span of time, m/s² [23]; None for
     bands of which the samples are too few: as for the weightings, SAMPLES_PER_PERIOD are needed."""
     step = sampling_step(results)
-    results.check_every_output(f"{point}/acceleration.y")
-    acceleration, _ = results.series(f"{point}/acceleration.y")
+    acceleration = read_acceleration(results, point, "y")
     found = calc_third_octaves(acceleration[samples_between(results, *window)], step)
     highest = (1.0 + ROUNDING) / (SAMPLES_PER_PERIOD * step)
     return [float(value) if centre <= highest else None for value, centre in zip(found, NOMINAL)]

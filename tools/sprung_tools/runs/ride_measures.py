@@ -17,6 +17,7 @@ from sprung_tools.model.force_channels import (
 )
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.rounding import read_acceleration
 from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
@@ -89,19 +90,17 @@ def calc_comfort(results: ResultsFile, point: str, window: Span) -> Comfort:
     `bodies/chassis/center_of_mass`."""
     step = sampling_step(results)
     inside = samples_between(results, *window)
-    results.check_every_output(f"{point}/acceleration.y")
-    acceleration, _ = results.series(f"{point}/acceleration.y")
+    acceleration = read_acceleration(results, point, "y")
     try:
         weighted = weight_acceleration(acceleration, step)[inside]
     except ValueError as error:
         raise InputError(f"{results.path}: error: {error}") from error
-    acceleration = acceleration[inside]
-    return Comfort(
-        calc_rms(acceleration),
-        float(np.max(np.abs(acceleration))),
-        calc_rms(weighted),
-        calc_dose(weighted, step),
-    )
+    return Comfort(*calc_plain(acceleration[inside]), calc_rms(weighted), calc_dose(weighted, step))
+
+
+def calc_plain(acceleration: Floats) -> tuple[float, float]:
+    """The measures of an acceleration that are not weighted: r.m.s. and peak."""
+    return calc_rms(acceleration), float(np.max(np.abs(acceleration)))
 
 
 def list_seats(results: ResultsFile) -> list[str]:

@@ -76,13 +76,21 @@ def weight_acceleration(acceleration: Floats, step: float, weighting: Weighting 
 
     step: between samples [s]. ValueError if the samples are too far apart for the frequencies up to 80 Hz.
     """
-    if not step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
-        raise ValueError(
-            f"a sample every {1e3 * step:g} ms is too few: {weighting.name} goes to {HIGHEST:g} Hz and needs one "
-            f"every {1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms"
-        )
+    fault = describe_fault(step)
+    if fault:
+        raise ValueError(fault)
     size = find_padded_size(acceleration.size, step)
     return multiply_transform(acceleration, size, keep_weighting(weighting, size, step))
+
+
+def describe_fault(step: float) -> str:
+    """Why samples are too far apart [s] for the weightings; empty if they are not."""
+    if step * HIGHEST * SAMPLES_PER_PERIOD <= 1.0:
+        return ""
+    return (
+        f"a sample every {1e3 * step:g} ms is too few: the weightings go to {HIGHEST:g} Hz and need one every "
+        f"{1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms"
+    )
 
 
 @functools.lru_cache(maxsize=2 * len((WK, WD, WE)))

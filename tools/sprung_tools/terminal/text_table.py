@@ -17,8 +17,8 @@ def is_number(cell: str) -> bool:
 
 
 def format_cell(value: float | None, digits: int, factor: float = 1.0) -> str:
-    """A number times a factor with so many digits after the point; MISSING for None."""
-    return MISSING if value is None else f"{factor * value:.{digits}f}"
+    """A number times a factor with so many digits after the point, 0 without a sign; MISSING for None."""
+    return MISSING if value is None else f"{round(factor * value, digits) + 0.0:.{digits}f}"
 
 
 def format_table(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
