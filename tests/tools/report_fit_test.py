@@ -157,7 +157,7 @@ class Fit(PageTestCase):
             self.assertLessEqual(inside, around, table)
             lines = page.evaluate(f"document.querySelector('#{table} th[scope=row]').getBoundingClientRect().height")
             self.assertLess(lines, 40, table)  # px: one line
-        page.picture(PICTURES / "long_labels.png", "#summary")
+        page.picture(PICTURES / "long_labels.png", "#summary-table thead")
 
     def test_a_run_without_the_motion_of_its_bodies_is_judged_but_not_drawn(self):
         page = self.open("seat.html")

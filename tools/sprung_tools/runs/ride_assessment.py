@@ -108,8 +108,8 @@ def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> l
     if points and results.is_continued and window[0] < settled * (1.0 - ROUNDING):
         remarks.append(
             f"the run continues another one from {results.time[0]:.6g} s on, and its vibration before counts as 0: "
-            f"the MTVV and the other weighted values hold from {settled:.4g} s on (--from), when {LEFT:.1%} is left of "
-            "it in the filters"
+            f"the MTVV and the other weighted values hold from {settled:.4g} s on (--from), when {100.0 * LEFT:g} % is "
+            "left of it in the filters"
         )
     return remarks + list_static_remarks(results)
 
