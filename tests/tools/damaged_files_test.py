@@ -148,7 +148,7 @@ class Mutants(ToolTestCase):
             file["energy/kinetic"] = np.ones(file["time"].shape)
         write_adaptive_run(self.folder / "adaptive.h5")
         for name in ("run.h5", "adaptive.h5"):
-            self.assertGreater(self.count_refused(self.folder / name, RUN_COMMANDS, change_structure, range(120)), 30)
+            self.assertGreater(self.count_refused(self.folder / name, RUN_COMMANDS, change_structure, range(120)), 20)
 
     def test_a_superelement_with_something_changed(self):
         self.assertGreater(self.count_refused(SUPERELEMENT, SUPERELEMENT_COMMANDS, change_structure, range(100)), 3)
