@@ -19,6 +19,19 @@ class CompareFrequencies(ToolTestCase):
         self.assertEqual(rows[1], ["2", "6.11510", "6.11", "+0.00510", "+0.0835", "NO"])  # rounds to 6.12
         self.assertEqual(rows[2], ["3", "40.00000", "50.0", "-10.00000", "-20.0000", "NO"])
 
+    def test_vectors_without_a_frequency_of_the_body_are_left_out_and_told(self):
+        kinds = ["free", "residual", "free", "constraint", "residual"]
+        write_superelement(self.folder / "arm.h5", "arm", [6.11, 7.0, 38.3, 50.0, 60.0], kinds)
+        process = self.run_tool("compare_frequencies", "arm.h5", "--printed", "6.11", "38.3")
+        self.assertEqual(process.returncode, 0, process.stderr)
+        note, _, *table = process.stdout.splitlines()
+        left_out = "left out are vectors without a frequency of the body: 2 residual, 1 constraint"
+        self.assertEqual(note, f"note: {left_out}")
+        rows = [line.split() for line in table[2:]]
+        self.assertEqual([(row[-6], row[-1]) for row in rows], [("1", "yes"), ("3", "yes")])
+        process = self.run_tool("compare_frequencies", "arm.h5", "--printed", "6.11", "38.3", "50.0")
+        self.assert_refuses(process, f"arm.h5: error: has 2 modes, 3 to compare were given; {left_out}")
+
     def test_bad_input_is_refused(self):
         for arguments, expected in (
             (

@@ -176,13 +176,15 @@ def write_superelement_part(file, num_modes):
     write_series(part, "shapes", shapes, "")
 
 
-def write_superelement(path, name, frequencies):
+def write_superelement(path, name, frequencies, kinds=None):
     """As much of a superelement file (reduce/superelement/superelement.md) as the tools read: its name, hash,
-    frequencies [Hz] and one check."""
+    frequencies [Hz], kinds of vectors if they are given, and one check."""
     with h5py.File(path, "w") as file:
         file.attrs.update({"format": np.bytes_("sprung-superelement"), "version": 1, "name": np.bytes_(name)})
         file.attrs["content_hash"] = np.bytes_("0123")
         write_series(file, "modes/frequency", np.array(frequencies), "Hz")
+        if kinds is not None:
+            write_texts(file, "modes/kind", kinds)
         write_texts(file, "checks/name", ["residual of the modes"])
         write_series(file, "checks/value", np.array([1e-13]), "1")
         write_series(file, "checks/tolerance", np.array([1e-6]), "1")

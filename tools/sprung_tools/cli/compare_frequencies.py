@@ -1,11 +1,15 @@
-"""Compares the lowest clamped frequencies of a superelement with known ones."""
+"""Compares the lowest frequencies of a superelement with known ones: those of its free or clamped modes. Its other
+vectors have no frequency of the body (reduce/basis, "Kinds of vectors"), and are left out."""
+
+from collections import Counter
 
 from sprung_tools.files.errors import InputError
-from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text
+from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text, read_texts
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 HEADINGS = ("body", "mode", "computed Hz", "printed Hz", "difference Hz", "difference %", "same digits")
+OF_THE_BODY = ("free", "clamped")  # kinds of vectors whose frequency is one that the body has
 
 
 def num_decimals(text: str) -> int:
@@ -37,14 +41,23 @@ def main() -> int:
     with open_hdf5(arguments.file, SUPERELEMENT) as file:
         name = read_text(file, "", "name", "")
         frequencies, _ = read_numbers(file, "modes/frequency")
-    if frequencies.size < len(printed):
-        raise InputError(f"{arguments.file}: error: has {frequencies.size} modes, {len(printed)} to compare were given")
+        kinds = read_texts(file, "modes/kind") if file.has_dataset("modes/kind") else ["clamped"] * frequencies.size
+    modes = [k for k, kind in enumerate(kinds) if kind in OF_THE_BODY]
+    others = Counter(kind for kind in kinds if kind not in OF_THE_BODY)
+    counts = ", ".join(f"{count} {kind}" for kind, count in others.items())
+    left_out = f"left out are vectors without a frequency of the body: {counts}"
+    if len(modes) < len(printed):
+        what = f"has {len(modes)} modes, {len(printed)} to compare were given"
+        raise InputError(f"{arguments.file}: error: {what}" + (f"; {left_out}" if others else ""))
 
     rows = []
-    for number, (computed, known, text) in enumerate(zip(frequencies, printed, arguments.printed), start=1):
+    for mode, known, text in zip(modes, printed, arguments.printed):
+        computed = frequencies[mode]
         difference = computed - known
         digits = "yes" if f"{computed:.{num_decimals(text)}f}" == text else "NO"
         percent = f"{100.0 * difference / known:+.4f}"
-        rows.append((name, str(number), f"{computed:.5f}", text, f"{difference:+.5f}", percent, digits))
+        rows.append((name, str(mode + 1), f"{computed:.5f}", text, f"{difference:+.5f}", percent, digits))
+    if others:
+        print(f"note: {left_out}\n")
     print(format_table(HEADINGS, rows))
     return 0

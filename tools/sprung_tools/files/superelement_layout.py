@@ -10,6 +10,7 @@ SUPERELEMENT_LAYOUT = Layout({
     "elements/node": Numbers((None, 2), within="nodes/position"),
     "elements/section": Texts("elements/node"),
     MODES: Numbers((None,)),
+    "modes/kind": Texts(MODES),
     "modes/shape": Numbers(("nodes/position", 3, MODES)),
     "matrices/stiffness": Numbers((MODES, MODES)),
     "resultants": Numbers(("elements/node", 6, MODES)),

@@ -42,7 +42,8 @@ def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
 
 
 def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
-    """Draws a bar for each mode while it takes part; its clamped frequency is at the right."""
+    """Draws a bar for each mode while it takes part. At the right is the frequency of its vector, which is no
+    frequency of the body where the vector is a residual one; results files do not tell."""
     rows = np.arange(1, history.number.size + 1)
     for row in rows:
         spans = find_spans(history.is_active[:, row - 1], results.time)
@@ -60,7 +61,7 @@ def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
     right.set_ylim(axes.get_ylim())
     right.set_yticks(places, [f"{history.frequency[row - 1]:.3g}" if history.frequency[row - 1] < 100.0
                               else f"{history.frequency[row - 1]:.0f}" for row in places])  # fmt: skip
-    right.set_ylabel("clamped\nfrequency, Hz")
+    right.set_ylabel("frequency of\nthe vector, Hz")
     right.spines["top"].set_visible(False)
 
 

@@ -15,7 +15,7 @@ MODES_CHANGED = "modes"  # kind of the event in which modes join or leave
 class ModeHistory(NamedTuple):
     """A body's modes over a run of n samples.
 
-    number: the mode's number in its superelement [modes]; frequency: its clamped frequency, Hz [modes]; is_active:
+    number: the mode's number in its superelement [modes]; frequency: that of its vector, Hz [modes]; is_active:
     whether it took part [n×modes].
     """
 
