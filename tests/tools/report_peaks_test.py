@@ -23,7 +23,7 @@ class ReportPeaks(ToolTestCase):
             "points/chassis.seat/acceleration.y",
         )
         self.assertEqual(process.returncode, 0, process.stderr)
-        rows = [line.split() for line in process.stdout.splitlines()[2:]]
+        rows = self.read_rows(process)
         # The samples hit the sine's extremes at 1/8 + k/2 and 3/8 + k/2 s; of 201 samples 200 are its two periods.
         rms = HEAVE * math.sqrt(100.0 / 201.0)
         self.assertEqual(
@@ -43,6 +43,13 @@ class ReportPeaks(ToolTestCase):
         peak = 2.0 * CIRCULAR**2 * HEAVE
         self.assertEqual([rows[2][1], rows[2][2], rows[2][-1]], ["one", f"{-peak:.5g}", "m/s^2"])
 
+    @staticmethod
+    def read_rows(process):
+        """The rows of the table, below its rule, as lists of cells."""
+        lines = process.stdout.splitlines()
+        rule = next(number for number, line in enumerate(lines) if line.startswith("──"))
+        return [line.split() for line in lines[rule + 1 :]]
+
     def at(self, first, second, found):
         # Both extremes of a kind are equal but for rounding, so either may be reported.
         self.assertIn(found, (f"{first:.3f}", f"{second:.3f}"))
@@ -51,7 +58,7 @@ class ReportPeaks(ToolTestCase):
     def test_a_span_of_time_limits_the_statistics(self):
         write_results(self.folder / "a.h5")
         process = self.run_tool("report_peaks", "a.h5", "--show", DISPLACEMENT, "--from", "0", "--to", "0.05")
-        row = process.stdout.splitlines()[2].split()
+        row = self.read_rows(process)[0]
         self.assertIn(f"{HEAVE * math.sin(CIRCULAR * 0.05):.5g}", row)
         self.assertNotIn("0.375", row)
 

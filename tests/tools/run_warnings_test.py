@@ -4,11 +4,20 @@ import unittest
 
 import h5py
 import numpy as np
+from mode_runs import write_adaptive_run
 from synthetic_results import write_results, write_series
 from tool_test_case import ToolTestCase
 
 from sprung_tools.files.results_file import open_results
 from sprung_tools.runs.run_warnings import list_warnings
+
+
+def thin(file, name, every):
+    """Keeps every so-many-th row of a dataset, as [output.step] has it stored."""
+    rows, attributes = file[name][::every], dict(file[name].attrs)
+    del file[name]
+    file[name] = rows
+    file[name].attrs.update({**attributes, "every": every})
 
 
 class RunWarnings(ToolTestCase):
@@ -56,6 +65,32 @@ class RunWarnings(ToolTestCase):
                 file.require_group("summary").attrs["energy_closure"] = closure
             self.assertEqual(len(self.list(self.folder / "a.h5")), count)
         self.assertIn("the energy balance does not close (relative 1.2e-03)", self.list(self.folder / "a.h5")[0].text)
+
+    def test_a_file_of_version_1_which_lacks_the_model_as_run_has_those_of_its_summary(self):
+        write_results(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            del file["model/resolved"]
+            file.require_group("summary").attrs["energy_closure"] = 1.2e-3
+        self.assertEqual([one.of for one in self.list(self.folder / "a.h5")], [("computation",)])
+
+    def test_every_command_on_runs_repeats_them_and_says_what_is_thinned(self):
+        write_adaptive_run(self.folder / "a.h5")
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file.require_group("summary").attrs["energy_closure"] = 1.2e-3
+            thin(file, "forces/front_tyre/force", 10)
+        show = ("--show", "bodies/chassis/position.y")
+        for tool, *arguments in (
+            ("report_peaks", "a.h5", *show),
+            ("plot_results", "a.h5", "-o", "a.svg", *show),
+            ("plot_modes", "a.h5", "-o", "a.svg", "--over-time"),
+            ("export_csv", "a.h5", "-o", "a.csv", *show),
+            ("export_paraview", "a.h5", "-o", "a.pvd", "--every", "0.5"),
+        ):
+            with self.subTest(tool):
+                process = self.run_tool(tool, *arguments)
+                self.assertEqual(process.returncode, 0, process.stderr)
+                self.assertIn("warning: chassis 3 modes: the energy balance does not close", process.stdout)
+                self.assertIn("note: chassis 3 modes: forces stored every 50 ms", process.stdout)
 
     def test_the_modes_about_the_equilibrium_do_not_hold_for_a_wheel_in_the_air(self):
         self.write_neglected(self.folder / "a.h5")

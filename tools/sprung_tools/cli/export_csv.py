@@ -9,7 +9,8 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.results_file import open_results
 from sprung_tools.files.whole_file import check_output, write_whole
-from sprung_tools.runs.labelled_runs import samples_between, shown_quantities
+from sprung_tools.runs.labelled_runs import Run, describe, samples_between, shown_quantities
+from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.terminal.program import make_parser
 
 
@@ -40,6 +41,7 @@ def main() -> int:
     arguments = parser.parse_args()
 
     with open_results(arguments.file) as results:
+        doubts = list_doubts([Run(describe(results), results)])
         check_output(arguments.output, [arguments.file])
         inside = samples_between(results, arguments.start, arguments.end)
         headings, columns = ["time [s]"], [results.time[inside]]
@@ -48,5 +50,5 @@ def main() -> int:
             headings.append(f"{shown.label} [{unit or '1'}]")
             columns.append(values[inside])
     write_table(arguments.output, headings, columns)
-    print(f"{arguments.output}: {np.count_nonzero(inside)} rows, {len(columns)} columns")
+    print("\n".join([*doubts, f"{arguments.output}: {np.count_nonzero(inside)} rows, {len(columns)} columns"]))
     return 0

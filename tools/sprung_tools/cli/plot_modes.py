@@ -5,6 +5,7 @@ With --over-time it draws the modes of a run over time: which were active, the c
 quantities of this run, and of other runs if they are given."""
 
 import argparse
+from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
@@ -12,8 +13,9 @@ from sprung_tools.cli.arguments import add_span_arguments
 from sprung_tools.plots.mode_choice_picture import make_choice_figure, open_choice
 from sprung_tools.plots.mode_history_picture import make_mode_history_figure
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.runs.labelled_runs import Shown, open_runs, shown_quantities
+from sprung_tools.runs.labelled_runs import Run, Shown, open_runs, shown_quantities
 from sprung_tools.runs.mode_history import read_mode_histories
+from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.terminal.program import make_parser
 
 
@@ -44,9 +46,8 @@ def parse_arguments() -> argparse.Namespace:
     return arguments
 
 
-def draw_histories(arguments: argparse.Namespace) -> Figure:
+def draw_histories(arguments: argparse.Namespace, runs: Sequence[Run]) -> Figure:
     """Draws the picture of --over-time."""
-    runs = open_runs(arguments.files)
     quantities = shown_quantities(arguments.show or [])
     if not quantities:
         body = read_mode_histories(runs[0].results)[0].body
@@ -56,10 +57,11 @@ def draw_histories(arguments: argparse.Namespace) -> Figure:
 
 def main() -> int:
     arguments = parse_arguments()
+    runs = open_runs(arguments.files) if arguments.over_time else []
     if arguments.over_time:
-        figure = draw_histories(arguments)
+        figure = draw_histories(arguments, runs)
     else:
         figure = make_choice_figure(open_choice(arguments.files[0]), arguments.title)
     write_picture(figure, arguments.output)
-    print(arguments.output)
+    print("\n".join([*list_doubts(runs), arguments.output]))
     return 0

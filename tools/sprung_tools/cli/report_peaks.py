@@ -4,6 +4,7 @@ import numpy as np
 
 from sprung_tools.cli.arguments import add_run_arguments
 from sprung_tools.runs.labelled_runs import Run, Shown, open_runs, runs_with, samples_between, shown_quantities
+from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
@@ -37,5 +38,8 @@ def main() -> int:
         for shown in shown_quantities(arguments.show)
         for run in runs_with(runs, shown)
     ]
+    doubts = list_doubts(runs)
+    if doubts:
+        print("\n".join(doubts) + "\n")
     print(format_table(HEADINGS, rows))
     return 0

@@ -13,8 +13,8 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.model.vehicle_shape import DrawnBody, calc_motion, read_bodies
 from sprung_tools.paraview.vtu_file import RESULTANTS, in_space
-from sprung_tools.runs.labelled_runs import samples_between
-from sprung_tools.runs.stored_histories import list_gaps
+from sprung_tools.runs.labelled_runs import Run, describe, samples_between
+from sprung_tools.runs.run_warnings import list_doubts
 from sprung_tools.signals.spans import OptionalSpan
 from sprung_tools.terminal.progress_bar import Progress
 
@@ -62,7 +62,7 @@ def export_run(
         places = [calc_motion(results, body, samples).position for body in bodies]
         resultants = read_resultants(results, bodies, samples)
         time = results.time[samples]
-        gaps = list_gaps(results)
+        doubts = list_doubts([Run(describe(results), results)])
     starts = np.cumsum([0, *(len(body.places) for body in bodies)])
     lines = np.concatenate([body.lines + start for body, start in zip(bodies, starts)])
     number = np.concatenate([np.full(len(body.lines), k) for k, body in enumerate(bodies, start=1)])
@@ -89,7 +89,7 @@ def export_run(
             mesh.write(os.path.join(folder, name), binary=True)
             entries.append((float(instant), name))
             progress.step()
-    for gap in gaps:
-        print(f"note: {gap}")
+    for doubt in doubts:
+        print(doubt)
     print("bodies: " + ", ".join(f"{k} {body.name}" for k, body in enumerate(bodies, start=1)))
     return entries

@@ -10,7 +10,7 @@ from sprung_tools.files.array_types import Flags
 from sprung_tools.files.hdf5_file import read_texts
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import CONTACT, find_force_channel
-from sprung_tools.model.resolved_model import read_elements, read_settings
+from sprung_tools.model.resolved_model import has_resolved_model, read_elements, read_settings
 from sprung_tools.runs.labelled_runs import Run
 from sprung_tools.runs.mode_history import read_neglected
 from sprung_tools.runs.stored_histories import list_gaps
@@ -36,6 +36,8 @@ def list_warnings(results: ResultsFile) -> list[RunWarning]:
     """All warnings of a run, the gravest first."""
     if results.file.has_group("warnings"):
         given = read_warnings(results)
+    elif not has_resolved_model(results):  # of version 1
+        return warn_of_energy(results)
     else:
         given = [*warn_of_energy(results), *warn_of_missing_modes(results)]
     return [*given, *warn_of_wheels_in_the_air(results)]
@@ -120,7 +122,8 @@ def warn_of_wheels_in_the_air(results: ResultsFile) -> list[RunWarning]:
 
 
 def list_doubts(runs: Sequence[Run]) -> list[str]:
-    """What the runs warned of, and what their files do not hold, each in a line."""
+    """What the runs warned of, and what their files do not hold or hold thinned, each in a line: what every command
+    says beside the numbers, curves and files that it makes of runs."""
     doubts = []
     for run in runs:
         warnings = dict.fromkeys(one.text for one in list_warnings(run.results))
