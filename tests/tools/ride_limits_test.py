@@ -133,14 +133,14 @@ class QuarterCar(QuarterCarCase):
             calc_peak(self.vehicle(), obstacles._replace(low_pass=300.0), 0.1, 6.0)
 
     def test_wheels_are_read_from_the_vehicle(self):
-        self.assertEqual(self.vehicle().wheels, (0.0, (0.316677,)))
+        self.assertEqual(self.vehicle().wheels, (0.0, (0.316677,), False))
         self.assertEqual(self.vehicle().title, "quarter car")
 
     def test_wheels_of_nearly_one_radius_share_an_outline(self):
-        self.assertIsNone(Wheels(3.0, ()).point_radius)
-        self.assertAlmostEqual(Wheels(3.0, (0.49, 0.50, 0.51)).point_radius, 0.5)
+        self.assertIsNone(Wheels(3.0, (), True).point_radius)
+        self.assertAlmostEqual(Wheels(3.0, (0.49, 0.50, 0.51), False).point_radius, 0.5)
         with self.assertRaisesRegex(InputError, r"--heights: error: .*radii 0\.4, 0\.5 m, expected radii within 5 %"):
-            Wheels(3.0, (0.4, 0.5, 0.5)).point_radius  # noqa: B018  it throws
+            Wheels(3.0, (0.4, 0.5, 0.5), False).point_radius  # noqa: B018  it throws
 
     def test_a_point_that_is_not_there_is_an_error(self):
         with self.assertRaisesRegex(InputError, "run.toml: error: no quantity 'points/sprung.seat/acceleration.y'"):
@@ -165,7 +165,7 @@ class QuarterCar(QuarterCarCase):
         for code, complaint in ((3, "the step size fell below its limit"), (1, "the energy balance does not close")):
             program = self.folder / f"program_{code}"
             program.write_text(
-                f"#!/bin/sh\ncase \"$*\" in\n*duration=0.01*) exec {os.environ['SPRUNG_DYNAMICS']} \"$@\" ;;\nesac\n"
+                f"#!/bin/sh\ncase \"$*\" in\n*duration=1.0*) exec {os.environ['SPRUNG_DYNAMICS']} \"$@\" ;;\nesac\n"
                 f"echo '{complaint}' >&2\nexit {code}\n",
                 encoding="utf-8",
             )
@@ -175,7 +175,71 @@ class QuarterCar(QuarterCarCase):
             self.assertEqual(root, (None, "", f"at 7 m/s the run failed: {complaint}", 1))
 
 
+class DrivenSpeed(QuarterCarCase):
+    """A limit belongs to a speed only where the vehicle drives at that speed."""
+
+    def add(self, name, text):
+        with open(self.folder / name, "a", encoding="utf-8") as file:
+            file.write(text)
+
+    def test_a_motion_at_another_speed_is_told_and_not_used(self):
+        self.add("car.toml", '[[motions]]\nname = "cruise"\npoint = "sprung.origin"\ncoordinate = "x"\n'
+                 "function = { polynomial = [0.0, 6.0] }\n")  # fmt: skip
+        vehicle = self.vehicle()
+        said = "at 7 m/s asked for, the vehicle drove 6 m/s on average"
+        self.assertEqual(find_roughness(vehicle, Terrain(RECIPE, (0.001, 0.2), 6.0), 7.0), (None, "", said, 1))
+        root = find_speed(vehicle, Obstacles((7.0, 25.0), 15.0, None), 0.1)
+        self.assertEqual((root.value, root.problem), (None, said))
+        self.assertGreater(calc_power(vehicle, Terrain(RECIPE, (0.001, 0.2), 6.0), 6.1, 0.01), 0.0)  # 1.6 % off
+
+    def test_brakes_and_another_initial_speed_are_told(self):
+        for name, text, found in (
+            ("car.toml", '[[forces]]\nname = "brake"\ntype = "applied"\npoint = "sprung.origin"\n'
+             "force = [{ step = { before = 0.0, after = -1500.0, start = 0.1, end = 0.2 } }, 0.0]\n", "-"),
+            ("run.toml", "[initial.sprung]\nvelocity = [2.0, 0.0]\n", ""),
+        ):  # fmt: skip
+            self.setUp()
+            self.add(name, text)
+            root = find_speed(self.vehicle(), Obstacles((1.0, 25.0), 15.0, None), 0.1)
+            self.assertIsNone(root.value)
+            self.assertRegex(root.problem, rf"at 1 m/s asked for, the vehicle drove {found}[\d.]+ m/s on average")
+
+    def test_a_vehicle_that_does_not_get_over_is_told(self):
+        text = (self.folder / "car.toml").read_text(encoding="utf-8")
+        text = text.replace('type = "tyre"\n', 'type = "tyre"\ncontact = "distributed"\n')
+        text = text.replace("one_sided = false", "one_sided = true")
+        (self.folder / "car.toml").write_text(text, encoding="utf-8")
+        vehicle = self.vehicle()
+        self.assertTrue(vehicle.wheels.has_others)
+        with self.assertRaisesRegex(CallFailed, "at 1 m/s the vehicle did not get over: "):
+            calc_peak(vehicle, Obstacles((1.0, 25.0), 15.0, None), 0.4, 1.0)
+
+    def test_a_file_that_continues_another_run_is_refused(self):
+        self.add("run.toml", "")
+        text = (self.folder / "run.toml").read_text(encoding="utf-8")
+        (self.folder / "run.toml").write_text(f'continue_from = "a.h5"\n{text}', encoding="utf-8")
+        with self.assertRaisesRegex(InputError, r"run.toml:1:1: error: ride_limits begins each of its runs anew"):
+            self.vehicle()
+
+    def test_coarse_outputs_are_no_error_of_the_tool_s_own_first_run(self):
+        self.assertEqual(self.vehicle("sprung.origin", "output_step=0.03").title, "quarter car")
+        with self.assertRaisesRegex(InputError, r"^output_step=3: error: .*\(ride_limits makes runs of 1 s and more\)"):
+            self.vehicle("sprung.origin", "output_step=3")
+
+
 class Command(QuarterCarCase):
+    def test_warnings_of_runs_and_obstacles_above_the_hub_are_told(self):
+        words = ("ride_limits", "run.toml", "--point", "sprung.origin", "--set", "output_step=0.05", "--speeds", "5",
+                 "--heights", "0.35", "--peak", "1", "--length", "60", "--ease", "5")  # fmt: skip
+        done = self.run_tool(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("do not resolve the accelerations"), 1)
+        self.assertRegex(done.stdout, r"\nwarning: vehicle: in \d+ of \d+ runs: values every 0\.05 s do not resolve")
+        self.assertIn("higher than the wheel's hub at 317 mm: a vehicle would hardly get over", done.stdout)
+        (packed,) = json.loads(self.run_tool(*words, "--json").stdout)["vehicles"]
+        self.assertEqual(len([one for one in packed["warnings"] if "do not resolve" in one]), 1)
+        self.assertIn("higher than the wheel's hub", packed["obstacles"][0]["remark"])
+
     def test_tables_json_and_picture(self):
         words = ("ride_limits", "run.toml", "--point", "sprung.origin", "--variant", "as it is", "--variant", "soft",
                  "vehicle.forces.suspension.damper.coefficient=700.0", "--speeds", "5", "--heights", "0.1", "--peak",
@@ -220,7 +284,7 @@ class Command(QuarterCarCase):
             (("--variant", "soft", "road"), "--variant: error: 'road' of 'soft' is not KEY=VALUE"),
             (("--variant", "a", "--variant", "a"), "--variant: error: the label 'a' stands twice"),
             (("--speeds", "--heights"), "there are neither speeds nor --heights"),
-            (("--set", "sped=3"), "unknown key 'sped'"),
+            (("--variant", "x", "sped=3"), "sped=3: error: unknown key 'sped'"),
             (("--spacing", "0.07"), "--spacing 0.07 m must divide"),
         ):
             process = self.run_tool("ride_limits", "run.toml", "--point", "sprung.origin", *arguments)

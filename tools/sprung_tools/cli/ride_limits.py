@@ -13,7 +13,9 @@ vehicle, its modes and the step of the outputs; each --variant is a vehicle of i
 import argparse
 import json
 import math
+import re
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -46,11 +48,12 @@ POINT_NOTE = (
 
 
 class Found(NamedTuple):
-    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]."""
+    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]; warnings: of its runs."""
 
     vehicle: Vehicle
     given: float
     root: Root
+    warnings: tuple[str, ...]
 
 
 class Search(NamedTuple):
@@ -62,6 +65,13 @@ class Search(NamedTuple):
     obstacles: Obstacles
 
 
+def find_limit(task: Task) -> tuple[Root, tuple[str, ...]]:
+    """A limit, and what its runs warned of; in a process of its own, to which the vehicle comes without warnings."""
+    find, vehicle, searched, given = task
+    root = find(vehicle, searched, given)
+    return root, tuple(vehicle.warnings)
+
+
 def find_limits(
     vehicles: Sequence[Vehicle], search: Search, pool: ProcessPoolExecutor
 ) -> tuple[list[Found], list[Found]]:
@@ -70,12 +80,12 @@ def find_limits(
         *((find_roughness, one, search.terrain, speed) for one in vehicles for speed in search.speeds),
         *((find_speed, one, search.obstacles, height) for one in vehicles for height in search.heights),
     ]
-    roots = [pool.submit(*task) for task in tasks]
+    limits = [pool.submit(find_limit, task) for task in tasks]
     with Progress("limits", len(tasks)) as progress:
-        for root in as_completed(roots):
-            root.result()  # throws an error of the input at once
+        for limit in as_completed(limits):
+            limit.result()  # throws an error of the input at once
             progress.step()
-    all_found = [Found(vehicle, given, root.result()) for (_, vehicle, _, given), root in zip(tasks, roots)]
+    all_found = [Found(vehicle, given, *limit.result()) for (_, vehicle, _, given), limit in zip(tasks, limits)]
     over_terrain = len(vehicles) * len(search.speeds)
     return all_found[:over_terrain], all_found[over_terrain:]
 
@@ -85,6 +95,29 @@ def describe_root(root: Root, low: float, high: float, unit: str) -> str:
     if root.problem:
         return root.problem
     return {"": "", "below": f"already at {low:g} {unit}", "above": f"not up to {high:g} {unit}"}[root.side]
+
+
+def describe_height(one: Found) -> str:
+    """What makes an obstacle doubtful; empty if nothing does."""
+    radii = one.vehicle.wheels.point_radii
+    if not radii or one.given <= radii[0]:
+        return ""
+    return f"higher than the wheel's hub at {1e3 * radii[0]:.0f} mm: a vehicle would hardly get over"
+
+
+def list_warnings(found: Sequence[Found]) -> list[str]:
+    """What the runs of each vehicle warned of, once where only the numbers differ, and in how many runs."""
+    first: dict[tuple[str, str], str] = {}
+    counts: Counter[tuple[str, str]] = Counter()
+    for one in found:
+        for text in one.warnings:
+            key = (one.vehicle.variant.label, re.sub(r"\d[\d.e+-]*", "#", text))
+            first.setdefault(key, text)
+            counts[key] += 1
+    runs: Counter[str] = Counter()
+    for one in found:
+        runs[one.vehicle.variant.label] += one.root.calls
+    return [f"{key[0]}: in {counts[key]} of {runs[key[0]]} runs: {text}" for key, text in first.items()]
 
 
 def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Found]) -> str:
@@ -102,7 +135,7 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
         text.append(format_table(("vehicle", "m/s", "km/h", heading, "runs", "note"), rows))
     rows = [
         (one.vehicle.variant.label, f"{1e3 * one.given:g}", *format_speed(one.root.value), str(one.root.calls),
-         describe_root(one.root, *search.obstacles.speeds, "m/s"))
+         "; ".join(filter(None, (describe_root(one.root, *search.obstacles.speeds, "m/s"), describe_height(one)))))
         for one in obstacles
     ]  # fmt: skip
     if rows:
@@ -110,6 +143,9 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
         text.append(format_table(("vehicle", "obstacle mm", "m/s", heading, "runs", "note"), rows))
     if any(one.vehicle.wheels.point_radii for one in obstacles):
         text.append(POINT_NOTE)
+    warnings = list_warnings([*terrain, *obstacles])
+    if warnings:
+        text.append("\n".join(f"warning: {one}" for one in warnings))
     return "\n\n".join(text)
 
 
@@ -134,7 +170,9 @@ def make_json(
     packed = [
         {"label": one.variant.label, "set": one.variant.overrides,
          "terrain": [pack_found(found, "speed", "roughness") for found in terrain if found.vehicle is one],
-         "obstacles": [pack_found(found, "height", "speed") for found in obstacles if found.vehicle is one]}
+         "obstacles": [{**pack_found(found, "height", "speed"), "remark": describe_height(found)} for found in obstacles
+                       if found.vehicle is one],
+         "warnings": list_warnings([found for found in (*terrain, *obstacles) if found.vehicle is one])}
         for one in vehicles
     ]  # fmt: skip
     recipe = search.terrain.recipe._asdict()

@@ -14,7 +14,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.files.errors import InputError
 from sprung_tools.limits.roads import make_obstacle, make_terrain
-from sprung_tools.limits.root_finding import Root, find_root
+from sprung_tools.limits.root_finding import CallFailed, Root, find_root
 from sprung_tools.limits.trials import AHEAD, Felt, Vehicle
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.road_profile import Recipe
@@ -50,6 +50,7 @@ def calc_power(vehicle: Vehicle, terrain: Terrain, speed: float, roughness: floa
     recipe = terrain.recipe._replace(rms=roughness)
     begin, end = (AHEAD + place for place in (recipe.ease, recipe.length - recipe.ease))
     felt = vehicle.drive(speed, make_terrain(recipe), end / speed)
+    felt.check_speed(speed, begin, end)
     power = calc_absorbed_power(felt.acceleration, felt.step)
     return float(np.mean(power[round(begin / speed / felt.step) :]))
 
@@ -76,6 +77,10 @@ def calc_peak(vehicle: Vehicle, obstacles: Obstacles, height: float, speed: floa
     radius = vehicle.wheels.point_radius
     way = AHEAD + vehicle.wheels.base + 2.0 * math.sqrt(height**2 + 2.0 * (radius or 0.0) * height)
     felt = vehicle.drive(speed, make_obstacle(height, radius), way / speed + SETTLING)
+    # A wheel that is not on a point loses speed on the obstacle, and meets it before its centre is there.
+    felt.check_speed(speed, 0.0, 0.5 * AHEAD if vehicle.wheels.has_others else way)
+    if felt.way[-1] < way:
+        raise CallFailed(f"at {speed:.4g} m/s the vehicle did not get over: {felt.way[-1]:.3g} m far of {way:.3g} m")
     return float(np.max(np.abs(smooth(felt, obstacles.low_pass))))
 
 

@@ -13,7 +13,7 @@ from sprung_tools.files.array_types import Floats
 from sprung_tools.signals.road_profile import Recipe, format_profile, make_profile
 
 SAMPLES = 200  # of an obstacle
-RUN_OUT = 1.0  # m of level road in the table behind it
+RUN_OUTS = (1.0, 1000.0)  # m, ends of the level road in the table behind it, which no run leaves
 
 
 def make_terrain(recipe: Recipe) -> str:
@@ -34,5 +34,5 @@ def calc_obstacle(height: float, wheel_radius: float | None) -> tuple[Floats, Fl
 def make_obstacle(height: float, wheel_radius: float | None) -> str:
     """The road over an obstacle."""
     places, heights = calc_obstacle(height, wheel_radius)
-    rows = [*zip(places, heights), (places[-1] + RUN_OUT, 0.0)]
+    rows = [*zip(places, heights), *((places[-1] + one, 0.0) for one in RUN_OUTS)]
     return "# half-round obstacle\n" + "".join(f"{s:.9f} {max(h, 0.0):.9f}\n" for s, h in rows)

@@ -2,6 +2,7 @@
 
 import ctypes
 import os
+import re
 import signal
 import subprocess
 from collections.abc import Iterable, Mapping, Sequence
@@ -64,6 +65,15 @@ def format_overrides(values: Mapping[str, Any]) -> list[str]:
         except InputError as error:
             raise InputError(f"{key}: {error}") from error
     return settings
+
+
+def name_override(error: str, overrides: Sequence[str]) -> str:
+    """An error of sprung-dynamics with a setting itself in place of its number on a command line that the user has not
+    written: `--set 5: error: …` → `speed=x: error: …`."""
+    found = re.match(r"--set (\d+)(?=:)", error)
+    if not found or int(found[1]) > len(overrides):
+        return error
+    return overrides[int(found[1]) - 1] + error[found.end() :]
 
 
 def make_command(

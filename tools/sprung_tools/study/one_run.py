@@ -13,7 +13,15 @@ from typing import Any, NamedTuple
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import RESPONSE, open_hdf5, read_numbers
 from sprung_tools.files.results_file import open_results
-from sprung_tools.programs.calls import BAD_INPUT, CHECK_FAILED, GOOD, INTERRUPTED, Outcome, make_command
+from sprung_tools.programs.calls import (
+    BAD_INPUT,
+    CHECK_FAILED,
+    GOOD,
+    INTERRUPTED,
+    Outcome,
+    make_command,
+    name_override,
+)
 from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.measures import (
@@ -96,7 +104,7 @@ def make_run(task: Task, setting: Setting) -> Row:
             overrides += choose_storage(setting.measures, task.overrides)
         command = make_command(setting.program, setting.command, setting.run, folder / "bodies", overrides, output)
         outcome = call_kept(command)
-        exit_code, error = outcome.exit_code, outcome.error
+        exit_code, error = outcome.exit_code, name_override(outcome.error, overrides)
         measured = Measured(False, (), {})
         if exit_code in (GOOD, CHECK_FAILED):
             try:
