@@ -28,7 +28,7 @@ class Effects(unittest.TestCase):
         self.assertAlmostEqual(first.chance, 1.0 / 3.0)
 
     def test_runs_without_the_measure_do_not_count(self):
-        points = [(1.0,), (2.0,), (3.0,), (3.0,)]
+        points = [(1.0,), (1.0,), (3.0,), (3.0,)]
         (effect,) = calc_effects(
             make_study(("a",), points), [Column("o/y", "y", "", np.array([5.0, np.nan, 6.0, 7.0]))]
         )
@@ -49,9 +49,24 @@ class Effects(unittest.TestCase):
         for values in ([0.1, 0.1, 0.1], [0.1, 0.1, np.nextafter(0.1, 1.0)], [0.0, 0.0, 0.0]):
             self.assertEqual(calc_effects(make_study(("a",), points), [Column("o/y", "y", "", np.array(values))]), [])
         (effect,) = calc_effects(
-            make_study(("a",), points), [Column("o/y", "y", "", np.array([0.1, 0.1, 0.1 + 1e-10]))]
+            make_study(("a",), 2 * points), [Column("o/y", "y", "", np.array(2 * [0.1, 0.1, 0.1 + 1e-10]))]
         )
         self.assertAlmostEqual(effect.share, 1.0)
+
+    def test_random_points_are_grouped_by_three_runs_or_more(self):
+        random = np.random.default_rng(1)
+        for count, sizes in ((12, [3] * 4), (7, [3, 4]), (4, [4])):
+            groups, names = make_groups(random.permutation(np.linspace(0.0, 1.0, count)).tolist())
+            self.assertEqual((sorted(np.bincount(groups)), len(names)), (sizes, len(sizes)))
+
+    def test_what_has_one_value_among_the_good_runs_cannot_be_judged(self):
+        points = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0), (2.0, 2.0)]
+        column = Column("o/y", "y", "", np.array([1.0, np.nan, 2.0, np.nan]))
+        first, second = calc_effects(make_study(("a", "b"), points), [column])
+        self.assertIsNone(second.share)
+        self.assertFalse(second.is_seen)
+        # Each run a group of its own: they explain everything, and so do they by chance.
+        self.assertEqual((first.share, first.chance, first.is_seen), (1.0, 1.0, False))
 
     def test_many_values_make_five_groups_of_equal_size(self):
         values = list(np.random.default_rng(1).permutation(np.linspace(0.0, 10.0, 50)))

@@ -63,12 +63,23 @@ def parse_arguments() -> argparse.Namespace:
 
 
 def format_effects(effects: list[Effect]) -> str:
-    """The largest effects as a table."""
-    largest = sorted(effects, key=lambda one: -one.share)[:MOST_SHOWN]
+    """The largest effects as a table, and what it leaves out."""
+    seen = sorted((one for one in effects if one.is_seen), key=lambda one: -(one.share or 0.0))
     rows = [
-        (one.measure, one.parameter, f"{100.0 * one.share:.0f} %", f"{100.0 * one.chance:.0f} %") for one in largest
+        (one.measure, one.parameter, f"{100.0 * (one.share or 0.0):.0f} %", f"{100.0 * one.chance:.0f} %")
+        for one in seen[:MOST_SHOWN]
     ]
-    return format_table(("measure", "parameter", "explains of the variation", "by chance"), sorted(rows))
+    headings = ("measure", "parameter", "explains of the variation", "by chance")
+    text = [format_table(headings, sorted(rows))] if rows else []
+    unknown = list(dict.fromkeys(one.parameter for one in effects if one.share is None))
+    weak = sum(one.share is not None and not one.is_seen for one in effects)
+    if len(seen) > MOST_SHOWN:
+        text.append(f"note: {len(seen) - MOST_SHOWN} smaller effects are on the page only")
+    if weak:
+        text.append(f"note: {weak} other effects explain no more than chance")
+    if unknown:
+        text.append(f"note: cannot be judged, with one value or too few runs: {', '.join(unknown)}")
+    return "\n".join(text)
 
 
 def format_errors(finished: Finished) -> list[str]:

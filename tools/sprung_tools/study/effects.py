@@ -1,7 +1,8 @@
 """Main effects: how much of the variation of a measure each parameter alone explains.
 
-The runs are put into groups, one for each value of the parameter, or one for each fifth of the runs in the order of its
-values where there are many. With the mean ȳ of all N runs, and the mean ȳ_g of the N_g runs of a group,
+The runs are put into groups, one for each value of the parameter. Numbers that are many, or that stand in less than two
+runs each on average, make groups of equal size in their order: five, or fewer so that each has three runs. With the
+mean ȳ of all N runs, and the mean ȳ_g of the N_g runs of a group,
 
     share = Σ_g N_g (ȳ_g − ȳ)² / Σ_i (y_i − ȳ)²                                                        (1)
 
@@ -18,21 +19,26 @@ from sprung_tools.study.execution import Finished
 from sprung_tools.study.table import Column, format_cell
 
 MOST_VALUES = 12  # of a parameter that make a group each
-PARTS = 5
+PARTS, LEAST_RUNS = 5, 3  # groups of many values; runs in each
 ROUNDING = 1e-12  # of the largest value: what varies less does not vary
 
 
 class Effect(NamedTuple):
     """The effect of a parameter on a measure. groups: their names; means: [groups]; counts: runs in each; share: by
-    (1), chance: its mean value if there is no effect."""
+    (1), None where all runs are in one group; chance: its mean value if there is no effect."""
 
     parameter: str
     measure: str
     groups: tuple[str, ...]
     means: Floats
     counts: Integers
-    share: float
+    share: float | None
     chance: float
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether the parameter explains more than chance does."""
+        return self.share is not None and self.share > self.chance
 
 
 def make_groups(values: list[Any]) -> tuple[Integers, list[str]]:
@@ -41,13 +47,15 @@ def make_groups(values: list[Any]) -> tuple[Integers, list[str]]:
     is_real = all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values)
     if is_real:
         distinct.sort(key=lambda one: float(one[1]))
-    if len(distinct) <= MOST_VALUES or not is_real:
+    is_repeated = len(distinct) <= MOST_VALUES and len(values) >= 2 * len(distinct)
+    if is_repeated or not is_real:
         names = [name for name, _ in distinct]
         order = {name: number for number, name in enumerate(names)}
         return np.array([order[format_cell(one)] for one in values], dtype=int), names
     numbers = np.array(values, dtype=float)
-    limits = np.quantile(numbers, np.linspace(0.0, 1.0, PARTS + 1))
-    groups = np.clip(np.searchsorted(limits, numbers, side="right") - 1, 0, PARTS - 1)
+    parts = max(min(PARTS, len(values) // LEAST_RUNS), 1)
+    limits = np.quantile(numbers, np.linspace(0.0, 1.0, parts + 1))
+    groups = np.clip(np.searchsorted(limits, numbers, side="right") - 1, 0, parts - 1)
     names = [f"{round_number(low)} to {round_number(high)}" for low, high in zip(limits[:-1], limits[1:])]
     return groups, names
 
@@ -80,6 +88,6 @@ def calc_effect(parameter: str, column: Column, groups: Integers, names: list[st
     found = np.unique(groups)
     means = np.array([np.mean(values[groups == one]) for one in found])
     counts = np.array([np.count_nonzero(groups == one) for one in found])
-    share = float(np.sum(counts * (means - np.mean(values)) ** 2)) / total
+    share = float(np.sum(counts * (means - np.mean(values)) ** 2)) / total if found.size > 1 else None
     chance = (found.size - 1) / (values.size - 1)
     return Effect(parameter, column.name, tuple(names[one] for one in found), means, counts, share, chance)

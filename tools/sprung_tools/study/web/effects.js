@@ -1,7 +1,7 @@
 "use strict";
 // Main effects: the mean of a measure by the values of each parameter.
 
-const effectsOf = (measure) => data.effects.filter((one) => one.measure === measure.name).sort((a, b) => b.share - a.share);
+const effectsOf = (measure) => data.effects.filter((one) => one.measure === measure.name).sort((a, b) => (b.share ?? -1) - (a.share ?? -1));
 
 const EFFECT_LEFT = 66, EFFECT_RIGHT = 8, LEAST_SHARE = 112;  // px; of the width of a parameter
 const effectMarks = [];  // what stands below the parameters: {text, from, to, row}, px
@@ -28,12 +28,13 @@ function nameEnds(context, groups, ends, left, share, y) {
 function drawEffects() {
   const measure = columnOf(byId("effect-measure"));
   if (!measure) return;
-  const found = effectsOf(measure), percent = (share) => `${(100 * share).toFixed(0)} %`;
+  const found = effectsOf(measure), percent = (share) => `${(100 * share).toFixed(0)} %`,
+    tell = (one) => (one.share === null ? "cannot be judged" : one.share > one.chance ? percent(one.share) : "no more than chance");
   byId("effect-table").replaceChildren(
     element("thead", {}, element("tr", {}, ...["parameter", "explains of the variation", "by chance", "lowest mean", "highest mean"]
       .map((text, k) => element("th", {class: k ? "number" : ""}, text)))),
     element("tbody", {}, ...found.map((one) => element("tr", {}, element("th", {scope: "row"}, one.parameter),
-      ...[percent(one.share), percent(one.chance), format(Math.min(...one.means)), format(Math.max(...one.means))]
+      ...[tell(one), percent(one.chance), format(Math.min(...one.means)), format(Math.max(...one.means))]
         .map((text) => element("td", {class: "number"}, text))))));
   const canvas = byId("effect-plot");
   canvas.style.minWidth = `${EFFECT_LEFT + EFFECT_RIGHT + LEAST_SHARE * found.length}px`;
@@ -69,7 +70,7 @@ function drawEffects() {
 }
 
 function writeEffects() {
-  const rows = data.effects.flatMap((one) => one.groups.map((group, k) => [one.measure, one.parameter, group, one.means[k], one.counts[k], one.share]));
+  const rows = data.effects.flatMap((one) => one.groups.map((group, k) => [one.measure, one.parameter, group, one.means[k], one.counts[k], one.share ?? ""]));
   return [["measure", "parameter", "group", "mean", "runs", "share"], ...rows].map((row) => row.map((one) => quote(String(one))).join(",")).join("\n") + "\n";
 }
 
