@@ -46,6 +46,19 @@ class Points(StudyCase):
         self.assertEqual((values[0], values[-1]), (10.0, 1000.0))
         np.testing.assert_allclose(np.diff(np.log(values)), np.log(100.0) / 4.0, rtol=1e-12)
 
+    def test_whole_steps_between_whole_numbers_stay_whole(self):
+        for low, high, number, values in ((0, 4, 3, [0, 2, 4]), (0, 4, 4, None), (0.0, 4, 3, [0.0, 2.0, 4.0])):
+            (parameter,) = self.read_parameters(f"from = {low}\nto = {high}\nnumber = {number}\n")
+            kind = int if isinstance(low, int) and values else float
+            self.assertTrue(all(type(one) is kind for one in parameter.values))
+            self.assertEqual(list(parameter.values), values or [0.0, 4.0 / 3.0, 8.0 / 3.0, 4.0])
+
+    def read_parameters(self, text):
+        (self.folder / "run.toml").touch()
+        study = f'run = "run.toml"\nmeasures = ["program/a"]\n[[parameters]]\nkey = "modes.frame"\n{text}'
+        (self.folder / "whole.toml").write_text(study, encoding="utf-8")
+        return read_study(self.folder / "whole.toml").parameters
+
     def test_lists_are_taken_side_by_side(self):
         other = SPEED.replace("speed", "duration").replace("[1.0, 2.0, 5.0]", "[9, 8, 7]")
         self.assertEqual(self.make("list", SPEED, other, sampling=""), [(1.0, 9), (2.0, 8), (5.0, 7)])

@@ -264,12 +264,19 @@ def read_parameter(reader: Reader, sampling: Sampling) -> Parameter:
         number = reader.whole("number", 2)
         if number > MOST_RUNS:
             raise reader.fail("number", f"at most {MOST_RUNS}")
-        values = [place_between(low, high, spacing, k / (number - 1)) for k in range(number)]
+        values = make_range(reader.table["from"], reader.table["to"], number, spacing)
         return Parameter(name, keys, tuple(values), low, high, spacing, crossed, reader.place)
     if "number" in reader.table:
         what = f"'number' has no effect with method \"{sampling.method}\": the number of points stands in [sampling]"
         raise reader.file.fail((*reader.place, "number"), what)
     return Parameter(name, keys, (), low, high, spacing, crossed, reader.place)
+
+
+def make_range(low: float, high: float, number: int, spacing: str) -> list[float]:
+    """The values of a range. Whole steps between whole numbers stay whole, as keys for numbers of things need them."""
+    if spacing == LINEAR and isinstance(low, int) and isinstance(high, int) and (high - low) % (number - 1) == 0:
+        return list(range(low, high + 1, (high - low) // (number - 1)))
+    return [place_between(float(low), float(high), spacing, k / (number - 1)) for k in range(number)]
 
 
 def place_between(low: float, high: float, spacing: str, share: float) -> float:
