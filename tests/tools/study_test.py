@@ -128,6 +128,20 @@ class Rows(StudyCase):
         self.assertLess(still, 1e-3)  # it stands in balance
         self.assertGreater(moved, 10.0)
 
+    def test_thinned_histories_are_a_warning_of_the_row(self):
+        self.write_study('measures = ["histories/forces/tyre/force/max"]\n[set]\nduration = 0.5\n'
+                         f'[set.output.step]\nforces = 0.05\n{HEIGHT}values = [0.05]\n')  # fmt: skip
+        self.assertEqual(self.study().returncode, 0)
+        said = "largest values may be larger than measured: forces stored every 50 ms"
+        self.assertIn(said, self.read_table()[0]["warnings"])
+
+    def test_a_folder_with_a_table_of_something_else_is_refused(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out/table.csv").write_text("mine", encoding="utf-8")
+        self.write_study(f'measures = ["summary/energy_closure"]\n{HEIGHT}values = [0.05]\n')
+        self.assert_refuses(self.study(), "out: error: the folder holds table.csv and no rows.jsonl")
+        self.assertEqual((self.folder / "out/table.csv").read_text(encoding="utf-8"), "mine")
+
     def test_a_failed_run_is_a_row_with_its_error_and_the_others_are_made(self):
         self.write_study(self.MEASURES + TOLERANCE + "values = [1e-6, 5, 1e-7]")
         process = self.study()
@@ -135,7 +149,7 @@ class Rows(StudyCase):
         self.assertIn("3 runs: 3 made, 0 kept from before, 1 failed", process.stdout)
         good, bad, other = self.read_table()
         self.assertEqual((bad["exit_code"], bad["program/steps"], bad["converged"]), ("2", "", "0"))
-        self.assertIn("--set 2: error: ", bad["error"])
+        self.assertIn("integrator.relative_tolerance=5: error: ", bad["error"])
         self.assertIn(f"run 2: {bad['error']}", process.stderr)
         self.assertGreater(float(other["program/steps"]), float(good["program/steps"]))
         with h5py.File(self.folder / "out/table.h5") as file:

@@ -48,7 +48,7 @@ POINT_NOTE = (
 
 
 class Found(NamedTuple):
-    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]; warnings: of its runs."""
+    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]; what its runs said."""
 
     vehicle: Vehicle
     given: float

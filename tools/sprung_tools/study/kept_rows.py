@@ -16,6 +16,7 @@ from sprung_tools.programs.calls import CHECK_FAILED, GOOD
 from sprung_tools.runs.measures import Measure, Measures
 
 ROWS = "rows.jsonl"
+MADE = ("table.csv", "table.h5", "study.html")  # what the tool writes from them, over what is there
 
 
 class Row(NamedTuple):
@@ -41,6 +42,10 @@ class KeptRows:
 
     def __init__(self, folder: Path) -> None:
         self.path = folder / ROWS
+        strange = [name for name in MADE if (folder / name).exists() and not self.path.exists()]
+        if strange:
+            what = f"holds {strange[0]} and no {ROWS}, so it is not of this tool; choose another one"
+            raise InputError(f"{folder}: error: the folder {what}")
         try:
             folder.mkdir(parents=True, exist_ok=True)
             self._file: IO[str] = open(self.path, "a+", encoding="utf-8", errors="replace")

@@ -36,6 +36,7 @@ from sprung_tools.runs.measures import (
 )
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.stored_histories import list_coarse
 from sprung_tools.study.kept_rows import Row, keep_row
 from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
@@ -128,6 +129,8 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             warnings = tuple(dict.fromkeys(one.text for one in list_warnings(results)))
             if setting.has_one_vehicle:
                 check_names(results, wanted)
+            coarse = ", ".join(list_coarse(results))
+            warnings += (f"largest values may be larger than measured: {coarse}",) if coarse else ()
             window = read_window(results)
             objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
             measures = pick(objects, wanted)

@@ -19,7 +19,7 @@ from sprung_tools.study.random_roads import write_road
 from sprung_tools.study.sampling import Point
 from sprung_tools.study.study_file import DESIGN, ROAD, Study
 
-ROW_VERSION = 2  # counts up when the same input gives other rows
+ROW_VERSION = 3  # counts up when the same input gives other rows
 
 
 class Draft(NamedTuple):
