@@ -108,6 +108,7 @@ std::vector<UndampedMode> list_gyroscopic_modes(const FirstOrderForm& form) {
 // given
 std::vector<UndampedMode> list_modes(const LinearisedSystem& system, Eigen::Index num_states, bool turns,
                                      const FirstOrderForm& form) {
+  if (!turns && num_states == 0) return list_undamped_modes(form);
   const Eigen::Index n = system.mass.rows() - num_states;  // states are the last freedoms
   const auto motion = [n](const Eigen::MatrixXd& A) -> Eigen::MatrixXd { return A.topLeftCorner(n, n); };
   const FirstOrderForm undamped =

@@ -29,12 +29,6 @@ StoragePlan::StoragePlan(const OutputSettings& settings, const std::vector<Store
   }
   size_ = estimate(histories);
   reduce(settings, histories);
-  num_stored_ = std::count_if(histories.begin(), histories.end(),
-                              [&](const StoredHistory& history) { return every(history) > 0; });
-}
-
-double StoragePlan::size() const {
-  return size_ + static_cast<double>(num_stored_) * kBytesOfDataset / kMegabyte;
 }
 
 void StoragePlan::reduce(const OutputSettings& settings, const std::vector<StoredHistory>& histories) {
@@ -90,6 +84,7 @@ double StoragePlan::estimate(const std::vector<StoredHistory>& histories) const 
   for (const StoredHistory& history : histories) {
     const long rows_between = every(history);
     if (rows_between == 0) continue;
+    bytes += kBytesOfDataset;
     bytes += conditions_.num_outputs / static_cast<double>(rows_between) *
              static_cast<double>(history.row_size) * count_bytes(history);
   }
@@ -134,8 +129,9 @@ StoredPrecision StoragePlan::precision(const StoredHistory& history) const {
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings) {
   std::string text = plan.size() < 0.1 ? "less than 0.1 MB" : fmt::format("about {:.2g} MB", plan.size());
   if (plan.reductions().empty()) return text;
-  return text +
-         fmt::format("; for output.size = {:g} MB: {}", settings.size, fmt::join(plan.reductions(), "; "));
+  return text + fmt::format("; for output.size = {:g} MB{}: {}", settings.size,
+                            plan.size() > settings.size ? ", which is not reached" : "",
+                            fmt::join(plan.reductions(), "; "));
 }
 
 }  // namespace sprung::dynamics

@@ -50,7 +50,7 @@ class StoragePlan {
   long every(const StoredHistory& history) const;
   /// Time and energies are doubles always; lengths, angles and motion are not rounded.
   StoredPrecision precision(const StoredHistory& history) const;
-  double size() const;  ///< estimate for the file [MB]
+  double size() const { return size_; }  ///< estimate for the file [MB]
   /// What was reduced to make it fit, in words.
   const std::vector<std::string>& reductions() const { return reductions_; }
 
@@ -71,8 +71,7 @@ class StoragePlan {
   StorageConditions conditions_;
   StoredPrecision precision_ = StoredPrecision::kDouble;
   std::array<Choice, kStoredGroupNames.size()> choices_;
-  double size_ = 0.0;  // of the values of all histories [MB]
-  std::ptrdiff_t num_stored_ = 0;
+  double size_ = 0.0;  // [MB]
   std::vector<std::string> reductions_;
 };
 

@@ -23,13 +23,14 @@ double calc_radius(const Superelement& s) {
 Eigen::MatrixXd calc_shapes(const Superelement& s) {
   Eigen::MatrixXd shapes = s.shapes;
   Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();
-  rigid.diagonal() << s.mass, s.mass, s.second_moment;
-  rigid(0, 2) = rigid(2, 0) = -s.first_moment.y();
-  rigid(1, 2) = rigid(2, 1) = s.first_moment.x();
+  rigid.diagonal() << s.inertia.mass, s.inertia.mass, s.inertia.second_moment;
+  rigid(0, 2) = rigid(2, 0) = -s.inertia.first_moment.y();
+  rigid(1, 2) = rigid(2, 1) = s.inertia.first_moment.x();
   const Eigen::LDLT<Eigen::Matrix3d> factor(rigid);
   for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
     if (s.kind_of(static_cast<int>(mode)) == kClampedVector) continue;
-    const Eigen::Vector3d motion = factor.solve(Eigen::Vector3d(s.P(0, mode), s.P(1, mode), s.c(mode)));
+    const Eigen::Vector3d motion =
+        factor.solve(Eigen::Vector3d(s.inertia.P(0, mode), s.inertia.P(1, mode), s.inertia.c(mode)));
     for (Eigen::Index node = 0; node < s.num_nodes(); ++node) {
       const double x = s.node_positions(0, node), y = s.node_positions(1, node);
       shapes(3 * node, mode) -= motion[0] - y * motion[2];

@@ -333,9 +333,12 @@ class Brackets(VerificationCase):
         # on their diagonal, which have no such terms.
         for name, reference in (("soft", "tip"), ("stiff", "m")):
             (self.folder / f"{name}.toml").write_text(ANTENNA.format(reference=reference), encoding="utf-8")
-        for verb in (("build", "soft.toml", "stiff.toml", "--output-dir", "."), ("matrices", "stiff.toml", "-o", "full")):
-            run_program([os.environ["SPRUNG_REDUCE"], *verb], cwd=self.folder, check=True)
-        stiffness, mass = (scipy.io.mmread(self.folder / f"full_{name}.mtx").toarray() for name in ("stiffness", "mass"))
+        for command in (("build", "soft.toml", "stiff.toml", "--output-dir", "."),
+                        ("matrices", "stiff.toml", "-o", "full")):  # fmt: skip
+            run_program([os.environ["SPRUNG_REDUCE"], *command], cwd=self.folder, check=True)
+        stiffness, mass = (
+            scipy.io.mmread(self.folder / f"full_{name}.mtx").toarray() for name in ("stiffness", "mass")
+        )
         for rate in (1e4, 1e10):
             held = stiffness + np.diag(rate * np.isin(np.arange(len(stiffness)), self.find_held_freedoms()))
             truth = 1.0 / (2.0 * np.pi * np.sqrt(scipy.linalg.eigh(mass, held, eigvals_only=True)[::-1]))
@@ -353,8 +356,8 @@ class Brackets(VerificationCase):
 
     def find_held_freedoms(self):
         """Indices of x and y at the beam's left end and of y at its right end, in the matrices of the frame."""
-        nodes = np.loadtxt(self.folder / "full_nodes.csv", delimiter=",", skiprows=1)
-        places = {(round(x, 9), round(y, 9)): 3 * number for number, (_, x, y) in enumerate(nodes - nodes[0] * [0, 1, 1])}
+        nodes = np.loadtxt(self.folder / "full_nodes.csv", delimiter=",", skiprows=1)[:, 1:]
+        places = {tuple(np.round(place - nodes[0], 9)): 3 * number for number, place in enumerate(nodes)}
         return [places[0.0, 0.0], places[0.0, 0.0] + 1, places[4.0, 0.0] + 1]
 
 

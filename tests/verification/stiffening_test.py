@@ -238,6 +238,7 @@ class SpinUp(VerificationCase):
     def test_flies_apart_without_stiffening(self):
         results = self.run_text(self.vehicle(), SPIN_UP_RUN.format(stiffening="false").replace("20.0", "9.0"))
         self.assertGreater(np.max(np.abs(results["points/beam.tip/deflection"][:, 1])), 8.0)
+        self.assertRegex(" ".join(text.decode() for text in results["warnings/text"]), r"beam: .*set stiffening")
 
 
 if __name__ == "__main__":

@@ -110,7 +110,8 @@ TEST_CASE("What does not fit is reduced step by step, and no further than needed
   CHECK_THAT(plan.size(),
              WithinRel(2 * kOfDouble + 11 * kOfSingle + 68 * kOfRounded + 11 * kOfDataset, 1e-9));
   CHECK(describe_storage(plan, settings) ==
-        "about 2.1 MB; for output.size = 1 MB: only points of the summary (the tools compute the others); "
+        "about 2.1 MB; for output.size = 1 MB, which is not reached: only points of the summary (the tools "
+        "compute the others); "
         "single precision; forces, accelerations and rates to five digits; stress resultants every 10 ms; "
         "reactions of joints and loads of force elements every 10 ms; positions and velocities every 10 ms");
 }

@@ -273,14 +273,14 @@ b = "b.a"
                 self.assertIn(text, said)
 
     def test_a_body_that_joints_move_far_is_told_of_in_the_balance_too(self):
-        far = CARRIAGE.replace("position = [0.0, 0.3]", "position = [40.0, 0.3]")
+        far = CARRIAGE.replace("position = [0.0, 0.3]", "position = [8.0, 0.3]")
         (self.folder / "vehicle.toml").write_text(far, encoding="utf-8")
         (self.folder / "run.toml").write_text('vehicle = "vehicle.toml"\nduration = 0.01\n', encoding="utf-8")
         for verb in ("equilibrium", "modes"):
             process = run_program([PROGRAM, verb, "run.toml", "--json"], cwd=self.folder)
             self.assertEqual(process.returncode, 0, process.stderr)
             (text,) = (one["text"] for one in json.loads(process.stdout)["warnings"])
-            self.assertRegex(text, r"to close the joints, of which 'guide' was 40 m open")
+            self.assertRegex(text, r"to close the joints, of which 'guide' was 8 m open")
             self.assertIn(f"warning: {text}", process.stderr)
 
     def test_a_motion_that_moves_a_body_far_is_named_as_the_reason(self):

@@ -51,11 +51,10 @@ void check_certificate(std::uint64_t seed, int num_frequencies) {
   CHECK(bound(worst) <= 1.6 * largest(worst) + 1e-7 * flexibility(worst));
 }
 
-TEST_CASE("over the band the certificate is above the true error, by less than 1.6 where λ_c is far") {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) check_certificate(seed, 20);
-}
-
-TEST_CASE("the certificate is above the true error on 200 random frames", "[.][by-hand]") {
+TEST_CASE(
+    "over the band the certificate is above the true error of 200 random frames, by less than 1.6 where λ_c "
+    "is "
+    "far") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) check_certificate(seed, 60);
 }
 

@@ -30,11 +30,7 @@ void check_bounds(std::uint64_t seed) {
   }
 }
 
-TEST_CASE("the true error lies between D and D/(1 − s/λ_c), damped and undamped") {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) check_bounds(seed);
-}
-
-TEST_CASE("the true error lies between D and D/(1 − s/λ_c) on 200 random frames", "[.][by-hand]") {
+TEST_CASE("the true error of 200 random frames lies between D and D/(1 − s/λ_c), damped below the bound") {
   for (std::uint64_t seed = 0; seed < 200; ++seed) check_bounds(seed);
 }
 

@@ -64,6 +64,5 @@ TEST_CASE("A line that ends on another one without being joined to it is remarke
     return reduce::list_design_remarks(reduce::read_design(folder / "tee.toml"));
   };
   REQUIRE(remarks(4).size() == 1);
-  CHECK_THAT(remarks(4)[0], Contains("'m'") &&
-                                Contains("lies on a line without being joined to it"));
+  CHECK_THAT(remarks(4)[0], Contains("'m'") && Contains("lies on a line without being joined to it"));
 }
