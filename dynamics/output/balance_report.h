@@ -30,7 +30,7 @@ struct BalanceReport {
 std::vector<RunWarning> list_balance_warnings(const Vehicle& vehicle, const RestingSections& sections,
                                               const std::vector<std::string>& file_remarks);
 
-/// Lower bounds of the vehicle's undamped frequencies; the modes found are upper ones.
+/// Bounds of the vehicle's undamped frequencies.
 struct FrequencyBracket {
   Eigen::VectorXd lower_hz, upper_hz;  ///< of mode 1, 2, …, rigid-body modes among them
   double highest_hz = 0.0;             ///< up to which the bounds hold

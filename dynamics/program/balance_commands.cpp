@@ -21,8 +21,6 @@ namespace sprung::dynamics {
 
 namespace {
 
-// The stiffness is that at the equilibrium of the model: forces that depend on the state nonlinearly are the
-// same in both models.
 constexpr double kUncertain = 1e-7;  // natural sizes: an equilibrium that is less exact is warned of
 
 void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& warnings) {
@@ -68,8 +66,8 @@ void warn_of_rounded_modes(const std::vector<VehicleMode>& modes, std::vector<Ru
            fmt::join(open, ", "))});
 }
 
-// Of the model, which are told at once as in a run, and of the balance.
-std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const RestingSections& resting,
+// Prints the warnings about the model at once, as a run does. @return these, and those about the balance
+std::vector<RunWarning> tell_warnings(const PreparedRun& prepared, const RestingSections& resting,
                                       std::FILE* err) {
   std::vector<RunWarning> warnings =
       list_model_warnings(prepared.balance_model, prepared.assembly, prepared.start, nullptr);
@@ -79,7 +77,8 @@ std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const Resting
   return warnings;
 }
 
-// Appends to `warnings` where the bounds are not proved.
+// Both models have the stiffness at the equilibrium of the first: forces that depend on the state nonlinearly
+// are the same. Appends to `warnings` where the bounds are not proved.
 FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest())
     throw support::InputError({.path = "--bracket"},
@@ -115,7 +114,7 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              prepared.run.start == Run::Start::kSteady,
                              make_start_positions(model, prepared.vehicle),
                              &resting.loads,
-                             list_warnings(prepared, resting, request.streams.err)};
+                             tell_warnings(prepared, resting, request.streams.err)};
   support::print(request.streams.out, "{}",
                  json ? format_report_json(request, make_equilibrium_json(report))
                       : describe_static_lengths(prepared) + format_equilibrium(report));
@@ -129,7 +128,7 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   VehicleSections sections(prepared.vehicle, model);
   const RestingSections resting =
       calc_resting_sections(prepared.vehicle, model, *prepared.equilibrium, sections);
-  std::vector<RunWarning> warnings = list_warnings(prepared, resting, request.streams.err);
+  std::vector<RunWarning> warnings = tell_warnings(prepared, resting, request.streams.err);
   warn_of_rounding(*prepared.equilibrium, warnings);
   warn_of_rounded_modes(modes, warnings);
   std::optional<FrequencyBracket> bracket;

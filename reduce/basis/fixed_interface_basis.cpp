@@ -106,7 +106,8 @@ Components make_components(const Eigen::SparseMatrix<double>& stiffness,
 Eigen::MatrixXd find_independent(const Eigen::MatrixXd& energy) {
   const Eigen::VectorXd scale = energy.diagonal().cwiseSqrt().cwiseInverse();
   const auto pairs = support::solve_symmetric(scale.asDiagonal() * energy * scale.asDiagonal());
-  if (!pairs) throw support::NumericalError("basis 'fixed-interface': its strain energy has no eigenvalues");
+  if (!pairs)
+    throw support::NumericalError("basis \"fixed-interface\": its strain energy has no eigenvalues");
   const Eigen::Index dropped = (pairs->values.array() < kDependentVector).count();
   return scale.asDiagonal() * pairs->vectors.rightCols(energy.rows() - dropped);
 }

@@ -14,7 +14,7 @@ namespace sprung::reduce {
 /// @param file  the design's, for messages
 /// @return the files
 /// @throws support::InputError if a file cannot be written, the design gives the body by matrices itself, or
-/// has points that follow others Checked by tests/reduce/matrices/matrices_test.py
+/// has points that follow others. Checked by tests/reduce/matrices/matrices_test.py
 std::vector<std::filesystem::path> write_frame_matrices(const Design& design,
                                                         const std::filesystem::path& file,
                                                         const std::string& prefix);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reduce/reduction/inertia_invariants.h"
 #include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/terminal/text_table.h"
@@ -128,14 +129,10 @@ std::string format_certificate(const Superelement& s) {
 }
 
 std::optional<FreeModes> calc_free_modes(const Superelement& s) {
-  Eigen::MatrixXd momenta(3, s.num_modes());
-  momenta << s.inertia.P, s.inertia.c;
-  Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();
-  rigid.diagonal() << s.inertia.mass, s.inertia.mass, s.inertia.second_moment;
-  rigid(0, 2) = rigid(2, 0) = -s.inertia.first_moment.y();
-  rigid(1, 2) = rigid(2, 1) = s.inertia.first_moment.x();
-  const Eigen::MatrixXd mass =
-      s.inertia.M_ff - momenta.transpose() * support::solve_positive_definite(rigid, momenta);
+  const Eigen::MatrixXd whole = calc_mass_matrix(s.inertia);
+  const Eigen::MatrixXd momenta = whole.topRightCorner(3, s.num_modes());
+  const Eigen::MatrixXd mass = s.inertia.M_ff - momenta.transpose() * support::solve_positive_definite(
+                                                                          whole.topLeftCorner(3, 3), momenta);
   const auto pairs = support::solve_undamped(s.stiffness, 0.5 * (mass + mass.transpose()));
   if (!pairs || !(pairs->values.minCoeff() > 0.0)) return std::nullopt;
   const Eigen::VectorXd omega = pairs->values.cwiseSqrt();

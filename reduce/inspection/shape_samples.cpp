@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "reduce/reduction/inertia_invariants.h"
+
 namespace sprung::reduce {
 
 namespace {
@@ -22,15 +24,12 @@ double calc_radius(const Superelement& s) {
 // would make different modes look alike.
 Eigen::MatrixXd calc_shapes(const Superelement& s) {
   Eigen::MatrixXd shapes = s.shapes;
-  Eigen::Matrix3d rigid = Eigen::Matrix3d::Zero();
-  rigid.diagonal() << s.inertia.mass, s.inertia.mass, s.inertia.second_moment;
-  rigid(0, 2) = rigid(2, 0) = -s.inertia.first_moment.y();
-  rigid(1, 2) = rigid(2, 1) = s.inertia.first_moment.x();
-  const Eigen::LDLT<Eigen::Matrix3d> factor(rigid);
+  const Eigen::MatrixXd mass = calc_mass_matrix(s.inertia);
+  const Eigen::MatrixXd motions =
+      mass.topLeftCorner<3, 3>().ldlt().solve(mass.topRightCorner(3, shapes.cols()));
   for (Eigen::Index mode = 0; mode < shapes.cols(); ++mode) {
     if (s.kind_of(static_cast<int>(mode)) == kClampedVector) continue;
-    const Eigen::Vector3d motion =
-        factor.solve(Eigen::Vector3d(s.inertia.P(0, mode), s.inertia.P(1, mode), s.inertia.c(mode)));
+    const Eigen::Vector3d motion = motions.col(mode);
     for (Eigen::Index node = 0; node < s.num_nodes(); ++node) {
       const double x = s.node_positions(0, node), y = s.node_positions(1, node);
       shapes(3 * node, mode) -= motion[0] - y * motion[2];

@@ -32,12 +32,8 @@ struct RigidShare {
 };
 
 RigidShare calc_rigid_share(const InertiaInvariants& inertia) {
-  RigidShare share{.momenta = Eigen::MatrixXd(3, inertia.P.cols()), .mass = Eigen::Matrix3d::Zero()};
-  share.momenta << inertia.P, inertia.c;
-  share.mass.diagonal() << inertia.mass, inertia.mass, inertia.second_moment;
-  share.mass(0, 2) = share.mass(2, 0) = -inertia.first_moment.y();
-  share.mass(1, 2) = share.mass(2, 1) = inertia.first_moment.x();
-  return share;
+  const Eigen::MatrixXd mass = calc_mass_matrix(inertia);
+  return {.momenta = mass.topRightCorner(3, inertia.P.cols()), .mass = mass.topLeftCorner<3, 3>()};
 }
 
 // M_ff = I of clamped modes; of the others M_ff − HᵀM_r⁻¹H = I, by the scale of M_ff (reduce/basis, eq. 3).

@@ -93,7 +93,7 @@ class Vehicle:
         self.title, self.wheels = self.probe()
 
     def probe(self) -> tuple[str, Wheels]:
-        """Asks a very short run for the vehicle's name and its wheels. InputError where the vehicle, its point or its
+        """Asks a short run for the vehicle's name and its wheels. InputError where the vehicle, its point or its
         wheels cannot be used, or where the run file continues another run."""
         file = TomlFile(self.run)
         if "continue_from" in file.data:

@@ -88,9 +88,8 @@ def find_pitch_gap(results: ResultsFile, point: str) -> str:
 
 def list_remarks(results: ResultsFile, points: Sequence[str], window: Span) -> list[str]:
     """Which measures of points are left out because the samples are too few, or because the file does not tell the
-    rotation of their bodies, and why;
-    whether the span is too short for the MTVV, or begins while the weightings lack the vibration before the run; and
-    what is said of values in static equilibrium."""
+    rotation of their bodies, and why; whether the span is too short for the MTVV, or begins while the weightings lack
+    the vibration before the run; and what is said of values in static equilibrium."""
     gaps = {point: find_pitch_gap(results, point) for point in points}
     fault = describe_fault(sampling_step(results)) if points else ""
     if fault:
