@@ -2,12 +2,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "tools/support/dense/dense_solvers.h"
+#include "tools/support/dense/eigenproblems.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
 namespace {
+
+constexpr double kSameRate = 1e-3;  // of σ
+constexpr int kMostIterations = 30;
+
+// The motion y of the vibrations with the values λ that goes with its own rate σ = k/m.
+// @param find  y for a σ   @param calc_rate  k/m of a y
+template <class Find, class CalcRate>
+Eigen::ArrayXd iterate(double sigma, Find find, CalcRate calc_rate) {
+  Eigen::ArrayXd y;
+  for (int i = 0; i < kMostIterations; ++i) {
+    y = find(sigma);
+    const double before = sigma;
+    sigma = calc_rate(y);
+    if (std::abs(sigma - before) < kSameRate * sigma) break;
+  }
+  return y;
+}
+
+// Stiffness or mass of a mode left out, and its coupling to each vibration.
+struct Coupling {
+  double own;
+  const Eigen::ArrayXd& others;
+};
+
+// How the vibrations of what is active follow a mode left out: yᵀ(Λ + σ)y + 2yᵀ(g + σh) is the least.
+Eigen::ArrayXd find_following(const Eigen::ArrayXd& lambda, Coupling stiffness, Coupling mass, double sigma) {
+  const Eigen::ArrayXd &g = stiffness.others, &h = mass.others;
+  return iterate(
+      sigma,
+      [&](double s) -> Eigen::ArrayXd {
+        return -(g + s * h) / (lambda + s).max(std::numeric_limits<double>::min());
+      },
+      [&](const Eigen::ArrayXd& y) {
+        return (stiffness.own + (y * (2.0 * g + lambda * y)).sum()) / (mass.own + (y * (2.0 * h + y)).sum());
+      });
+}
+
+// The vibrations of what is active that move an active mode by one, to which all others give way: yᵀ(Λ + σ)y
+// is the least with pᵀy = 1. @param p  of the mode, per unit of each vibration
+Eigen::ArrayXd find_pushed(const Eigen::ArrayXd& lambda, const Eigen::ArrayXd& p, double sigma) {
+  return iterate(
+      sigma,
+      [&](double s) -> Eigen::ArrayXd {
+        const Eigen::ArrayXd y = p / (lambda + s).max(std::numeric_limits<double>::min());
+        return y / (p * y).sum();
+      },
+      [&](const Eigen::ArrayXd& y) { return (lambda * y.square()).sum() / y.square().sum(); });
+}
 
 double calc_largest_deflection(const Model& full, int coordinate) {
   double largest = 0.0;
@@ -19,11 +69,6 @@ double calc_largest_deflection(const Model& full, int coordinate) {
   return largest;
 }
 
-void add_point(const Eigen::Vector2d& motion, EffectiveModes::Mode& mode) {
-  mode.reach.push_back(motion.norm());
-  mode.motion.push_back(motion);
-}
-
 }  // namespace
 
 EffectiveModes::EffectiveModes(const FullSmallMotion& motion, const std::vector<bool>& is_active)
@@ -31,37 +76,36 @@ EffectiveModes::EffectiveModes(const FullSmallMotion& motion, const std::vector<
   for (const int coordinate : motion.modal_coordinates()) {
     modes_.push_back({.deflection = calc_largest_deflection(motion.model(), coordinate)});
     own_.push_back(motion.find_independent(coordinate));
+    const Mode lone = make_lone_mode(coordinate);
+    own_rates_.push_back(lone.stiffness / lone.mass);
   }
   update(is_active);
 }
 
-// Motion x of the independent coordinates per unit of each mode, f×modes. The rigid motions and the active
-// modes A give way by their inertia: x = −M_AA⁻¹ M_Aj for a mode left out; for an active one, to which the
-// others give way, x = M_AA⁻¹ e_j over its own entry.
+// Motion x of the independent coordinates per unit of each mode, f×modes.
 Eigen::MatrixXd EffectiveModes::calc_directions(const std::vector<bool>& is_active) const {
-  const Eigen::MatrixXd& mass = motion_->motion().mass;
+  const Eigen::MatrixXd& M = motion_->motion().mass;
+  const Eigen::MatrixXd K = 0.5 * (motion_->motion().stiffness + motion_->motion().stiffness.transpose());
   const std::vector<Eigen::Index> giving = motion_->find_free(is_active);
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(mass.rows(), static_cast<Eigen::Index>(modes_.size()));
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(M.rows(), static_cast<Eigen::Index>(modes_.size()));
+  const auto vibrations = support::solve_undamped(K(giving, giving), M(giving, giving));
+  if (!vibrations) throw support::NumericalError("the modes of small motion were not found");
+  const Eigen::ArrayXd lambda = vibrations->values.array().max(0.0);
+  const Eigen::MatrixXd& V = vibrations->vectors;
   for (std::size_t j = 0; j < modes_.size(); ++j) {
-    if (own_[j] < 0) continue;
-    const auto column = static_cast<Eigen::Index>(j);
+    const Eigen::Index own = own_[j];
+    if (own < 0) continue;
+    Eigen::ArrayXd y;
     if (is_active[j]) {
-      x(own_[j], column) = 1.0;
+      const auto place = std::find(giving.begin(), giving.end(), own) - giving.begin();
+      y = find_pushed(lambda, V.row(place).transpose(), own_rates_[j]);
     } else {
-      x.col(column) = -mass.col(own_[j]);
+      const Eigen::ArrayXd g = V.transpose() * K(giving, own), h = V.transpose() * M(giving, own);
+      y = find_following(lambda, {K(own, own), g}, {M(own, own), h}, own_rates_[j]);
     }
-  }
-  const Eigen::MatrixXd part = support::solve_positive_definite(mass(giving, giving), x(giving, Eigen::all));
-  x.setZero();
-  x(giving, Eigen::all) = part;
-  for (std::size_t j = 0; j < modes_.size(); ++j) {
-    if (own_[j] < 0) continue;
     auto column = x.col(static_cast<Eigen::Index>(j));
-    if (is_active[j]) {
-      column /= column[own_[j]];
-    } else {
-      column[own_[j]] = 1.0;
-    }
+    column(giving) = V * y.matrix();
+    column[own] = 1.0;
   }
   return x;
 }
@@ -83,7 +127,7 @@ void EffectiveModes::update(const std::vector<bool>& is_active) {
       modes_[j] = {.mass = mass[column],
                    .damping = std::max(0.0, damping[column]),
                    .stiffness = std::max(0.0, stiffness[column])};
-      for (const Eigen::MatrixXd& motion : reach) add_point(motion.col(column), modes_[j]);
+      for (const Eigen::MatrixXd& motion : reach) modes_[j].reach.push_back(motion.col(column).norm());
     }
     modes_[j].deflection = deflection;
   }
@@ -97,9 +141,8 @@ EffectiveModes::Mode EffectiveModes::make_lone_mode(int coordinate) const {
   });
   const Eigen::Index k = coordinate - body->first_coordinate - 3;
   Mode mode{.mass = body->M_ff(k, k), .damping = body->damping(k, k), .stiffness = body->stiffness(k, k)};
-  for (std::size_t i = 0; i < motion_->num_points(); ++i) {
-    add_point(motion_->point_motion(i).col(coordinate), mode);
-  }
+  for (std::size_t i = 0; i < motion_->num_points(); ++i)
+    mode.reach.push_back(motion_->point_motion(i).col(coordinate).norm());
   return mode;
 }
 

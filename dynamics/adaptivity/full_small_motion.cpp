@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "dynamics/system/partitioned_equations.h"
+#include "tools/support/dense/dense_solvers.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
@@ -27,14 +28,17 @@ FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::Ve
       PartitionedEquations equations(full);
       linearised = &found.emplace(linearise(equations, time, q));
     }
+    if (!support::is_positive_definite(linearised->mass))
+      throw support::NumericalError("the mass of small motion is singular");
     independent_ = linearised->partition.independent;
     motion_ = {linearised->mass, linearised->damping, linearised->stiffness};
     known_ = {independent_, motion_};
     directions = linearised->directions;
     for (const int coordinate : modal_) make_independent(coordinate, directions);
     sort_coordinates(directions);
+    modal_motion_ = directions(modal_, Eigen::all);
   } catch (const support::NumericalError&) {
-    // Near a singular position: no small motion.
+    // Near a singular position, or with masses that rounding makes singular: no small motion.
   }
 
   SystemTerms terms(full);

@@ -11,7 +11,8 @@
 namespace sprung::dynamics {
 
 /// Small motion of a full model about the start of a run, in f independent coordinates, and the motion of the
-/// points asked for. Near a singular position there is none: then f = 0. nq coordinates.
+/// points asked for. Near a singular position, or where the mass is singular, there is none: then f = 0. nq
+/// coordinates.
 ///
 /// The modes are among the independent coordinates, as far as the joints leave them free: a mode that is held
 /// stands still only if it is one of them (adaptivity, "Indicator"). An integrator may have chosen others.
@@ -35,6 +36,8 @@ class FullSmallMotion {
   /// Motion ∂r/∂q of a point asked for: 2×nq, and with the joints closed 2×f.
   const Eigen::Matrix2Xd& point_motion(std::size_t point) const { return point_motion_[point]; }
   const Eigen::MatrixXd& reduced_motion(std::size_t point) const { return reduced_motion_[point]; }
+  /// Motion of the modal coordinates with the joints closed, modes×f; a unit row where a mode is independent.
+  const Eigen::MatrixXd& modal_motion() const { return modal_motion_; }
   std::size_t num_points() const { return point_motion_.size(); }
 
   /// Small motion where modes are held: without their rows and columns.
@@ -52,6 +55,7 @@ class FullSmallMotion {
   std::vector<int> modal_, independent_;
   SmallMotion motion_;
   KnownMotion known_;  // in the coordinates of the linearisation
+  Eigen::MatrixXd modal_motion_;
   std::vector<Eigen::Matrix2Xd> point_motion_;
   std::vector<Eigen::MatrixXd> reduced_motion_;
 };

@@ -5,11 +5,19 @@
 
 namespace sprung::dynamics {
 
+MissingAccelerationRecord::MissingAccelerationRecord(const ModeIndicator& indicator)
+    : motion_(indicator.small_motion()),
+      forces_(static_cast<Eigen::Index>(indicator.num_modes())),
+      points_(indicator.small_motion().num_points()) {}
+
 void MissingAccelerationRecord::add(const ModeIndicator& indicator) {
   const double step = has_begun_ ? indicator.time() - time_ : 0.0;
+  for (std::size_t j = 0; j < indicator.num_modes(); ++j)
+    forces_[static_cast<Eigen::Index>(j)] = indicator.unbalanced_force(j);
+  motion_.update(step, forces_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
-    const Eigen::Vector2d missing = indicator.calc_missing_acceleration(i),
+    const Eigen::Vector2d missing = motion_.accelerations().segment<2>(static_cast<Eigen::Index>(2 * i)),
                           present = indicator.sizes().present_acceleration(i);
     const Eigen::Array2d square = missing.array().square();
     point.missing_sum += 0.5 * step * (point.missing + square);
@@ -44,9 +52,10 @@ MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& i
 }
 
 void MissingAccelerationRecord::restore(support::ByteReader& bytes) {
-  const std::size_t num_points = points_.size();
+  const std::size_t num_points = points_.size(), num_vibrations = motion_.num_vibrations();
   transfer(bytes, *this);
-  if (points_.size() != num_points) throw support::DamagedBytes();
+  if (points_.size() != num_points || motion_.num_vibrations() != num_vibrations)
+    throw support::DamagedBytes();
 }
 
 }  // namespace sprung::dynamics

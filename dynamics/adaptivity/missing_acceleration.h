@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dynamics/adaptivity/missing_motion.h"
 #include "dynamics/adaptivity/mode_indicator.h"
 
 namespace sprung::dynamics {
@@ -16,12 +17,11 @@ struct MissingAcceleration {
   double worst() const { return rms_share > peak_change ? rms_share : peak_change; }
 };
 
-/// Adds up the accelerations of all modes that a run with a fixed set leaves out, at each point asked for
-/// (adaptivity, eq. 7).
-/// Checked by tests/verification/left_out_test.py
+/// Records what all modes that a run with a fixed set leaves out would add to the acceleration of each point
+/// asked for (adaptivity, eq. 8). Checked by tests/verification/left_out_test.py
 class MissingAccelerationRecord {
  public:
-  explicit MissingAccelerationRecord(std::size_t num_points) : points_(num_points) {}
+  explicit MissingAccelerationRecord(const ModeIndicator& indicator);
 
   /// Takes the indicator's last update into account.
   void add(const ModeIndicator& indicator);
@@ -42,6 +42,7 @@ class MissingAccelerationRecord {
   template <class Bytes, class Record>
   static void transfer(Bytes& bytes, Record& record) {
     bytes.transfer(record.has_begun_);
+    MissingMotion::transfer(bytes, record.motion_);
     bytes.transfer(record.time_);
     bytes.transfer(record.length_);
     bytes.transfer_items(record.points_, [&](auto& point) {
@@ -54,6 +55,8 @@ class MissingAccelerationRecord {
     });
   }
 
+  MissingMotion motion_;
+  Eigen::VectorXd forces_;  // on each mode
   bool has_begun_ = false;
   double time_ = 0.0, length_ = 0.0;  // of the last update; of all [s]
   std::vector<Point> points_;

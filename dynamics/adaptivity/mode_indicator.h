@@ -6,8 +6,8 @@
 #include "dynamics/adaptivity/effective_modes.h"
 #include "dynamics/adaptivity/full_small_motion.h"
 #include "dynamics/adaptivity/reference_sizes.h"
+#include "dynamics/adaptivity/step_responses.h"
 #include "dynamics/adaptivity/unbalanced_force.h"
-#include "dynamics/functions/oscillator_response.h"
 #include "dynamics/system/constrained_equations.h"
 
 namespace sprung::dynamics {
@@ -21,7 +21,7 @@ struct ModeAmplitude {
 /// Error indicator of modes that a run leaves out. Each is followed as an oscillator under the force that the
 /// run leaves unbalanced on it,
 ///     m_j ξ̈ + c_j ξ̇ + k_j ξ = r_j(t),   r = Q − M q̈ − φ_qᵀ λ in its row,
-/// with the mass, damping and stiffness that it has where everything else gives way by its inertia. ξ is, to
+/// with the mass, damping and stiffness that it has where everything else gives way to it. ξ is, to
 /// first order, what the mode would add to the motion, resonance included (adaptivity, eqs. 1–3).
 class ModeIndicator {
  public:
@@ -68,9 +68,9 @@ class ModeIndicator {
   double calc_acceleration(std::size_t mode, std::size_t point, const ModeAmplitude& amplitude) const {
     return effective_[mode].reach[point] * amplitude.acceleration;  ///< [m/s²]
   }
-  /// What all modes left out together would add to the acceleration of a point asked for, at the last update
-  /// [m/s²].
-  Eigen::Vector2d calc_missing_acceleration(std::size_t point) const;
+  /// The force that the run leaves unbalanced on a mode left out, at the last update; 0 for an active one
+  /// [N/√kg].
+  double unbalanced_force(std::size_t mode) const { return state_.oscillators[mode].force; }
   /// The part of the force that the run leaves unbalanced on a mode left out that was there before the last
   /// update: without the part that has jumped at that very instant, or with which the run starts, unless it
   /// continues another.
@@ -100,13 +100,6 @@ class ModeIndicator {
   void restore(support::ByteReader& bytes);  ///< @throws support::DamagedBytes
 
  private:
-  // Of the modes left out: the exact responses to a step of that length.
-  struct LeftOut {
-    std::vector<std::size_t> modes;
-    std::vector<double> stiffness, decay;  // ω² and d [1/s², 1/s]
-    std::vector<OscillatorResponse> responses;
-    double step = 0.0;
-  };
   void update_left_out();
   void follow(std::size_t place, double step);  // the mode at that place among those left out
   template <class Bytes, class Indicator>
@@ -118,8 +111,8 @@ class ModeIndicator {
   ReferenceSizes sizes_;
   UnbalancedForce unbalanced_;
   State state_;
-  LeftOut left_out_;
-  std::vector<double> accelerations_;  // ξ̈ of each mode, 0 of active ones
+  std::vector<std::size_t> left_out_;
+  StepResponses responses_;  // of the modes left out
   std::vector<ModeAmplitude> amplitudes_;
 };
 

@@ -16,7 +16,7 @@ ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
     : modes_(options, start),
       motion_(*options.full, start),
       record_(modes_.indicator(), start.time),
-      missing_(options.points.size()),
+      missing_(modes_.indicator()),
       rates_(start.v),
       largest_(modes_.indicator().num_modes()) {}
 

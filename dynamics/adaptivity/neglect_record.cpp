@@ -22,17 +22,16 @@ void NeglectRecord::add_step(const ModeIndicator& indicator, const std::vector<M
 
 WorstNeglect NeglectRecord::find_worst(const ModeIndicator& indicator) const {
   WorstNeglect worst;
+  const auto take = [](double share, const Peak& peak, int coordinate, LargestShare& largest) {
+    if (share > largest.share) largest = {share, coordinate, peak.time};
+  };
   for (std::size_t j = 0; j < peaks_.size(); ++j) {
-    const std::vector<Peak>& acceleration = peaks_[j].acceleration;
-    const ModeShare share = indicator.sizes().calc_share(
-        peaks_[j].deflection.value, [&](std::size_t point) { return acceleration[point].value; });
-    if (!(share.worst() > worst.share.worst())) continue;
-    worst = {share, indicator.modal_coordinates()[j], peaks_[j].deflection.time};
-    if (share.deflection > share.acceleration) continue;
-    for (std::size_t i = 0; i < acceleration.size(); ++i) {  // the point whose share it is
-      const ModeShare alone = indicator.sizes().calc_share(
-          0.0, [&](std::size_t point) { return point == i ? acceleration[i].value : 0.0; });
-      if (alone.acceleration == share.acceleration) worst.time = acceleration[i].time;
+    const int coordinate = indicator.modal_coordinates()[j];
+    take(indicator.sizes().calc_deflection_share(peaks_[j].deflection.value), peaks_[j].deflection,
+         coordinate, worst.deflection);
+    for (std::size_t i = 0; i < peaks_[j].acceleration.size(); ++i) {
+      const Peak& peak = peaks_[j].acceleration[i];
+      take(indicator.sizes().calc_acceleration_share(i, peak.value), peak, coordinate, worst.acceleration);
     }
   }
   return worst;

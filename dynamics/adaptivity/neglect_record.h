@@ -1,16 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "dynamics/adaptivity/mode_indicator.h"
 
 namespace sprung::dynamics {
 
-/// The largest share that a mode left out has had in a run.
-struct WorstNeglect {
-  ModeShare share;
+/// The largest share that a mode left out has had in a run, and which mode that was.
+struct LargestShare {
+  double share = 0.0;
   int coordinate = -1;  ///< of the full model, −1: none was left out
   double time = 0.0;    ///< [s]
+};
+
+/// By deflection and by acceleration: these may be different modes.
+struct WorstNeglect {
+  LargestShare deflection, acceleration;
+  double share() const { return std::max(deflection.share, acceleration.share); }
 };
 
 /// Records the largest that each mode would have done while it was left out, by the set of modes that was

@@ -30,16 +30,20 @@ class ReferenceSizes {
   /// At the last update [m/s²].
   const Eigen::Vector2d& present_acceleration(std::size_t point) const { return present_[point]; }
   double least_acceleration() const { return least_acceleration_; }  ///< that counts, > 0 [m/s²]
-  /// The share of a deflection [m] and of an acceleration of each point, `acceleration_at(point)` [m/s²]. A
-  /// share is at most 1: where a mode alone would do more than the run, it is the reference itself.
+  /// Shares of a deflection [m] and of an acceleration of a point [m/s²]. A share is at most 1: where a mode
+  /// alone would do more than the run, it is the reference itself.
+  double calc_deflection_share(double deflection) const {
+    return deflection / std::max(deflection_, deflection);
+  }
+  double calc_acceleration_share(std::size_t point, double acceleration) const {
+    return acceleration / std::max(accelerations_[point], acceleration);
+  }
+  /// Both, of the point with the largest share. @param acceleration_at  of a point [m/s²]
   template <class AccelerationAt>
   ModeShare calc_share(double deflection, const AccelerationAt& acceleration_at) const {
-    ModeShare share{.deflection = deflection / std::max(deflection_, deflection)};
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const double acceleration = acceleration_at(i);
-      share.acceleration =
-          std::max(share.acceleration, acceleration / std::max(accelerations_[i], acceleration));
-    }
+    ModeShare share{.deflection = calc_deflection_share(deflection)};
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      share.acceleration = std::max(share.acceleration, calc_acceleration_share(i, acceleration_at(i)));
     return share;
   }
 

@@ -38,6 +38,26 @@ void add_certified_row(const CertifiedShare& share, const CertifiedError& body, 
   run.add_row({"basis of " + body.name() + " misses", text});
 }
 
+std::string format_largest(const WorstNeglect& worst, const Model& full) {
+  const auto name = [&](const LargestShare& largest) {
+    return largest.coordinate < 0 ? std::string("each") : full.coordinate_name(largest.coordinate);
+  };
+  const std::string deflection =
+                        fmt::format("{:.3g} % of the largest deflection", 100.0 * worst.deflection.share),
+                    acceleration =
+                        fmt::format("{:.3g} % of the largest acceleration", 100.0 * worst.acceleration.share);
+  if (worst.deflection.coordinate == worst.acceleration.coordinate)
+    return fmt::format("{}: {}, {}", name(worst.deflection), deflection, acceleration);
+  return fmt::format("{}: {}; {}: {}", name(worst.deflection), deflection, name(worst.acceleration),
+                     acceleration);
+}
+
+Json make_largest_json(const LargestShare& largest, const Model& full) {
+  return {{"mode", largest.coordinate < 0 ? std::string() : full.coordinate_name(largest.coordinate)},
+          {"share", largest.share},
+          {"time", largest.time}};
+}
+
 // What the run was asked for; all settings are in its results file.
 Json describe_parameters(const Run& run, const Model& model) {
   Json modes = Json::object();
@@ -139,13 +159,8 @@ std::string format_summary(const RunSummary& summary) {
       run.add_row({"active modes, mean over time", fmt::format("{:.1f}", transient.mean_active_modes)});
       run.add_row({"changes of modes", fmt::format("{}", transient.mode_changes)});
     }
-    if (worst.coordinate >= 0) {
-      const std::string name = summary.adaptivity->full->coordinate_name(worst.coordinate);
-      const std::string shares =
-          fmt::format("{:.3g} % of the largest deflection, {:.3g} % of the largest acceleration",
-                      100.0 * worst.share.deflection, 100.0 * worst.share.acceleration);
-      run.add_row({"largest mode left out", fmt::format("{}: {}", name, shares)});
-    }
+    if (worst.share() > 0.0)
+      run.add_row({"largest mode left out", format_largest(worst, *summary.adaptivity->full)});
     if (const MissingAcceleration& missing = transient.missing_acceleration; missing.point >= 0) {
       run.add_row({"modes left out, together",
                    fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %",
@@ -175,13 +190,11 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
   Json modes = Json::object();
   if (summary.adaptivity) {
     const WorstNeglect& worst = summary.transient.worst_neglect;
-    modes = {
-        {"mean_active", summary.transient.mean_active_modes},
-        {"changes", summary.transient.mode_changes},
-        {"largest_left_out",
-         worst.coordinate >= 0 ? summary.adaptivity->full->coordinate_name(worst.coordinate) : std::string()},
-        {"left_out_of_deflection", worst.share.deflection},
-        {"left_out_of_acceleration", worst.share.acceleration}};
+    modes = {{"mean_active", summary.transient.mean_active_modes},
+             {"changes", summary.transient.mode_changes},
+             {"largest_left_out",
+              {{"of_deflection", make_largest_json(worst.deflection, *summary.adaptivity->full)},
+               {"of_acceleration", make_largest_json(worst.acceleration, *summary.adaptivity->full)}}}};
     if (const MissingAcceleration& missing = summary.transient.missing_acceleration; missing.point >= 0) {
       modes["left_out_together"] = {{"point", name_missing_point(*summary.adaptivity, missing)},
                                     {"axis", missing.direction == 0 ? "x" : "y"},

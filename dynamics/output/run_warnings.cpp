@@ -43,6 +43,23 @@ std::vector<std::string> list_points_of(const std::string& body, const RunStatis
   return points;
 }
 
+std::string describe_largest(const WorstNeglect& worst, const Model& full) {
+  const auto describe = [&](const LargestShare& largest, const char* of) {
+    return fmt::format("{:.3g} % of the largest {} (at t = {:.3g} s)", 100.0 * largest.share, of,
+                       largest.time);
+  };
+  const auto name = [&](const LargestShare& largest) {
+    return largest.coordinate < 0 ? "each mode" : full.coordinate_name(largest.coordinate);
+  };
+  const std::string deflection = describe(worst.deflection, "deflection"),
+                    acceleration = describe(worst.acceleration, "acceleration of the points asked for");
+  if (worst.deflection.coordinate == worst.acceleration.coordinate)
+    return fmt::format("{}, which was left out, would have reached {} and {}", name(worst.deflection),
+                       deflection, acceleration);
+  return fmt::format("{}, which was left out, would have reached {}, and {} {}", name(worst.deflection),
+                     deflection, name(worst.acceleration), acceleration);
+}
+
 std::string describe_missing(const MissingAcceleration& missing, const AdaptivityOptions& adaptivity) {
   if (missing.point < 0) return "";
   return fmt::format(
@@ -63,19 +80,18 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
                            std::vector<RunWarning>& warnings) {
   const WorstNeglect& worst = transient.worst_neglect;
   const MissingAcceleration& missing = transient.missing_acceleration;
-  const bool is_much =
-      worst.share.deflection > kTooMuchLeftOut || (missing.point >= 0 && missing.worst() > kTooMuchLeftOut);
-  if (adaptivity.changes || worst.coordinate < 0 || !is_much) return;
+  const bool is_deflection = worst.deflection.share > kTooMuchLeftOut;
+  const bool is_acceleration = missing.point >= 0 && missing.worst() > kTooMuchLeftOut;
+  if (adaptivity.changes || worst.share() == 0.0 || (!is_deflection && !is_acceleration)) return;
   const bool is_stiffened = std::any_of(model.bodies.begin(), model.bodies.end(),
                                         [](const Body& body) { return body.stiffening.has_value(); });
-  const std::string text = fmt::format(
-      "modes are missing: {}, which was left out, would have reached {:.3g} % of the largest deflection, "
-      "{:.3g} "
-      "% of the largest acceleration of the points asked for (at t = {:.3g} s){}; take more modes{}",
-      adaptivity.full->coordinate_name(worst.coordinate), 100.0 * worst.share.deflection,
-      100.0 * worst.share.acceleration, worst.time, describe_missing(missing, adaptivity),
-      is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
-  const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(worst.coordinate).body);
+  const std::string text =
+      fmt::format("modes are missing: {}{}; take more modes{}", describe_largest(worst, *adaptivity.full),
+                  describe_missing(missing, adaptivity),
+                  is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
+  const int coordinate = is_deflection || worst.acceleration.coordinate < 0 ? worst.deflection.coordinate
+                                                                            : worst.acceleration.coordinate;
+  const auto place = static_cast<std::size_t>(adaptivity.full->body_coordinate(coordinate).body);
   const std::string& body = adaptivity.full->bodies[place].name;
   std::vector<std::string> points = list_points_of(body, statistics);
   if (missing.point >= 0) {

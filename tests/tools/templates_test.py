@@ -65,14 +65,14 @@ class Templates(ToolTestCase):
 
     def test_modes_left_out_are_told_though_axles_are_heavy_beside_them(self):
         # Joints of heavy axles may take modes for their dependent coordinates. To first order, what is told is what
-        # all modes show: more than a third of it where the frame has one or two.
+        # all modes show.
         for modes in (1, 2):
             found = self.run_template("truck", "--set", f"modes.frame={modes}")["modes"]["left_out_together"]
             with_few = self.read_acceleration("truck", found["point"])
             self.run_template("truck")
             right = self.read_acceleration("truck", found["point"])
             true = np.linalg.norm(right - with_few) / np.linalg.norm(with_few)
-            self.assertGreater(found["of_rms_acceleration"], true / 3.0, (modes, true))
+            self.assertAlmostEqual(found["of_rms_acceleration"] / true, 1.0, delta=0.2, msg=(modes, true))
 
     def test_a_continued_run_has_the_measures_of_one_long_run_but_for_those_that_need_its_equilibrium(self):
         self.run_template("half_car")

@@ -64,7 +64,8 @@ class Warnings(DynamicsTestCase):
 
     def test_missing_modes_are_said_of_the_points_of_their_body(self):
         # Over the bump the third mode, left out, would carry much of the acceleration.
-        code, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2")
+        points = 'vehicle.monitor=["chassis.origin", "chassis.seat"]'
+        code, _, printed = self.run_to_json("duration=0.5", "modes.chassis=2", points)
         self.assertEqual(code, 0)
         first, second = (one for one in printed["warnings"] if "modes are missing" in one["text"])
         self.assertTrue(first["text"].startswith("modes are missing: chassis.mode 3, which was left out"))

@@ -74,8 +74,9 @@ std::string counts_of(const TransientStatistics& s) {
         s.stepper.evaluations, s.stepper.repartitions, s.output_evaluations, s.switches, s.mode_changes}) {
     bytes.transfer(count);
   }
-  for (const double value : {s.stepper.velocity_violation, s.mean_active_modes, s.worst_neglect.time,
-                             s.worst_neglect.share.deflection, s.worst_neglect.share.acceleration}) {
+  for (const double value :
+       {s.stepper.velocity_violation, s.mean_active_modes, s.worst_neglect.deflection.time,
+        s.worst_neglect.deflection.share, s.worst_neglect.acceleration.share}) {
     bytes.transfer(value);
   }
   return bytes.bytes();

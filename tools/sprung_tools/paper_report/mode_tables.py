@@ -20,7 +20,7 @@ from sprung_tools.paper_report.mode_runs import (
     name_watched,
 )
 from sprung_tools.paper_report.paper_runs import ROADS, name_modes
-from sprung_tools.paper_report.run_numbers import MIDDLE, SEAT, Numbers
+from sprung_tools.paper_report.run_numbers import LEFT_OUT, MIDDLE, SEAT, TOGETHER, Numbers
 from sprung_tools.terminal.number_ranges import format_ranges
 from sprung_tools.terminal.text_table import Table
 
@@ -178,13 +178,16 @@ def make_neglect_table(numbers: Numbers) -> Table:
             rows.append(
                 (
                     f"{road}, {name_set(count)}",
-                    case.run.left_out or "–",
+                    case.run.read_summary(LEFT_OUT) or "–",
+                    case.run.read_summary(TOGETHER) or "–",
+                    format_histories(case),
                     *(f"{100.0 * share:.1f} %" for share in case.largest_differences()),
                     "yes" if case.run.warnings else "no",
                 )
             )
     headings = (
-        "", "told: the mode that misses most", "missed: front end's deflection",
+        "", "told: the mode that misses most", "told: all together", "missed: histories of middle, seat",
+        "missed: front end's deflection",
         "missed: middle's acceleration", "missed: seat's acceleration", "warns",
     )  # fmt: skip
     return headings, rows

@@ -25,7 +25,7 @@ SEAT = "points/chassis.seat"
 FRONT_END = "points/chassis.front_end/deflection.y"
 BANDS = (4.0, 8.0, 16.0)  # Hz
 SEGMENT = 4.0  # s, of an averaged spectrum
-LEFT_OUT = "largest mode left out"  # the begin of a line of the run's summary
+LEFT_OUT, TOGETHER = "largest mode left out", "modes left out, together"  # the begin of lines of the run's summary
 
 
 class Deflection(NamedTuple):
@@ -109,12 +109,10 @@ class RunNumbers:
         """The program's warnings of modes left out at the end of the run, a line each."""
         return [warning for warning in list_warnings(self.said) if warning.startswith(MODES_MISSING)]
 
-    @property
-    def left_out(self) -> str:
-        """The mode left out that would have contributed most, and its shares, in the program's words; empty if none was
-        left out."""
-        lines = [line for line in self.said.splitlines() if line.startswith(LEFT_OUT)]
-        return lines[0].removeprefix(LEFT_OUT).strip() if lines else ""
+    def read_summary(self, row: str) -> str:
+        """What the program says in a row of its summary; empty if it has none."""
+        lines = [line for line in self.said.splitlines() if line.startswith(row)]
+        return lines[0].removeprefix(row).strip() if lines else ""
 
     @property
     def frequencies(self) -> Floats:
