@@ -22,7 +22,10 @@ namespace {
 
 const reduce::Certificate& require_bound(const BodyDescription& description, const Body& body,
                                          const reduce::Superelement& superelement) {
-  if (!superelement.certificate || !superelement.certificate->is_bounded())
+  const auto has_bound = [](const reduce::Certificate& one) {
+    return one.is_bounded() && (one.cutoff_hz == 0.0 || one.cutoff_hz > one.highest_hz);
+  };
+  if (!superelement.certificate || !has_bound(*superelement.certificate))
     refuse_bracket(description, "the certificate of its superelement has no bound; take the basis \"free\"");
   if (body.num_modes() != superelement.num_modes()) {
     refuse_bracket(description, fmt::format("it has {} of {} modes; set modes.{} = \"certified\"",
@@ -30,15 +33,21 @@ const reduce::Certificate& require_bound(const BodyDescription& description, con
   }
   if (body.stiffening) refuse_bracket(description, "its stiffness depends on axial forces (stiffening)");
   const reduce::Certificate& certificate = *superelement.certificate;
-  if (certificate.cutoff_hz > 0.0 && !certificate.interface.empty() && certificate.largest_error() > 0.0 &&
-      certificate.soft_loads.rows() == 0)
+  if (certificate.cutoff_hz > 0.0 && certificate.largest_error() > 0.0 && certificate.soft_loads.rows() == 0)
     refuse_bracket(description, "its certificate has no soft loads, because its interface is too large");
   return certificate;
+}
+
+// Whether the soft modes are made for all freedoms of the reference node.
+bool has_reference(const reduce::Certificate& certificate) {
+  return certificate.soft_reference.cols() == 3;
 }
 
 // Shapes of the soft modes at a node: x, y and rotation, 3×q.
 Eigen::MatrixXd calc_soft_shapes(const reduce::Superelement& superelement, Eigen::Index node) {
   const reduce::Certificate& certificate = *superelement.certificate;
+  if (has_reference(certificate) && node == reduce::find_reference_node(superelement))
+    return certificate.soft_reference.transpose();
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3, certificate.soft_loads.rows());
   for (std::size_t j = 0; j < certificate.interface.size(); ++j) {
     const reduce::InterfaceError& one = certificate.interface[j];
@@ -106,7 +115,8 @@ void add_soft_modes(Body& body, const reduce::Superelement& superelement,
   body.modal_mass.conservativeResize(n + q);
   body.modal_mass.tail(q).setOnes();
   body.mode_scale.conservativeResize(n + q);
-  body.mode_scale.tail(q) = certificate.soft_loads.cwiseAbs().rowwise().maxCoeff();
+  const Eigen::MatrixXd moved = join_columns(certificate.soft_loads, of_reference.transpose());
+  body.mode_scale.tail(q) = moved.cwiseAbs().rowwise().maxCoeff();
   for (int k = 1; k <= q; ++k) body.mode_numbers.push_back(superelement.num_modes() + k);
 }
 
@@ -121,13 +131,14 @@ SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model) {
     const BodyDescription& description = vehicle.bodies[b];
     const reduce::Superelement& superelement = *vehicle.superelement_of(description);
     const reduce::Certificate& certificate = require_bound(description, model.bodies[b], superelement);
-    for (const UncoveredLoad& load : uncovered)
-      if (load.body == static_cast<int>(b)) refuse_bracket(description, load.describe());
+    const Eigen::Index reference = reduce::find_reference_node(superelement);
+    const bool is_proved_at_reference = has_reference(certificate) || certificate.cutoff_hz == 0.0;
+    for (const UncoveredLoad& load : uncovered) {
+      if (load.body != static_cast<int>(b) || (is_proved_at_reference && load.node == reference)) continue;
+      refuse_bracket(description, load.describe());
+    }
     twin.highest_hz = std::min(twin.highest_hz, certificate.highest_hz);
-    Eigen::Index reference = 0;
-    superelement.node_positions.colwise().norm().minCoeff(&reference);
-    const bool is_whole = certificate.soft_loads.rows() == 0;
-    if (!is_whole && model.gravity.norm() > 0.0 && !has_in_interface(superelement, reference))
+    if (!is_proved_at_reference && !has_in_interface(superelement, reference))
       twin.unproved.push_back(description.name);
     const Eigen::MatrixXd of_reference = calc_soft_shapes(superelement, reference);
     add_soft_modes(twin.model.bodies[b], superelement, of_reference);

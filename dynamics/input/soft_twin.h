@@ -14,8 +14,8 @@ namespace sprung::dynamics {
 struct SoftTwin {
   Model model;
   double highest_hz = 0.0;  ///< the end of the band in which this holds; infinite if no body misses anything
-  /// Bodies for which it is not proved: they have weight, which turns with a reference node whose freedoms
-  /// are not all in the interface.
+  /// Bodies for which it is not proved: what they carry at rest turns with a reference node of which neither
+  /// the soft twin nor the interface has all freedoms.
   std::vector<std::string> unproved;
 };
 
@@ -23,7 +23,7 @@ struct SoftTwin {
 /// @throws support::InputError at a body whose soft twin does not exist: without a bound, with a part of its
 /// basis,
 ///         with stiffening, or with loads at freedoms that are not in its interface
-/// Checked by tests/verification/section_test.py
+/// Checked by tests/dynamics/input/soft_twin_test.cpp and tests/verification/certified_test.py
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model);
 
 /// The coordinates of the soft twin where the model is at q and the soft modes are at rest.

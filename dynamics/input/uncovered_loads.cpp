@@ -34,15 +34,11 @@ std::vector<bool> find_turned_markers(const Model& model) {
 }
 
 // The first freedom of a loaded point that is not in the interface.
-std::optional<int> find_uncovered(const reduce::Superelement& superelement, const VehiclePoint& point,
-                                  bool turned) {
-  if (point.kind == VehiclePoint::Kind::kCenterOfMass) return {};  // soft modes do not move it
+std::optional<int> find_uncovered(const reduce::Superelement& superelement, Eigen::Index node, bool turned) {
   FreedomSet freedoms;
   for (const reduce::InterfaceError& one : superelement.certificate->interface)
     freedoms.insert({superelement.points[static_cast<std::size_t>(one.point)].node, one.freedom});
-  Eigen::Index node = point.node;
-  if (point.kind == VehiclePoint::Kind::kFixed) superelement.node_positions.colwise().norm().minCoeff(&node);
-  for (int freedom = 0; freedom < (turned || !point.offset.isZero(0.0) ? 3 : 2); ++freedom)
+  for (int freedom = 0; freedom < (turned ? 3 : 2); ++freedom)
     if (!freedoms.contains({static_cast<int>(node), freedom})) return freedom;
   return {};
 }
@@ -59,8 +55,12 @@ std::vector<UncoveredLoad> find_uncovered_loads(const Vehicle& vehicle, const Mo
     const auto body = static_cast<std::size_t>(points[i].body);
     const reduce::Superelement* superelement = vehicle.superelement_of(vehicle.bodies[body]);
     if (model.bodies[body].num_modes() == 0 || !superelement || !superelement->certificate) continue;
-    if (const std::optional<int> freedom = find_uncovered(*superelement, points[i], carries_torque[i]))
-      loads.push_back({.body = points[i].body, .point = points[i].name, .freedom = *freedom});
+    if (points[i].kind == VehiclePoint::Kind::kCenterOfMass) continue;  // no elastic motion moves it
+    const bool is_fixed = points[i].kind == VehiclePoint::Kind::kFixed;
+    const Eigen::Index node = is_fixed ? reduce::find_reference_node(*superelement) : points[i].node;
+    const bool turned = carries_torque[i] || !points[i].offset.isZero(0.0);
+    if (const std::optional<int> freedom = find_uncovered(*superelement, node, turned))
+      loads.push_back({.body = points[i].body, .point = points[i].name, .node = node, .freedom = *freedom});
   }
   return loads;
 }

@@ -12,8 +12,9 @@ namespace sprung::dynamics {
 /// superelement. The certificate says nothing about the body's answer to such a load.
 struct UncoveredLoad {
   int body = 0;
-  std::string point;  ///< "body.point"
-  int freedom = 0;    ///< 0 … 2: x, y, rotation
+  std::string point;      ///< "body.point"
+  Eigen::Index node = 0;  ///< of the superelement, 0-based
+  int freedom = 0;        ///< 0 … 2: x, y, rotation
 
   /// "body.point takes loads, but 'x' is not in the interface of its superelement"
   std::string describe() const;

@@ -88,10 +88,10 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
     warnings.push_back(
         {"modes",
          {body},
-         fmt::format(
-             "{}: the brackets are not proved: its weight turns with its reference node, whose freedoms "
-             "are not in its interface; name a point there, in [interface] with \"xyr\"",
-             body)});
+         fmt::format("{}: the brackets are not proved: what it carries at rest turns with its reference "
+                     "node, for which "
+                     "its superelement, of an earlier program, has no soft loads; build it again",
+                     body)});
   }
   const Eigen::VectorXd q = insert_soft_modes(prepared.balance_model, twin, prepared.equilibrium->q);
   return {.lower_hz = calc_frequency_bounds(twin.model, q).lower,

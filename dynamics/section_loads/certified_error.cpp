@@ -35,8 +35,7 @@ CertifiedError::CertifiedError(const Model& model, int body, const reduce::Super
       step_(output_step),
       first_(model.bodies[static_cast<std::size_t>(body)].first_coordinate) {
   const reduce::Certificate& certificate = *superelement.certificate;
-  Eigen::Index reference = 0;
-  superelement.node_positions.colwise().norm().minCoeff(&reference);
+  const Eigen::Index reference = reduce::find_reference_node(superelement);
   for (const int i : model.acting_markers) {
     const VehiclePoint& point = points[static_cast<std::size_t>(i)];
     if (point.body != body || point.kind == VehiclePoint::Kind::kCenterOfMass) continue;

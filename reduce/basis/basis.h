@@ -30,6 +30,7 @@ struct FreeBodyBasis {
 struct BasisRequest {
   std::vector<InterfaceFreedom> interface;
   Eigen::MatrixXd loads;               ///< of the interface: unit loads, balanced, n×b
+  Eigen::MatrixXd reference_loads;     ///< of the reference node's freedoms, n×3
   double highest_hz = 0.0;             ///< the end of the band
   double tolerance = 0.01;             ///< share of the static flexibility that may be missing
   bool all_residual = false;           ///< the static response to every load, whatever the tolerance

@@ -34,15 +34,17 @@ Eigen::MatrixXd calc_positive_part(const Eigen::MatrixXd& matrix) {
   return pairs.vectors * pairs.values.cwiseMax(0.0).asDiagonal() * pairs.vectors.transpose();
 }
 
-// A matrix that is nowhere in the band below D, in the sense of quadratic forms: with the amplitudes of a
-// part's middle, D is convex in s, so that it is enough to be above it at both ends.
-Eigen::MatrixXd calc_upper_error(const InterfaceResidual& residual, const std::vector<BandPart>& parts) {
+// A matrix that is nowhere in the band below D of the scaled loads, in the sense of quadratic forms: with the
+// amplitudes of a part's middle, D is convex in s, so that it is enough to be above it at both ends.
+Eigen::MatrixXd calc_upper_error(const InterfaceResidual& residual, const std::vector<BandPart>& parts,
+                                 const Eigen::VectorXd& scale) {
   Eigen::MatrixXd upper = Eigen::MatrixXd::Zero(residual.num_loads(), residual.num_loads());
   const Eigen::MatrixXd load_work = residual.calc_load_work();
   for (const BandPart& part : parts) {
     const Eigen::MatrixXd y = residual.calc_amplitudes(0.5 * (part.begin + part.end));
     for (const double s : {part.begin, part.end}) {
-      upper += calc_positive_part(residual.calc_error_matrix(load_work, s, y) - upper);
+      const Eigen::MatrixXd error = residual.calc_error_matrix(load_work, s, y);
+      upper += calc_positive_part(scale.asDiagonal() * error * scale.asDiagonal() - upper);
     }
   }
   return upper;
@@ -53,10 +55,7 @@ Eigen::MatrixXd calc_soft_loads(const InterfaceResidual& residual, const std::ve
                                 double cutoff) {
   const double tiny = std::numeric_limits<double>::min();
   const Eigen::VectorXd scale = residual.static_flexibility().cwiseMax(tiny).cwiseSqrt();
-  const Eigen::MatrixXd upper = calc_upper_error(residual, parts);
-  const Eigen::MatrixXd scaled =
-      scale.cwiseInverse().asDiagonal() * upper * scale.cwiseInverse().asDiagonal();
-  const support::SymmetricEigenpairs pairs = solve(scaled);
+  const support::SymmetricEigenpairs pairs = solve(calc_upper_error(residual, parts, scale.cwiseInverse()));
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = pairs.values.size(); i-- > 0;) {
     if (pairs.values(i) > 1e-14) kept.push_back(i);
@@ -91,7 +90,7 @@ double calc_cutoff(const CertificateRequest& request) {
   return request.free_modes.omega_squared(0);
 }
 
-Certificate calc_certificate(const InterfaceResidual& residual, const CertificateRequest& request) {
+Certificate calc_certificate(InterfaceResidual& residual, const CertificateRequest& request) {
   const double cutoff = calc_cutoff(request), highest = std::pow(kTwoPi * request.highest_hz, 2);
   Certificate certificate;
   certificate.highest_hz = request.highest_hz;
@@ -101,16 +100,19 @@ Certificate calc_certificate(const InterfaceResidual& residual, const Certificat
   certificate.free_hz = request.free_modes.omega_squared.cwiseSqrt() / kTwoPi;
   certificate.free_error = calc_frequency_errors(residual, request);
   const Eigen::Index b = residual.num_loads();
-  const Eigen::VectorXd& flexibility = residual.static_flexibility();
+  const Eigen::VectorXd flexibility = residual.static_flexibility();
   Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(b);
-  const bool bounded = cutoff > highest, misses = b > 0 && !std::isinf(cutoff);
+  const bool bounded = cutoff > highest, misses = !std::isinf(cutoff);
   BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .worst_part = {}, .parts = {}};
   if (misses) at_rest = residual.calc_errors(0.0, residual.calc_amplitudes(0.0));
   if (bounded && misses) band = calc_band_errors(residual, highest, cutoff);
-  certificate.soft_loads.resize(0, b);
+  Eigen::MatrixXd soft_loads(0, b + 3);
   if (bounded && misses && b <= kMostSoftLoads) {
-    certificate.soft_loads = calc_soft_loads(residual, band.parts, cutoff);
+    residual.add_loads(request.reference_loads);
+    soft_loads = calc_soft_loads(residual, band.parts, cutoff);
   }
+  certificate.soft_loads = soft_loads.leftCols(b);
+  certificate.soft_reference = soft_loads.rightCols(3);
   for (Eigen::Index j = 0; j < b; ++j) {
     const InterfaceFreedom& freedom = request.interface[static_cast<std::size_t>(j)];
     certificate.interface.push_back(

@@ -1,6 +1,7 @@
 #include "reduce/certificate/interface_residual.h"
 
 #include <complex>
+#include <utility>
 
 #include "reduce/modes/dense_eigen_solver.h"
 #include "tools/support/dense/dense_solvers.h"
@@ -22,9 +23,23 @@ void border(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& side, const Eigen::M
   matrix.bottomRightCorner(added, added) = symmetrise(corner);
 }
 
-void append_columns(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& columns) {
+void append_columns(Eigen::MatrixXd& matrix, Eigen::MatrixXd columns) {
+  if (matrix.cols() == 0) {  // long ones are not copied
+    matrix.swap(columns);
+    return;
+  }
   matrix.conservativeResize(columns.rows(), matrix.cols() + columns.cols());
   matrix.rightCols(columns.cols()) = columns;
+}
+
+void append_rows(Eigen::MatrixXd& matrix, const Eigen::MatrixXd& rows) {
+  matrix.conservativeResize(matrix.rows() + rows.rows(), rows.cols());
+  matrix.bottomRows(rows.rows()) = rows;
+}
+
+void append(Eigen::VectorXd& vector, const Eigen::VectorXd& values) {
+  vector.conservativeResize(vector.size() + values.size());
+  vector.tail(values.size()) = values;
 }
 
 // Makes room for columns, half as many again where there is too little: long ones are seldom copied.
@@ -44,23 +59,31 @@ void normalise(Eigen::MatrixXd& vectors, Eigen::MatrixXd& forces) {
 
 InterfaceResidual::InterfaceResidual(const ModalProblem& problem, const StiffnessFactor& factor,
                                      const EigenPairs& exact, const Eigen::MatrixXd& loads)
-    : problem_(&problem), factor_(&factor), exact_(exact.vectors) {
-  const Eigen::Index n = problem.size(), b = loads.cols();
+    : problem_(&problem), factor_(&factor), exact_(exact.vectors), exact_omega_squared_(exact.omega_squared) {
+  const Eigen::Index n = problem.size();
   if (exact_.cols() == 0) exact_.resize(n, 0);
   exact_momenta_ = exact_.cols() > 0 ? problem.times_mass(exact_) : exact_;
-  const Eigen::MatrixXd share = multiply_transposed(exact_, loads);
-  loads_ = loads;
-  add_combinations(exact_momenta_, -share, loads_);
-  flexible_ = b > 0 ? factor.solve(loads_) : Eigen::MatrixXd(n, 0);
-  load_work_ = loads_.cwiseProduct(flexible_).colwise().sum();
-  static_flexibility_ = load_work_;
-  for (Eigen::Index i = 0; i < exact_.cols(); ++i) {
-    static_flexibility_ += share.row(i).cwiseAbs2().transpose() / exact.omega_squared(i);
-  }
+  loads_.resize(n, 0);
+  flexible_.resize(n, 0);
   room_for_vectors_.resize(n, 0);
   room_for_second_.resize(n, 0);
-  BU_.resize(b, 0);
-  BT_.resize(b, 0);
+  add_loads(loads);
+}
+
+void InterfaceResidual::add_loads(Eigen::MatrixXd loads) {
+  const Eigen::MatrixXd share = multiply_transposed(exact_, loads);
+  add_combinations(exact_momenta_, -share, loads);
+  Eigen::MatrixXd flexible = loads.cols() > 0 ? factor_->solve(loads) : loads;
+  const Eigen::VectorXd work = loads.cwiseProduct(flexible).colwise().sum();
+  Eigen::VectorXd flexibility = work;
+  for (Eigen::Index i = 0; i < exact_.cols(); ++i)
+    flexibility += share.row(i).cwiseAbs2().transpose() / exact_omega_squared_(i);
+  append(load_work_, work);
+  append(static_flexibility_, flexibility);
+  append_rows(BU_, multiply_transposed(loads, vectors()));
+  append_rows(BT_, multiply_transposed(loads, second()));
+  append_columns(loads_, std::move(loads));
+  append_columns(flexible_, std::move(flexible));
   update_ritz();
 }
 

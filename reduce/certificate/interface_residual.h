@@ -32,6 +32,9 @@ class InterfaceResidual {
   /// @param added  n×j, not dependent on each other or on those of the basis
   void add(Eigen::MatrixXd added);
 
+  /// Adds loads behind those given at the beginning. @param loads  n×j, balanced
+  void add_loads(Eigen::MatrixXd loads);
+
   /// Amplitudes of the basis under each load, by Galerkin's condition, in the coordinates of ritz(). @return
   /// m×b
   Eigen::MatrixXd calc_amplitudes(double s) const;
@@ -66,6 +69,7 @@ class InterfaceResidual {
   const ModalProblem* problem_;
   const StiffnessFactor* factor_;
   Eigen::MatrixXd exact_, exact_momenta_;  // n×k: Φ, (M − QQᵀ)Φ
+  Eigen::VectorXd exact_omega_squared_;    // k
   Eigen::MatrixXd flexible_;               // Z = K⁻¹B_X, n×b
   Eigen::VectorXd load_work_;              // diagonal of B_XᵀZ, b
   Eigen::VectorXd static_flexibility_;

@@ -96,6 +96,7 @@ double choose_band(const Design& design, const EigenPairs& stored) {
 BasisRequest make_request(const Design& design, const BodyMatrices& matrices, double highest_hz) {
   BasisRequest request{.interface = design.reduction.interface,
                        .loads = {},
+                       .reference_loads = {},
                        .highest_hz = highest_hz,
                        .tolerance = design.reduction.tolerance,
                        .all_residual = design.reduction.all_residual,
@@ -104,6 +105,10 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
   request.loads = balance_loads(
       matrices.rigid,
       fem::move_loads_to_leaders(design.model.couplings, make_interface_loads(num_nodes, request.interface)));
+  std::vector<InterfaceFreedom> reference;
+  for (const int freedom : {0, 1, 2})
+    reference.push_back({.node = design.reference_node, .freedom = freedom});
+  request.reference_loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, reference));
   return request;
 }
 
@@ -115,6 +120,7 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
   const bool is_complete = stored.vectors.cols() == matrices.free.size();
   if (!is_complete) residual.add(stored.vectors);
   return calc_certificate(residual, {.interface = request.interface,
+                                     .reference_loads = request.reference_loads,
                                      .highest_hz = request.highest_hz,
                                      .free_modes = free.pairs,
                                      .next_omega_squared = free.next_omega_squared,

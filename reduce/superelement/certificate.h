@@ -42,6 +42,8 @@ struct Certificate {
   /// q×b: with q more modes at cutoff_hz, which have these shapes at the interface freedoms, the body is
   /// softer than the true one in the band. q = 0 where there is no bound [1/√kg, 1/(m·√kg)]
   Eigen::MatrixXd soft_loads;
+  /// q×3: their shapes at the reference node, x, y and rotation. 0×0 in files before version 6
+  Eigen::MatrixXd soft_reference;
 
   bool is_bounded() const;
   /// The largest share over the interface, kUnbounded where there is no bound. 0 without an interface.

@@ -12,6 +12,12 @@ bool Superelement::has_free_basis() const {
   return std::any_of(kind.begin(), kind.end(), [](const std::string& one) { return one != kClampedVector; });
 }
 
+Eigen::Index find_reference_node(const Superelement& superelement) {
+  Eigen::Index node = 0;
+  superelement.node_positions.colwise().norm().minCoeff(&node);
+  return node;
+}
+
 int find_point(const Superelement& superelement, const std::string& name) {
   for (const NamedPoint& point : superelement.points) {
     if (point.name == name) return point.node;

@@ -131,12 +131,14 @@ inline constexpr std::int64_t kStiffeningVersion = 2;   ///< brought the geometr
 inline constexpr std::int64_t kCertificateVersion = 3;  ///< brought kinds of vectors and the certificate
 inline constexpr std::int64_t kSectionLoadVersion =
     4;  ///< brought section loads and deflections under unit loads
-inline constexpr std::int64_t kSectionSizeVersion = 5;                     ///< brought the sizes of sections
-inline constexpr std::int64_t kSuperelementVersion = kSectionSizeVersion;  ///< the newest
+inline constexpr std::int64_t kSectionSizeVersion = 5;  ///< brought the sizes of sections
+/// brought the soft twin's shapes at the reference node, and may lack what versions 4 and 5 brought
+inline constexpr std::int64_t kSoftReferenceVersion = 6;
+inline constexpr std::int64_t kSuperelementVersion = kSoftReferenceVersion;  ///< the newest
 
-/// Writes the file whole or not at all. Equal superelements give equal bytes. Without sizes of
-/// sections it is a file of version 4, without section loads of version 3, without a certificate of version
-/// 2, without geometric stiffness of version 1.
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without the soft twin's shapes
+/// at the reference node it is a file of version 5, without sizes of sections, too, of version 4, without
+/// section loads of version 3, without a certificate of version 2, without geometric stiffness of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together
@@ -145,6 +147,9 @@ std::string write_superelement(const Superelement& superelement, const std::file
 /// Reads and verifies a file: format, version, shapes, signs, symmetry, finite values, hash.
 /// @throws support::InputError naming file and dataset
 Superelement read_superelement(const std::filesystem::path& path);
+
+/// The node at the body frame's origin, where the modes are held. @return 0-based
+Eigen::Index find_reference_node(const Superelement& superelement);
 
 /// The node of the point with this name. @return 0-based node, or -1
 int find_point(const Superelement& superelement, const std::string& name);

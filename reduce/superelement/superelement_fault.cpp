@@ -118,6 +118,9 @@ Fault check_counts(const Superelement& s) {
   if (s.section_sizes && !s.section_loads) {
     return make_fault("/sections", "stands without the section loads of version 4");
   }
+  if (s.section_loads && !s.section_sizes && find_version(s) >= kSoftReferenceVersion) {
+    return make_fault("/section_loads", "stands without the sizes of sections of version 5");
+  }
   if (!s.geometric_stiffness) return {};
   const int m = s.geometric_stiffness->num_modes();
   const int smallest = s.elements.cols() > 0 ? 1 : 0;  // that of a body from matrices is not known
@@ -219,7 +222,7 @@ std::optional<SuperelementFault> find_fault(const Superelement& superelement, Fi
   const FieldCounts counts = count_parts(superelement);
   values = get_values(superelement);
   auto value = values.begin();
-  for (const SuperelementField& field : superelement_fields(find_version(superelement))) {
+  for (const SuperelementField& field : superelement_fields(superelement)) {
     if (Fault fault = check_field(field, *value++, calc_extents(field, counts))) return fault;
   }
   if (Fault fault = check_nodes(superelement)) return fault;

@@ -187,6 +187,7 @@ constexpr std::string_view kAccelerationDeflectionUnit = "m, m, rad per m/s^2, m
 constexpr std::string_view kModalDeflectionUnit = "m, m, rad per unit modal acceleration (m·√kg/s^2)";
 constexpr std::string_view kFlexibilityUnit = "m/N; rad/(N·m) of a rotation";
 constexpr std::string_view kSoftLoadUnit = "1/√kg; 1/(m·√kg) of a rotation";
+constexpr std::string_view kSoftReferenceUnit = "1/√kg, 1/√kg, 1/(m·√kg)";
 constexpr std::string_view kLoadUnit = "1/(kg·m), 1/(kg·m), 1/(kg·m^2)";
 
 using enum FieldType;
@@ -252,6 +253,7 @@ constexpr SuperelementField kFields[] = {
     {"/deflections/turned_acceleration", kReals, "3p×n", kModalDeflectionUnit, deflections<&L::turned_acceleration>, kAny, kWhole, kSectionLoadVersion},
     {"/sections/area", kReals, "E", "m^2", section_sizes<&A::area>, kNotNegative, kWhole, kSectionSizeVersion},
     {"/sections/modulus", kReals, "E", "m^3", section_sizes<&A::modulus>, kNotNegative, kWhole, kSectionSizeVersion},
+    {"/certificate/soft_reference", kReals, "q×3", kSoftReferenceUnit, certificate<&C::soft_reference>, kAny, kWhole, kSoftReferenceVersion},
     {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
     {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
     {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
@@ -288,7 +290,23 @@ std::vector<SuperelementField> superelement_fields(std::int64_t version) {
   return fields;
 }
 
+bool is_of_section_loads(const SuperelementField& field, std::int64_t version) {
+  return version >= kSoftReferenceVersion &&
+         (field.since == kSectionLoadVersion || field.since == kSectionSizeVersion);
+}
+
+std::vector<SuperelementField> superelement_fields(const Superelement& superelement) {
+  const std::int64_t version = find_version(superelement);
+  std::vector<SuperelementField> fields = superelement_fields(version);
+  if (!superelement.section_loads)
+    std::erase_if(fields,
+                  [&](const SuperelementField& field) { return is_of_section_loads(field, version); });
+  return fields;
+}
+
 std::int64_t find_version(const Superelement& superelement) {
+  if (superelement.certificate && superelement.certificate->soft_reference.cols() > 0)
+    return kSoftReferenceVersion;
   if (superelement.section_loads && superelement.certificate && superelement.geometric_stiffness)
     return superelement.section_sizes ? kSectionSizeVersion : kSectionLoadVersion;
   if (superelement.certificate && superelement.geometric_stiffness) return kCertificateVersion;
@@ -297,7 +315,7 @@ std::int64_t find_version(const Superelement& superelement) {
 
 FieldValues get_values(const Superelement& superelement) {
   FieldValues values;
-  for (const SuperelementField& field : superelement_fields(find_version(superelement)))
+  for (const SuperelementField& field : superelement_fields(superelement))
     values.push_back(field.member.get(superelement));
   return values;
 }

@@ -55,13 +55,20 @@ struct SuperelementField {
   std::int64_t since = kFirstVersion;  ///< first version of the format that has the field
 };
 
-/// The fields of a version of the format, in the order of the file and of the hash.
+/// All fields of a version of the format, in the order of the file and of the hash.
 std::vector<SuperelementField> superelement_fields(std::int64_t version = kSuperelementVersion);
 
 /// Version of the file that a superelement is written to.
 std::int64_t find_version(const Superelement& superelement);
 
-/// The values of a superelement's fields, in the order of superelement_fields(find_version(superelement)).
+/// Whether a file without section loads lacks a field: from version 6 on they, deflections and sizes of
+/// sections may be missing together. @param version  of the file
+bool is_of_section_loads(const SuperelementField& field, std::int64_t version);
+
+/// The fields that a superelement's file has.
+std::vector<SuperelementField> superelement_fields(const Superelement& superelement);
+
+/// The values of a superelement's fields, in the order of superelement_fields(superelement).
 using FieldValues = std::vector<FieldValue>;
 /// @param superelement  with all parts of its version (find_fault)
 FieldValues get_values(const Superelement& superelement);

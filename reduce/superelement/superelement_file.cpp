@@ -136,7 +136,7 @@ std::string write_superelement(const Superelement& superelement, const std::file
   file.attribute("/", "content_hash", std::string_view(hash));
   const FieldCounts counts = count_parts(superelement);
   auto value = values.begin();
-  for (const SuperelementField& field : superelement_fields(version)) {
+  for (const SuperelementField& field : superelement_fields(superelement)) {
     const std::vector<std::int64_t> extents = calc_extents(field, counts);
     write_field(file, field, *value++, {extents.begin(), extents.end()});
   }
@@ -153,7 +153,12 @@ Superelement read_superelement(const std::filesystem::path& path) {
   s.name = file.string_attribute("/", "name");
   s.num_elastic_dofs = file.integer_attribute("/", "num_elastic_dofs");
   FieldCounts counts = {{'1', 1}};
-  for (const SuperelementField& field : superelement_fields()) {
+  const std::vector<SuperelementField> fields = superelement_fields();
+  const bool has_section_loads = std::any_of(fields.begin(), fields.end(), [&](const auto& field) {
+    return is_of_section_loads(field, version) && file.has(std::string(field.path));
+  });
+  for (const SuperelementField& field : fields) {
+    if (is_of_section_loads(field, version) && !has_section_loads) continue;
     if (field.since <= version) {
       FieldValue value = read_field(file, field, counts);
       field.member.set(s, value);

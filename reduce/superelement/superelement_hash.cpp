@@ -65,7 +65,7 @@ std::string calc_content_hash(const Superelement& superelement, const FieldValue
   hash.add("name", superelement.name);
   add(hash, "num_elastic_dofs", superelement.num_elastic_dofs);
   auto value = values.begin();
-  for (const SuperelementField& field : superelement_fields(find_version(superelement))) {
+  for (const SuperelementField& field : superelement_fields(superelement)) {
     switch (field.hash) {
       case FieldHash::kWhole:
         add_whole(hash, field, *value);

@@ -113,6 +113,30 @@ class Templates(ToolTestCase):
                         self.assertTrue(frequency <= upper < (1.0 + 1e-6) * frequency, mode)  # rounding
                         self.assertTrue(0.99 * upper < lower < (1.0 + 1e-9) * upper, mode)
 
+    def find_modes(self, name, superelements):
+        process = run_program(
+            [os.environ["SPRUNG_DYNAMICS"], "modes", TEMPLATES / f"{name}_run.toml", "--superelements", superelements,
+             "--bracket", "--json"],
+        )  # fmt: skip
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return json.loads(process.stdout)
+
+    def test_brackets_are_proved_and_hold_the_frequencies_with_all_motions_of_the_frame(self):
+        for name in FLEXIBLE:
+            texts = [one["text"] for one in self.find_modes(name, self.made)["warnings"]]
+            self.assertEqual([text for text in texts if "not proved" in text], [])
+        # The truck's is at the same equilibrium with all clamped modes: its springs are linear.
+        design = (ROOT / "meshes/templates/tractor_frame.toml").read_text(encoding="utf-8")
+        start, end = design.index("[reduction]"), design.index("[modes]\n")
+        design = design[:start] + '[reduction]\nbasis = "clamped"\n\n[modes]\nall = true\n' + design[end + 8 :]
+        (self.folder / "tractor_frame.toml").write_text(design, encoding="utf-8")
+        run_program([os.environ["SPRUNG_REDUCE"], "build", "tractor_frame.toml"], cwd=self.folder, check=True)
+        truth = [mode["undamped_frequency"] for mode in self.find_modes("truck", self.folder)["modes"]]
+        found = [mode["bracket"] for mode in self.find_modes("truck", self.made)["modes"] if "bracket" in mode]
+        self.assertGreaterEqual(len(found), 8)
+        for frequency, (lower, upper) in zip(truth[1:], found):
+            self.assertTrue((1.0 - 2e-7) * lower <= frequency <= (1.0 + 2e-7) * upper, (lower, frequency, upper))
+
     def test_each_stands_as_it_is_drawn_with_its_wheels_on_the_ground(self):
         for name in FREEDOMS:
             with self.subTest(name):

@@ -124,13 +124,21 @@ TEST_CASE(
   CHECK(make_superelement(design).certificate->is_bounded());
 }
 
-// H_r + Fᵀ(λ_c − s)⁻¹F − H has no negative eigenvalue, H from the full model.
-TEST_CASE("the soft twin is softer than the body all over the band") {
+// H_r + Fᵀ(λ_c − s)⁻¹F − H has no negative eigenvalue, H from the full model, at the interface and the
+// reference node, which are all freedoms that a vehicle's stiffness acts on.
+TEST_CASE("the soft twin is softer than the body all over the band, with its reference node") {
   for (const std::uint64_t seed : {0, 5, 11}) {
-    const Design design = testing::make_random_design(seed, 0.05);
-    const Superelement body = make_superelement(design);
-    const Eigen::MatrixXd& F = body.certificate->soft_loads;
+    Design design = testing::make_random_design(seed, 0.05);
+    Superelement body = make_superelement(design);
+    Eigen::MatrixXd F(body.certificate->soft_loads.rows(), body.certificate->soft_loads.cols() + 3);
+    F << body.certificate->soft_loads, body.certificate->soft_reference;
     REQUIRE(F.rows() > 0);
+    const auto point = static_cast<int>(body.points.size());
+    body.points.push_back({.name = "held", .node = design.reference_node});
+    for (const int freedom : {0, 1, 2}) {
+      design.reduction.interface.push_back({point, design.reference_node, freedom});
+      body.certificate->interface.push_back({.point = point, .freedom = freedom});
+    }
     const testing::FreeBodyTruth truth(design.model);
     const double cutoff = std::pow(kTwoPi * body.certificate->cutoff_hz, 2);
     for (int step = 0; step <= 20; ++step) {

@@ -50,6 +50,23 @@ TEST_CASE("the static flexibility is that of the full model without rigid motion
   CHECK((found.cwiseQuotient(expected).array() - 1.0).abs().maxCoeff() < 1e-9);
 }
 
+TEST_CASE("loads that are added later have the errors of loads given at the beginning") {
+  const CertifiedFrame frame(3, 3);
+  const Eigen::Index few = frame.loads.cols() - 2;
+  InterfaceResidual later(frame.matrices.free, *frame.factor, frame.modes.pairs, frame.loads.leftCols(few));
+  InterfaceResidual whole(frame.matrices.free, *frame.factor, frame.modes.pairs, frame.loads);
+  for (InterfaceResidual* residual : {&later, &whole}) residual->add(frame.residual->ritz().vectors);
+  later.add_loads(frame.loads.rightCols(2));
+  const double s = 0.8 * frame.highest;
+  const auto calc_error = [s](const InterfaceResidual& residual) -> Eigen::MatrixXd {
+    return residual.calc_error_matrix(residual.calc_load_work(), s, residual.calc_amplitudes(s));
+  };
+  const Eigen::MatrixXd expected = calc_error(whole);
+  REQUIRE(later.num_loads() == whole.num_loads());
+  CHECK((calc_error(later) - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff());
+  CHECK(later.static_flexibility().isApprox(whole.static_flexibility(), 1e-12));
+}
+
 TEST_CASE("the diagonal of the error matrix is the error of each load, and the matrix is not negative") {
   const CertifiedFrame frame(2, 3);
   const double s = 0.9 * frame.highest;

@@ -82,7 +82,11 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(superelement_fields(3).size() == 54);
   CHECK(superelement_fields(4).size() == 62);
   CHECK(superelement_fields(5).size() == 64);
+  CHECK(superelement_fields(6).size() == 65);
   Superelement body = testing::make_two_armed_body();
+  CHECK(find_version(body) == 6);
+  CHECK(superelement_fields(body).size() == 65);
+  body.certificate->soft_reference.resize(0, 0);
   CHECK(find_version(body) == 5);
   body.section_sizes.reset();
   CHECK(find_version(body) == 4);
@@ -162,7 +166,8 @@ TEST_CASE("a matrix or list of another size is a fault") {
     const bool is_count =
         field.path == "/nodes/id" || field.path == "/elements/node" || field.path == "/modes/frequency" ||
         field.path == "/stiffening/centrifugal" || field.path == "/provenance/input_name" ||
-        field.path == "/certificate/free_frequency" || field.path == "/certificate/soft_load";
+        field.path == "/certificate/free_frequency" || field.path == "/certificate/soft_load" ||
+        field.path == "/certificate/soft_reference";
     const bool is_column = field.path.starts_with("/points") || field.path.starts_with("/checks") ||
                            field.path == "/nodes/position" || field.shape == "b";
     if (is_count || is_column || field.shape == "1" || field.shape == "2") continue;
@@ -202,6 +207,10 @@ TEST_CASE("what contradicts the certificate is a fault") {
           s.section_loads.reset();
           s.point_deflections.reset();
         }) == "/sections stands without the section loads of version 4");
+  CHECK(fault_of([](Superelement& s) { s.section_sizes.reset(); }) ==
+        "/section_loads stands without the sizes of sections of version 5");
+  CHECK(fault_of([](Superelement& s) { s.certificate->soft_reference.conservativeResize(1, 3); }) ==
+        "/certificate/soft_reference has 1×3 values, expected 6×3");
   CHECK(fault_of([](Superelement& s) { s.section_loads.reset(); }) ==
         "/deflections stands without the section loads");
   CHECK(fault_of([](Superelement& s) { s.point_deflections.reset(); }) ==
