@@ -7,6 +7,7 @@ import shutil
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from verification_case import ROOT, VerificationCase, run_program
@@ -18,6 +19,11 @@ CERTIFIED = (
     "--set", "vehicle.bodies.chassis.superelement=chassis_certified",
     "--set", 'modes.chassis="certified"',
 )  # fmt: skip
+
+
+def format_share(share):
+    """In %. Below 1e-5 other equilibria count, and the differences by which the vehicle's stiffness is found."""
+    return "< 0.001" if abs(share) < 1e-5 else f"{100.0 * share:.2g}"
 
 
 def keep_up_to_60_hz(values, step=1e-3):
@@ -57,6 +63,39 @@ class CertifiedChassis(VerificationCase):
             self.assertTrue(np.all(brackets[:, 0] <= truth[: len(brackets)] + rounding))
             self.assertTrue(np.all(truth[: len(brackets)] - rounding <= brackets[:, 1]))
             self.assertLess(np.max(brackets[:, 1] / brackets[:, 0] - 1.0), 2e-3)
+
+    # The rows of reduce/README.md: largest differences from the chassis with all motions, for each basis.
+    def test_the_table_of_the_vehicle_s_frequencies_is_what_the_bases_give(self):
+        design = (ROOT / "meshes/truck/chassis_certified.toml").read_text(encoding="utf-8")
+        free = 'basis = "free"'
+        rows = {f"clamped {n}": {free: 'basis = "clamped"', "[modes]": f"[modes]\ncount = {n}"} for n in (2, 4, 8, 16)}
+        rows |= {f"free, tolerance {tolerance:g}": {"tolerance = 0.01 ": f"tolerance = {tolerance} "}
+                 for tolerance in (0.1, 0.01, 0.001)}  # fmt: skip
+        rows["fixed interface"] = {free: 'basis = "fixed-interface"'}
+        for number, (name, changes) in enumerate(rows.items()):
+            changed = design
+            for old, new in changes.items():
+                self.assertEqual(changed.count(old), 1)
+                changed = changed.replace(old, new)
+            if not name.startswith("free"):
+                changed = re.sub(r"(?m)^tolerance = .*$", "", changed)
+            (self.folder / f"basis_{number}.toml").write_text(changed, encoding="utf-8")
+        designs = [f"basis_{number}.toml" for number in range(len(rows))]
+        run_program([os.environ["SPRUNG_REDUCE"], "build", *designs, "--output-dir", "."], cwd=self.folder, check=True)
+        shutil.copy(Path(TRUCK_SUPERELEMENTS) / "long_arm.h5", self.folder)
+        truth = self.truck_modes(*ALL)
+        wanted = [int(np.argmin(np.abs(truth - 2.0 * np.pi * hz))) for hz in (9.57, 26.5, 52.6)]
+        readme = (ROOT / "reduce/README.md").read_text(encoding="utf-8")
+        for number, name in enumerate(rows):
+            settings = (f"vehicle.bodies.chassis.superelement=basis_{number}", 'modes.chassis="all"')
+            words = [word for setting in settings for word in ("--set", setting)]
+            found, _ = self.modes(BUMP, *words, superelements=self.folder)
+            with h5py.File(self.folder / f"basis_{number}.h5") as file:
+                size = len(file["modes/frequency"])
+            cells = [format_share(found[k] / truth[k] - 1.0) if k < len(found) else "none" for k in wanted]
+            row = f"\n| {name.split(' ')[0] if 'clamped' in name else name} | {size} | {' | '.join(cells)} |\n"
+            with self.subTest(row):
+                self.assertIn(row, readme)
 
     def test_there_is_no_bracket_for_a_part_of_a_basis(self):
         process = run_program(
