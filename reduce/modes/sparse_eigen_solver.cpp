@@ -10,7 +10,6 @@
 #include "reduce/modes/block_lanczos.h"
 #include "reduce/modes/dense_eigen_solver.h"
 #include "reduce/modes/random_vectors.h"
-#include "reduce/modes/stiffness_factor.h"
 #include "tools/support/errors/numerical_error.h"
 
 namespace sprung::reduce {
@@ -114,9 +113,14 @@ EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_
     throw std::invalid_argument(
         fmt::format("solve_sparse: num_pairs is {}, expected 1 … {}", num_pairs, problem.num_modes() - 1));
   }
-  const KnownFactor known(problem);
-  const StiffnessFactor& factor = *known;
-  if (n > kMostSimplicial) return polish(factor, problem, solve_by_blocks(problem, factor, num_pairs, seed));
+  const KnownFactor factor(problem);
+  if (n <= kMostSimplicial) return solve_by_restarts(problem, *factor, num_pairs, seed);
+  return polish(*factor, problem, solve_by_blocks(problem, *factor, num_pairs, seed));
+}
+
+EigenPairs solve_by_restarts(const ModalProblem& problem, const StiffnessFactor& factor, int num_pairs,
+                             std::uint64_t seed) {
+  const Eigen::Index n = problem.size();
   const Eigen::VectorXd start = make_random_vector(n, seed);
   const double scale = estimate_lowest(factor, problem, start);
   InverseStiffness inverse(factor, n, scale);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "reduce/modes/eigen_pairs.h"
+#include "reduce/modes/stiffness_factor.h"
 
 namespace sprung::reduce {
 
@@ -18,6 +19,10 @@ namespace sprung::reduce {
 ///         std::invalid_argument if num_pairs is out of range
 /// Checked by tests/reduce/modes/clamped_modes_test.cpp
 EigenPairs solve_sparse(const ModalProblem& problem, int num_pairs, std::uint64_t seed);
+
+/// The same by Spectra's iteration, which has restarts, whatever the size. @param factor  of K
+EigenPairs solve_by_restarts(const ModalProblem& problem, const StiffnessFactor& factor, int num_pairs,
+                             std::uint64_t seed);
 
 /// All solutions below a value of ω² that the iteration meets, and some beyond, of which the ω² alone is
 /// exact. For large frames, where counting them beforehand costs a factorisation.

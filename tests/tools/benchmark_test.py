@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 import shutil
 import unittest
 
@@ -130,7 +131,8 @@ class Tool(ToolTestCase):
         )
         self.assert_succeeds(process)
         self.assertEqual((self.folder / "out/benchmark_reduce.txt").read_text(encoding="utf-8"), process.stdout)
-        heading, *lines = process.stdout.splitlines()[1:]
+        builds, hanging, methods = process.stdout.split("\n\n")
+        heading, *lines = builds.splitlines()[1:]
         has_calculix = shutil.which("ccx") is not None
         self.assertEqual("ccx s" in heading, has_calculix)
         if not has_calculix:
@@ -140,15 +142,23 @@ class Tool(ToolTestCase):
         for row in rows:
             self.assertIn("freedoms,", row)  # what the program says of a superelement
             self.assertGreater(float(row[3]), 1.0)  # of memory; CPU time has no lower bound
-            limit, *parts = map(float, row[4:8])
-            self.assertAlmostEqual(limit, sum(parts), delta=0.02)  # by two digits each
-            self.assertGreater(float(row[8]), 1.0)  # its memory
+            limit, *parts = map(float, row[4:9])  # analysis, factors, solutions, count
+            self.assertAlmostEqual(limit, sum(parts), delta=0.03)  # by two digits each
+            self.assertGreater(float(row[9]), 1.0)  # its memory
             self.assertIn("CHOLMOD", heading)
-            if row[9] != "–":  # built without it
-                self.assertGreaterEqual(float(row[9]), 0.0)
-            for seconds, megabytes in zip(row[10 : 12 + 2 * has_calculix : 2], row[11 : 13 + 2 * has_calculix : 2]):
+            if row[10] != "–":  # built without it
+                self.assertGreaterEqual(float(row[10]), 0.0)
+            for seconds, megabytes in zip(row[11 : 13 + 2 * has_calculix : 2], row[12 : 14 + 2 * has_calculix : 2]):
                 self.assertGreaterEqual(float(seconds), 0.0)  # scipy, CalculiX
                 self.assertGreater(float(megabytes), 1.0)
+        refused, built = (line.split(maxsplit=4) for line in hanging.splitlines()[2:])
+        self.assertEqual((refused[:2], built[:2]), (["1323", "clamped"], ["1323", "free"]))
+        self.assertRegex(refused[4], "^error: the reference node is held too softly")
+        self.assertRegex(built[4], "^[0-9]+ elements, ")
+        rows = [line.split() for line in methods.splitlines()[2:]]
+        self.assertEqual([row[0] for row in rows], ["1320", "240"])
+        for row in rows:
+            self.assertEqual(len([one for one in row[1:] if one == "–" or float(one) >= 0.0]), 4)
 
     def test_errors_over_tolerances_are_measured(self):
         """At 1e-5 a run is better by far than at 1e-3, and costs more."""
@@ -167,8 +177,11 @@ class Tool(ToolTestCase):
     def test_a_quick_measurement_writes_tables_data_and_picture(self):
         process = self.run_tool("benchmark", "--quick", "--programs", os.environ["SPRUNG_BUILD"], "--output-dir", "out")
         self.assert_succeeds(process)
-        for heading in ("One evaluation", "Whole runs", "Many runs", "Growth", "Targets"):
+        for heading in ("One evaluation", "Whole runs", "Many runs", "The bump", "Growth", "Targets"):
             self.assertRegex(process.stdout, rf"(?m)^{heading}")
+        certified, clamped = re.findall(r"(?m)^(certified|clamped) +(\d+) +\d+ .* (\S+)$", process.stdout)
+        self.assertEqual((certified[:2], clamped), (("certified", "20"), ("clamped", "20", "1.00")))
+        self.assertGreater(float(certified[2]), 0.0)
         self.assertEqual((self.folder / "out/benchmark.txt").read_text(encoding="utf-8"), process.stdout)
         with open(self.folder / "out/work_precision.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

@@ -1,4 +1,5 @@
-"""Whole builds of large lattices: what stage one takes of processor time and memory, and what others take of it."""
+"""Whole builds of large lattices: what stage one takes of processor time and memory, and what others take of it;
+builds of a lattice that hangs on a thin rod; and the methods between which the number of freedoms chooses."""
 
 import json
 import os
@@ -26,15 +27,22 @@ shape = "box"
 width = 0.05
 height = 0.05
 wall = 0.003
-[reference]
-point = "middle"
+{more}[reference]
+point = "{reference}"
 [modes]
-damping_ratio = 0.01
+{count}damping_ratio = 0.01
 [reduction]
+basis = "{basis}"
 highest_frequency = {highest:.6g}
 [interface]
 """
 MOST_LOADED = 8  # named points in the interface
+ROD = """[sections.rod]
+material = "steel"
+shape = "rectangle"
+width = 0.005
+height = 0.005
+"""
 
 
 class Lattice(NamedTuple):
@@ -64,6 +72,7 @@ class Limit(NamedTuple):
     """Processor times that no build can do without [s]: analysis and factors of the stiffness, solutions in blocks for
     COLUMNS right-hand sides, and one count of the modes."""
 
+    analysis: float
     factor: float
     solutions: float
     counting: float
@@ -71,7 +80,7 @@ class Limit(NamedTuple):
 
     @property
     def total(self) -> float:
-        return self.factor + self.solutions + self.counting
+        return self.analysis + self.factor + self.solutions + self.counting
 
 
 class BuildCost(NamedTuple):
@@ -84,12 +93,34 @@ class BuildCost(NamedTuple):
     calculix: Cost | None  # a whole run of ccx for as many modes
 
 
+class HangingBuild(NamedTuple):
+    """The build of a lattice whose reference node hangs on a rod."""
+
+    lattice: Lattice
+    basis: str
+    build: Cost
+    outcome: str
+
+
+class MethodCosts(NamedTuple):
+    """Processor times of both methods for factors with COLUMNS solutions, and for NUM_MODES modes [s]."""
+
+    freedoms: int
+    simplicial: float
+    supernodal: float | None  # None without CHOLMOD
+    restarts: float
+    blocks: float
+
+
 LATTICES = (Lattice(49, 1000), Lattice(100, 8), Lattice(182, 8), Lattice(316, 8), Lattice(577, 8))
 QUICK_LATTICES = (Lattice(20, 4), Lattice(8, 2))
+HANGING = Lattice(20, 4)
+METHOD_LATTICES = (Lattice(25, 8), Lattice(40, 8), Lattice(81, 8), Lattice(182, 8))
 
 
-def make_mesh(lattice: Lattice) -> str:
-    """A .msh file of version 2.2. The named points lie at equal steps through the numbers of the nodes."""
+def make_mesh(lattice: Lattice, hanging: bool = False) -> str:
+    """A .msh file of version 2.2. The named points lie at equal steps through the numbers of the nodes. hanging: with a
+    rod from the first node to a point "hook"."""
     row = lattice.cells + 1
     nodes = row * row
     middle = lattice.middle
@@ -97,13 +128,19 @@ def make_mesh(lattice: Lattice) -> str:
     places = [number for number in range(step, nodes + 1, step) if number != middle][: lattice.points]
     names = [("middle", middle), *((f"p{index}", number) for index, number in enumerate(places))]
     bars = [(n, n + 1) for n in range(1, nodes + 1) if n % row] + [(n, n + row) for n in range(1, nodes - row + 1)]
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(1 + len(names)), '1 1 "bar"']
+    if hanging:
+        names.append(("hook", nodes + 1))
+    rod = len(names) + 2  # its tag
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(1 + len(names) + hanging), '1 1 "bar"']
+    lines += [f'1 {rod} "rod"'] * hanging
     lines += [f'0 {tag} "{name}"' for tag, (name, _) in enumerate(names, 2)]
-    lines += ["$EndPhysicalNames", "$Nodes", str(nodes)]
+    lines += ["$EndPhysicalNames", "$Nodes", str(nodes + hanging)]
     lines += [f"{n} {(n - 1) % row * SPACING} {(n - 1) // row * SPACING} 0" for n in range(1, nodes + 1)]
-    lines += ["$EndNodes", "$Elements", str(len(names) + len(bars))]
+    lines += [f"{nodes + 1} 0 {-SPACING} 0"] * hanging
+    lines += ["$EndNodes", "$Elements", str(len(names) + len(bars) + hanging)]
     lines += [f"{tag - 1} 15 2 {tag} {tag} {number}" for tag, (_, number) in enumerate(names, 2)]
     lines += [f"{tag} 1 2 1 1 {first} {second}" for tag, (first, second) in enumerate(bars, len(names) + 1)]
+    lines += [f"{len(names) + len(bars) + 1} 1 2 {rod} {rod} 1 {nodes + 1}"] * hanging
     return "\n".join([*lines, "$EndElements", ""])
 
 
@@ -133,7 +170,7 @@ def measure_limit(program: str | Path, lattice: Lattice, folder: Path, *flags: s
     if "built without CHOLMOD" in text:
         return None
     said = json.loads(text)
-    return Limit(said["factor"], said["solutions"], said["count"], cost.megabytes)
+    return Limit(said["analysis"], said["factor"], said["solutions"], said["count"], cost.megabytes)
 
 
 def measure_scipy(program: str | Path, lattice: Lattice, folder: Path) -> Cost:
@@ -156,18 +193,51 @@ def measure_calculix(program: str, lattice: Lattice, folder: Path) -> Cost | Non
     return cost if "Job finished" in text else None
 
 
+def write_lattice(lattice: Lattice, folder: Path, basis: str = "free", hanging: bool = False) -> None:
+    """Writes lattice.msh and lattice.toml."""
+    os.makedirs(folder, exist_ok=True)
+    write_whole(folder / "lattice.msh", make_mesh(lattice, hanging).encode())
+    loaded = range(0, lattice.points, -(-lattice.points // MOST_LOADED))
+    design = DESIGN.format(
+        highest=choose_band(lattice), more=ROD if hanging else "", reference="hook" if hanging else "middle",
+        count=f"count = {NUM_MODES}\n" if basis == "clamped" else "", basis=basis,
+    )  # fmt: skip
+    design += "".join(f'p{index} = "xyr"\n' for index in loaded)
+    write_whole(folder / "lattice.toml", design.encode())
+
+
+def build_lattice(programs: Path, folder: Path) -> tuple[Cost, str]:
+    """Builds the lattice of a folder in a process of its own. Returns what that took, and what the program said."""
+    command: list[str | Path] = [programs / "reduce/sprung-reduce", "build", "lattice.toml", "--force", "-o", "."]
+    text, cost = run_measured(command, folder)
+    said = [line for line in text.splitlines() if ": building" not in line and ": remark" not in line]
+    return cost, said[0].split(": ", 1)[-1] if said else ""
+
+
+def measure_hanging(programs: Path, lattice: Lattice, folder: Path) -> list[HangingBuild]:
+    """Builds a lattice that is held at the end of a rod, by a basis of modes of the held body and by a free one."""
+    costs = []
+    for basis in ("clamped", "free"):
+        write_lattice(lattice, folder, basis, hanging=True)
+        costs.append(HangingBuild(lattice, basis, *build_lattice(programs, folder)))
+    return costs
+
+
+def measure_methods(programs: Path, lattice: Lattice, folder: Path) -> MethodCosts:
+    """Measures the methods for small and for large frames on one lattice, by tests/benchmark/factor_benchmark."""
+    write_lattice(lattice, folder)
+    steps = programs / "tests/benchmark/factor_benchmark"
+    command: list[str | Path] = [steps, "lattice.toml", "--columns", f"{COLUMNS}", "--methods", f"{NUM_MODES}"]
+    said = json.loads(run_measured(command, folder)[0])
+    return MethodCosts(said["freedoms"], said["simplicial"], said["supernodal"], said["restarts"], said["blocks"])
+
+
 def measure_build(programs: Path, lattice: Lattice, folder: Path) -> BuildCost:
     """Builds a lattice in a process of its own, and measures that; beside it its limit, scipy, and CalculiX where it is
     installed. programs: the build folder."""
     program = programs / "reduce/sprung-reduce"
-    os.makedirs(folder, exist_ok=True)
-    write_whole(folder / "lattice.msh", make_mesh(lattice).encode())
-    loaded = range(0, lattice.points, -(-lattice.points // MOST_LOADED))
-    design = DESIGN.format(highest=choose_band(lattice)) + "".join(f'p{index} = "xyr"\n' for index in loaded)
-    write_whole(folder / "lattice.toml", design.encode())
-    text, build = run_measured([program, "build", "lattice.toml", "--force", "-o", "."], folder)
-    said = [line for line in text.splitlines() if ": building" not in line and ": remark" not in line]
-    outcome = said[0].split(": ", 1)[-1] if said else ""
+    write_lattice(lattice, folder)
+    build, outcome = build_lattice(programs, folder)
     steps = programs / "tests/benchmark/factor_benchmark"
     limit = measure_limit(steps, lattice, folder)
     assert limit is not None
@@ -187,7 +257,7 @@ def format_cost(cost: Cost | None) -> str:
 def format_builds(costs: Sequence[BuildCost]) -> str:
     """A table of builds, one line each. Without CalculiX its column is left out, and a line says so."""
     has_calculix = shutil.which("ccx") is not None
-    names = ("limit s", "factor", "solve", "count")
+    names = ("limit s", "analysis", "factor", "solve", "count")
     heading = f"{'freedoms':>9}  {'points':>6}  {'CPU s':>8}  {'MB':>6}" + "".join(f"  {name:>8}" for name in names)
     heading += f"  {'MB':>6}  {'CHOLMOD s':>9}  {'scipy s':>8}  {'MB':>6}" + f"  {'ccx s':>8}  {'MB':>6}" * has_calculix
     rows = [heading + "  outcome"]
@@ -195,11 +265,32 @@ def format_builds(costs: Sequence[BuildCost]) -> str:
         limit = cost.limit
         cells = f"{cost.lattice.freedoms:>9}  {cost.lattice.points:>6}  {cost.build.seconds:>8.2f}"
         cells += f"  {cost.build.megabytes:>6.0f}"
-        cells += "".join(f"  {one:>8.2f}" for one in (limit.total, limit.factor, limit.solutions, limit.counting))
+        parts = (limit.total, limit.analysis, limit.factor, limit.solutions, limit.counting)
+        cells += "".join(f"  {one:>8.2f}" for one in parts)
         cells += f"  {limit.megabytes:>6.0f}"
         cells += f"  {cost.cholmod.total:>9.2f}" if cost.cholmod else f"  {'–':>9}"
         cells += format_cost(cost.scipy)
         rows.append(cells + (format_cost(cost.calculix) if has_calculix else "") + f"  {cost.outcome}")
     if not has_calculix:
         rows.append("no column of CalculiX: ccx (Debian: calculix-ccx) is not in PATH")
+    return "\n".join(rows)
+
+
+def format_hanging(costs: Sequence[HangingBuild]) -> str:
+    """A table of builds of a lattice that hangs on a thin rod."""
+    rows = [f"{'freedoms':>9}  {'basis':>8}  {'CPU s':>8}  {'MB':>6}  outcome"]
+    for one in costs:
+        cost = f"{one.build.seconds:>8.2f}  {one.build.megabytes:>6.0f}"
+        rows.append(f"{one.lattice.freedoms + 3:>9}  {one.basis:>8}  {cost}  {one.outcome}")
+    return "\n".join(rows)
+
+
+def format_methods(costs: Sequence[MethodCosts]) -> str:
+    """A table of the methods for small and for large frames."""
+    rows = [f"{'freedoms':>9}  {'simplicial':>10}  {'supernodal':>10}  {'restarts':>9}  {'blocks':>9}"]
+    for one in costs:
+        supernodal = f"{'–':>10}" if one.supernodal is None else f"{one.supernodal:>10.3f}"
+        rows.append(
+            f"{one.freedoms:>9}  {one.simplicial:>10.3f}  {supernodal}  {one.restarts:>9.3f}  {one.blocks:>9.3f}"
+        )
     return "\n".join(rows)

@@ -8,7 +8,11 @@ import os
 import tempfile
 from pathlib import Path
 
-from sprung_tools.benchmark.lattices import LATTICES, QUICK_LATTICES, format_builds, measure_build
+from sprung_tools.benchmark.bases import format_bases, measure_bases
+from sprung_tools.benchmark.lattices import (
+    COLUMNS, HANGING, LATTICES, METHOD_LATTICES, NUM_MODES, QUICK_LATTICES, format_builds, format_hanging,
+    format_methods, measure_build, measure_hanging, measure_methods,
+)  # fmt: skip
 from sprung_tools.benchmark.many_runs import check_many_runs, format_many_runs, measure_many_runs
 from sprung_tools.benchmark.programs import measure_evaluations, measure_growth, run_program
 from sprung_tools.benchmark.tables import format_evaluations, format_growth, format_runs
@@ -62,7 +66,15 @@ def measure_reduction(arguments: argparse.Namespace) -> str:
     with tempfile.TemporaryDirectory() as folder:
         lattices = QUICK_LATTICES if arguments.quick else LATTICES
         costs = [measure_build(programs, one, Path(folder)) for one in lattices]
-    text = "Whole builds of lattices, about 20 free modes\n" + format_builds(costs)
+        hanging = measure_hanging(programs, HANGING, Path(folder))
+        small = QUICK_LATTICES if arguments.quick else METHOD_LATTICES
+        methods = [measure_methods(programs, one, Path(folder)) for one in small]
+    tables = (
+        ("Whole builds of lattices, about 20 free modes", format_builds(costs)),
+        ("A lattice held at the end of a thin rod", format_hanging(hanging)),
+        (f"Factors and {COLUMNS} solutions, {NUM_MODES} held modes, by both methods, CPU s", format_methods(methods)),
+    )
+    text = "\n\n".join(f"{title}\n{table}" for title, table in tables)
     write_whole(arguments.output_dir / "benchmark_reduce.txt", text + "\n")
     return text
 
@@ -71,7 +83,7 @@ def build_truck(programs: Path, folder: Path) -> None:
     """Builds the truck's superelements into a folder."""
     run_program(
         [programs / "reduce/sprung-reduce", "build", ROOT / "meshes/truck/chassis.toml",
-         ROOT / "meshes/truck/long_arm.toml", "--output-dir", folder]
+         ROOT / "meshes/truck/chassis_certified.toml", ROOT / "meshes/truck/long_arm.toml", "--output-dir", folder]
     )  # fmt: skip
 
 
@@ -114,6 +126,7 @@ def main() -> int:
         growth = measure_growth(programs / "growth_benchmark", sizes, 5 if arguments.quick else 50)
         dynamics = arguments.programs.resolve() / "dynamics/sprung-dynamics"
         many = measure_many_runs(dynamics, folder, 2 if arguments.quick else 20, plan.duration)
+        bases = measure_bases(dynamics, folder, 2 if arguments.quick else 20, plan.duration)
         results, firsts, ladders, durations = measure_runs(programs / "run_benchmark", folder, folder, plan)
     targets = [*check_targets(times, results, firsts, durations, growth), *check_many_runs(many)]
     text = "\n\n".join(
@@ -123,6 +136,7 @@ def main() -> int:
             + format_runs(results, firsts, durations),
             "Many runs of the bump with the outputs of its file, results as JSON\n"
             + format_many_runs(many),
+            "The bump with a certified basis of the chassis, and with as many clamped modes\n" + format_bases(bases),
             "Growth with the number of bodies (adams, 1e-6)\n" + format_growth(growth),
             "Targets\n" + format_targets(targets),
         )
