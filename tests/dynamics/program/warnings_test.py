@@ -69,7 +69,7 @@ class Warnings(DynamicsTestCase):
         self.assertEqual(code, 0)
         first, second = (one for one in printed["warnings"] if "modes are missing" in one["text"])
         self.assertTrue(first["text"].startswith("modes are missing: chassis.mode 3, which was left out"))
-        self.assertIn("% of the r.m.s. acceleration of chassis.origin, most of it along y, and would", first["text"])
+        self.assertIn("% of the r.m.s. acceleration of chassis.seat, most of it along x, and would", first["text"])
         self.assertEqual((first["concerns"], first["of"]), ("summary", ["chassis.origin", "chassis.seat"]))
         self.assertEqual((second["concerns"], second["of"], second["text"]), ("modes", ["chassis"], first["text"]))
         stored = [
