@@ -133,8 +133,7 @@ Json make_equilibrium_json(const BalanceReport& report) {
           {"neutral", neutral_descriptions(report.equilibrium)},
           {"stable", report.equilibrium.stable},
           {"iterations", report.equilibrium.iterations},
-          {"last_step", report.equilibrium.last_step},
-          {"warnings", make_warnings_json(report.warnings)}};
+          {"last_step", report.equilibrium.last_step}};
 }
 
 std::string format_modes(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
@@ -188,8 +187,7 @@ std::string format_bracket(const std::vector<VehicleMode>& modes, const Frequenc
 }
 
 Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vector<VehicleMode>& modes,
-                     const SectionStatistics& sections, const std::vector<RunWarning>& warnings,
-                     const FrequencyBracket* bracket) {
+                     const SectionStatistics& sections, const FrequencyBracket* bracket) {
   Json list = Json::array();
   for (const VehicleMode& mode : modes) {
     list.push_back({{"undamped_frequency", mode.undamped_frequency_hz},
@@ -202,9 +200,7 @@ Json make_modes_json(const Model& model, const Vehicle& vehicle, const std::vect
       list.back()["bracket"] = {bracket->lower_hz[k], bracket->upper_hz[k]};
     }
   }
-  return {{"modes", list},
-          {"sections", make_sections_json(sections)},
-          {"warnings", make_warnings_json(warnings)}};
+  return {{"modes", list}, {"sections", make_sections_json(sections)}};
 }
 
 }  // namespace sprung::dynamics

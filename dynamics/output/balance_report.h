@@ -41,7 +41,7 @@ struct FrequencyBracket {
 /// Positions of the bodies, values of the force elements, bending moments and neutral directions, as text
 /// tables, with the warnings that do not concern the files.
 std::string format_equilibrium(const BalanceReport& report);
-/// Positions, values and neutral directions as one JSON object, SI units.
+/// Positions, values and neutral directions as one JSON object, SI units, without the warnings.
 support::Json make_equilibrium_json(const BalanceReport& report);
 
 /// Table of the vehicle's modes, with the warnings that do not concern the files.
@@ -51,7 +51,6 @@ std::string format_modes(const Model& model, const Vehicle& vehicle, const std::
 /// @param sections  at the equilibrium   @param bracket  null: none
 support::Json make_modes_json(const Model& model, const Vehicle& vehicle,
                               const std::vector<VehicleMode>& modes, const SectionStatistics& sections,
-                              const std::vector<RunWarning>& warnings,
                               const FrequencyBracket* bracket = nullptr);
 std::string format_bracket(const std::vector<VehicleMode>& modes, const FrequencyBracket& bracket);
 

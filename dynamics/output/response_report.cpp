@@ -31,7 +31,7 @@ std::string format_response(const ResponseResult& result) {
       "{}: response to the road at {:g} m/s, linearised about static equilibrium; {} frequencies from {:g} "
       "to {:g} Hz\n",
       result.vehicle.name, result.run.speed, f.size(), f.front(), f.back());
-  for (const std::string& remark : result.remarks) text += remark + "\n";
+  for (const std::string& remark : list_remarks(result)) text += remark + "\n";
   if (result.has_road()) text += fmt::format("Road: r.m.s. height {:.4g} m in this range\n", result.road_rms);
 
   std::vector<std::string> header{"quantity", "unit", fmt::format("per m of road: at {:g} Hz", f.front()),
@@ -65,7 +65,7 @@ Json make_response_json(const ResponseResult& result) {
     }
     outputs[result.names[i]] = std::move(output);
   }
-  Json report{{"speed", result.run.speed}, {"remarks", result.remarks}, {"frequency", result.frequency_hz}};
+  Json report{{"remarks", result.remarks}, {"frequency", result.frequency_hz}};
   if (result.has_road()) report["road_rms"] = result.road_rms;
   report["outputs"] = std::move(outputs);
   return report;

@@ -9,6 +9,7 @@ ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, cons
   ResponseResult result{.run = run,
                         .vehicle = vehicle,
                         .overrides = {},
+                        .warnings = {},
                         .remarks = {},
                         .inputs = linear.inputs(),
                         .names = outputs.names,
@@ -38,6 +39,13 @@ ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, cons
   result.rms = calc_root_mean_squares(linear, outputs, *run.response.road, run.speed, range);
   result.road_rms = calc_road_rms(*run.response.road, run.speed, range);
   return result;
+}
+
+std::vector<std::string> list_remarks(const ResponseResult& result) {
+  std::vector<std::string> texts;
+  for (const RunWarning& warning : result.warnings) texts.push_back("Warning: " + warning.text);
+  texts.insert(texts.end(), result.remarks.begin(), result.remarks.end());
+  return texts;
 }
 
 }  // namespace sprung::dynamics

@@ -7,6 +7,7 @@
 #include "dynamics/input/run.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/linear/linear_outputs.h"
+#include "dynamics/output/run_warnings.h"
 
 namespace sprung::dynamics {
 
@@ -16,7 +17,8 @@ struct ResponseResult {
   const Run& run;
   const Vehicle& vehicle;
   std::vector<std::string> overrides;  ///< assignments of the command line, as given
-  std::vector<std::string> remarks;    ///< on mean slopes, and on inputs without effect
+  std::vector<RunWarning> warnings;    ///< of inputs without effect, and of what is not linear
+  std::vector<std::string> remarks;    ///< how force laws were linearised
   std::vector<RoadInput> inputs;
   std::vector<std::string> names, units;   ///< p, of the outputs
   std::vector<OutputSubject> subjects;     ///< p
@@ -38,5 +40,8 @@ struct ResponseResult {
 /// Checked by tests/verification/response_test.py
 ResponseResult calc_response_result(const Run& run, const Vehicle& vehicle, const LinearVehicle& linear,
                                     const LinearOutputs& outputs);
+
+/// Warnings and remarks, in words.
+std::vector<std::string> list_remarks(const ResponseResult& result);
 
 }  // namespace sprung::dynamics

@@ -68,7 +68,7 @@ void write_response(const std::filesystem::path& path, const ResponseResult& res
   file.write("/model/run_text", std::vector<std::string>{result.run.text});
   file.write("/model/vehicle_text", std::vector<std::string>{result.vehicle.text});
   file.write("/model/overrides", result.overrides);
-  file.write("/remarks", result.remarks);
+  file.write("/remarks", list_remarks(result));
   file.commit();
 }
 

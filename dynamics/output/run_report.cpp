@@ -58,23 +58,6 @@ Json make_largest_json(const LargestShare& largest, const Model& full) {
           {"time", largest.time}};
 }
 
-// What the run was asked for; all settings are in its results file.
-Json describe_parameters(const Run& run, const Model& model) {
-  Json modes = Json::object();
-  for (const Body& body : model.bodies) {
-    if (body.num_modes() > 0) modes[body.name] = body.mode_numbers;
-  }
-  return {{"speed", run.speed},
-          {"duration", run.duration},
-          {"output_step", run.output_step},
-          {"start", start_name(run.start)},
-          {"statistics", {run.statistics_from, run.statistics_to}},
-          {"road", run.road.shape},
-          {"method", method_name(run.integrator.options.method)},
-          {"relative_tolerance", run.integrator.options.relative_tolerance},
-          {"modes", modes}};
-}
-
 Json describe_certified(const std::vector<CertifiedError>& bodies) {
   Json all = Json::object();
   for (const CertifiedError& body : bodies) {
@@ -217,26 +200,26 @@ Json make_summary_json(const Model& model, const RunSummary& summary) {
                             {"axial_effect", body.axial_effect()}};
   }
   const TransientStatistics& transient = summary.transient;
-  return {{"parameters", describe_parameters(summary.run, model)},
-          {"freedoms", model.num_mechanical_freedoms()},
-          {"points", points},
-          {"bending", bending},
-          {"sections", make_sections_json(summary.statistics.sections())},
-          {"certified", describe_certified(summary.statistics.certified())},
-          {"constraint_violation", summary.statistics.constraint_violation()},
-          {"velocity_violation", transient.stepper.velocity_violation},
-          {"energy_closure", summary.statistics.energy_closure()},
-          {"steps", transient.stepper.integrator.steps},
-          {"evaluations", transient.stepper.evaluations},
-          {"output_evaluations", transient.output_evaluations},
-          {"switches", transient.switches},
-          {"modes", modes},
-          {"repartitions", transient.stepper.repartitions},
-          {"warnings", make_warnings_json(summary.warnings)},
-          {"elapsed", summary.times.wall},
-          {"cpu_time", summary.times.cpu},
-          {"integration_cpu_time", summary.times.integration},
-          {"real_time_factor", summary.duration / summary.times.wall}};
+  Json report{{"freedoms", model.num_mechanical_freedoms()},
+              {"points", points},
+              {"bending", bending},
+              {"sections", make_sections_json(summary.statistics.sections())},
+              {"certified", describe_certified(summary.statistics.certified())},
+              {"constraint_violation", summary.statistics.constraint_violation()},
+              {"velocity_violation", transient.stepper.velocity_violation},
+              {"energy_closure", summary.statistics.energy_closure()},
+              {"steps", transient.stepper.integrator.steps},
+              {"evaluations", transient.stepper.evaluations},
+              {"output_evaluations", transient.output_evaluations},
+              {"switches", transient.switches},
+              {"modes", modes},
+              {"repartitions", transient.stepper.repartitions},
+              {"elapsed", summary.times.wall},
+              {"cpu_time", summary.times.cpu},
+              {"integration_cpu_time", summary.times.integration},
+              {"real_time_factor", summary.duration / summary.times.wall}};
+  if (summary.storage) report["storage"] = make_storage_json(*summary.storage);
+  return report;
 }
 
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include "dynamics/linear/equilibrium.h"
 #include "dynamics/output/run_statistics.h"
 #include "dynamics/output/run_warnings.h"
+#include "dynamics/output/storage_plan.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
@@ -35,11 +36,12 @@ struct RunSummary {
   RunTimes times;
   const AdaptivityOptions* adaptivity = nullptr;  ///< null if no modes were left out
   const std::vector<RunWarning>& warnings;
+  const StoragePlan* storage = nullptr;  ///< null without a results file
 };
 
 /// The summary as text tables, with the warnings that do not concern the computation as a whole.
 std::string format_summary(const RunSummary& summary);
-/// The summary as one JSON object, SI units.
+/// The summary as one JSON object, SI units, without its warnings.
 support::Json make_summary_json(const Model& model, const RunSummary& summary);
 
 }  // namespace sprung::dynamics

@@ -134,4 +134,8 @@ std::string describe_storage(const StoragePlan& plan, const OutputSettings& sett
                             fmt::join(plan.reductions(), "; "));
 }
 
+support::Json make_storage_json(const StoragePlan& plan) {
+  return {{"size", kMegabyte * plan.size()}, {"reductions", plan.reductions()}};
+}
+
 }  // namespace sprung::dynamics

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/input/output_input.h"
+#include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
@@ -77,5 +78,7 @@ class StoragePlan {
 
 /// The plan in a line of text: "about 18 MB; …".
 std::string describe_storage(const StoragePlan& plan, const OutputSettings& settings);
+/// The plan as a JSON object, the size in bytes.
+support::Json make_storage_json(const StoragePlan& plan);
 
 }  // namespace sprung::dynamics

@@ -116,7 +116,8 @@ int equilibrium_command(const RunRequest& request, bool json) {
                              &resting.loads,
                              tell_warnings(prepared, resting, request.streams.err)};
   support::print(request.streams.out, "{}",
-                 json ? format_report_json(request, make_equilibrium_json(report))
+                 json ? format_report_json(request, "equilibrium", prepared, report.warnings,
+                                           make_equilibrium_json(report))
                       : describe_static_lengths(prepared) + format_equilibrium(report));
   return support::kGood;
 }
@@ -135,8 +136,9 @@ int modes_command(const RunRequest& request, const RunOutput& output) {
   if (output.bracket) bracket = calc_bracket(prepared, warnings);
   if (output.json) {
     support::print(request.streams.out, "{}",
-                   format_report_json(request, make_modes_json(model, prepared.vehicle, modes, resting.loads,
-                                                               warnings, bracket ? &*bracket : nullptr)));
+                   format_report_json(request, "modes", prepared, warnings,
+                                      make_modes_json(model, prepared.vehicle, modes, resting.loads,
+                                                      bracket ? &*bracket : nullptr)));
     return support::kGood;
   }
   support::print(

@@ -14,6 +14,10 @@ using support::Json;
 
 namespace {
 
+// dynamics/README.md, "JSON"
+constexpr std::string_view kJsonFormat = "sprung-dynamics";
+constexpr int kJsonVersion = 1;
+
 std::string list_modes(const reduce::Superelement* superelement, const Body& body) {
   if (superelement == nullptr) return "rigid";
   if (body.num_modes() == 0) return fmt::format("rigid, 0 of {}", superelement->num_modes());
@@ -41,6 +45,33 @@ BalanceReport balance_of(const PreparedRun& prepared) {
           prepared.assembly,
           prepared.run.start == Run::Start::kSteady,
           make_start_positions(prepared.balance_model, prepared.vehicle)};
+}
+
+// What was asked for; all settings of a run are in its results file.
+Json describe_parameters(const PreparedRun& prepared) {
+  const Run& run = prepared.run;
+  Json modes = Json::object();
+  for (const auto& [body, numbers] : prepared.available)
+    if (!numbers.empty()) modes[body] = numbers;
+  return {{"speed", run.speed},
+          {"duration", run.duration},
+          {"output_step", run.output_step},
+          {"start", start_name(run.start)},
+          {"statistics", {run.statistics_from, run.statistics_to}},
+          {"road", run.road.shape},
+          {"method", method_name(run.integrator.options.method)},
+          {"relative_tolerance", run.integrator.options.relative_tolerance},
+          {"modes", modes}};
+}
+
+Json describe_static_springs(const std::vector<StaticLengthResult>& springs) {
+  Json all = Json::object();
+  for (const StaticLengthResult& spring : springs) {
+    Json& one = all[spring.force] = {{"length", spring.length}};
+    if (spring.free_length) one["free_length"] = *spring.free_length;
+    if (spring.gauge_pressure) one["gauge_pressure"] = *spring.gauge_pressure;
+  }
+  return all;
 }
 
 }  // namespace
@@ -75,7 +106,7 @@ std::string format_model(const PreparedRun& prepared) {
   return text;
 }
 
-std::string format_model_json(const PreparedRun& prepared) {
+Json make_model_json(const PreparedRun& prepared) {
   const Model& model = prepared.model;
   Json bodies = Json::object(), joints = Json::object(), forces = Json::object();
   for (const Body& body : model.bodies) {
@@ -91,7 +122,6 @@ std::string format_model_json(const PreparedRun& prepared) {
               {"coordinates", model.first_state()},
               {"constraints", model.num_constraints},
               {"freedoms", model.num_mechanical_freedoms()}};
-  if (prepared.choice) report["mode_choice"] = make_choice_json(*prepared.choice);
   if (prepared.equilibrium) {
     Json places = Json::object();
     for (const Body& body : model.bodies) {
@@ -100,11 +130,22 @@ std::string format_model_json(const PreparedRun& prepared) {
     }
     report["equilibrium"] = places;
   }
-  return support::format_json(report);
+  return report;
 }
 
-std::string format_report_json(const RunRequest& request, const Json& report) {
-  Json printed{{"file", request.run_file.string()}, {"set", request.overrides}};
+std::string format_report_json(const RunRequest& request, std::string_view command,
+                               const PreparedRun& prepared, const std::vector<RunWarning>& warnings,
+                               const Json& report) {
+  Json printed{{"format", kJsonFormat},
+               {"version", kJsonVersion},
+               {"command", command},
+               {"file", request.run_file.string()},
+               {"set", request.overrides},
+               {"parameters", describe_parameters(prepared)},
+               {"warnings", make_warnings_json(warnings)}};
+  if (!prepared.static_lengths.empty())
+    printed["static_lengths"] = describe_static_springs(prepared.static_lengths);
+  if (prepared.choice) printed["mode_choice"] = make_choice_json(*prepared.choice);
   printed.update(report);
   return support::format_json(printed);
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "dynamics/output/run_warnings.h"
 #include "dynamics/program/prepared_run.h"
 #include "tools/support/terminal/json.h"
 
@@ -11,9 +14,12 @@ namespace sprung::dynamics {
 /// constraints, force elements, freedoms, and the equilibrium at the start.
 std::string format_model(const PreparedRun& prepared);
 /// The model as one JSON object, SI units.
-std::string format_model_json(const PreparedRun& prepared);
+support::Json make_model_json(const PreparedRun& prepared);
 
-/// What a command prints with --json: the run file, what --set has changed, and the members of its report.
-std::string format_report_json(const RunRequest& request, const support::Json& report);
+/// What a command prints with --json: the head that all commands have (dynamics/README.md, "JSON"), and the
+/// members of its report. Checked by tests/dynamics/program/json_test.py
+std::string format_report_json(const RunRequest& request, std::string_view command,
+                               const PreparedRun& prepared, const std::vector<RunWarning>& warnings,
+                               const support::Json& report = support::Json::object());
 
 }  // namespace sprung::dynamics

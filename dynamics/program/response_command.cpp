@@ -21,6 +21,7 @@ namespace sprung::dynamics {
 
 namespace {
 
+constexpr std::string_view kResponse = "response";  // what the warnings concern
 constexpr double kLifting = 3.0;  // r.m.s. values: a normal variable falls so low in a thousandth of the time
 
 void check_request(const Run& run) {
@@ -57,31 +58,34 @@ void check_inputs(const PreparedRun& prepared, const LinearVehicle& vehicle) {
   }
 }
 
-std::vector<std::string> list_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle) {
-  std::vector<std::string> warnings;
+std::vector<RunWarning> list_warnings(const PreparedRun& prepared, const LinearVehicle& vehicle) {
+  std::vector<RunWarning> warnings;
+  const auto warn = [&](const std::string& of, std::string text) {
+    warnings.push_back({std::string(kResponse), {of}, std::move(text)});
+  };
   for (const RoadInput& input : vehicle.inputs()) {
     if (input.is_pressed) continue;
-    warnings.push_back(
-        fmt::format("'{}' is off the ground in static equilibrium: the road does not act on it", input.name));
+    warn(input.name, fmt::format("'{}' is off the ground in static equilibrium: the road does not act on it",
+                                 input.name));
   }
   for (const Kink& kink : vehicle.kinks()) {
     if (!kink.in_position) continue;
-    warnings.push_back(
-        fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
-                    kink.element));
+    warn(kink.element,
+         fmt::format("'{}' changes its law at static equilibrium or very close to it: a mean slope is used",
+                     kink.element));
   }
   for (const WheelSpeed& wheel : find_wheels_of_other_speed(prepared)) {
-    warnings.push_back(
-        fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
-                    wheel.name, wheel.speed, prepared.run.speed));
+    warn(wheel.name,
+         fmt::format("'{}' rolls at {:.6g} m/s at the start of a run; the road passes at 'speed', {:g} m/s",
+                     wheel.name, wheel.speed, prepared.run.speed));
   }
   return warnings;
 }
 
 // Wheels that the random road would lift, which a linear vehicle cannot know.
-std::vector<std::string> list_lifting_wheels(const PreparedRun& prepared, const LinearVehicle& vehicle,
-                                             const ResponseResult& result) {
-  std::vector<std::string> warnings;
+std::vector<RunWarning> list_lifting_wheels(const PreparedRun& prepared, const LinearVehicle& vehicle,
+                                            const ResponseResult& result) {
+  std::vector<RunWarning> warnings;
   if (!result.has_road()) return warnings;
   const Model& model = vehicle.model();
   SystemTerms terms(model);
@@ -104,10 +108,13 @@ std::vector<std::string> list_lifting_wheels(const PreparedRun& prepared, const 
     const double rms = result.rms[static_cast<Eigen::Index>(i)],
                  at_rest = values[static_cast<std::size_t>(place)];
     if (kLifting * rms <= at_rest) continue;
-    warnings.push_back(fmt::format(
-        "'{}' leaves the ground now and then, which a linear response does not contain: its force "
-        "varies by {:.4g} N r.m.s. about {:.4g} N at rest",
-        force.name, rms, at_rest));
+    warnings.push_back(
+        {std::string(kResponse),
+         {force.name},
+         fmt::format(
+             "'{}' leaves the ground now and then, which a linear response does not contain: its force "
+             "varies by {:.4g} N r.m.s. about {:.4g} N at rest",
+             force.name, rms, at_rest)});
   }
   return warnings;
 }
@@ -186,21 +193,24 @@ int response_command(const RunRequest& request, const RunOutput& output) {
   ResponseResult result =
       calc_response_result(prepared.run, prepared.vehicle, vehicle, make_outputs(prepared, vehicle));
   result.overrides = request.overrides;
-  std::vector<std::string> warnings = list_warnings(prepared, vehicle);
-  for (std::string& warning : list_lifting_wheels(prepared, vehicle, result))
-    warnings.push_back(std::move(warning));
-  for (const std::string& warning : warnings) {
-    support::print(request.streams.err, "warning: {}\n", warning);
-    result.remarks.push_back("Warning: " + warning);
-  }
+  result.warnings = list_warnings(prepared, vehicle);
+  for (RunWarning& warning : list_lifting_wheels(prepared, vehicle, result))
+    result.warnings.push_back(std::move(warning));
+  for (const RunWarning& warning : result.warnings)
+    support::print(request.streams.err, "warning: {}\n", warning.text);
   if (const std::string means = describe_mean_slopes(vehicle); !means.empty())
     result.remarks.push_back(means);
   if (!states.empty()) result.remarks.push_back(states);
 
   if (!output.results.empty()) write_response(output.results, result);
-  support::print(
-      request.streams.out, "{}",
-      output.json ? format_report_json(request, make_response_json(result)) : format_response(result));
+  if (output.json) {
+    std::vector<RunWarning> warnings = result.warnings;
+    for (RunWarning& remark : list_file_warnings(prepared.remarks)) warnings.push_back(std::move(remark));
+    support::print(request.streams.out, "{}",
+                   format_report_json(request, "response", prepared, warnings, make_response_json(result)));
+  } else {
+    support::print(request.streams.out, "{}", format_response(result));
+  }
   if (!output.results.empty() && !output.json)
     support::print(request.streams.out, "Response: {}\n", output.results.string());
   return support::kGood;

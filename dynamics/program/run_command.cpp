@@ -237,11 +237,7 @@ int run_command(const RunRequest& request, const RunOutput& output) {
     throw support::InputError({.path = "--resume"}, "needs -o, the name of the results");
   const PreparedRun prepared = prepare_run(request, Preparation::kRun);
   const Run& run = prepared.run;
-  if (output.dry_run) {
-    support::print(streams.out, "{}", output.json ? format_model_json(prepared) : format_model(prepared));
-    return support::kGood;
-  }
-  if (!output.json && !request.quiet) print_description(streams.out, prepared);
+  if (!output.json && !request.quiet && !output.dry_run) print_description(streams.out, prepared);
   std::vector<RunWarning> model_warnings =
       list_model_warnings(prepared.model, prepared.assembly, prepared.start,
                           prepared.equilibrium ? &*prepared.equilibrium : nullptr);
@@ -250,6 +246,13 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   print_of_computation(streams.err, model_warnings);
   for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
     model_warnings.push_back(std::move(remark));
+  if (output.dry_run) {
+    support::print(streams.out, "{}",
+                   output.json ? format_report_json(request, "run --dry-run", prepared, model_warnings,
+                                                    make_model_json(prepared))
+                               : format_model(prepared));
+    return support::kGood;
+  }
 
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
@@ -279,10 +282,12 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   warnings.insert(warnings.end(), model_warnings.begin(), model_warnings.end());
   if (written.writer) written.writer->finish(statistics, transient, warnings);
   times.cpu = cpu_time() - request.earlier_cpu_time;
-  const RunSummary summary{run,   statistics, transient, run.duration - prepared.start.time,
-                           times, adaptivity, warnings};
+  const RunSummary summary{
+      run,   statistics, transient, run.duration - prepared.start.time,
+      times, adaptivity, warnings,  written.writer ? &written.writer->storage() : nullptr};
   support::print(streams.out, "{}",
-                 output.json ? format_report_json(request, make_summary_json(prepared.model, summary))
+                 output.json ? format_report_json(request, "run", prepared, warnings,
+                                                  make_summary_json(prepared.model, summary))
                              : format_summary(summary));
   if (written.writer && !output.json) support::print(streams.out, "Results: {}\n", output.results.string());
   return is_balanced(statistics) ? support::kGood : support::kCheckFailed;

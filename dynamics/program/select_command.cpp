@@ -2,6 +2,7 @@
 
 #include "dynamics/output/choice_report.h"
 #include "dynamics/program/commands.h"
+#include "dynamics/program/model_report.h"
 #include "tools/support/hdf5/foreign_file.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
@@ -43,7 +44,8 @@ int select_modes_command(const RunRequest& request, const RunOutput& output) {
   }
   if (!output.results.empty()) write_choice_file(output.results, prepared, request.overrides);
   support::print(request.streams.out, "{}",
-                 output.json ? support::format_json(make_choice_json(*prepared.choice))
+                 output.json ? format_report_json(request, "select-modes", prepared,
+                                                  list_file_warnings(prepared.remarks))
                              : format_choice(*prepared.choice));
   if (!output.results.empty() && !output.json)
     support::print(request.streams.out, "Choice: {}\n", output.results.string());

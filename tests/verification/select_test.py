@@ -19,7 +19,9 @@ AUTO = ["--set", 'modes.chassis="auto"']
 
 class Truck(VerificationCase):
     def select(self, run, *arguments):
-        return self.program("select-modes", TRUCK / f"{run}.toml", *AUTO, *arguments, superelements=TRUCK_SUPERELEMENTS)
+        """What was chosen."""
+        command = (TRUCK / f"{run}.toml", *AUTO, *arguments)
+        return self.program("select-modes", *command, superelements=TRUCK_SUPERELEMENTS)["mode_choice"]
 
     def run_truck(self, run, *arguments):
         return self.run_to_results(TRUCK / f"{run}.toml", *arguments, superelements=TRUCK_SUPERELEMENTS)
@@ -201,7 +203,8 @@ class Truck(VerificationCase):
             self.assertNotEqual(*numbers)
         reports, runs = [], []
         for superelements in (TRUCK_SUPERELEMENTS, other):
-            reports.append(self.program("select-modes", TRUCK / "terrain.toml", *AUTO, superelements=superelements))
+            printed = self.program("select-modes", TRUCK / "terrain.toml", *AUTO, superelements=superelements)
+            reports.append(printed["mode_choice"])
             results = self.run_to_results(
                 TRUCK / "bump.toml",
                 # Into the bump at once: while all stands still modes are judged by rounding against rounding.

@@ -11,8 +11,22 @@ README = (ROOT / "dynamics/README.md").read_text(encoding="utf-8")
 QUARTER_CAR = ROOT / "dynamics/models/examples/quarter_car_run.toml"
 # Names of outputs have slashes, those of the other objects have none.
 NAMES = {"OUTPUT": ".+", "K": r"\d+", "POINT": "[^/]+", "BODY": "[^/]+", "FORCE": "[^/]+", "CHANNEL": "[^/]+",
-         "EXTREME": "(min|max|rms)", "QUANTITY": "(axial|shear|moment)",
+         "JOINT": "[^/]+", "EXTREME": "(min|max|rms)",
+         "QUANTITY": "(axial|shear|moment|static|(displacement|acceleration|force)_(rms|peak))",
          "FROM": "(from_loads|from_modes|difference)"}  # fmt: skip
+
+HEAD = ["format", "version", "command", "file", "set", "parameters", "warnings"]  # of all commands
+AIR_SPRING = """
+[[forces]]
+name = "rear_air"
+type = "air-spring"
+a = "rear_axle.origin"
+b = "chassis.rear_spring"
+design_height = 0.41
+effective_area = 0.02
+volume = 0.005
+load = "static"
+"""
 
 
 def list_paths(value, path=""):
@@ -42,17 +56,31 @@ def make_pattern(path):
 class JsonOfCommands(DynamicsTestCase):
     def call_json(self, command, run, *arguments):
         """The paths in what a command prints."""
-        words = [PROGRAM, command, run, "--json", "--quiet", "--superelements", ".", *arguments]
-        return list_paths(json.loads(run_program(words, cwd=self.folder, check=True).stdout))
+        words = [PROGRAM, *command.split(), run, "--json", "--quiet", "--superelements", ".", *arguments]
+        printed = json.loads(run_program(words, cwd=self.folder, check=True).stdout)
+        self.assertEqual((printed["format"], printed["version"], printed["command"]), ("sprung-dynamics", 1, command))
+        self.assertEqual(list(printed)[: len(HEAD)], HEAD)
+        return list_paths(printed)
 
     def test_every_path_is_documented_and_every_documented_one_occurs(self):
         short = ("--set", "duration=0.1", "--set", "modes.chassis=2")
+        # Modes chosen, the length of a spring and the pressure of an air spring found, an unlikely inertia.
+        vehicle = (self.folder / "vehicle.toml").read_text(encoding="utf-8")
+        static = "free_length = { static = 0.39 }"
+        (self.folder / "static.toml").write_text(
+            vehicle.replace("free_length = 0.458", static, 1) + AIR_SPRING, encoding="utf-8")  # fmt: skip
+        of_all = ("bump.toml", "--set", 'vehicle="static.toml"', "--set", 'modes.chassis="auto"', "--set",
+                  "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7")  # fmt: skip
         runs = {
-            "run": [("bump.toml", *short), (QUARTER_CAR, "--set", "duration=0.1")],
+            "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2])],
+            "run --dry-run": [(QUARTER_CAR,)],
             "equilibrium": [("bump.toml", *short), (QUARTER_CAR,)],
             "modes": [("bump.toml", *short), ("bump.toml", "--bracket", "--set", 'modes.chassis="certified"')],
             "response": [("bump.toml", "--set", "response.road.class=C"), (QUARTER_CAR,)],
+            "select-modes": [],
         }
+        for command, calls in runs.items():
+            calls.append((*of_all, *short[:2]))
         documented = read_documented()
         self.assertEqual(set(documented), set(runs))
         for command, calls in runs.items():

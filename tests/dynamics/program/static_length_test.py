@@ -137,8 +137,13 @@ class StaticLength(DynamicsTestCase):
         self.ask_for([0.37, 0.39])
         found = json.loads(self.run_program("--json", verb="equilibrium").stdout)
         low = json.loads(self.run_program("--json", "--set", "speed=0", verb="equilibrium").stdout)
-        self.assertEqual(low.pop("set"), ["speed=0"])
-        self.assertEqual(found, {"set": [], **low})
+        self.assertEqual((low.pop("set"), low["parameters"].pop("speed")), (["speed=0"], 0.0))
+        self.assertEqual((found.pop("set"), found["parameters"].pop("speed")), ([], 3.0))
+        self.assertEqual(found, low)
+        for axle, length in zip(AXLES, (0.37, 0.39)):
+            spring, solved = (found[key][f"{axle}_suspension"] for key in ("forces", "static_lengths"))
+            self.assertAlmostEqual(solved["length"], length, delta=1e-9)
+            self.assertAlmostEqual(spring["length"] + spring["deflection"], solved["free_length"], delta=1e-9)
         for verb in ("modes", "select-modes"):
             process = self.run_program("--quiet", "--set", 'modes.chassis="auto"', verb=verb)
             self.assertEqual(process.returncode, 0, process.stderr)
