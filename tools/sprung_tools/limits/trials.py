@@ -103,10 +103,6 @@ class Vehicle:
                 self.start({"duration": PROBE, "road": {"shape": "flat"}}, Path(name) / "probe.h5")
             except CallFailed as failure:
                 raise InputError(str(failure)) from failure
-            except InputError as error:
-                if "'output_step' of" not in str(error):
-                    raise
-                raise InputError(f"{error} (ride_limits makes runs of {PROBE:g} s and more)") from error
             try:
                 with open_results(Path(name) / "probe.h5") as results:
                     results.series(self.quantity)  # throws where there is no such point
@@ -139,11 +135,18 @@ class Vehicle:
         overrides = [*format_overrides(STORED), *self.variant.overrides, *format_overrides(settings)]
         outcome = call_kept(make_command(self.program, "run", self.run, self.superelements, overrides, output))
         if outcome.exit_code == BAD_INPUT:
-            raise InputError(name_override(outcome.error, overrides))
+            error = name_override(outcome.error, overrides)
+            reason = f" (in a run of {settings['duration']:.3g} s that ride_limits made)"
+            raise InputError(error + reason if self.is_good_by_itself() else error)
         if outcome.exit_code != GOOD:
             speed = settings.get("speed")
             before = f"at {speed:.4g} m/s " if speed is not None else ""
             raise CallFailed(f"{before}the run failed: {outcome.error.splitlines()[0]}")
+
+    def is_good_by_itself(self) -> bool:
+        """Whether the run file has no error without what this module changes: its times, speed and road."""
+        command = make_command(self.program, "run", self.run, self.superelements, self.variant.overrides)
+        return call_kept([*command, "--dry-run"]).exit_code != BAD_INPUT
 
 
 def find_wheels(results: ResultsFile) -> Wheels:
