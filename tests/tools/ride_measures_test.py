@@ -101,7 +101,9 @@ class RideMeasures(ToolTestCase):
     def test_uneven_or_too_few_samples_are_refused(self):
         results = self.open()
         results.time = results.time**2
-        with self.assertRaisesRegex(InputError, "0.h5: error: the samples in 'time' are not equally spaced"):
+        told = (r"0.h5: error: the samples in 'time' are not equally spaced: 1e-06 s from sample 1 at 0 s to the next"
+                r".* expected equal ones.*: interpolate all histories to equal steps of at most 3\.125 ms, or make ")
+        with self.assertRaisesRegex(InputError, told):
             calc_comfort(results, "points/body.seat", WINDOW)
         results.time = 10.0 * STEP * np.arange(results.time.size)
         with self.assertRaisesRegex(InputError, "0.h5: error: a sample every 10 ms is too few"):

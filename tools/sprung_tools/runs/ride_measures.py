@@ -18,7 +18,7 @@ from sprung_tools.model.force_channels import (
 from sprung_tools.model.resolved_model import read_elements, read_settings
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.rounding import read_acceleration
-from sprung_tools.signals.ride_weighting import calc_dose, weight_acceleration
+from sprung_tools.signals.ride_weighting import HIGHEST, SAMPLES_PER_PERIOD, calc_dose, weight_acceleration
 from sprung_tools.signals.spans import Span
 from sprung_tools.signals.spectra import calc_rms
 
@@ -77,11 +77,19 @@ def read_window(results: ResultsFile, start: float | None = None, end: float | N
 
 
 def sampling_step(results: ResultsFile) -> float:
-    """The time between samples [s]. InputError if they are not equally spaced (the last one may come early)."""
+    """The time between samples [s]. InputError if they are not equally spaced (the last one may come early): nothing
+    is interpolated, because what lies between the samples is not known."""
     steps = np.diff(results.time)
     step = float(np.median(steps))
-    if np.any(np.abs(steps[:-1] - step) > 1e-6 * step):
-        raise InputError(f"{results.path}: error: the samples in 'time' are not equally spaced")
+    uneven = np.flatnonzero(np.abs(steps[:-1] - step) > 1e-6 * step)
+    if uneven.size:
+        first = int(uneven[0])
+        raise InputError(
+            f"{results.path}: error: the samples in 'time' are not equally spaced: {steps[first]:.6g} s from sample "
+            f"{first + 1} at {results.time[first]:.6g} s to the next, {step:.6g} s in the middle of all, expected equal "
+            "ones, as sprung-dynamics stores them: interpolate all histories to equal steps of at most "
+            f"{1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms, or make the run again"
+        )
     return step
 
 
