@@ -62,6 +62,17 @@ class PlotResponse(ToolTestCase):
         self.assertIn(f"{SEAT}, (m/s²)²/Hz", texts)
         self.assertEqual(len(curves), 1)
 
+    def test_third_octave_bands_beside_the_boundaries_of_reduced_comfort(self):
+        texts, _ = self.draw_svg("a.h5", "--show", f"seat={SEAT}", "--bands")
+        for text in ("a.h5", "seat: r.m.s. in third-octave bands, m/s²", "reduced comfort after …", "8 h"):
+            self.assertIn(text, texts)
+        self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", "b.h5", "--show", SEAT, "--bands"),
+                            "has no spectra")  # fmt: skip
+        with h5py.File(self.folder / "a.h5", "a") as file:
+            file["frequency"][:] *= 20.0  # too coarse a grid
+        self.assert_refuses(self.run_tool("plot_response", "-o", "out.png", "a.h5", "--show", SEAT, "--bands"),
+                            "a.h5: error: no third-octave band from 0.5 to 80 Hz has 8 frequencies")  # fmt: skip
+
     def test_missing_outputs_and_files_are_refused(self):
         for arguments, fragment in (
             (

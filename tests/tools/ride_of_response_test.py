@@ -1,5 +1,6 @@
 """runs/ride_of_response.py: the ride from spectra is that of a time history with these spectra."""
 
+import json
 import unittest
 
 import h5py
@@ -8,10 +9,11 @@ from synthetic_results import write_group, write_series
 from tool_test_case import ToolTestCase
 
 from sprung_tools.runs.labelled_responses import open_responses
-from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
+from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
 from sprung_tools.signals.absorbed_power import calc_absorbed_power
 from sprung_tools.signals.ride_weighting import WD, WE, WK, weight_acceleration
 from sprung_tools.signals.spectra import calc_rms
+from sprung_tools.signals.third_octaves import BANDS, NOMINAL, calc_third_octaves
 
 STEP = 1e-3
 HIGHEST = 250.0  # Hz, far above what the weightings let through
@@ -55,6 +57,34 @@ class RideOfResponse(ToolTestCase):
         self.assertAlmostEqual(
             found.total, np.sqrt(found.fore_aft**2 + found.vertical**2 + (0.4 * found.pitch) ** 2), places=12
         )
+
+    def test_third_octave_bands_are_those_of_noise_in_time_and_of_the_filters_noise_bandwidth(self):
+        # Closed form: ∫|H|² df = π/3 of the width of the band, for a Butterworth filter of sixth order.
+        frequency = np.geomspace(0.02, HIGHEST, 4000)
+        found = calc_linear_bands(frequency, np.full(frequency.size, 0.08))
+        width = 10.0 ** (BANDS / 10.0) * (10.0**0.05 - 10.0**-0.05)
+        np.testing.assert_allclose(np.square(found), 0.08 * np.pi / 3.0 * width, rtol=2e-3)
+        noise = np.random.default_rng(5).standard_normal(400000) * np.sqrt(0.08 / (2.0 * STEP))
+        # 400 s of a band of a width of 0.23 f: some 190 f independent values, 3.6/√f % of a standard deviation
+        for value, expected, centre in zip(found, calc_third_octaves(noise, STEP), NOMINAL):
+            self.assertAlmostEqual(value / expected, 1.0, delta=0.13 / np.sqrt(centre))
+
+    def test_bands_outside_of_the_frequencies_or_with_few_of_them_are_unknown(self):
+        def list_known(frequency):
+            found = calc_linear_bands(frequency, np.ones(frequency.size))
+            return [one for one, value in zip(NOMINAL, found) if value is not None]
+
+        self.assertEqual(list_known(np.geomspace(0.1, 50.0, 1000)), [one for one in NOMINAL if one <= 40.0])
+        self.assertEqual(list_known(np.geomspace(1.0, 100.0, 1000)), [one for one in NOMINAL if one >= 1.25])
+        self.assertEqual(list_known(np.linspace(0.1, 100.0, 1000))[0], 4.0)  # 8 frequencies 0.1 Hz apart from 3.5 Hz
+        self.assertEqual(list_known(np.geomspace(0.1, 100.0, 100)), [])
+
+    def test_the_measures_have_the_bands(self):
+        write_response(self.folder / "a.h5", {"x": 0.02, "y": 0.08, "angle": 0.01})
+        (run,) = json.loads(self.run_tool("ride", "a.h5", "--json").stdout)["runs"]
+        band = run["measures"]["bands/body.seat/8"]
+        self.assertAlmostEqual(band["value"], np.sqrt(0.08 * np.pi / 3.0 * 7.943 * 0.2308), delta=2e-3)
+        self.assertEqual(band["unit"], "m/s^2")
 
     def test_the_tool_prints_it_and_refuses_what_is_not_there(self):
         write_response(self.folder / "a.h5", {"x": 0.02, "y": 0.08, "angle": 0.01})

@@ -1,8 +1,8 @@
-"""Draws the frequency response of one or more vehicles to the road, or the spectral densities on a random road, a panel
-for each output."""
+"""Draws the frequency response of one or more vehicles to the road, or the spectral densities or third-octave bands
+on a random road, a panel for each output."""
 
 from sprung_tools.plots.picture_file import write_picture
-from sprung_tools.plots.response_picture import make_response_figure
+from sprung_tools.plots.response_picture import BANDS, MAGNITUDE, SPECTRUM, make_response_figure
 from sprung_tools.runs.labelled_responses import open_responses
 from sprung_tools.runs.labelled_runs import shown_quantities
 from sprung_tools.terminal.program import make_parser
@@ -21,11 +21,20 @@ def main() -> int:
     )  # fmt: skip
     parser.add_argument("-o", "--output", required=True, metavar="PICTURE", help="file to write (.png, .svg, .pdf)")
     parser.add_argument("--title", default="", help="heading (default: the vehicle's name)")
-    parser.add_argument("--spectrum", action="store_true", help="draw spectral densities, with the r.m.s.")
+    drawing = parser.add_mutually_exclusive_group()
+    drawing.set_defaults(drawing=MAGNITUDE)
+    drawing.add_argument(
+        "--spectrum", dest="drawing", action="store_const", const=SPECTRUM,
+        help="draw spectral densities, with the r.m.s.",
+    )  # fmt: skip
+    drawing.add_argument(
+        "--bands", dest="drawing", action="store_const", const=BANDS,
+        help="draw the r.m.s. in third-octave bands, of vertical accelerations with the boundaries of reduced comfort",
+    )  # fmt: skip
     arguments = parser.parse_args()
 
     responses = open_responses(arguments.files)
-    figure = make_response_figure(responses, shown_quantities(arguments.show), arguments.title, arguments.spectrum)
+    figure = make_response_figure(responses, shown_quantities(arguments.show), arguments.title, arguments.drawing)
     write_picture(figure, arguments.output)
     print(arguments.output)
     return 0

@@ -37,7 +37,7 @@ from sprung_tools.runs.ride_measures import (
     list_seats,
     sampling_step,
 )
-from sprung_tools.runs.ride_of_response import calc_linear_assessment, list_points
+from sprung_tools.runs.ride_of_response import calc_linear_assessment, calc_linear_bands, list_points
 from sprung_tools.runs.rounding import read_acceleration
 from sprung_tools.runs.run_warnings import ALARMING_CLOSURE, list_warnings
 from sprung_tools.runs.section_stress import FROM_MODES, calc_section_stress, list_sources, list_stressed_bodies
@@ -67,6 +67,7 @@ LOAD_UNITS = {
     "moment_from_modes": "N m", "shear_from_modes": "N", "axial_from_modes": "N", "moment_difference": "N m",
 }  # fmt: skip
 STRESS_UNITS = {"highest": "Pa", "lowest": "Pa", "largest_range": "Pa", "station": "m"}
+BAND_UNITS = {f"{frequency:g}": "m/s^2" for frequency in NOMINAL}
 MODE_UNITS = {"frequency": "Hz", "damping_ratio": "1"}
 MOTION_UNITS = {"displacement": "m", "acceleration": "m/s^2", "constraint": "m"}
 UNITS_OF = {
@@ -174,8 +175,7 @@ def calc_point_values(results: ResultsFile, folder: str, window: Span) -> tuple[
 def measure_bands(results: ResultsFile, name: str, folder: str, window: Span) -> Measures:
     """The r.m.s. of a point's vertical acceleration in third-octave bands, each under its nominal frequency in Hz;
     None of bands of which the samples are too few."""
-    units = {f"{frequency:g}": "m/s^2" for frequency in NOMINAL}
-    return combine(name, units, calc_bands(results, folder, window))
+    return combine(name, BAND_UNITS, calc_bands(results, folder, window))
 
 
 def measure_suspension(results: ResultsFile, name: str, window: Span) -> Measures:
@@ -236,6 +236,7 @@ def list_linear_objects(response: Response, points: Sequence[str] = ()) -> Objec
     objects: Objects = {}
     for point in points or list_points(response):
         objects[f"points/{point}"] = partial(measure_linear_point, response, point)
+        objects[f"bands/{point}"] = partial(measure_linear_bands, response, point)
     for output in response.names():
         objects[f"outputs/{output}"] = partial(measure_output, response, output)
     return objects
@@ -247,6 +248,12 @@ def measure_linear_point(response: Response, point: str) -> Measures:
     values = {"rms": one.rms, "wk_rms": one.vertical, "wd_rms": one.fore_aft, "we_rms": one.pitch, "total": one.total,
               "absorbed_power": one.power}  # fmt: skip
     return combine(f"points/{point}", {name: POINT_UNITS[name] for name in values}, values.values())
+
+
+def measure_linear_bands(response: Response, point: str) -> Measures:
+    """The r.m.s. of the vertical acceleration of a point of the linear vehicle in third-octave bands."""
+    density, _ = response.values(f"points/{point}/acceleration.y", is_spectrum=True)
+    return combine(f"bands/{point}", BAND_UNITS, calc_linear_bands(response.frequency, density))
 
 
 def measure_output(response: Response, output: str) -> Measures:

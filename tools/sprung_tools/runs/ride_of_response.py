@@ -4,8 +4,8 @@ For a stationary random vibration of one-sided spectral density S, a filter H gi
 
     r.m.s. = √(∫ |H|² S df)                                                                             (1)
 
-by the trapezoidal rule over the frequencies of the file. The measures of single shocks (MTVV, vibration dose, crest
-factor) belong to a time history, not to a spectrum.
+by the trapezoidal rule over the frequencies of the file. So it is with the filters of the third-octave bands. The
+measures of single shocks (MTVV, vibration dose, crest factor) belong to a time history, not to a spectrum.
 """
 
 from typing import NamedTuple
@@ -17,6 +17,9 @@ from sprung_tools.runs.labelled_responses import Response
 from sprung_tools.runs.ride_assessment import calc_total
 from sprung_tools.signals.absorbed_power import FEET_PER_METRE, calc_response
 from sprung_tools.signals.ride_weighting import WD, WE, WK, calc_weighting
+from sprung_tools.signals.third_octaves import BAND_EDGES, BANDS, calc_band
+
+LEAST_IN_BAND = 8  # frequencies, of a smooth spectrum the error of the trapezoidal rule is then below 0.1 %
 
 
 class LinearAssessment(NamedTuple):
@@ -49,6 +52,18 @@ def calc_linear_assessment(response: Response, point: str) -> LinearAssessment:
     power = calc_filtered_rms(frequency, up, FEET_PER_METRE * calc_response(frequency)) ** 2
     rms = calc_filtered_rms(frequency, up, np.ones_like(frequency, dtype=complex))
     return LinearAssessment(rms, fore_aft, vertical, pitch, calc_total(fore_aft, vertical, pitch), power)
+
+
+def calc_linear_bands(frequency: Floats, density: Floats) -> list[float | None]:
+    """The r.m.s. in the third-octave bands of NOMINAL [23] of a spectral density [m] over frequencies [m] Hz; None for
+    bands that are not within the frequencies, or have fewer than LEAST_IN_BAND of them."""
+    found: list[float | None] = []
+    for centre in 10.0 ** (BANDS / 10.0):
+        low, high = centre * BAND_EDGES
+        inside = np.count_nonzero((frequency >= low) & (frequency <= high))
+        is_known = inside >= LEAST_IN_BAND and frequency[0] <= low and frequency[-1] >= high
+        found.append(calc_filtered_rms(frequency, density, calc_band(frequency, centre)) if is_known else None)
+    return found
 
 
 def list_points(response: Response) -> list[str]:

@@ -23,6 +23,7 @@ from sprung_tools.files.array_types import ComplexNumbers, Floats
 BANDS = np.arange(-3, 20)  # 10^(n/10) Hz: the bands from 0.5 to 80 Hz
 NOMINAL = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0,
            50.0, 63.0, 80.0)  # fmt: skip
+BAND_EDGES = np.array([10.0**-0.05, 10.0**0.05])  # over the frequency of the middle
 PROFICIENCY = {"1 min": 2.8, "25 min": 1.8, "1 h": 1.18, "4 h": 0.53, "8 h": 0.315, "24 h": 0.14}  # m/s², 4 to 8 Hz
 COMFORT = 3.15  # by which the proficiency boundary is divided
 FADING = 60.0  # s of rest appended to a span, in which the response of the narrowest band fades
@@ -45,7 +46,7 @@ def calc_third_octaves(values: Floats, step: float) -> Floats:
 
 def calc_band(frequency: Floats, centre: float) -> ComplexNumbers:
     """The response (1) of the band around a frequency [Hz]."""
-    width = centre * (10.0**0.05 - 10.0**-0.05)
+    width = centre * (BAND_EDGES[1] - BAND_EDGES[0])
     p = 1j * (frequency**2 - centre**2) / np.maximum(frequency * width, 1e-12 * centre**2)
     return 1.0 / ((1.0 + p) * (1.0 + p + p**2))
 
