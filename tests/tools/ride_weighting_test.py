@@ -31,6 +31,11 @@ STANDARD = (418, 459, 477, 482, 484, 494, 531, 631, 804, 967, 1039, 1054, 1036, 
 # The same table, principal weighting Wd × 1000. At 10 Hz it has 212 where its own formula gives 202; see the test.
 STANDARD_WD = (853, 944, 992, 1011, 1008, 968, 890, 776, 642, 512, 409, 323, 253, 212, 161, 125, 100, 80.0, 63.2, 49.4,
                38.8, 29.5, 21.1)  # fmt: skip
+# ISO 8041-1:2017, table B.4: We at the exact third-octave centres, as transcribed in the package phonometry by
+# J. M. Requena-Plens (repository jmrplens/phonometry, tests/reference_data/vibration.py), who checked it against the
+# table's column in dB
+STANDARD_WE = (.8635, .9389, .9423, .8798, .7683, .6372, .5127, .4070, .3218, .2543, .2012, .1594, .1263, .1002, .07954,
+               .06314, .05011, .03975, .03147, .02481, .01935, .01473, .01065)  # fmt: skip
 # ISO 8041:2005, the weighting factors at the reference frequency of 100 rad/s
 AT_REFERENCE = {WK: 0.7718, WD: 0.1261, WE: 0.06287}
 
@@ -50,6 +55,11 @@ class Weighting(unittest.TestCase):
         regular = number != 10  # 10 Hz: the table's neighbours, 253 and 161, have 202 between them in proportion
         np.testing.assert_allclose(found[regular], np.array(STANDARD_WD)[regular], rtol=0.015)
         self.assertAlmostEqual(found[13], np.sqrt(STANDARD_WD[12] * STANDARD_WD[14]), delta=1.0)
+
+    def test_the_weighting_of_rotation_has_the_four_digits_of_the_standards_table(self):
+        found = np.abs(calc_weighting(WE, 10.0 ** (np.arange(-3, 20) / 10.0)))
+        last_digit = 10.0 ** (np.floor(np.log10(STANDARD_WE)) - 3.0)
+        self.assertLess(np.max(np.abs(found - STANDARD_WE) / last_digit), 0.51)
 
     def test_all_weightings_have_their_factors_at_the_reference_frequency(self):
         for weighting, factor in AT_REFERENCE.items():

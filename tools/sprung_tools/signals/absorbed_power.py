@@ -5,8 +5,8 @@
 
 [1] R. A. Lee, F. Pradko, Analytical analysis of human vibration, SAE paper 680091 (1968): the power at each frequency.
 (1) is the filter of third order that ride programs use for it, the one of Project Chrono (`ChAbsorbed_Power_Vertical`,
-as a bilinear transform of (1)). It gives the power of [1] within 30 % from 0.5 to 80 Hz, and within 5 % around the most
-felt frequencies of 4 to 6 Hz; absorbed_power_test.py compares them.
+as a bilinear transform of (1)). How near it comes to [1] is told in tools/README.md, "Measures"; absorbed_power_test.py
+compares them.
 """
 
 import numpy as np
