@@ -2,13 +2,16 @@
 moves in them, and that the tables of modes can be read on a telephone. Needs both programs (SPRUNG_REDUCE,
 SPRUNG_DYNAMICS); pictures are kept in the folder SPRUNG_SCREENSHOTS."""
 
+import itertools
+import json
 import os
 import shutil
 import unittest
 
 import h5py
+import matplotlib.path
 import numpy as np
-from report_page_case import PICTURES, ROOT, SIZES, PageTestCase
+from report_page_case import ALL_CONTROLS, BLUE, NAME, PICTURES, ROOT, SIZES, SPANS, PageTestCase, is_colour
 
 ONLY_THE_SEAT = (
     'output.store={points=["body.seat"],bodies="none",joints="none",forces="none",recovery="none",wrenches="none"}'
@@ -46,9 +49,173 @@ class Fit(PageTestCase):
         cls.report("mixed.html", "semi=semi.h5", "half car=half_car.h5")
         spans = ("--set", "duration=0.5", "--set", "statistics.to=0.25")
         cls.drive("templates/half_car_run.toml", "part", *spans)
+        cls.report("part.html", "part.h5")
         cls.report("spans.html", "whole=half_car.h5", "again=half_car.h5", "part=part.h5")
         shutil.copy(cls.folder / "semi.h5", cls.folder / "semi_on_a_rough_road.h5")
         cls.report("labels.html", "semi.h5", "semi_on_a_rough_road.h5", "rigid_semi.h5")
+
+    def list_texts(self, page):
+        """What is written into the scene when it is drawn anew."""
+        return page.evaluate(
+            "(() => { const kind = CanvasRenderingContext2D.prototype, write = kind.fillText, texts = [];"
+            "kind.fillText = function (text, ...place) { texts.push(text); return write.call(this, text, ...place); };"
+            "try { drawScene(); } finally { kind.fillText = write; } return texts; })()"
+        )
+
+    def test_captions_say_which_way_it_travels_and_by_how_much_deflections_are_magnified(self):
+        page = self.open("semi.html")
+        self.choose(page, "magnification", 25)
+        self.assertLessEqual({"travel", "deflections × 25"}, set(self.list_texts(page)))
+        page = self.open("part.html")  # of rigid bodies
+        texts = self.list_texts(page)
+        self.assertIn("travel", texts)
+        self.assertFalse(any("deflections" in text for text in texts), texts)
+        self.assertTrue(page.evaluate("document.getElementById('magnify').hidden"))
+
+    def test_deflections_are_drawn_as_many_times_as_large_as_they_are_magnified(self):
+        page = self.open("semi.html")
+        self.choose(page, "other-run", -1)
+        self.set_time(page, 0.4)
+        drawn = {}
+        for factor in (1, 2, 21):
+            page.evaluate(
+                "(() => { const draw = drawBodies; drawBodies = (...all) => { window.drawn = all[3]; draw(...all); };"
+                f"setMagnification({factor}); try {{ drawScene(); }} finally {{ drawBodies = draw; }} }})()"
+            )
+            drawn[factor] = np.array(page.evaluate("window.drawn.trailer_frame"))
+        once = drawn[2] - drawn[1]
+        self.assertGreater(np.max(np.hypot(*once.T)), 1e-4)  # m
+        np.testing.assert_allclose(drawn[21] - drawn[1], 20.0 * once, atol=1e-6)
+
+    def test_a_rigid_body_is_drawn_as_its_filled_hull(self):
+        page = self.open("semi.html")
+        self.choose(page, "other-run", -1)
+        body = "player.runs[1].vehicle.bodies.find((one) => one.name === 'cab')"
+        places = np.array(page.evaluate(f"{body}.places"))
+        hull = page.evaluate(f"hullOf({body})")
+        corners = places[hull]
+        self.assertGreater(len(hull), 2)
+        sides = np.roll(corners, -1, axis=0) - corners
+        for place in places:  # on the left of every side, or on it
+            apart = place - corners
+            self.assertTrue(np.all(sides[:, 0] * apart[:, 1] - sides[:, 1] * apart[:, 0] > -1e-9), place)
+        picture = page.picture(PICTURES / "cab.png", "#scene")
+        nodes = page.evaluate(
+            f"nodesOf(player.runs[1], {body}, frameAt(player.runs[1], clock.time), 1)"
+            ".map(([x, y]) => [player.view.X(x), player.view.Y(y)])"
+        )
+        rows, columns = np.indices(picture.shape[:2])
+        outline = matplotlib.path.Path(np.array(nodes)[hull])
+        inside = outline.contains_points(np.column_stack([columns.ravel(), rows.ravel()])).reshape(rows.shape)
+        sky = picture[40, picture.shape[1] // 2]
+        filled = 0.8 * sky + 0.2 * np.array(BLUE) / 255.0  # the run's colour lets 80 % of the sky through
+        is_filled = is_colour(picture, 255.0 * filled)
+        self.assertGreater(np.mean(is_filled[inside]), 0.5)  # the rest: its outline, and the driver in it
+        apart = np.zeros_like(inside)
+        apart[: int(np.min(np.array(nodes)[:, 1])) - 4] = True
+        self.assertLess(np.count_nonzero(is_filled[apart]), 20)  # of a letter's edge
+
+    def test_names_hide_nothing_of_the_vehicle(self):
+        for size, name in itertools.product(SIZES, ("semi.html", "part.html")):
+            with self.subTest(size=size, page=name):
+                page = self.open(name, size=size)
+                page.click("#labels")
+                one = "player.runs[player.main]"
+                top = page.evaluate(f"((one) => {EXTENT}(one.vehicle, {STANDING}, player.view))({one})")[1]
+                names = page.evaluate("player.labelled")
+                self.assertGreater(len(names), 4)
+                wanted = {mark for mark in page.evaluate(f"{one}.vehicle.marks.map((mark) => mark.name)")}
+                self.assertLessEqual(wanted, {label["name"] for label in names})
+                for label in names:
+                    self.assertLess(label["y"] + 7, top - 6, label)  # px: half a row, and the sign of a point
+                    self.assertGreater(label["y"] - 7, 24, label)  # below the captions
+                    self.assertGreaterEqual(label["x"], 0)
+                    self.assertLessEqual(label["x"] + label["width"], page.evaluate("player.view.width"))
+                for a, b in itertools.combinations(names, 2):
+                    apart = a["x"] + a["width"] <= b["x"] or b["x"] + b["width"] <= a["x"]
+                    self.assertTrue(apart or abs(a["y"] - b["y"]) >= 14, (a, b))
+                page.picture(PICTURES / f"names_{name}_{size}.png", "#scene")
+
+    def test_histories_that_are_stored_less_often_are_named_beside_the_number_of_samples(self):
+        self.drive("templates/half_car_run.toml", "thin", "--set", "duration=0.5", "--set", "output.step.joints=0.01")
+        self.report("thin.html", "thin.h5")
+        note = self.open("thin.html").evaluate("document.getElementById('history-note').textContent")
+        self.assertIn("of all samples that the files hold, which are fewer of some histories (rigid: ", note)
+        self.assertIn("joints stored every 10 ms)", note)
+        note = self.open("part.html").evaluate("document.getElementById('history-note').textContent")
+        self.assertIn("of all samples that the files hold. CSV", note)
+
+    def test_warnings_are_seen_above_the_numbers_that_they_concern(self):
+        page = self.open("semi.html")
+        seen = page.evaluate(
+            "[...document.querySelectorAll('[data-warnings=summary] li')]"
+            ".filter((one) => one.checkVisibility()).map((one) => one.innerText)"
+        )
+        self.assertTrue(seen[0].startswith("rigid: modes are missing: tractor_frame.mode 1"), seen)
+        below = page.evaluate(
+            "document.querySelector('[data-warnings=summary]').getBoundingClientRect().bottom"
+            " <= document.getElementById('summary-table').getBoundingClientRect().top"
+        )
+        self.assertTrue(below)
+
+    def test_every_control_of_the_semitrailer_works_in_the_dark(self):
+        page = self.open("semi.html", dark=True)
+        self.browser.save_downloads(self.folder)
+        page.picture(PICTURES / "semi_desktop_dark.png")
+        for name in self.list_controls(page):
+            with self.subTest(control=name):
+                self.use_control(page, name)
+                self.assertEqual(page.problems(), [])
+        page.picture(PICTURES / "semi_desktop_dark_used.png")
+
+    def use_control(self, page, name):
+        """Uses a control and puts it back; what it says or saves has changed meanwhile."""
+        kind = f"{ALL_CONTROLS}.find((one) => ({NAME}) === {json.dumps(name)})"
+        tag, value = page.evaluate(f"((one) => [one.type || one.tagName.toLowerCase(), one.value])({kind})")
+        if tag == "select-one":
+            values = page.evaluate(f"[...{kind}.options].map((one) => one.value)")
+            self.choose(page, name, values[-1])
+            self.assertEqual(page.evaluate(f"{kind}.value"), values[-1])
+            self.choose(page, name, value)
+        elif tag == "range":
+            end = "max" if page.evaluate(f"{kind}.max") != value else "min"
+            self.choose(page, name, page.evaluate(f"{kind}.{end}"))
+            self.assertNotEqual(page.evaluate(f"{kind}.value"), value)
+            self.choose(page, name, value)
+        elif tag == "checkbox":
+            before = page.evaluate(f"{kind}.checked")
+            page.click(f"#{name}")
+            self.assertNotEqual(page.evaluate(f"{kind}.checked"), before)
+            page.click(f"#{name}")
+        elif tag == "summary":
+            before = page.evaluate(f"{kind}.parentElement.open")
+            page.evaluate(f"{kind}.click()")
+            self.assertNotEqual(page.evaluate(f"{kind}.parentElement.open"), before)
+            page.evaluate(f"{kind}.click()")
+        elif tag == "a":
+            page.evaluate(f"{kind}.click()")
+            self.assertEqual(page.evaluate("location.hash"), name)
+        elif name.endswith(("-csv", "-png")):
+            page.evaluate(f"{kind}.click()")
+            page.wait_for_download()
+        elif name == "scene-webm":
+            page.click(f"#{name}")
+            page.wait_until("!document.getElementById('scene-file').hidden")
+        elif name in ("play", "mode-play"):
+            page.click(f"#{name}")
+            self.assertEqual(page.evaluate(f"{kind}.textContent"), "Pause")
+            page.wait_until(f"{kind}.textContent === 'Play'" if name == "play" else "modeShow.phase > 0")
+            if name == "mode-play":
+                page.click(f"#{name}")
+        elif name.startswith("load-show-"):
+            self.set_time(page, 0.123)
+            page.evaluate(f"{kind}.click()")
+            self.assertNotEqual(page.evaluate("clock.time"), 0.123)
+        else:
+            self.assertRegex(name, r"^zoom (in|out|left|right|all)$")
+            page.evaluate(f"{kind}.click()")
+            spans = page.evaluate(SPANS)
+            np.testing.assert_allclose(spans, [spans[0]] * len(spans), atol=1e-9)
 
     def assert_inside(self, extent, view, edge):
         left, top, right, bottom = extent

@@ -20,6 +20,7 @@ ALL_CONTROLS = (
     ".filter((one) => !one.matches('.skip, .dygraph-roller'))"
 )
 SPANS = "linked.map((one) => one.graph.xAxisRange())"
+NAME = "one.id || (one.dataset.zoom && `zoom ${one.dataset.zoom}`) || one.getAttribute('href') || one.outerHTML"
 SIZES = {"desktop": (1400, 900), "phone": (390, 844)}
 
 
@@ -79,6 +80,10 @@ class PageTestCase(unittest.TestCase):
             "for (const kind of ['input', 'change']) s.dispatchEvent(new Event(kind, {bubbles: true})); })()"
         )
         page.settle()
+
+    def list_controls(self, page):
+        """The names of all controls."""
+        return page.evaluate(f"{ALL_CONTROLS}.map((one) => {NAME})")
 
     def check_alive(self, page):
         """Checks that diagrams zoom and time runs."""

@@ -15,6 +15,7 @@ from sprung_tools.runs.labelled_runs import Run, Shown
 from sprung_tools.runs.ride_assessment import Vibration
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.run_warnings import list_warnings
+from sprung_tools.runs.stored_histories import list_coarse
 
 FRAMES_OF_LOADS = 6  # the animation's instants for each one at which the loads along a body are drawn
 
@@ -37,6 +38,7 @@ def pack_run(run: Run, extra: Sequence[Shown], most: int, frames: int) -> Packed
         "label": run.label,
         "facts": list_facts(results, bool(wheels), calc_hash(results.path)),
         "samples": int(results.time.size),
+        "coarse": list(list_coarse(results)),
         "balanced": results.is_from_balance,
         "warnings": [one._asdict() for one in list_warnings(results)],
         "window": read_window(results),

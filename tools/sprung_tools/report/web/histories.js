@@ -52,8 +52,10 @@ function makeHistories() {
     drawHistory(chart, key);
   });
   const samples = [...new Set(data.runs.map((run) => run.samples))].join(", ");
+  const coarse = data.runs.filter((run) => run.coarse.length).map((run) => `${run.label}: ${run.coarse.join("; ")}`);
   byId("history-note").textContent = "Drag in a diagram to zoom all of them, shift-drag to move, double click for the whole " +
     "run, click to set the animation's time; on a touch screen two fingers move and stretch. Histories of " +
     `${samples} samples are drawn by at most ${data.most}, with the least and greatest of each span of time; all numbers on ` +
-    "this page are of all samples. CSV saves what is drawn.";
+    `this page are of all samples that the files hold${coarse.length ? `, which are fewer of some histories (${coarse.join(". ")})` : ""}. ` +
+    "CSV saves what is drawn.";
 }

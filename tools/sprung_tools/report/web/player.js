@@ -27,11 +27,12 @@ function drawVehicle(context, view, prepared, time, alpha) {
 function drawScene() {
   const canvas = byId("scene"), main = player.runs[player.main];
   const shown = player.other >= 0 ? [main, player.runs[player.other]] : [main];
-  const {height: wanted, scale} = fitScene(shown, canvas.clientWidth);
+  const room = player.labels ? roomForLabels(main.vehicle, canvas.clientWidth) : 0;
+  const {height: wanted, scale} = fitScene(shown, canvas.clientWidth, room);
   const {context, width, height} = prepareCanvas(canvas, wanted);
   context.fillStyle = style("--sky");
   context.fillRect(0, 0, width, height);
-  const view = makeView(shown, clock.time, width, height, scale);
+  const view = makeView(shown, clock.time, width, height, scale, room);
   player.view = view;
   if (main.vehicle.wheels.length) {
     drawRoad(context, view, main.road);

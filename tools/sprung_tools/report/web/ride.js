@@ -62,7 +62,7 @@ function makeBands() {
       if (!found) return;
       labels.push(run.label);
       colours.push(colourOf(index));
-      columns.push(found.bands.map((value) => Math.max(value, 1e-6)));
+      columns.push(found.bands.map((value) => (value === null ? null : Math.max(value, 1e-6))));
       series[run.label] = {drawPoints: true, pointSize: 2.5};
     });
     for (const exposure of exposures) {

@@ -33,26 +33,26 @@ function boxOfAll(shown) {
 }
 
 /** The scene's height for its width, px, and how large vehicles are drawn, px/m: as large as the width allows. shown: the run that
- * the view follows, and the one that it is overlaid with. */
-function fitScene(shown, width) {
+ * the view follows, and the one that it is overlaid with; room: kept above them, px. */
+function fitScene(shown, width, room) {
   const [x0, y0, x1, y1] = boxOfAll(shown), length = Math.max(x1 - x0, 1e-3), tall = Math.max(y1 - y0, 1e-3);
   if (!shown[0].vehicle.wheels.length) {
     const height = Math.min(Math.max(0.88 * width * tall / length + 30, LEAST_HEIGHT), MOST_HEIGHT);
-    return {height: Math.round(height), scale: 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6))};
+    return {height: Math.round(height + room), scale: 0.88 * Math.min(width / Math.max(x1 - x0, 1e-6), height / Math.max(y1 - y0, 1e-6))};
   }
   const seen = tall + Math.min(Math.max(...shown.map(findRise)), MOST_RISE * tall);
   const widest = width / ((width < 560 ? 1.12 : ROOM) * length);
   const height = Math.min(Math.max(widest * seen + BELOW + 3 * EDGE, LEAST_HEIGHT), MOST_HEIGHT);
-  return {height: Math.round(height), scale: Math.min(widest, (height - BELOW - 3 * EDGE) / seen)};
+  return {height: Math.round(height + room), scale: Math.min(widest, (height - BELOW - 3 * EDGE) / seen)};
 }
 
 /** World metres → pixels. A mechanism is seen whole from one place, a vehicle is followed. */
-function makeView(shown, time, width, height, scale) {
+function makeView(shown, time, width, height, scale, room) {
   const prepared = shown[0], at = frameAt(prepared, time), [x0, y0, x1, y1] = boxOfAll(shown);
   if (!prepared.vehicle.wheels.length) {
     return {
-      scale, width, height, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
-      X: (wx) => 0.5 * width + scale * (wx - 0.5 * (x0 + x1)), Y: (wy) => 0.5 * height - scale * (wy - 0.5 * (y0 + y1)),
+      scale, width, height, room, left: 0.5 * (x0 + x1 - width / scale), right: 0.5 * (x0 + x1 + width / scale),
+      X: (wx) => 0.5 * width + scale * (wx - 0.5 * (x0 + x1)), Y: (wy) => 0.5 * (height + room) - scale * (wy - 0.5 * (y0 + y1)),
     };
   }
   const length = Math.max(x1 - x0, 1e-3);
@@ -61,9 +61,10 @@ function makeView(shown, time, width, height, scale) {
   let ground = 0;
   for (let k = -4; k <= 4; ++k) ground += heightOfRoad(prepared.road, x + k * length / 4) / 9;
   const top = height - BELOW - scale * (Math.max(...shown.map((one) => findTop(one, frameAt(one, time)))) - ground);  // of the vehicles, px
-  const base = height - BELOW + Math.max(0, EDGE - top);  // a vehicle that flies high takes the view along
+  const edge = room > 0 ? LABEL_TOP + room + EDGE : EDGE;
+  const base = height - BELOW + Math.max(0, edge - top);  // a vehicle that flies high takes the view along
   return {
-    scale, width, height, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
+    scale, width, height, room, left: x - 0.5 * width / scale, right: x + 0.5 * width / scale,
     X: (wx) => 0.5 * width + scale * (wx - x), Y: (wy) => base - scale * (wy - ground),
   };
 }

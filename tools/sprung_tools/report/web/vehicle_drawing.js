@@ -4,6 +4,8 @@
 const COILS = 5;    // of a spring
 const COIL = 0.02;  // of the vehicle's size: half a coil's width at most
 const MASS = 7;     // radius of the sign for a body that is a point, px
+const LABEL_FONT = "11px system-ui, sans-serif", LABEL_GAP = 8, LABEL_ROW = 16, LABEL_TOP = 26;  // px; the last is below the captions
+const LOOSELY = 1.4, LEAST_LABEL_ROWS = 3, MOST_LABEL_ROWS = 9;  // the first: room in the rows over the names' own width
 
 function drawWheel(context, view, wheel, centre, colour, contact) {
   const [x, y] = [view.X(centre[0]), view.Y(centre[1])], radius = view.scale * wheel.radius;
@@ -145,27 +147,48 @@ function drawBodies(context, view, vehicle, nodes, colour) {
   }
 }
 
-/** Names of bodies, monitored points and tyres, where there is room for them. Returns those that are drawn. */
-function drawLabels(context, view, vehicle, nodes) {
-  const wanted = [
+/** What has a name: monitored points, tyres, bodies, each with its place. */
+function listNamed(vehicle, nodes) {
+  return [
     ...vehicle.marks.map((mark) => [mark.name, nodes[mark.body][mark.node]]),
     ...vehicle.wheels.map((wheel) => [wheel.name, nodes[wheel.body][wheel.node]]),
     ...vehicle.bodies.map((body) => [body.name, middleOf(nodes[body.name])]),
   ];
-  const taken = [], drawn = [];
+}
+
+/** The height that the names need above the vehicle in a scene of this width, px. */
+function roomForLabels(vehicle, width) {
+  const context = byId("scene").getContext("2d");
   context.save();
-  context.font = "11px system-ui, sans-serif";
+  context.font = LABEL_FONT;
+  const names = [...vehicle.marks, ...vehicle.wheels, ...vehicle.bodies].map((one) => context.measureText(one.name).width + LABEL_GAP);
+  context.restore();
+  const rows = Math.ceil(LOOSELY * names.reduce((sum, one) => sum + one, 0) / width);
+  return LABEL_ROW * Math.min(Math.max(rows, Math.min(names.length, LEAST_LABEL_ROWS)), MOST_LABEL_ROWS);
+}
+
+/** Names in rows above the vehicle, where they hide none of it, each with a line to its place; those without room are left out.
+ * Returns what is drawn: names with x, y of the middle of their left edge and width, px, and what their lines go to. */
+function drawLabels(context, view, vehicle, nodes) {
+  const drawn = [];
+  context.save();
+  context.font = LABEL_FONT;
   context.textBaseline = "middle";
   context.textAlign = "left";
-  for (const [name, [wx, wy]] of wanted) {
-    const width = context.measureText(name).width, x = Math.min(Math.max(view.X(wx) + 9, 4), view.width - width - 4);
-    const y = [-12, 12, -27, 27].map((step) => view.Y(wy) + step).find((one) => one > 30 && one < view.height - 26 &&
-      taken.every(([tx, ty, tw]) => Math.abs(ty - one) > 14 || tx > x + width + 6 || x > tx + tw + 6));
-    if (y === undefined) continue;
-    taken.push([x, y, width]);
-    drawPlate(context, name, x, y, style("--ink"));
-    drawn.push(name);
+  for (const [name, [wx, wy]] of listNamed(vehicle, nodes)) {
+    const to = [view.X(wx), view.Y(wy)], width = context.measureText(name).width;
+    const isFree = ({x, y}) => drawn.every((one) => one.y !== y || one.x >= x + width + LABEL_GAP || x >= one.x + one.width + LABEL_GAP);
+    const places = [];
+    for (let y = LABEL_TOP + view.room - 0.5 * LABEL_ROW; y > LABEL_TOP; y -= LABEL_ROW) {
+      for (const left of [0.5 * width, -0.5 * LABEL_GAP, width + 0.5 * LABEL_GAP]) places.push({x: Math.max(Math.min(to[0] - left, view.width - width - 4), 4), y});
+    }
+    const place = places.find(isFree);
+    if (place) drawn.push({name, ...place, width, to});
   }
+  context.strokeStyle = style("--soft");
+  context.lineWidth = 1;
+  for (const {x, y, width, to} of drawn) drawStroke(context, [[Math.min(Math.max(to[0], x), x + width), y], to]);
+  for (const {name, x, y} of drawn) drawPlate(context, name, x, y, style("--ink"));
   context.restore();
   return drawn;
 }
