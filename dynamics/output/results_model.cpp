@@ -131,7 +131,11 @@ void write_section_peaks(support::Hdf5Writer& file, const SectionStatistics& sta
     file.make_group(group);
     for (std::size_t i = 0; i < kQuantities.size(); ++i) {
       const auto write = [&](bool is_known, const char* ending, const SectionPeak& peak) {
-        if (is_known) file.attribute(group, std::string(kQuantities[i]) + ending, peak.value);
+        if (!is_known) return;
+        const std::string name = std::string(kQuantities[i]) + ending;
+        file.attribute(group, name, peak.value);
+        file.attribute(group, name + "_station", std::int64_t{peak.station});
+        file.attribute(group, name + "_time", peak.time);
       };
       write(body.has_modes(), "", peaks.from_modes[i]);
       write(body.has_loads(), "_from_loads", peaks.from_loads[i]);

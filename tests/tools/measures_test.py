@@ -126,6 +126,22 @@ class Json(ToolTestCase):
         (row,) = [row[2:] for row in rows if row[:2] == ["body", "truck"]]
         self.assertEqual(row, ["-5", "1.000", "1.500", "-3", f"{1e-3 * difference:.4g}"])
 
+    def test_the_largest_loads_that_the_run_itself_has_found_count_where_its_file_holds_some_rows_only(self):
+        path = write_run(self.folder / "a.h5")
+        with h5py.File(path, "a") as file:
+            file.create_group("summary/sections/body").attrs.update(
+                {"moment": -7e3, "moment_station": 1, "moment_time": 1.7254}
+            )
+        with open_results(path) as results:
+            peak = find_best_peak(results, "body", MOMENT, WINDOW)
+            self.assertEqual((peak.value, peak.station, peak.time),
+                             (-7e3, results.file.numbers("recovery/body/station")[0][1, 0], 1.7254))  # fmt: skip
+            # Of another span than that of the run's statistics: from the rows of the file
+            self.assertAlmostEqual(find_best_peak(results, "body", MOMENT, (1.2, 2.8)).value, -3e3, places=6)
+        with h5py.File(path, "a") as file:
+            file["summary/sections/body"].attrs["moment_station"] = 99
+        self.assert_refuses(self.run_tool("ride", "a.h5"), "'summary/sections/body' has moment_station = 99")
+
     def test_without_the_motion_of_bodies_only_what_needs_their_rotation_is_left_out_and_named(self):
         write_run(self.folder / "whole.h5")
         with h5py.File(write_run(self.folder / "a.h5"), "a") as file:

@@ -7,10 +7,12 @@ from typing import NamedTuple
 import numpy as np
 
 from sprung_tools.files.array_types import Floats
-from sprung_tools.files.hdf5_file import read_numbers
+from sprung_tools.files.errors import InputError
+from sprung_tools.files.hdf5_file import read_numbers, read_real
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.rigid_body_loads import Superelement, calc_rigid_moments, has_all_loads, read_superelement
 from sprung_tools.runs.labelled_runs import samples_between
+from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
 from sprung_tools.signals.spans import Span
 
@@ -41,10 +43,29 @@ def has_load(results: ResultsFile, body: str, load: str, source: str) -> bool:
     return (results.file.shape(f"recovery/{body}/{load}{ENDINGS[source]}") or (0, 0))[1] > 0
 
 
+def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> Peak | None:
+    """The largest value of a body that the run itself has found over all of its outputs, of which the file may hold
+    only some; None for another span than that of its statistics, and in older files. name: `moment_from_loads`."""
+    group = f"summary/sections/{body}"
+    there = results.file.attributes(group) if results.file.has_group(group) else ()
+    if window != read_window(results) or f"{name}_station" not in there:
+        return None
+    value, time = (read_real(results.file, group, key) for key in (name, f"{name}_time"))
+    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    number = results.file.attribute(group, f"{name}_station", int)
+    if not 0 <= number < len(stations):
+        has = f"'{group}' has {name}_station = {number}"
+        raise InputError(f"{results.path}: error: {has}, expected at least 0 and below {len(stations)}")
+    return Peak(value, float(stations[number, LONGITUDINAL]), time)
+
+
 def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: Span) -> Peak | None:
     """The largest of LOADS along a body, from its loads or from its modes; None if the file lacks it."""
     if not has_load(results, body, load, source):
         return None
+    own = read_own_peak(results, body, f"{load}{ENDINGS[source]}", window)
+    if own is not None:
+        return own
     values, _ = read_numbers(results.file, f"recovery/{body}/{load}{ENDINGS[source]}")
     stations, _ = read_numbers(results.file, f"recovery/{body}/station")
     return find_peak(results, values, stations, window)
@@ -96,6 +117,9 @@ def calc_moment_difference(results: ResultsFile, body: str, window: Span) -> flo
     sources = (FROM_LOADS, FROM_MODES)
     if not all(has_load(results, body, MOMENT, source) for source in sources):
         return None
+    own = read_own_peak(results, body, f"{MOMENT}_difference", window)
+    if own is not None:
+        return abs(own.value)
     from_loads, from_modes = (
         read_numbers(results.file, f"recovery/{body}/{MOMENT}{ENDINGS[source]}")[0] for source in sources
     )

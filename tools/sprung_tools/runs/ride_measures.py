@@ -86,8 +86,8 @@ def sampling_step(results: ResultsFile) -> float:
         first = int(uneven[0])
         raise InputError(
             f"{results.path}: error: the samples in 'time' are not equally spaced: {steps[first]:.6g} s from sample "
-            f"{first + 1} at {results.time[first]:.6g} s to the next, {step:.6g} s in the middle of all, expected equal "
-            "ones, as sprung-dynamics stores them: interpolate all histories to equal steps of at most "
+            f"{first + 1} at {results.time[first]:.6g} s to the next, {step:.6g} s in the middle of all, expected "
+            "equal ones, as sprung-dynamics stores them: interpolate all histories to equal steps of at most "
             f"{1e3 / (HIGHEST * SAMPLES_PER_PERIOD):g} ms, or make the run again"
         )
     return step

@@ -9,6 +9,7 @@ from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.force_channels import list_force_channels
 from sprung_tools.model.resolved_model import ROOT, has_resolved_model
 
+RESULTANTS = "stress resultants"
 MOST_NAMED = 4  # names in a list; of more their number is given
 
 
@@ -29,7 +30,7 @@ def list_missing(results: ResultsFile) -> Iterator[str]:
         "motion of bodies": (bodies, lambda name: results.has(f"bodies/{name}/position")),
         "joints": (joints, lambda name: results.has(f"joints/{name}/reaction")),
         "forces": (forces, lambda name: bool(list_force_channels(results, name))),
-        "stress resultants": (flexible, lambda name: results.has(f"recovery/{name}/moment")),
+        RESULTANTS: (flexible, lambda name: results.has(f"recovery/{name}/moment")),
     }
     for what, (names, is_there) in groups.items():
         missing = [name for name in names if not is_there(name)]
@@ -44,13 +45,15 @@ def shorten(names: list[str], total: int) -> str:
     return ", ".join(names) if len(names) <= MOST_NAMED else f"{len(names)} of {total}"
 
 
-def list_coarse(results: ResultsFile) -> Iterator[str]:
-    """The histories that are not stored at every output."""
+def list_coarse(results: ResultsFile, *, with_resultants: bool = True) -> Iterator[str]:
+    """The histories that are not stored at every output. with_resultants: also forces and moments of sections."""
     step = float(np.median(np.diff(results.time)))
     examples = {
         "motion of bodies": ("bodies", "{}/acceleration"), "joints": ("joints", "{}/reaction"),
-        "stress resultants": ("recovery", "{}/moment"), "motion of points": ("points", "{}/acceleration"),
+        RESULTANTS: ("recovery", "{}/moment"), "motion of points": ("points", "{}/acceleration"),
     }  # fmt: skip
+    if not with_resultants:
+        del examples[RESULTANTS]
     for what, (group, pattern) in examples.items():
         every = {results.file.every(f"{group}/" + pattern.format(name)) for name in results.file.names(group)}
         yield from describe_steps(what, every, step)

@@ -41,6 +41,7 @@ from sprung_tools.study.kept_rows import Row, keep_row
 from sprung_tools.study.measure_names import check_names, check_response_points
 from sprung_tools.study.storage import choose_storage
 
+OF_RESULTANTS = ("stresses", "histories")  # measures that need the forces and moments of sections at every output
 PROGRAM = "program/"  # what the names of values in the program's own JSON begin with
 
 
@@ -129,7 +130,9 @@ def measure(setting: Setting, outcome: Outcome, output: Path | None) -> Measured
             warnings = tuple(dict.fromkeys(one.text for one in list_warnings(results)))
             if setting.has_one_vehicle:
                 check_names(results, wanted)
-            coarse = ", ".join(list_coarse(results))
+            # The run has found the largest loads itself, of all its outputs.
+            with_resultants = any(fnmatchcase(one, name.split("/")[0]) for name in wanted for one in OF_RESULTANTS)
+            coarse = ", ".join(list_coarse(results, with_resultants=with_resultants))
             warnings += (f"largest values may be larger than measured: {coarse}",) if coarse else ()
             window = read_window(results)
             objects = list_objects(results, window, list_points(wanted)) | list_history_objects(results, window, wanted)
