@@ -2,6 +2,7 @@
 example in tools/README.md runs. Needs both programs (SPRUNG_REDUCE, SPRUNG_DYNAMICS)."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import os
@@ -50,7 +51,18 @@ class Functions(ToolTestCase):
             self.assertEqual(repr(results), "<Results of 'quarter car': 1501 samples from 0 s to 1.5 s; 0 warnings>")
         self.assertIn("closed", repr(results))
 
-    def test_a_quantity_is_an_array_of_xarray_with_units(self):
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "python3-xarray is not installed")
+    def test_a_quantity_is_an_array_of_xarray_that_is_selected_by_time(self):
+        with sprung.run(CAR, overrides={"duration": 0.5}) as results:
+            found = results.array("forces/suspension/force")
+            values = results["forces/suspension/force"]
+        np.testing.assert_array_equal(found.values, values)
+        self.assertEqual((found.dims, found.name, found.attrs), (("time",), "forces/suspension/force", {"units": "N"}))
+        self.assertEqual(found.time.attrs, {"units": "s"})
+        self.assertEqual(float(found.sel(time=0.2, method="nearest")), values[200])
+        self.assertEqual(float(found.sel(time=slice(0.1, 0.3)).max()), np.max(values[100:301]))
+
+    def test_what_xarray_is_given_and_that_it_may_be_missing(self):
         """By a stand-in that keeps what xarray.DataArray was given."""
         with sprung.run(CAR, overrides={"duration": 0.1}) as results:
             with mock.patch.dict(sys.modules, {"xarray": mock.Mock()}) as modules:
