@@ -64,10 +64,13 @@ RoadDescription read_road(const support::TomlTable& table, const std::filesystem
   shapes.insert(shapes.end(), {"random", "table", "opencrg"});
 
   RoadDescription road;
-  road.location = table.at("shape").location();
-  road.shape = table.at("shape").one_of(shapes);
-  if (road.shape != "flat") {
-    // Where the vehicle starts in equilibrium, the road is level.
+  const bool is_class = !table.has("shape") && table.has("class");  // only random roads have one
+  road.location = table.at(is_class ? "class" : "shape").location();
+  road.shape = is_class ? "random" : table.at("shape").one_of(shapes);
+  // Where the vehicle starts in equilibrium, the road is level.
+  if (road.shape == "random") {
+    road.start = table.number_or("start", 0.0, support::non_negative("m"));
+  } else if (road.shape != "flat") {
     road.start = table.number("start", support::non_negative("m"));
   }
   if (road.shape == "table" || road.shape == "opencrg") {

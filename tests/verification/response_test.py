@@ -158,18 +158,28 @@ class QuarterCar(ResponseCase):
         self.assert_close(response.report["road_rms"] ** 2, 256e-8 * 20.0 * (1.0 / 0.1 - 1.0 / 20.0), relative=1e-7)
 
     def test_a_random_road_of_the_run_file_is_that_of_make_road(self):
-        # Both go through points of the same waves, at other distances: six and ten to the shortest wave. A spline
-        # misses 1.6 % of that wave at most.
-        recipe = {"class": "C", "length": 400.0, "ease": 5.0, "seed": 4, "band": [0.011, 2.0]}
-        table = self.make_road("--iso-class", "C", "--length", "400", "--spacing", "0.05", "--ease", "5", "--seed", "4",
-                               "--band", "0.011", "2.0")
-        written = ", ".join(f"{key} = {value!r}" for key, value in recipe.items())
-        heights = [
-            self.run_to_results(QUARTER_CAR, *self.AT_20, *overrides(
-                duration=20.0, output_step=0.005, road="{ start = 1.0, " + road + " }"))["forces/tyre/road_height"]
-            for road in (f"shape = 'table', file = '{table}'", "shape = 'random', " + written)
-        ]  # fmt: skip
-        self.assertLess(np.std(heights[1] - heights[0]), 1e-3 * np.std(heights[0]))
+        # Both go through points of the same waves, at other distances: six and ten or more to the shortest wave. A
+        # spline misses 1.6 % of that wave at most.
+        eased = "class = 'C', length = 400.0, ease = 5.0, seed = 4, band = [0.011, 2.0]"
+        for random, recipe in (
+            (f"shape = 'random', {eased}", ("--iso-class", "C", "--length", "400", "--spacing", "0.05", "--ease", "5",
+                                            "--seed", "4", "--band", "0.011", "2.0")),
+            ("class = 'E', length = 150.0", ("--iso-class", "E", "--length", "150", "--spacing", "0.02")),
+            ("class = 'B', length = 90.0, seed = 12345678901",
+             ("--iso-class", "B", "--length", "90", "--spacing", "0.02", "--seed", "12345678901")),
+            ("shape = 'random', rms = 0.02, exponent = 2.5, band = [0.05, 3.0], length = 100.0, seed = 2",
+             ("--rms", "0.02", "--exponent", "2.5", "--band", "0.05", "3", "--length", "100", "--spacing", "0.02",
+              "--seed", "2")),
+        ):  # fmt: skip
+            with self.subTest(random):
+                table = self.make_road(*recipe)
+                heights = [
+                    self.run_to_results(QUARTER_CAR, *self.AT_20, *overrides(
+                        duration=10.0, output_step=0.005, road="{ start = 1.0, " + road + " }"))
+                    ["forces/tyre/road_height"] for road in (f"shape = 'table', file = '{table}'", random)
+                ]  # fmt: skip
+                self.assertGreater(np.std(heights[0]), 1e-3)
+                self.assertLess(np.std(heights[1] - heights[0]), 1e-3 * np.std(heights[0]))
 
     def test_warns_where_the_wheel_does_not_roll_at_the_speed(self):
         response = self.response(QUARTER_CAR, *overrides(speed=7))

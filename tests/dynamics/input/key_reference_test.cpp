@@ -166,6 +166,7 @@ void collect(const support::TomlTable& table, Found& found, const std::string& r
     collect(value, found, root_section);
   }
   const std::string path = path_of(table.key());
+  if (path == "road" && type.empty()) type = "random";  // a class alone says it
   std::string section = path.empty() ? root_section : section_of(path, type);
   // A run file's [modes] names superelements, not keys.
   if (path == "modes" && root_section == "Vehicle") section = "Quantities that judge";

@@ -197,6 +197,11 @@ TEST_CASE("A random road has one level, a band and waves in it") {
   CHECK(road->height(0.9) == 0.0);
   CHECK(road->height(20.0) != 0.0);
   CHECK(road->height(51.0) == Approx(0.0).margin(1e-15));
+  // A class alone says the shape, and the road begins at once.
+  const dynamics::RoadDescription alone = read("class = \"C\"\nlength = 50.0\nease = 5.0");
+  CHECK(alone.shape == "random");
+  CHECK(dynamics::make_road(alone)->height(20.0) == road->height(21.0));
+  CHECK(error_of("length = 50.0") == "run.toml:1:1: error: missing key 'shape' in 'road'");
   CHECK(dynamics::make_road(read(random("table = [[0.1, 1e-4], [2.0, 1e-7]]")))->height(20.0) != 0.0);
   CHECK(dynamics::make_road(read(random("rms = 0.01\nexponent = 3\nband = [0.1, 1.0]")))->height(20.0) !=
         0.0);
