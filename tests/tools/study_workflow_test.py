@@ -83,6 +83,8 @@ class Workflow(StudyCase):
 
     def test_the_profile_of_the_readme_hands_the_parts_to_a_cluster(self):
         """With a stand-in for sbatch: it writes down its arguments, runs the job, and prints its number."""
+        # Without the folder of --output, Slurm itself ends a job at once, and Snakemake waits for ever.
+        self.assertTrue((self.folder / "out/parts").is_dir())
         (profile,) = re.findall(r"```yaml\n(# slurm/config.yaml\n.*?)```", README, re.DOTALL)
         (self.folder / "slurm").mkdir()
         (self.folder / "slurm/config.yaml").write_text(profile, encoding="utf-8")

@@ -25,7 +25,7 @@ from sprung_tools.study.page import make_study_page
 from sprung_tools.study.sampling import is_balanced, make_points
 from sprung_tools.study.study_file import Study, read_study
 from sprung_tools.study.table import format_csv, make_hdf5, make_measure_columns
-from sprung_tools.study.workflow import SNAKEFILE, format_snakefile, parse_part
+from sprung_tools.study.workflow import PARTS, SNAKEFILE, format_snakefile, parse_part
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
@@ -99,7 +99,7 @@ def write_workflow(study: Study, folder: Path, programs: str | None, parts: int)
     """Writes the Snakefile of a study."""
     number = min(parts, len(make_points(study)))
     find_programs(programs)  # which the jobs need
-    folder.mkdir(parents=True, exist_ok=True)
+    (folder / PARTS).mkdir(parents=True, exist_ok=True)  # Slurm writes what jobs say there, and ends those it cannot
     command = Path(sys.argv[0]).resolve()
     write_whole(folder / SNAKEFILE, format_snakefile(command, Path(study.file.path).resolve(), programs, number))
     print(f"{folder / SNAKEFILE}: {len(make_points(study))} runs in {number} parts")
