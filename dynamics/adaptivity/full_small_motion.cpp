@@ -32,6 +32,7 @@ FullSmallMotion::FullSmallMotion(const Model& full, double time, const Eigen::Ve
       throw support::NumericalError("the mass of small motion is singular");
     independent_ = linearised->partition.independent;
     motion_ = {linearised->mass, linearised->damping, linearised->stiffness};
+    stiffness_rounding_ = linearised->stiffness_rounding;
     known_ = {independent_, motion_};
     directions = linearised->directions;
     for (const int coordinate : modal_) make_independent(coordinate, directions);
@@ -85,6 +86,7 @@ void FullSmallMotion::make_independent(int coordinate, Eigen::MatrixXd& directio
   directions = (directions * T).eval();
   for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness})
     *matrix = (T.transpose() * *matrix * T).eval();
+  stiffness_rounding_ = (T.cwiseAbs().transpose() * stiffness_rounding_ * T.cwiseAbs()).eval();
   independent_[static_cast<std::size_t>(pivot)] = coordinate;
 }
 
@@ -94,7 +96,7 @@ void FullSmallMotion::sort_coordinates(Eigen::MatrixXd& directions) {
   const auto coordinate = [&](int i) { return independent_[static_cast<std::size_t>(i)]; };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return coordinate(a) < coordinate(b); });
   directions = directions(Eigen::all, order).eval();
-  for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness})
+  for (Eigen::MatrixXd* matrix : {&motion_.mass, &motion_.damping, &motion_.stiffness, &stiffness_rounding_})
     *matrix = (*matrix)(order, order).eval();
   std::sort(independent_.begin(), independent_.end());
 }

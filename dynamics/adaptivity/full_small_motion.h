@@ -29,6 +29,9 @@ class FullSmallMotion {
   /// Modal coordinates of the full model, ascending: mode j of the functions below has coordinate j here.
   const std::vector<int>& modal_coordinates() const { return modal_; }
   const SmallMotion& motion() const { return motion_; }  ///< f×f
+  const Eigen::MatrixXd& stiffness_rounding() const { return stiffness_rounding_; }
+  /// Rates of the independent coordinates, f. @param v  of the full model, nq
+  Eigen::VectorXd select_independent(const Eigen::VectorXd& v) const { return v(independent_); }
   /// Place of a coordinate among the independent ones, −1 for a dependent one.
   Eigen::Index find_independent(int coordinate) const;
   /// Places among the independent coordinates of all but those of modes that are not active.
@@ -54,6 +57,7 @@ class FullSmallMotion {
   const Model* full_;
   std::vector<int> modal_, independent_;
   SmallMotion motion_;
+  Eigen::MatrixXd stiffness_rounding_;
   KnownMotion known_;  // in the coordinates of the linearisation
   Eigen::MatrixXd modal_motion_;
   std::vector<Eigen::Matrix2Xd> point_motion_;

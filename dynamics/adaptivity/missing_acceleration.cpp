@@ -2,33 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sprung::dynamics {
 
-MissingAccelerationRecord::MissingAccelerationRecord(const ModeIndicator& indicator)
-    : motion_(indicator.small_motion()),
-      forces_(static_cast<Eigen::Index>(indicator.num_modes())),
-      points_(indicator.small_motion().num_points()) {}
+namespace {
 
-void MissingAccelerationRecord::add(const ModeIndicator& indicator) {
-  const double step = has_begun_ ? indicator.time() - time_ : 0.0;
+constexpr double kHardly = 1e-2;    // of the acceleration of the point that moves most
+constexpr double kRest = 1e-6;      // of the smallest acceleration that counts: rounding
+constexpr double kSameTime = 1e-9;  // of times that differ by rounding
+
+}  // namespace
+
+MissingAccelerationRecord::MissingAccelerationRecord(const ModeIndicator& indicator, std::vector<int> points,
+                                                     const MissingStart& start, double from, double to)
+    : motion_(indicator.small_motion(), start),
+      markers_(std::move(points)),
+      from_(from),
+      to_(to),
+      forces_(static_cast<Eigen::Index>(indicator.num_modes())),
+      points_(markers_.size()) {}
+
+double MissingAccelerationRecord::find_angle(std::size_t point, const ModeIndicator& indicator,
+                                             const Eigen::VectorXd& q) const {
+  const Model& model = indicator.small_motion().model();
+  const Marker& marker = model.markers[static_cast<std::size_t>(markers_[point])];
+  if (marker.body == kGround) return 0.0;
+  return q[model.bodies[static_cast<std::size_t>(marker.body)].first_coordinate + 2];
+}
+
+void MissingAccelerationRecord::add(const ModeIndicator& indicator, const Eigen::VectorXd& q,
+                                    const Eigen::VectorXd& v) {
+  const double now = indicator.time(), step = has_begun_ ? now - time_ : 0.0;
   for (std::size_t j = 0; j < indicator.num_modes(); ++j)
     forces_[static_cast<Eigen::Index>(j)] = indicator.unbalanced_force(j);
-  motion_.update(step, forces_);
+  motion_.update(step, forces_, v);
+  const double slack = kSameTime * std::abs(now);
+  const bool is_judged = now >= from_ - slack && now <= to_ + slack;
+  const double judged = is_judged ? std::min(step, std::max(0.0, now - from_)) : 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Point& point = points_[i];
-    const Eigen::Vector2d missing = motion_.accelerations().segment<2>(static_cast<Eigen::Index>(2 * i)),
+    // What is missing turns with the body.
+    const double angle = find_angle(i, indicator, q);
+    if (!has_begun_) point.start_angle = angle;
+    const FrameRotation turned = FrameRotation::from_angle(angle - point.start_angle);
+    const Eigen::Vector2d missing =
+                              turned * motion_.accelerations().segment<2>(static_cast<Eigen::Index>(2 * i)),
                           present = indicator.sizes().present_acceleration(i);
     const Eigen::Array2d square = missing.array().square();
-    point.missing_sum += 0.5 * step * (point.missing + square);
-    point.present_sum += 0.5 * step * (point.present + present.squaredNorm());
+    point.missing_sum += 0.5 * judged * (point.missing + square);
+    point.present_sum += 0.5 * judged * (point.present + present.squaredNorm());
     point.missing = square;
     point.present = present.squaredNorm();
+    if (!is_judged) continue;
     point.peak = std::max(point.peak, present.norm());
     point.changed_peak = std::max(point.changed_peak, (present + missing).norm());
   }
-  length_ += step;
-  time_ = indicator.time();
+  length_ += judged;
+  time_ = now;
   has_begun_ = true;
 }
 
@@ -36,26 +67,31 @@ MissingAcceleration MissingAccelerationRecord::find_worst(const ModeIndicator& i
   MissingAcceleration worst;
   const std::vector<bool>& active = indicator.active();
   if (std::find(active.begin(), active.end(), false) == active.end()) return worst;
-  const double least = indicator.sizes().least_acceleration();
+  // Of a point that hardly moves beside the others, or of rest, there is no share.
+  double largest_sum = 0.0, largest_peak = 0.0;
+  for (const Point& point : points_) {
+    largest_sum = std::max(largest_sum, point.present_sum);
+    largest_peak = std::max(largest_peak, point.peak);
+  }
+  const double least = kRest * indicator.sizes().least_acceleration();
+  const double least_sum = std::max(kHardly * kHardly * largest_sum, length_ * least * least);
+  const double least_peak = std::max(kHardly * largest_peak, least);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point& point = points_[i];
     MissingAcceleration found{.point = static_cast<int>(i),
                               .direction = point.missing_sum[1] > point.missing_sum[0] ? 1 : 0};
-    if (length_ > 0.0) {
-      const double reference = std::max(point.present_sum, length_ * least * least);
-      found.rms_share = std::sqrt(point.missing_sum.sum() / reference);
-    }
-    found.peak_change = std::abs(point.changed_peak - point.peak) / std::max(point.peak, least);
+    if (length_ > 0.0)
+      found.rms_share = std::sqrt(point.missing_sum.sum() / std::max(point.present_sum, least_sum));
+    found.peak_change = std::abs(point.changed_peak - point.peak) / std::max(point.peak, least_peak);
     if (worst.point < 0 || found.worst() > worst.worst()) worst = found;
   }
   return worst;
 }
 
 void MissingAccelerationRecord::restore(support::ByteReader& bytes) {
-  const std::size_t num_points = points_.size(), num_vibrations = motion_.num_vibrations();
+  const std::size_t num_points = points_.size();
   transfer(bytes, *this);
-  if (points_.size() != num_points || motion_.num_vibrations() != num_vibrations)
-    throw support::DamagedBytes();
+  if (points_.size() != num_points || !motion_.has_consistent_states()) throw support::DamagedBytes();
 }
 
 }  // namespace sprung::dynamics

@@ -21,10 +21,13 @@ struct MissingAcceleration {
 /// asked for (adaptivity, eq. 8). Checked by tests/verification/left_out_test.py
 class MissingAccelerationRecord {
  public:
-  explicit MissingAccelerationRecord(const ModeIndicator& indicator);
+  /// @param points    markers asked for, those of the indicator
+  /// @param start     of the run   @param from, to  span of time that is judged [s]
+  MissingAccelerationRecord(const ModeIndicator& indicator, std::vector<int> points,
+                            const MissingStart& start, double from, double to);
 
-  /// Takes the indicator's last update into account.
-  void add(const ModeIndicator& indicator);
+  /// Takes the indicator's last update into account. @param q, v  of the full model
+  void add(const ModeIndicator& indicator, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   /// At the point for which the larger of both shares is the largest.
   MissingAcceleration find_worst(const ModeIndicator& indicator) const;
 
@@ -37,6 +40,7 @@ class MissingAccelerationRecord {
     double present = 0.0;                             // square, at the last update
     Eigen::Array2d missing_sum = Eigen::Array2d::Zero();  // integrals of the squares over time [m²/s³]
     double present_sum = 0.0;
+    double start_angle = 0.0;               // of its body
     double peak = 0.0, changed_peak = 0.0;  // of the run, and with what is missing [m/s²]
   };
   template <class Bytes, class Record>
@@ -46,6 +50,7 @@ class MissingAccelerationRecord {
     bytes.transfer(record.time_);
     bytes.transfer(record.length_);
     bytes.transfer_items(record.points_, [&](auto& point) {
+      bytes.transfer(point.start_angle);
       for (Eigen::Index i = 0; i < 2; ++i) {
         bytes.transfer(point.missing[i]);
         bytes.transfer(point.missing_sum[i]);
@@ -55,7 +60,11 @@ class MissingAccelerationRecord {
     });
   }
 
+  double find_angle(std::size_t point, const ModeIndicator& indicator, const Eigen::VectorXd& q) const;
+
   MissingMotion motion_;
+  std::vector<int> markers_;
+  double from_, to_;
   Eigen::VectorXd forces_;  // on each mode
   bool has_begun_ = false;
   double time_ = 0.0, length_ = 0.0;  // of the last update; of all [s]

@@ -1,8 +1,10 @@
 #include "dynamics/adaptivity/missing_motion.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "dynamics/linear/first_order_form.h"
+#include "tools/support/dense/dense_solvers.h"
 #include "tools/support/dense/eigenproblems.h"
 #include "tools/support/errors/numerical_error.h"
 
@@ -10,71 +12,150 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kNeutral = 1e-12;  // of the largest ω²: rounding
+constexpr double kSmall = 0.5;         // |μh| below which the series are summed
+constexpr double kEqualStep = 1e-9;    // relative: times of equal steps differ by rounding
+constexpr int kTerms = 14;             // of them: 1e-16
+constexpr double kWorstBasis = 1e-13;  // reciprocal condition of eigenvectors
+
+using Complex = std::complex<double>;
+
+// φ_1 … φ_4 of z: φ_1 = (e^z − 1)/z, φ_k+1 = (φ_k − 1/k!)/z.
+std::array<Complex, 5> calc_phi(Complex z) {
+  std::array<Complex, 5> phi{std::exp(z)};
+  if (std::abs(z) >= kSmall) {
+    const Complex inverse = 1.0 / z;
+    phi[1] = (phi[0] - 1.0) * inverse;
+    phi[2] = (phi[1] - 1.0) * inverse;
+    phi[3] = (phi[2] - 0.5) * inverse;
+    phi[4] = (phi[3] - 1.0 / 6.0) * inverse;
+    return phi;
+  }
+  double factorial = 1.0;
+  for (std::size_t k = 1; k < phi.size(); ++k) {
+    factorial *= static_cast<double>(k);
+    Complex term = 1.0 / factorial, sum = term;
+    for (int i = 1; i < kTerms; ++i) {
+      term *= z / static_cast<double>(k + static_cast<std::size_t>(i));
+      sum += term;
+    }
+    phi[k] = sum;
+  }
+  return phi;
+}
 
 }  // namespace
 
-MissingMotion::MissingMotion(const FullSmallMotion& motion) {
+MissingMotion::MissingMotion(const FullSmallMotion& motion, const MissingStart& start)
+    : motion_(&motion), start_(start) {
   const auto num_rows = static_cast<Eigen::Index>(2 * motion.num_points());
   accelerations_ = Eigen::VectorXd::Zero(num_rows);
-  if (motion.motion().mass.rows() > 0) {
-    add_vibrations(motion);
-  } else {
-    add_lone_modes(motion);
+  if (motion.motion().mass.rows() == 0) {
+    take_lone_modes(motion);
+    return;
   }
-  vibrations_.resize(responses_.size());
-  vibration_accelerations_.setZero(static_cast<Eigen::Index>(responses_.size()));
-  for (std::size_t i = 0; i < responses_.size(); ++i)
-    neutral_ = std::max(neutral_, kNeutral * responses_.stiffness(i));
-}
-
-void MissingMotion::add_vibrations(const FullSmallMotion& motion) {
-  const auto& [M, C, K] = motion.motion();
-  const auto vibrations = support::solve_undamped(K, M);
-  if (!vibrations) throw support::NumericalError("the modes of small motion were not found");
-  const Eigen::MatrixXd& V = vibrations->vectors;
-  for (Eigen::Index i = 0; i < V.cols(); ++i)
-    responses_.add(std::max(0.0, vibrations->values[i]), std::max(0.0, 0.5 * V.col(i).dot(C * V.col(i))));
-  of_modes_ = motion.modal_motion() * V;
-  of_points_.resize(accelerations_.size(), V.cols());
+  Eigen::MatrixXd of_points(num_rows, motion.motion().mass.rows());
   for (std::size_t i = 0; i < motion.num_points(); ++i)
-    of_points_.middleRows<2>(static_cast<Eigen::Index>(2 * i)) = motion.reduced_motion(i) * V;
+    of_points.middleRows<2>(static_cast<Eigen::Index>(2 * i)) = motion.reduced_motion(i);
+  take(motion.motion(), motion.stiffness_rounding(), motion.modal_motion(), of_points);
 }
 
 // Where small motion is not known each mode vibrates alone.
-void MissingMotion::add_lone_modes(const FullSmallMotion& motion) {
+void MissingMotion::take_lone_modes(const FullSmallMotion& motion) {
   const auto num_modes = static_cast<Eigen::Index>(motion.modal_coordinates().size());
-  of_modes_ = Eigen::MatrixXd::Zero(num_modes, num_modes);
-  of_points_.resize(accelerations_.size(), num_modes);
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(num_modes, num_modes);
+  SmallMotion small{zero, zero, zero};
+  Eigen::MatrixXd of_points(accelerations_.size(), num_modes);
   for (Eigen::Index j = 0; j < num_modes; ++j) {
     const int coordinate = motion.modal_coordinates()[static_cast<std::size_t>(j)];
     const auto place = motion.model().body_coordinate(coordinate);
     const Body& body = motion.model().bodies[static_cast<std::size_t>(place.body)];
     const Eigen::Index k = coordinate - body.first_coordinate - 3;
-    const double mass = body.M_ff(k, k);
-    responses_.add(body.stiffness(k, k) / mass, 0.5 * body.damping(k, k) / mass);
-    of_modes_(j, j) = 1.0 / std::sqrt(mass);
-    for (std::size_t i = 0; i < motion.num_points(); ++i) {
-      of_points_.block<2, 1>(static_cast<Eigen::Index>(2 * i), j) =
-          motion.point_motion(i).col(coordinate) / std::sqrt(mass);
-    }
+    small.mass(j, j) = body.M_ff(k, k);
+    small.damping(j, j) = body.damping(k, k);
+    small.stiffness(j, j) = body.stiffness(k, k);
+    for (std::size_t i = 0; i < motion.num_points(); ++i)
+      of_points.block<2, 1>(static_cast<Eigen::Index>(2 * i), j) = motion.point_motion(i).col(coordinate);
   }
+  start_.rates.resize(0);
+  take(small, zero, Eigen::MatrixXd::Identity(num_modes, num_modes), of_points);
 }
 
-void MissingMotion::update(double step, const Eigen::VectorXd& forces) {
-  if (step > 0.0) responses_.prepare(step);
-  driving_.noalias() = of_modes_.transpose() * forces;
-  for (std::size_t i = 0; i < vibrations_.size(); ++i) {
-    Vibration& one = vibrations_[i];
-    const double force = driving_[static_cast<Eigen::Index>(i)];
-    if (step > 0.0) responses_.advance(i, one.force, force, one.place, one.rate);
-    if (!has_begun_ && responses_.stiffness(i) > neutral_) one.place = force / responses_.stiffness(i);
-    one.force = force;
-    vibration_accelerations_[static_cast<Eigen::Index>(i)] =
-        force - 2.0 * responses_.decay(i) * one.rate - responses_.stiffness(i) * one.place;
+void MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& rounding,
+                         const Eigen::MatrixXd& of_modes, const Eigen::MatrixXd& of_points) {
+  const FirstOrderForm form = make_first_order_form(small.mass, small.damping, small.stiffness, rounding);
+  const auto pairs = support::solve_general(form.A);
+  const Eigen::Index n = form.num_bound(), f = form.V.cols(), size = form.A.rows();
+  const support::LuFactors X =
+      pairs ? support::factorise_lu(pairs->real_vectors) : support::LuFactors{.lu = {}};
+  if (!pairs || (size > 0 && X.reciprocal_condition < kWorstBasis))
+    throw support::NumericalError("the damped modes of small motion were not found");
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Complex value = pairs->values[i];
+    const bool is_pair = value.imag() != 0.0;
+    parts_.push_back({.rate = std::conj(value), .column = i, .is_pair = is_pair});
+    if (is_pair) ++i;
   }
+  states_.resize(parts_.size());
+  Eigen::MatrixXd inputs = Eigen::MatrixXd::Zero(size, of_modes.rows());
+  inputs.bottomRows(f) = form.V.transpose() * of_modes.transpose();
+  to_parts_ = X.solve(Eigen::MatrixXd::Identity(size, size));
+  forcing_ = to_parts_ * inputs;
+  const Eigen::MatrixXd by_motion = of_points * form.V;
+  of_states_ = by_motion * form.A.bottomRows(f) * pairs->real_vectors;
+  direct_ = by_motion * inputs.bottomRows(f);
+  static_states_ = Eigen::MatrixXd::Zero(size, of_modes.rows());
+  static_states_.topRows(n) = form.scale.cwiseInverse().asDiagonal() * inputs.bottomRows(n);
+  rate_states_ = Eigen::MatrixXd::Zero(size, f);
+  rate_states_.bottomRows(f) = form.V.transpose() * small.mass;
+  places_ = Eigen::VectorXd::Zero(size);
+}
+
+Complex MissingMotion::select(const Eigen::VectorXd& values, const Part& part) const {
+  return {values[part.column], part.is_pair ? values[part.column + 1] : 0.0};
+}
+
+void MissingMotion::begin(const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
+  Eigen::VectorXd states = Eigen::VectorXd::Zero(places_.size());
+  if (start_.is_balanced) states = static_states_ * forces;
+  if (start_.rates.size() > 0) states += rate_states_ * motion_->select_independent(start_.rates - v);
+  const Eigen::VectorXd places = to_parts_ * states;
+  for (std::size_t i = 0; i < parts_.size(); ++i) states_[i].place = select(places, parts_[i]);
   has_begun_ = true;
-  accelerations_.noalias() = of_points_ * vibration_accelerations_;
+}
+
+void MissingMotion::update(double step, const Eigen::VectorXd& forces, const Eigen::VectorXd& v) {
+  if (!has_begun_) begin(forces, v);
+  driving_.noalias() = forcing_ * forces;
+  const bool knows_slopes = last_step_ > 0.0;
+  if (step > 0.0 && std::abs(step - phi_step_) > kEqualStep * step) {
+    for (Part& part : parts_) part.phi = calc_phi(part.rate * step);
+    phi_step_ = step;
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    State& state = states_[i];
+    const Complex force = select(driving_, part);
+    if (step > 0.0) {
+      // The force as a cubic, without kinks between steps, which would excite stiff vibrations: its slope at
+      // the end is that of the parabola through the last three values.
+      const Complex chord = (force - state.force) / step;
+      const Complex begin = knows_slopes ? state.slope : chord;
+      const Complex end = knows_slopes ? chord + step / (step + last_step_) * (chord - state.chord) : chord;
+      const Complex second = 3.0 * chord - 2.0 * begin - end, third = begin + end - 2.0 * chord;
+      const std::array<Complex, 5>& phi = part.phi;
+      state.place = phi[0] * state.place +
+                    step * (phi[1] * state.force +
+                            step * (phi[2] * begin + 2.0 * phi[3] * second + 6.0 * phi[4] * third));
+      state.chord = chord;
+      state.slope = end;
+    }
+    state.force = force;
+    places_[part.column] = state.place.real();
+    if (part.is_pair) places_[part.column + 1] = state.place.imag();
+  }
+  last_step_ = step;
+  accelerations_.noalias() = of_states_ * places_;
+  accelerations_.noalias() += direct_ * forces;
 }
 
 }  // namespace sprung::dynamics

@@ -1,54 +1,90 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <complex>
 #include <vector>
 
 #include "dynamics/adaptivity/full_small_motion.h"
-#include "dynamics/adaptivity/step_responses.h"
 
 namespace sprung::dynamics {
 
+/// How a run starts beside the full model.
+struct MissingStart {
+  /// Whether the modes left out begin in balance with the forces on them. Else they begin where they are
+  /// held.
+  bool is_balanced = true;
+  Eigen::VectorXd rates = {};  ///< with which the full model would start, nq; empty: those of the run
+};
+
 /// What the modes left out would add to the motion of a run, together and to first order: small motion of the
-/// full model under the forces that the run leaves unbalanced on them, in its f undamped vibrations
-/// (adaptivity, eq. 7).
-/// Checked by tests/verification/left_out_test.py
+/// full model under the forces that the run leaves unbalanced on them (adaptivity, eq. 7), in the
+/// eigenvectors of its first-order form. So damping of any size and internal states count. Checked by
+/// tests/verification/left_out_test.py
 class MissingMotion {
  public:
   /// @param motion  of the full model about the start of the run; only read here
-  explicit MissingMotion(const FullSmallMotion& motion);
+  MissingMotion(const FullSmallMotion& motion, const MissingStart& start);
 
-  /// Continues through a step in which the forces change linearly, or to the same instant where they have
+  /// Continues through a step in which the forces change smoothly, or to the same instant where they have
   /// jumped.
-  /// @param step    at least 0; the first call begins in balance with the forces [s]
+  /// @param step    at least 0; the first call is at the start [s]
   /// @param forces  unbalanced ones on each mode, 0 for active ones [N/√kg]
-  void update(double step, const Eigen::VectorXd& forces);
-  /// Added acceleration of each point asked for, along x and y in turn [m/s²].
+  /// @param v       rates of the run in coordinates of the full model; read at the start
+  void update(double step, const Eigen::VectorXd& forces, const Eigen::VectorXd& v);
+  /// Added acceleration of each point asked for, along x and y in turn, in the axes of the start [m/s²].
   const Eigen::VectorXd& accelerations() const { return accelerations_; }
 
   template <class Bytes, class Motion>
   static void transfer(Bytes& bytes, Motion& motion) {
     bytes.transfer(motion.has_begun_);
-    bytes.transfer_items(motion.vibrations_, [&](auto& one) {
-      bytes.transfer(one.place);
-      bytes.transfer(one.rate);
-      bytes.transfer(one.force);
+    bytes.transfer(motion.last_step_);
+    bytes.transfer_items(motion.states_, [&](auto& one) {
+      for (auto* value : {&one.place, &one.force, &one.chord, &one.slope}) {
+        double real = value->real(), imaginary = value->imag();
+        bytes.transfer(real);
+        bytes.transfer(imaginary);
+        transfer_back(real, imaginary, *value);
+      }
     });
   }
-  std::size_t num_vibrations() const { return vibrations_.size(); }
+  bool has_consistent_states() const { return states_.size() == parts_.size(); }
 
  private:
-  struct Vibration {
-    double place = 0.0, rate = 0.0, force = 0.0;  // amplitude, its rate, and the force at the last update
+  // The share of one eigenvalue μ, of a pair or real: ζ̇ = μζ + g.
+  struct Part {
+    std::complex<double> rate;  // μ [1/s]
+    Eigen::Index column = 0;    // among the eigenvectors
+    bool is_pair = false;
+    std::array<std::complex<double>, 5> phi = {};  // of μh, for steps of the length below
   };
-  void add_vibrations(const FullSmallMotion& motion);
-  void add_lone_modes(const FullSmallMotion& motion);
+  struct State {
+    std::complex<double> place = {}, force = {};  // ζ, and g at the last update
+    std::complex<double> chord = {}, slope = {};  // mean rate of g in the last step, and at its end
+  };
+  static void transfer_back(double, double, const std::complex<double>&) {}
+  static void transfer_back(double real, double imaginary, std::complex<double>& value) {
+    value = {real, imaginary};
+  }
+  void take(const SmallMotion& small, const Eigen::MatrixXd& rounding, const Eigen::MatrixXd& of_modes,
+            const Eigen::MatrixXd& of_points);
+  void take_lone_modes(const FullSmallMotion& motion);
+  void begin(const Eigen::VectorXd& forces, const Eigen::VectorXd& v);
+  std::complex<double> select(const Eigen::VectorXd& values, const Part& part) const;
 
-  std::vector<Vibration> vibrations_;
-  StepResponses responses_;
-  double neutral_ = 0.0;                  // ω² up to which a motion counts as neutral
-  Eigen::MatrixXd of_modes_, of_points_;  // motion of the modes and of the points per unit of each vibration
+  const FullSmallMotion* motion_;
+  MissingStart start_;
+  std::vector<Part> parts_;
+  std::vector<State> states_;  // of each part
+  // The states z = Xζ follow ż = A z + forcing·r; accelerations of the points = of_states·ζ + direct·r.
+  Eigen::MatrixXd forcing_, of_states_, direct_;  // by eigenvector and mode, by point and eigenvector or mode
+  Eigen::MatrixXd to_parts_;                      // X⁻¹
+  Eigen::MatrixXd static_states_;                 // of a force on each mode
+  Eigen::MatrixXd rate_states_;                   // of the rates of the independent coordinates
+  double phi_step_ = 0.0;
+  double last_step_ = 0.0;  // 0 where the slopes are not known
   bool has_begun_ = false;
-  Eigen::VectorXd driving_, vibration_accelerations_, accelerations_;
+  Eigen::VectorXd driving_, places_, accelerations_;
 };
 
 }  // namespace sprung::dynamics

@@ -31,6 +31,7 @@ ModeAdaptation::ModeAdaptation(const AdaptivityOptions& options, const dynamics:
   }
   indicator_.set_active(active_);
   if (options.continues) indicator_.continue_run();
+  if (!options.changes && !options.missing.is_balanced) indicator_.begin_at_rest();
 }
 
 int ModeAdaptation::num_active_modes() const {

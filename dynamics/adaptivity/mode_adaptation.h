@@ -1,8 +1,10 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
+#include "dynamics/adaptivity/missing_motion.h"
 #include "dynamics/adaptivity/mode_indicator.h"
 
 namespace sprung::dynamics {
@@ -24,7 +26,10 @@ struct AdaptivityOptions {
   std::vector<bool> active;  ///< at the start, for each coordinate of `full`
   std::vector<int> points;   ///< markers whose motion is asked for
   bool continues = false;    ///< whether the start is the end of an earlier run
-  bool changes = true;       ///< false: modes stay as they are, the indicator alone is followed
+  MissingStart missing;      ///< how a run with fixed modes starts beside the full model
+  double judged_from = 0.0,
+         judged_to = std::numeric_limits<double>::infinity();  ///< where its error counts [s]
+  bool changes = true;  ///< false: modes stay as they are, the indicator alone is followed
   AdaptivityThresholds thresholds;
 };
 

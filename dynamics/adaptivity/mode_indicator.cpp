@@ -78,7 +78,7 @@ void ModeIndicator::follow(std::size_t place, double step) {
   one.is_fresh = false;
   const double force = one.force / mass;
   if (step > 0.0) responses_.advance(place, before, force, one.place, one.rate);
-  if (!state_.has_begun && stiffness > 0.0)
+  if (!state_.has_begun && stiffness > 0.0 && is_balanced_)
     one.place = force / stiffness;  // in balance at the start: no vibration
   // The amplitude, as the instantaneous value may pass through zero; at least the static deflection.
   const double amplitude = stiffness > 0.0

@@ -47,6 +47,8 @@ class ModeIndicator {
 
   /// Before the first update: the run continues an earlier one, whose forces have held the modes left out.
   void continue_run();
+  /// Before the first update: the modes begin where they are held, not in balance with the forces on them.
+  void begin_at_rest() { is_balanced_ = false; }
 
   /// Continues to the next instant of the run, or to the same one again where forces have jumped.
   /// @param run          equations of the model that is run, accelerations up to date
@@ -111,6 +113,7 @@ class ModeIndicator {
   ReferenceSizes sizes_;
   UnbalancedForce unbalanced_;
   State state_;
+  bool is_balanced_ = true;  // at the start
   std::vector<std::size_t> left_out_;
   StepResponses responses_;  // of the modes left out
   std::vector<ModeAmplitude> amplitudes_;

@@ -16,7 +16,7 @@ ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
     : modes_(options, start),
       motion_(*options.full, start),
       record_(modes_.indicator(), start.time),
-      missing_(modes_.indicator()),
+      missing_(modes_.indicator(), options.points, options.missing, options.judged_from, options.judged_to),
       rates_(start.v),
       largest_(modes_.indicator().num_modes()) {}
 
@@ -24,7 +24,7 @@ void ModeMonitor::update(double time, const HeldModes& held, const ConstrainedEq
   motion_.take(held, equations);
   modes_.update(time, equations, motion_.q(), motion_.v(), motion_.v_dot());
   rates_ = motion_.v();
-  if (!modes_.options().changes) missing_.add(modes_.indicator());
+  if (!modes_.options().changes) missing_.add(modes_.indicator(), motion_.q(), motion_.v());
 }
 
 void ModeMonitor::begin_step() {

@@ -145,10 +145,11 @@ std::string format_summary(const RunSummary& summary) {
     if (worst.share() > 0.0)
       run.add_row({"largest mode left out", format_largest(worst, *summary.adaptivity->full)});
     if (const MissingAcceleration& missing = transient.missing_acceleration; missing.point >= 0) {
-      run.add_row({"modes left out, together",
-                   fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %",
-                               100.0 * missing.rms_share, name_missing_point(*summary.adaptivity, missing),
-                               100.0 * missing.peak_change)});
+      run.add_row(
+          {"modes left out, together",
+           fmt::format("{:.3g} % of the r.m.s. acceleration of {}, largest changed by {:.3g} %{}",
+                       100.0 * missing.rms_share, name_missing_point(*summary.adaptivity, missing),
+                       100.0 * missing.peak_change, summary.adaptivity->continues ? kSinceStart : "")});
     }
   }
   for (const CertifiedError& body : summary.statistics.certified())

@@ -13,6 +13,7 @@ namespace sprung::dynamics {
 
 namespace {
 
+constexpr double kTellable = 1e-3;           // share of a single mode
 constexpr double kTooMuchLeftOut = 0.05;     // share of the largest deflection or acceleration
 constexpr double kAlarmingClosure = 1e-3;    // far above the closure at any useful tolerance
 constexpr double kClosed = 1e-6;             // gap of a joint, of the largest movement
@@ -43,7 +44,10 @@ std::vector<std::string> list_points_of(const std::string& body, const RunStatis
   return points;
 }
 
+// Of single modes by the forces on them: nothing where all do little by themselves, as where only their start
+// differs.
 std::string describe_largest(const WorstNeglect& worst, const Model& full) {
+  if (worst.share() < kTellable) return "";
   const auto describe = [&](const LargestShare& largest, const char* of) {
     return fmt::format("{:.3g} % of the largest {} (at t = {:.3g} s)", 100.0 * largest.share, of,
                        largest.time);
@@ -54,19 +58,19 @@ std::string describe_largest(const WorstNeglect& worst, const Model& full) {
   const std::string deflection = describe(worst.deflection, "deflection"),
                     acceleration = describe(worst.acceleration, "acceleration of the points asked for");
   if (worst.deflection.coordinate == worst.acceleration.coordinate)
-    return fmt::format("{}, which was left out, would have reached {} and {}", name(worst.deflection),
+    return fmt::format("{}, which was left out, would have reached {} and {}; ", name(worst.deflection),
                        deflection, acceleration);
-  return fmt::format("{}, which was left out, would have reached {}, and {} {}", name(worst.deflection),
+  return fmt::format("{}, which was left out, would have reached {}, and {} {}; ", name(worst.deflection),
                      deflection, name(worst.acceleration), acceleration);
 }
 
 std::string describe_missing(const MissingAcceleration& missing, const AdaptivityOptions& adaptivity) {
   if (missing.point < 0) return "";
   return fmt::format(
-      "; all modes left out together are {:.3g} % of the r.m.s. acceleration of {}, most of it along {}, and "
-      "would change its largest by {:.3g} %",
+      "all modes left out together are {:.3g} % of the r.m.s. acceleration of {}, most of it along {}, and "
+      "would change its largest by {:.3g} %{}; ",
       100.0 * missing.rms_share, name_missing_point(adaptivity, missing), missing.direction == 0 ? "x" : "y",
-      100.0 * missing.peak_change);
+      100.0 * missing.peak_change, adaptivity.continues ? kSinceStart : "");
 }
 
 void add_remarks(const std::vector<BodyRemark>& remarks, const RunStatistics& statistics,
@@ -86,7 +90,7 @@ void warn_of_missing_modes(const Model& model, const RunStatistics& statistics,
   const bool is_stiffened = std::any_of(model.bodies.begin(), model.bodies.end(),
                                         [](const Body& body) { return body.stiffening.has_value(); });
   const std::string text =
-      fmt::format("modes are missing: {}{}; take more modes{}", describe_largest(worst, *adaptivity.full),
+      fmt::format("modes are missing: {}{}take more modes{}", describe_largest(worst, *adaptivity.full),
                   describe_missing(missing, adaptivity),
                   is_stiffened ? "" : ", or [adaptivity] enabled = true");  // together they are refused
   const int coordinate = is_deflection || worst.acceleration.coordinate < 0 ? worst.deflection.coordinate

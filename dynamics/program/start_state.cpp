@@ -12,6 +12,7 @@
 #include "dynamics/output/last_state.h"
 #include "dynamics/system/system_terms.h"
 #include "tools/support/errors/input_error.h"
+#include "tools/support/errors/numerical_error.h"
 
 namespace sprung::dynamics {
 
@@ -58,6 +59,21 @@ std::vector<JointRate> find_joint_rates(const Run& run, const Model& model) {
   return rates;
 }
 
+// Velocities at the start, of the run's model or of one with more modes. @param[out] v  model.num_coordinates
+VelocityReport find_start_velocities(const PreparedRun& prepared, const Model& model,
+                                     const Eigen::VectorXd& q, Eigen::VectorXd& v) {
+  const Run& run = prepared.run;
+  v = make_start_velocities(run, prepared.vehicle, model);
+  // The steady motion replaces the speed.
+  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {
+    for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
+    v += prepared.equilibrium->motion.calc_velocity(model, q);
+  }
+  const VelocityReport report = project_velocities(model, 0.0, q, v);
+  impose_joint_rates(model, q, find_joint_rates(run, model), v);
+  return report;
+}
+
 constexpr double kSameSpeed = 1e-6;
 
 }  // namespace
@@ -77,15 +93,27 @@ State find_start_state(Eigen::VectorXd q, PreparedRun& prepared) {
     add_initial_amplitudes(run, model, q);
     assemble_positions(model, q);
   }
-  Eigen::VectorXd v = make_start_velocities(run, prepared.vehicle, model);
-  // The steady motion replaces the speed.
-  if (prepared.equilibrium && !prepared.equilibrium->motion.is_rest()) {
-    for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
-    v += prepared.equilibrium->motion.calc_velocity(model, q);
-  }
-  prepared.initial_velocities = project_velocities(model, 0.0, q, v);
-  impose_joint_rates(model, q, find_joint_rates(run, model), v);
+  Eigen::VectorXd v;
+  prepared.initial_velocities = find_start_velocities(prepared, model, q, v);
   return make_state(model, q, v);
+}
+
+MissingStart find_missing_start(const PreparedRun& prepared, const Model& full) {
+  const Run& run = prepared.run;
+  if (!run.continue_from.empty()) return {};
+  MissingStart start{.is_balanced = prepared.equilibrium && prepared.start.q == prepared.equilibrium->q};
+  const bool has_modal_rates = std::any_of(run.initial.begin(), run.initial.end(), [](const auto& body) {
+    return !body.second.modal_amplitude.empty() || !body.second.modal_rate.empty();
+  });
+  if (has_modal_rates) return start;
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(full.num_coordinates);
+  put_active(match_modes(prepared.model, full), prepared.start.q, q);
+  try {
+    find_start_velocities(prepared, full, q, start.rates);
+  } catch (const support::NumericalError&) {
+    start.rates.resize(0);  // a singular position: those of the run
+  }
+  return start;
 }
 
 std::vector<WheelSpeed> find_wheels_of_other_speed(const PreparedRun& prepared) {

@@ -18,6 +18,10 @@ State make_state(const Model& model, const Eigen::VectorXd& q, const Eigen::Vect
 /// @throws support::InputError for motion that the joints do not allow, or another run that does not fit
 State find_start_state(Eigen::VectorXd q, PreparedRun& prepared);
 
+/// How the run starts beside a model with all modes, for the measure of what its modes leave out. Rates of a
+/// run that continues another, or that gives rates of modes, are not compared.
+MissingStart find_missing_start(const PreparedRun& prepared, const Model& full);
+
 /// A wheel whose velocity at the start of a run differs from `speed`, because prescribed motion or joints
 /// allow no other.
 struct WheelSpeed {
