@@ -60,8 +60,8 @@ def find_mode_differences(name, kept, made):
         found += find_differences(
             keep_columns(kept, columns), keep_columns((headings, some), columns), relative, digits, points
         )
-    if told:
-        columns = [headings[0], *told]
+    for column in told:
+        columns = [headings[0], column]
         old, new = (keep_largest_shares(keep_columns(table, columns)) for table in (kept, (headings, rows)))
         found += find_differences(old, new, RELATIVE, points=POINTS)
     return found

@@ -83,7 +83,8 @@ class LeftOut(VerificationCase):
         """A beam that is clamped at its left end, with a force on its right one."""
         vehicle = CANTILEVER.format(wall="origin", held="left", loaded="right")
         monitored = 'name = "cantilever"\nmonitor = ["beam.right"]'
-        return vehicle.replace("force = [0.0, -10.0]", f"force = {force}").replace('name = "cantilever"', monitored) + more
+        vehicle = vehicle.replace("force = [0.0, -10.0]", f"force = {force}")
+        return vehicle.replace('name = "cantilever"', monitored) + more
 
     def test_a_start_out_of_balance_is_told(self):
         # The force is there at once, or the beam is hit: with all modes it rings from the first instant on.
