@@ -69,7 +69,7 @@ VelocityReport find_start_velocities(const PreparedRun& prepared, const Model& m
     for (const Body& body : model.bodies) v[body.first_coordinate] -= prepared.vehicle.direction * run.speed;
     v += prepared.equilibrium->motion.calc_velocity(model, q);
   }
-  const VelocityReport report = project_velocities(model, 0.0, q, v);
+  VelocityReport report = project_velocities(model, 0.0, q, v);
   impose_joint_rates(model, q, find_joint_rates(run, model), v);
   return report;
 }
