@@ -49,17 +49,15 @@ MissingMotion::MissingMotion(const FullSmallMotion& motion, const MissingStart& 
     : motion_(&motion), start_(start) {
   const auto num_rows = static_cast<Eigen::Index>(2 * motion.num_points());
   accelerations_ = Eigen::VectorXd::Zero(num_rows);
-  if (motion.motion().mass.rows() == 0) {
-    take_lone_modes(motion);
-    return;
-  }
   Eigen::MatrixXd of_points(num_rows, motion.motion().mass.rows());
   for (std::size_t i = 0; i < motion.num_points(); ++i)
     of_points.middleRows<2>(static_cast<Eigen::Index>(2 * i)) = motion.reduced_motion(i);
-  take(motion.motion(), motion.stiffness_rounding(), motion.modal_motion(), of_points);
+  if (motion.motion().mass.rows() == 0 ||
+      !take(motion.motion(), motion.stiffness_rounding(), motion.modal_motion(), of_points))
+    take_lone_modes(motion);
 }
 
-// Where small motion is not known each mode vibrates alone.
+// Where small motion or its eigenvectors are not known each mode vibrates alone.
 void MissingMotion::take_lone_modes(const FullSmallMotion& motion) {
   const auto num_modes = static_cast<Eigen::Index>(motion.modal_coordinates().size());
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(num_modes, num_modes);
@@ -77,18 +75,18 @@ void MissingMotion::take_lone_modes(const FullSmallMotion& motion) {
       of_points.block<2, 1>(static_cast<Eigen::Index>(2 * i), j) = motion.point_motion(i).col(coordinate);
   }
   start_.rates.resize(0);
-  take(small, zero, Eigen::MatrixXd::Identity(num_modes, num_modes), of_points);
+  if (!take(small, zero, Eigen::MatrixXd::Identity(num_modes, num_modes), of_points))
+    throw support::NumericalError("the damped modes of small motion were not found");
 }
 
-void MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& rounding,
+bool MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& rounding,
                          const Eigen::MatrixXd& of_modes, const Eigen::MatrixXd& of_points) {
   const FirstOrderForm form = make_first_order_form(small.mass, small.damping, small.stiffness, rounding);
   const auto pairs = support::solve_general(form.A);
   const Eigen::Index n = form.num_bound(), f = form.V.cols(), size = form.A.rows();
   const support::LuFactors X =
       pairs ? support::factorise_lu(pairs->real_vectors) : support::LuFactors{.lu = {}};
-  if (!pairs || (size > 0 && X.reciprocal_condition < kWorstBasis))
-    throw support::NumericalError("the damped modes of small motion were not found");
+  if (!pairs || (size > 0 && X.reciprocal_condition < kWorstBasis)) return false;
   for (Eigen::Index i = 0; i < size; ++i) {
     const Complex value = pairs->values[i];
     const bool is_pair = value.imag() != 0.0;
@@ -108,6 +106,7 @@ void MissingMotion::take(const SmallMotion& small, const Eigen::MatrixXd& roundi
   rate_states_ = Eigen::MatrixXd::Zero(size, f);
   rate_states_.bottomRows(f) = form.V.transpose() * small.mass;
   places_ = Eigen::VectorXd::Zero(size);
+  return true;
 }
 
 Complex MissingMotion::select(const Eigen::VectorXd& values, const Part& part) const {

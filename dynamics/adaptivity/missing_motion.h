@@ -66,7 +66,8 @@ class MissingMotion {
   static void transfer_back(double real, double imaginary, std::complex<double>& value) {
     value = {real, imaginary};
   }
-  void take(const SmallMotion& small, const Eigen::MatrixXd& rounding, const Eigen::MatrixXd& of_modes,
+  // @return false where the eigenvectors are not found
+  bool take(const SmallMotion& small, const Eigen::MatrixXd& rounding, const Eigen::MatrixXd& of_modes,
             const Eigen::MatrixXd& of_points);
   void take_lone_modes(const FullSmallMotion& motion);
   void begin(const Eigen::VectorXd& forces, const Eigen::VectorXd& v);

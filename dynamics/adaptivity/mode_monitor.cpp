@@ -16,15 +16,19 @@ ModeMonitor::ModeMonitor(const AdaptivityOptions& options, const State& start)
     : modes_(options, start),
       motion_(*options.full, start),
       record_(modes_.indicator(), start.time),
-      missing_(modes_.indicator(), options.points, options.missing, options.judged_from, options.judged_to),
       rates_(start.v),
-      largest_(modes_.indicator().num_modes()) {}
+      largest_(modes_.indicator().num_modes()) {
+  if (!options.changes) {
+    missing_.emplace(modes_.indicator(), options.points, options.missing, options.judged_from,
+                     options.judged_to);
+  }
+}
 
 void ModeMonitor::update(double time, const HeldModes& held, const ConstrainedEquations& equations) {
   motion_.take(held, equations);
   modes_.update(time, equations, motion_.q(), motion_.v(), motion_.v_dot());
   rates_ = motion_.v();
-  if (!modes_.options().changes) missing_.add(modes_.indicator(), motion_.q(), motion_.v());
+  if (missing_) missing_->add(modes_.indicator(), motion_.q(), motion_.v());
 }
 
 void ModeMonitor::begin_step() {
@@ -55,14 +59,14 @@ void ModeMonitor::save(support::ByteWriter& bytes) const {
   modes_.save(bytes);
   motion_.save(bytes);
   record_.save(bytes);
-  missing_.save(bytes);
+  if (missing_) missing_->save(bytes);
 }
 
 void ModeMonitor::restore(support::ByteReader& bytes) {
   modes_.restore(bytes);
   motion_.restore(bytes);
   record_.restore(bytes, modes_.indicator());
-  missing_.restore(bytes);
+  if (missing_) missing_->restore(bytes);
 }
 
 void ModeMonitor::update_largest() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "dynamics/adaptivity/full_motion.h"
@@ -23,7 +24,7 @@ class ModeMonitor {
   const Eigen::VectorXd& rates() const { return rates_; }  ///< v of the full model at the last update
   WorstNeglect find_worst() const { return record_.find_worst(modes_.indicator()); }
   /// Only where the modes do not change; else none is missing for long.
-  MissingAcceleration find_missing_acceleration() const { return missing_.find_worst(modes_.indicator()); }
+  MissingAcceleration find_missing_acceleration() const { return missing_->find_worst(modes_.indicator()); }
 
   /// Updates at a time at which the equations are evaluated, up to accelerations.
   /// @param held  where the coordinates of the model that is run are in the full one
@@ -50,7 +51,7 @@ class ModeMonitor {
   ModeAdaptation modes_;
   FullMotion motion_;
   NeglectRecord record_;
-  MissingAccelerationRecord missing_;
+  std::optional<MissingAccelerationRecord> missing_;  // where the modes do not change
   Eigen::VectorXd rates_;
   std::vector<ModeAmplitude> largest_;
 };
