@@ -4,18 +4,29 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/input/soft_modes.h"
 #include "dynamics/input/vehicle.h"
 #include "dynamics/system/model.h"
 
 namespace sprung::dynamics {
 
-/// A model that is softer than the true vehicle, beside the given one, which is stiffer: each body with modes
-/// has the soft modes of its certificate as well (reduce/certificate, eq. 8).
+/// The vehicle with the soft modes of the certificate in each body that has modes (reduce/certificate, eqs.
+/// 8, 9). As `model` is, it deflects at rest as the true vehicle. In small motion about that it is stiffer
+/// than the true one without the soft modes, and softer with what make_softening adds.
 struct SoftTwin {
+  /// Soft modes of one body: its coordinates after those of its own modes.
+  struct SoftBody {
+    std::size_t body = 0;
+    Eigen::Index num_modes = 0;  ///< of its own
+    SoftStiffness stiffness;
+  };
+
   Model model;
+  std::vector<SoftBody> bodies;
+  std::vector<bool> is_soft;  ///< for each coordinate of `model`
   double highest_hz = 0.0;  ///< the end of the band in which this holds; infinite if no body misses anything
-  /// Bodies for which it is not proved: what they carry at rest turns with a reference node of which neither
-  /// the soft twin nor the interface has all freedoms.
+  /// Bodies whose superelement, of an earlier program, does not tell how its soft modes deflect at rest: for
+  /// them the above is not proved.
   std::vector<std::string> unproved;
 };
 
@@ -26,7 +37,15 @@ struct SoftTwin {
 /// Checked by tests/dynamics/input/soft_twin_test.cpp and tests/verification/certified_test.py
 SoftTwin make_soft_twin(const Vehicle& vehicle, const Model& model);
 
-/// The coordinates of the soft twin where the model is at q and the soft modes are at rest.
-Eigen::VectorXd insert_soft_modes(const Model& model, const SoftTwin& twin, const Eigen::VectorXd& q);
+/// The coordinates of the soft twin where the model is at q and the soft modes are at zero.
+Eigen::VectorXd insert_soft_modes(const SoftTwin& twin, const Eigen::VectorXd& q);
+
+/// What makes the soft twin softer than the true vehicle, whose inertia is known within a margin.
+struct Softening {
+  Eigen::VectorXd stiffness, mass;  ///< for each coordinate: added to the diagonals; ≤ 0, ≥ 0
+  double of_inertia = 0.0;          ///< share of all inertia by which the true one may be more or less
+};
+/// @param q  coordinates of the soft twin at rest
+Softening make_softening(const SoftTwin& twin, const Eigen::VectorXd& q);
 
 }  // namespace sprung::dynamics

@@ -215,10 +215,14 @@ std::vector<VehicleMode> calc_vehicle_modes(const Model& model, const Equilibriu
   return modes;
 }
 
-FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q) {
+FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
+                                      const Eigen::VectorXd& stiffness, const Eigen::VectorXd& mass) {
   PartitionedEquations equations(model);
   equations.choose_partition_at(0.0, q);
-  const LinearisedSystem system = linearise(equations, 0.0, q);
+  LinearisedSystem system = linearise(equations, 0.0, q);
+  const Eigen::MatrixXd& D = system.directions;
+  if (stiffness.size() > 0) system.stiffness += D.transpose() * stiffness.asDiagonal() * D;
+  if (mass.size() > 0) system.mass += D.transpose() * mass.asDiagonal() * D;
   // Internal states, the last coordinates, have no stiffness and are no modes.
   const Eigen::Index n = system.mass.rows() - model.num_states();
   const UndampedModes modes =

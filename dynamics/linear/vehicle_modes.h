@@ -40,8 +40,12 @@ struct FrequencyBounds {
   Eigen::VectorXd lower, upper;  ///< ascending
 };
 
-/// Those of a vehicle linearised about rest at q, also where q is no equilibrium.
+/// Those of a vehicle linearised about rest at q.
+/// @param stiffness  for each coordinate: of a spring in it without force at q; may be empty
+/// @param mass       for each coordinate: added to the diagonal of the mass; may be empty
 /// @throws support::NumericalError as linearise
-FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q);
+FrequencyBounds calc_frequency_bounds(const Model& model, const Eigen::VectorXd& q,
+                                      const Eigen::VectorXd& stiffness = {},
+                                      const Eigen::VectorXd& mass = {});
 
 }  // namespace sprung::dynamics

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "dynamics/program/commands.h"
 #include "dynamics/program/model_report.h"
 #include "dynamics/section_loads/resting_sections.h"
+#include "dynamics/system/held_modes.h"
 #include "tools/support/errors/input_error.h"
 #include "tools/support/terminal/print.h"
 #include "tools/support/terminal/program.h"
@@ -21,7 +23,8 @@ namespace sprung::dynamics {
 
 namespace {
 
-constexpr double kUncertain = 1e-7;  // natural sizes: an equilibrium that is less exact is warned of
+constexpr double kLargestMargin = 0.5;  // of the inertia of deflected bodies, beyond which nothing is proved
+constexpr double kUncertain = 1e-7;     // natural sizes: an equilibrium that is less exact is warned of
 
 void warn_of_rounding(const Equilibrium& equilibrium, std::vector<RunWarning>& warnings) {
   if (equilibrium.last_step <= kUncertain) return;
@@ -77,8 +80,8 @@ std::vector<RunWarning> tell_warnings(const PreparedRun& prepared, const Resting
   return warnings;
 }
 
-// Both models have the stiffness at the equilibrium of the first: forces that depend on the state nonlinearly
-// are the same. Appends to `warnings` where the bounds are not proved.
+// Both bounds are of the vehicle in the equilibrium that the true one has, which the soft modes give at rest.
+// Appends to `warnings` where the bounds are not proved.
 FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarning>& warnings) {
   if (!prepared.equilibrium->motion.is_rest())
     throw support::InputError({.path = "--bracket"},
@@ -88,14 +91,27 @@ FrequencyBracket calc_bracket(const PreparedRun& prepared, std::vector<RunWarnin
     warnings.push_back(
         {"modes",
          {body},
-         fmt::format("{}: the brackets are not proved: what it carries at rest turns with its reference "
-                     "node, for which "
-                     "its superelement, of an earlier program, has no soft loads; build it again",
+         fmt::format("{}: the brackets are not proved: its superelement, of an earlier program, does not "
+                     "tell how what the vehicle carries at rest deflects it; build it again",
                      body)});
   }
-  const Eigen::VectorXd q = insert_soft_modes(prepared.balance_model, twin, prepared.equilibrium->q);
-  return {.lower_hz = calc_frequency_bounds(twin.model, q).lower,
-          .upper_hz = calc_frequency_bounds(prepared.balance_model, prepared.equilibrium->q).upper,
+  const Eigen::VectorXd q = find_equilibrium(twin.model, insert_soft_modes(twin, prepared.equilibrium->q)).q;
+  std::vector<bool> is_active = twin.is_soft;
+  is_active.flip();
+  const HeldModes stiffer = hold_modes(twin.model, is_active, q);
+  const Softening softening = make_softening(twin, q);
+  const double margin = std::min(softening.of_inertia, kLargestMargin);
+  if (margin < softening.of_inertia) {
+    warnings.push_back(
+        {"modes",
+         {"frequencies"},
+         "the brackets are not proved: the bodies deflect so far at rest that their inertia is "
+         "not known; take bases with a smaller tolerance, or stiffer reference nodes"});
+  }
+  return {.lower_hz = calc_frequency_bounds(twin.model, q, softening.stiffness, softening.mass).lower /
+                      std::sqrt(1.0 + margin),
+          .upper_hz =
+              calc_frequency_bounds(stiffer.model, select_active(stiffer, q)).upper / std::sqrt(1.0 - margin),
           .highest_hz = twin.highest_hz};
 }
 

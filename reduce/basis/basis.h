@@ -29,8 +29,10 @@ struct FreeBodyBasis {
 /// What a basis has to serve.
 struct BasisRequest {
   std::vector<InterfaceFreedom> interface;
-  Eigen::MatrixXd loads;               ///< of the interface: unit loads, balanced, n×b
-  Eigen::MatrixXd reference_loads;     ///< of the reference node's freedoms, n×3
+  Eigen::MatrixXd loads;  ///< of the interface: unit loads, balanced, n×b
+  /// Loads of the soft twin by motion of the body frame, balanced: unit loads at the reference node's three
+  /// freedoms, and M (x, y, 0), n×4
+  Eigen::MatrixXd frame_loads;
   double highest_hz = 0.0;             ///< the end of the band
   double tolerance = 0.01;             ///< share of the static flexibility that may be missing
   bool all_residual = false;           ///< the static response to every load, whatever the tolerance

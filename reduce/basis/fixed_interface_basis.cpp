@@ -156,7 +156,7 @@ FreeBodyBasis make_fixed_interface_basis(const ModalProblem& problem, const Stif
   residual.add(basis.vectors.vectors);
   basis.certificate =
       calc_certificate(residual, {.interface = request.interface,
-                                  .reference_loads = request.reference_loads,
+                                  .frame_loads = request.frame_loads,
                                   .highest_hz = request.highest_hz,
                                   .free_modes = modes.pairs,
                                   .next_omega_squared = modes.next_omega_squared,

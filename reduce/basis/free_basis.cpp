@@ -95,7 +95,7 @@ void add_until_certified(InterfaceResidual& residual, double highest, double cut
 FreeBodyBasis make_free_basis(const ModalProblem& problem, const StiffnessFactor& factor,
                               const ModesBelow& modes, const BasisRequest& request) {
   const CertificateRequest certificate{.interface = request.interface,
-                                       .reference_loads = request.reference_loads,
+                                       .frame_loads = request.frame_loads,
                                        .highest_hz = request.highest_hz,
                                        .tolerance = request.tolerance,
                                        .free_modes = modes.pairs,

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr Eigen::Index kMostSoftLoads = 200;  // b above which no soft twin is made: it takes b×b matrices
+constexpr double kNoDirection = 1e-14;        // of D̄ with scaled loads, below which a direction is rounding
 
 // A load that deforms nothing has no share.
 double calc_share(double error, double flexibility) {
@@ -50,22 +51,30 @@ Eigen::MatrixXd calc_upper_error(const InterfaceResidual& residual, const std::v
   return upper;
 }
 
-// F of Fᵀ F = λ_c D̄ with unit loads scaled to equal flexibility, without what is rounding.
-Eigen::MatrixXd calc_soft_loads(const InterfaceResidual& residual, const std::vector<BandPart>& parts,
-                                double cutoff) {
+// Modes of the soft twin: F, q×loads, and their shares at rest.
+struct SoftModes {
+  Eigen::MatrixXd loads;
+  Eigen::VectorXd static_share;
+};
+
+// F of Fᵀ F = λ_c D̄ with unit loads scaled to equal flexibility, without what is rounding; turned so that the
+// error at rest is Fᵀ w F/λ_c with a diagonal w.                             (reduce/certificate, eqs. 8, 9)
+SoftModes calc_soft_modes(const InterfaceResidual& residual, const std::vector<BandPart>& parts,
+                          double cutoff) {
   const double tiny = std::numeric_limits<double>::min();
   const Eigen::VectorXd scale = residual.static_flexibility().cwiseMax(tiny).cwiseSqrt();
-  const support::SymmetricEigenpairs pairs = solve(calc_upper_error(residual, parts, scale.cwiseInverse()));
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = pairs.values.size(); i-- > 0;) {
-    if (pairs.values(i) > 1e-14) kept.push_back(i);
-  }
-  Eigen::MatrixXd loads(kept.size(), scale.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    loads.row(static_cast<Eigen::Index>(i)) = std::sqrt(cutoff * pairs.values(kept[i])) *
-                                              pairs.vectors.col(kept[i]).cwiseProduct(scale).transpose();
-  }
-  return loads;
+  const Eigen::VectorXd by_scale = scale.cwiseInverse();
+  const support::SymmetricEigenpairs upper = solve(calc_upper_error(residual, parts, by_scale));
+  const Eigen::Index q = (upper.values.array() > kNoDirection).count();
+  const Eigen::VectorXd sizes = upper.values.tail(q).cwiseSqrt();
+  const Eigen::MatrixXd at_rest =
+      residual.calc_error_matrix(residual.calc_load_work(), 0.0, residual.calc_amplitudes(0.0));
+  const Eigen::MatrixXd directions =
+      by_scale.asDiagonal() * upper.vectors.rightCols(q) * sizes.cwiseInverse().asDiagonal();
+  const support::SymmetricEigenpairs shares = solve(directions.transpose() * at_rest * directions);
+  const Eigen::MatrixXd loads = scale.asDiagonal() * upper.vectors.rightCols(q) * sizes.asDiagonal();
+  return {.loads = std::sqrt(cutoff) * (loads * shares.vectors).transpose(),
+          .static_share = shares.values.cwiseMax(0.0).cwiseMin(1.0)};
 }
 
 // Relative errors of the free frequencies in the basis.
@@ -106,13 +115,15 @@ Certificate calc_certificate(InterfaceResidual& residual, const CertificateReque
   BandErrors band{.error = at_rest, .worst_omega_squared = at_rest, .worst_part = {}, .parts = {}};
   if (misses) at_rest = residual.calc_errors(0.0, residual.calc_amplitudes(0.0));
   if (bounded && misses) band = calc_band_errors(residual, highest, cutoff);
-  Eigen::MatrixXd soft_loads(0, b + 3);
+  SoftModes soft{.loads = Eigen::MatrixXd(0, b + 4), .static_share = {}};
   if (bounded && misses && b <= kMostSoftLoads) {
-    residual.add_loads(request.reference_loads);
-    soft_loads = calc_soft_loads(residual, band.parts, cutoff);
+    residual.add_loads(request.frame_loads);
+    soft = calc_soft_modes(residual, band.parts, cutoff);
   }
-  certificate.soft_loads = soft_loads.leftCols(b);
-  certificate.soft_reference = soft_loads.rightCols(3);
+  certificate.soft_loads = soft.loads.leftCols(b);
+  certificate.soft_reference = soft.loads.middleCols(b, 3);
+  certificate.soft_radial = soft.loads.col(b + 3);
+  certificate.soft_static_share = soft.static_share;
   for (Eigen::Index j = 0; j < b; ++j) {
     const InterfaceFreedom& freedom = request.interface[static_cast<std::size_t>(j)];
     certificate.interface.push_back(

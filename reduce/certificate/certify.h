@@ -14,7 +14,7 @@ inline constexpr double kRoundingFloor = 1e-8;
 /// What a certificate is made from, beside the residual.
 struct CertificateRequest {
   std::vector<InterfaceFreedom> interface;
-  Eigen::MatrixXd reference_loads;  ///< of the reference node's three freedoms: unit loads, balanced, n×3
+  Eigen::MatrixXd frame_loads;  ///< n×4, see BasisRequest
   double highest_hz = 0.0;
   double tolerance = 0.0;           ///< that was asked for, or 0
   EigenPairs free_modes;            ///< all below 1.5 highest_hz
@@ -28,10 +28,10 @@ struct CertificateRequest {
 /// all.
 double calc_cutoff(const CertificateRequest& request);
 
-/// Bounds what a basis misses over the band, for each interface freedom (reduce/certificate, eqs. 5, 6, 8).
-/// Where a free mode that the basis does not hold exactly lies in the band, there is no bound: near that mode
-/// the error grows without limit.
-/// @param residual  of the interface; the loads of the reference node are added to it for the soft twin
+/// Bounds what a basis misses over the band, for each interface freedom (reduce/certificate, eqs. 5, 6, 8,
+/// 9). Where a free mode that the basis does not hold exactly lies in the band, there is no bound: near that
+/// mode the error grows without limit.
+/// @param residual  of the interface; the frame's loads are added to it for the soft twin
 /// Checked by tests/reduce/certificate/certify_test.cpp
 Certificate calc_certificate(InterfaceResidual& residual, const CertificateRequest& request);
 

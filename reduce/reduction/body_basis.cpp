@@ -96,7 +96,7 @@ double choose_band(const Design& design, const EigenPairs& stored) {
 BasisRequest make_request(const Design& design, const BodyMatrices& matrices, double highest_hz) {
   BasisRequest request{.interface = design.reduction.interface,
                        .loads = {},
-                       .reference_loads = {},
+                       .frame_loads = {},
                        .highest_hz = highest_hz,
                        .tolerance = design.reduction.tolerance,
                        .all_residual = design.reduction.all_residual,
@@ -105,10 +105,7 @@ BasisRequest make_request(const Design& design, const BodyMatrices& matrices, do
   request.loads = balance_loads(
       matrices.rigid,
       fem::move_loads_to_leaders(design.model.couplings, make_interface_loads(num_nodes, request.interface)));
-  std::vector<InterfaceFreedom> reference;
-  for (const int freedom : {0, 1, 2})
-    reference.push_back({.node = design.reference_node, .freedom = freedom});
-  request.reference_loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, reference));
+  request.frame_loads = make_frame_loads(matrices, design.reference_node);
   return request;
 }
 
@@ -120,7 +117,7 @@ Certificate certify_clamped(const Design& design, const BodyMatrices& matrices, 
   const bool is_complete = stored.vectors.cols() == matrices.free.size();
   if (!is_complete) residual.add(stored.vectors);
   return calc_certificate(residual, {.interface = request.interface,
-                                     .reference_loads = request.reference_loads,
+                                     .frame_loads = request.frame_loads,
                                      .highest_hz = request.highest_hz,
                                      .free_modes = free.pairs,
                                      .next_omega_squared = free.next_omega_squared,
@@ -200,6 +197,18 @@ BodyBasis make_interface_basis(const Design& design, const BodyMatrices& matrice
 }
 
 }  // namespace
+
+Eigen::MatrixXd make_frame_loads(const BodyMatrices& matrices, int reference_node) {
+  const Eigen::Index size = matrices.full.mass.rows();
+  std::vector<InterfaceFreedom> reference;
+  for (const int freedom : {0, 1, 2}) reference.push_back({.node = reference_node, .freedom = freedom});
+  Eigen::VectorXd radial = Eigen::VectorXd::Zero(size);
+  for (Eigen::Index i = 0; i < matrices.node_positions.cols(); ++i)
+    radial.segment<2>(3 * i) = matrices.node_positions.col(i);
+  Eigen::MatrixXd loads(size, 4);
+  loads << make_interface_loads(static_cast<int>(size / 3), reference), matrices.full.mass * radial;
+  return balance_loads(matrices.rigid, loads);
+}
 
 Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors) {
   return fem::move_followers(design.model.couplings, insert_node(vectors, design.reference_node));

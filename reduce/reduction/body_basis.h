@@ -31,6 +31,9 @@ fem::AssembledMatrices make_full_matrices(const Design& design);
 /// @throws support::NumericalError if the stiffness is not positive definite to rounding
 BodyMatrices make_body_matrices(const Design& design);
 
+/// The loads of the soft twin by motion of the body frame (BasisRequest::frame_loads). @return n×4
+Eigen::MatrixXd make_frame_loads(const BodyMatrices& matrices, int reference_node);
+
 /// Displacements of all nodes, from vectors of the held frame. @param vectors  (3N−3)×n   @return 3N×n
 Eigen::MatrixXd make_shapes(const Design& design, const Eigen::MatrixXd& vectors);
 

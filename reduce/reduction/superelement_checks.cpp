@@ -145,7 +145,7 @@ CheckResult check_work(const Superelement& s) {
 }
 
 // The static flexibility that the vectors have at the interface, against the certificate's
-// (reduce/certificate, eq. 9).
+// (reduce/certificate, eq. 10).
 CheckResult check_flexibility(const Superelement& s) {
   const RigidShare share = calc_rigid_share(s.inertia);
   const Eigen::MatrixXd acceleration = support::solve_positive_definite(share.mass, share.momenta);

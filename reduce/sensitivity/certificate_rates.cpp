@@ -53,6 +53,7 @@ CertificateRates::CertificateRates(const Design& design, const BodyMatrices& mat
   rigid_momenta_ = remove_node(matrices.rigid.momenta, design.reference_node);
   const BasisRequest request{.interface = design.reduction.interface,
                              .loads = balanced_,
+                             .frame_loads = Eigen::MatrixXd::Zero(balanced_.rows(), 4),
                              .highest_hz = *design.reduction.highest_hz,
                              .tolerance = design.reduction.tolerance,
                              .all_residual = design.reduction.all_residual};

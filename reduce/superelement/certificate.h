@@ -44,6 +44,11 @@ struct Certificate {
   Eigen::MatrixXd soft_loads;
   /// q×3: their shapes at the reference node, x, y and rotation. 0×0 in files before version 6
   Eigen::MatrixXd soft_reference;
+  /// q: their ∫(x V_x + y V_y) dm about the body frame's origin. Empty in files before version 7
+  Eigen::VectorXd soft_radial;
+  /// q, 0 … 1: with ω²/share in the place of ω² of these modes, the body deflects at rest as the true one.
+  /// Empty in files before version 7, and without such modes
+  Eigen::VectorXd soft_static_share;
 
   bool is_bounded() const;
   /// The largest share over the interface, kUnbounded where there is no bound. 0 without an interface.

@@ -134,11 +134,13 @@ inline constexpr std::int64_t kSectionLoadVersion =
 inline constexpr std::int64_t kSectionSizeVersion = 5;  ///< brought the sizes of sections
 /// brought the soft twin's shapes at the reference node, and may lack what versions 4 and 5 brought
 inline constexpr std::int64_t kSoftReferenceVersion = 6;
-inline constexpr std::int64_t kSuperelementVersion = kSoftReferenceVersion;  ///< the newest
+inline constexpr std::int64_t kSoftShareVersion = 7;  ///< brought the shares of the soft twin at rest
+inline constexpr std::int64_t kSuperelementVersion = kSoftShareVersion;  ///< the newest
 
-/// Writes the file whole or not at all. Equal superelements give equal bytes. Without the soft twin's shapes
-/// at the reference node it is a file of version 5, without sizes of sections, too, of version 4, without
-/// section loads of version 3, without a certificate of version 2, without geometric stiffness of version 1.
+/// Writes the file whole or not at all. Equal superelements give equal bytes. Without the soft twin's shares
+/// at rest it is a file of version 6, without its shapes at the reference node, too, of version 5, without
+/// sizes of sections of version 4, without section loads of version 3, without a certificate of version 2,
+/// without geometric stiffness of version 1.
 /// @return the content hash
 /// @throws support::InputError if the file cannot be written; std::invalid_argument if the parts do not fit
 /// together

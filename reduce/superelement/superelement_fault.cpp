@@ -196,6 +196,9 @@ Fault check_certificate(const Superelement& s) {
       return make_fault("/certificate/interface_freedom", "is {}, expected 0, 1 or 2", one.freedom);
     }
   }
+  for (const double share : s.certificate->soft_static_share) {
+    if (share > 1.0) return make_fault("/certificate/soft_static_share", "is {}, expected 0 … 1", share);
+  }
   return {};
 }
 

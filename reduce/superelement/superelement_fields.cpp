@@ -254,6 +254,8 @@ constexpr SuperelementField kFields[] = {
     {"/sections/area", kReals, "E", "m^2", section_sizes<&A::area>, kNotNegative, kWhole, kSectionSizeVersion},
     {"/sections/modulus", kReals, "E", "m^3", section_sizes<&A::modulus>, kNotNegative, kWhole, kSectionSizeVersion},
     {"/certificate/soft_reference", kReals, "q×3", kSoftReferenceUnit, certificate<&C::soft_reference>, kAny, kWhole, kSoftReferenceVersion},
+    {"/certificate/soft_radial", kReals, "q", "m·√kg", certificate<&C::soft_radial>, kAny, kWhole, kSoftShareVersion},
+    {"/certificate/soft_static_share", kReals, "q", "1", certificate<&C::soft_static_share>, kNotNegative, kWhole, kSoftShareVersion},
     {"/checks/name", kTexts, "c", "", column<&S::checks, &CheckResult::name>, kAny, kChecks},
     {"/checks/value", kReals, "c", "1", column<&S::checks, &CheckResult::value>, kAny, kWithPrevious},
     {"/checks/tolerance", kReals, "c", "1", column<&S::checks, &CheckResult::tolerance>, kAny, kWithPrevious},
@@ -305,8 +307,9 @@ std::vector<SuperelementField> superelement_fields(const Superelement& superelem
 }
 
 std::int64_t find_version(const Superelement& superelement) {
-  if (superelement.certificate && superelement.certificate->soft_reference.cols() > 0)
-    return kSoftReferenceVersion;
+  if (superelement.certificate && superelement.certificate->soft_reference.cols() > 0) {
+    return superelement.certificate->soft_static_share.size() > 0 ? kSoftShareVersion : kSoftReferenceVersion;
+  }
   if (superelement.section_loads && superelement.certificate && superelement.geometric_stiffness)
     return superelement.section_sizes ? kSectionSizeVersion : kSectionLoadVersion;
   if (superelement.certificate && superelement.geometric_stiffness) return kCertificateVersion;

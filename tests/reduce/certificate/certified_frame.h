@@ -40,12 +40,8 @@ struct CertifiedFrame {
   }
 
   CertificateRequest make_request() const {
-    std::vector<InterfaceFreedom> reference;
-    for (const int freedom : {0, 1, 2})
-      reference.push_back({.node = design.reference_node, .freedom = freedom});
-    const auto num_nodes = static_cast<int>(matrices.node_positions.cols());
     return {.interface = design.reduction.interface,
-            .reference_loads = balance_loads(matrices.rigid, make_interface_loads(num_nodes, reference)),
+            .frame_loads = make_frame_loads(matrices, design.reference_node),
             .highest_hz = *design.reduction.highest_hz,
             .free_modes = modes.pairs,
             .next_omega_squared = modes.next_omega_squared,

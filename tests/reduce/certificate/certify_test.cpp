@@ -124,33 +124,95 @@ TEST_CASE(
   CHECK(make_superelement(design).certificate->is_bounded());
 }
 
-// H_r + Fᵀ(λ_c − s)⁻¹F − H has no negative eigenvalue, H from the full model, at the interface and the
-// reference node, which are all freedoms that a vehicle's stiffness acts on.
+// A reduced body with the soft modes of its certificate, and the full model, at the interface and the
+// reference node: these are all freedoms that a vehicle's stiffness acts on.
+struct SoftBody {
+  Design design;
+  Superelement body;
+  Eigen::MatrixXd F;
+  double cutoff = 0.0;  // λ_c
+};
+
+SoftBody make_soft_body(std::uint64_t seed) {
+  SoftBody soft{.design = testing::make_random_design(seed, 0.05), .body = {}, .F = {}};
+  Superelement& body = soft.body = make_superelement(soft.design);
+  soft.F.resize(body.certificate->soft_loads.rows(), body.certificate->soft_loads.cols() + 3);
+  soft.F << body.certificate->soft_loads, body.certificate->soft_reference;
+  soft.cutoff = std::pow(kTwoPi * body.certificate->cutoff_hz, 2);
+  const auto point = static_cast<int>(body.points.size());
+  body.points.push_back({.name = "held", .node = soft.design.reference_node});
+  for (const int freedom : {0, 1, 2}) {
+    soft.design.reduction.interface.push_back({point, soft.design.reference_node, freedom});
+    body.certificate->interface.push_back({.point = point, .freedom = freedom});
+  }
+  return soft;
+}
+
+// The symmetric part of a flexibility, for unit loads scaled to equal flexibilities of the body at s.
+Eigen::MatrixXd scale_flexibility(const Eigen::MatrixXd& flexibility, const Eigen::MatrixXd& H) {
+  const Eigen::VectorXd scale = H.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * flexibility * scale.asDiagonal();
+  return 0.5 * (scaled + scaled.transpose());
+}
+
+// H_r + Fᵀ(λ_c − s)⁻¹F − H has no negative eigenvalue, H from the full model.
 TEST_CASE("the soft twin is softer than the body all over the band, with its reference node") {
   for (const std::uint64_t seed : {0, 5, 11}) {
-    Design design = testing::make_random_design(seed, 0.05);
-    Superelement body = make_superelement(design);
-    Eigen::MatrixXd F(body.certificate->soft_loads.rows(), body.certificate->soft_loads.cols() + 3);
-    F << body.certificate->soft_loads, body.certificate->soft_reference;
-    REQUIRE(F.rows() > 0);
-    const auto point = static_cast<int>(body.points.size());
-    body.points.push_back({.name = "held", .node = design.reference_node});
-    for (const int freedom : {0, 1, 2}) {
-      design.reduction.interface.push_back({point, design.reference_node, freedom});
-      body.certificate->interface.push_back({.point = point, .freedom = freedom});
-    }
-    const testing::FreeBodyTruth truth(design.model);
-    const double cutoff = std::pow(kTwoPi * body.certificate->cutoff_hz, 2);
+    const SoftBody soft = make_soft_body(seed);
+    REQUIRE(soft.F.rows() > 0);
+    const testing::FreeBodyTruth truth(soft.design.model);
     for (int step = 0; step <= 20; ++step) {
-      const double s = std::pow(kTwoPi * body.certificate->highest_hz * step / 20.0, 2);
-      const Eigen::MatrixXd H = truth.calc_flexibility(s, design.reduction.interface).real();
-      const Eigen::MatrixXd soft = testing::calc_flexibility(body, s) + F.transpose() * F / (cutoff - s);
-      const Eigen::VectorXd scale = H.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
-      const Eigen::MatrixXd difference =
-          scale.asDiagonal() * (soft - 0.5 * (H + H.transpose())) * scale.asDiagonal();
-      const Eigen::MatrixXd symmetric = 0.5 * (difference + difference.transpose());
-      CHECK(symmetric.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-7);
+      const double s = std::pow(kTwoPi * soft.body.certificate->highest_hz * step / 20.0, 2);
+      const Eigen::MatrixXd H = truth.calc_flexibility(s, soft.design.reduction.interface).real();
+      const Eigen::MatrixXd flexibility =
+          testing::calc_flexibility(soft.body, s) + soft.F.transpose() * soft.F / (soft.cutoff - s);
+      const Eigen::MatrixXd difference = scale_flexibility(flexibility - H, H);
+      CHECK(difference.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-7);
     }
+  }
+}
+
+// What the reduced body misses of ∫(x u_x + y u_y) dm, of the elastic displacement u at rest under the load
+// M (x, y, 0): Σ (φᵀM(x, y, 0))²/ω² over all modes of the full model, less the same of the basis.
+double calc_missed_radial(const SoftBody& soft, const testing::FreeBodyTruth& truth) {
+  const fem::Mesh& mesh = soft.design.model.mesh;
+  Eigen::VectorXd radial = Eigen::VectorXd::Zero(truth.mass().rows());
+  for (int i = 0; i < mesh.num_nodes(); ++i)
+    radial.segment<2>(3 * i) =
+        mesh.node_positions.col(i) - mesh.node_positions.col(soft.design.reference_node);
+  const Eigen::VectorXd shares = truth.shapes().transpose() * truth.mass() * radial;
+  const Eigen::Index elastic = shares.size() - 3;
+  const double all = shares.tail(elastic).cwiseAbs2().dot(truth.omega_squared().tail(elastic).cwiseInverse());
+
+  const InertiaInvariants& inertia = soft.body.inertia;
+  const double m = inertia.mass, x = inertia.first_moment.x(), y = inertia.first_moment.y();
+  Eigen::Matrix3d rigid;
+  rigid << m, 0.0, -y, 0.0, m, x, -y, x, inertia.second_moment;
+  Eigen::MatrixXd momenta(3, soft.body.num_modes());
+  momenta << inertia.P, inertia.c;
+  const Eigen::MatrixXd frame = (rigid.inverse() * momenta).topRows(2);
+  const Eigen::VectorXd kept = (inertia.d - inertia.first_moment.transpose() * frame).transpose();
+  return all - kept.dot(soft.body.stiffness.partialPivLu().solve(kept));
+}
+
+// H_r + Fᵀ(w/λ_c)F = H at s = 0.
+TEST_CASE("with the shares at rest the soft modes give what the basis misses there") {
+  for (const std::uint64_t seed : {0, 5, 11}) {
+    const SoftBody soft = make_soft_body(seed);
+    const Eigen::VectorXd& share = soft.body.certificate->soft_static_share;
+    const Eigen::VectorXd& radial = soft.body.certificate->soft_radial;
+    REQUIRE(share.size() == soft.F.rows());
+    CHECK(share.minCoeff() >= 0.0);
+    CHECK(share.maxCoeff() > 0.1);
+    CHECK(share.maxCoeff() <= 1.0);
+    const testing::FreeBodyTruth truth(soft.design.model);
+    const Eigen::MatrixXd H = truth.calc_flexibility_at_rest(soft.design.reduction.interface);
+    const Eigen::MatrixXd missed = H - testing::calc_flexibility(soft.body, 0.0);
+    const Eigen::MatrixXd found = soft.F.transpose() * share.asDiagonal() * soft.F / soft.cutoff;
+    CHECK(scale_flexibility(missed, H).norm() > 1e-4);
+    CHECK(scale_flexibility(found - missed, H).norm() < 1e-8);
+    CHECK(radial.cwiseAbs2().dot(share) / soft.cutoff ==
+          Approx(calc_missed_radial(soft, truth)).epsilon(1e-4));
   }
 }
 

@@ -83,9 +83,12 @@ TEST_CASE("a version has the fields of those before it, and a superelement the v
   CHECK(superelement_fields(4).size() == 62);
   CHECK(superelement_fields(5).size() == 64);
   CHECK(superelement_fields(6).size() == 65);
+  CHECK(superelement_fields(7).size() == 67);
   Superelement body = testing::make_two_armed_body();
+  CHECK(find_version(body) == 7);
+  CHECK(superelement_fields(body).size() == 67);
+  body.certificate->soft_static_share.resize(0);
   CHECK(find_version(body) == 6);
-  CHECK(superelement_fields(body).size() == 65);
   body.certificate->soft_reference.resize(0, 0);
   CHECK(find_version(body) == 5);
   body.section_sizes.reset();
@@ -210,7 +213,11 @@ TEST_CASE("what contradicts the certificate is a fault") {
   CHECK(fault_of([](Superelement& s) { s.section_sizes.reset(); }) ==
         "/section_loads stands without the sizes of sections of version 5");
   CHECK(fault_of([](Superelement& s) { s.certificate->soft_reference.conservativeResize(1, 3); }) ==
-        "/certificate/soft_reference has 1×3 values, expected 6×3");
+        "/certificate/soft_reference has 1×3 values, expected 7×3");
+  CHECK(fault_of([](Superelement& s) { s.certificate->soft_static_share.conservativeResize(1); }) ==
+        "/certificate/soft_static_share has 1×1 values, expected 1×7");
+  CHECK(fault_of([](Superelement& s) { s.certificate->soft_static_share(2) = 1.5; }) ==
+        "/certificate/soft_static_share is 1.5, expected 0 … 1");
   CHECK(fault_of([](Superelement& s) { s.section_loads.reset(); }) ==
         "/deflections stands without the section loads");
   CHECK(fault_of([](Superelement& s) { s.point_deflections.reset(); }) ==

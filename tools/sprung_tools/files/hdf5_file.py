@@ -17,7 +17,7 @@ from sprung_tools.files.superelement_layout import RESPONSE_LAYOUT, SUPERELEMENT
 
 RESULTS, SUPERELEMENT = "sprung-results", "sprung-superelement"
 RESPONSE, MODE_CHOICE = "sprung-response", "sprung-mode-choice"
-NEWEST_VERSIONS = {RESULTS: 2, SUPERELEMENT: 6, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
+NEWEST_VERSIONS = {RESULTS: 2, SUPERELEMENT: 7, RESPONSE: 1, MODE_CHOICE: 1}  # that are understood here
 LAYOUTS = {
     RESULTS: RESULTS_LAYOUT, SUPERELEMENT: SUPERELEMENT_LAYOUT, RESPONSE: RESPONSE_LAYOUT, MODE_CHOICE: RESULTS_LAYOUT,
 }  # fmt: skip
