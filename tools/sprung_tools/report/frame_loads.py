@@ -1,6 +1,6 @@
 """Bending moment, shear and stresses along each flexible body, from the loads on it where the file has them, else from
 its modes: at each time of the animation, their envelope over the run, where and when the extremes are, and where the
-two ways differ most."""
+two ways differ most. Where the file does not hold all outputs, also the extremes that the run itself has found."""
 
 from collections.abc import Sequence
 
@@ -11,8 +11,10 @@ from sprung_tools.files.hdf5_file import read_numbers
 from sprung_tools.files.results_file import ResultsFile
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode
+from sprung_tools.runs.largest_loads import read_own
 from sprung_tools.runs.section_stress import ENDINGS, SIDES, calc_section_stress, find_gap, list_sources
 from sprung_tools.runs.stations import place_stations
+from sprung_tools.runs.stored_histories import find_row_step
 
 QUANTITIES = (("moment", "bending moment"), ("shear", "shear force"))
 MOST_STATIONS = 160  # drawn along a body: those of every k-th element, and of the elements with an extreme
@@ -44,13 +46,35 @@ def pack_frame_loads(results: ResultsFile, bodies: Sequence[DrawnBody], most: in
         quantities += [
             pack_quantity(values, places, results.time, samples, label, "Pa") for label, values, places in stresses
         ]
+        dataset = f"{where}/moment{ENDINGS[sources[0]]}"
+        step = find_row_step(results, dataset)
+        if step > 0.0:
+            for quantity, (load, _) in zip(quantities, QUANTITIES):
+                quantity["own"] = pack_own(results, body.name, load, sources, (order, along))
         for from_modes in other:
             for quantity, (values, _), (modal, _) in zip(quantities, read, from_modes):
                 quantity["difference"] = pack_difference(values[:, order], modal[:, order], along, results.time)
         packed.append({
             "body": body.name, "axis": name, "t": encode(results.time[samples]), "quantities": quantities,
+            "step": step,
         })  # fmt: skip
     return packed
+
+
+def pack_own(
+    results: ResultsFile, body: str, load: str, sources: Sequence[str], places: tuple[Integers, Floats]
+) -> list[Packed]:
+    """The extremes of a load that the run itself has found; those that older files do not hold are left out. places:
+    the order of the stations, and where they are [m]."""
+    order, along = places
+    names = [(f"{load}{ENDINGS[sources[0]]}", "largest of all outputs")]
+    names += [(f"{load}_difference", "largest difference of all outputs")] if len(sources) > 1 else []
+    found = [(what, read_own(results, body, name)) for name, what in names]
+    return [
+        {"what": what, "value": own.value, "place": float(along[np.flatnonzero(order == own.station)[0]]),
+         "time": own.time}
+        for what, own in found if own is not None
+    ]  # fmt: skip
 
 
 def has_stations(results: ResultsFile, dataset: str) -> bool:

@@ -28,6 +28,8 @@ from sprung_tools.signals.spectra import calc_whole_spectrum
 MOST_MODES = 8  # modes of a body whose amplitudes are drawn: the largest ones, as many as the page has colours
 SEGMENT = 4.0  # s, the longest segment of the averaged spectra: lines 0.25 Hz apart; a shorter run is one segment long
 HIGHEST_FREQUENCY = 200.0  # Hz drawn
+IN_BODY_FRAME = "in the body frame"
+LARGEST_MOMENT, LARGEST_AXIAL = "largest bending moment along it", "largest axial force along it"
 
 
 class Channel(NamedTuple):
@@ -65,7 +67,7 @@ def list_channels(results: ResultsFile, bodies: Sequence[DrawnBody], extra: Sequ
         channels.extend(list_motion_channels(results, point))
     for drawn in bodies:
         for point in find_most_bent(results, drawn):
-            add("Deflection", f"{point}, in the body frame", f"points/{point}/deflection.y")
+            add("Deflection", f"{point}, {IN_BODY_FRAME}", f"points/{point}/deflection.y")
         channels.extend(calc_moment_envelope(results, drawn))
     forces = read_elements(results, "forces")
     for force in results.names("forces"):
@@ -121,7 +123,7 @@ def calc_moment_envelope(results: ResultsFile, body: DrawnBody) -> list[Channel]
     where the file has them, else from its modes."""
     channels = []
     for source in list_sources(results, body.name)[:1]:
-        for what, name in (("moment", "largest bending moment along it"), ("axial", "largest axial force along it")):
+        for what, name in (("moment", LARGEST_MOMENT), ("axial", LARGEST_AXIAL)):
             values, unit = read_numbers(results.file, f"recovery/{body.name}/{what}{ENDINGS[source]}")
             if values.size > 0:
                 channels.append(Channel("Deflection", f"{body.name}, {name}", np.max(np.abs(values), axis=1), unit))

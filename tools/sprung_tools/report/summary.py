@@ -5,6 +5,7 @@ import hashlib
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,18 +22,17 @@ from sprung_tools.model.force_channels import (
     list_force_channels,
 )
 from sprung_tools.model.resolved_model import read_elements, read_road_settings, read_settings
-from sprung_tools.report.histories import Channel, list_monitored
+from sprung_tools.report.histories import IN_BODY_FRAME, LARGEST_AXIAL, LARGEST_MOMENT, Channel, list_monitored
 from sprung_tools.report.packing import Packed
 from sprung_tools.report.shown_motion import VERTICAL, choose_axes, name_axis, read_motion
 from sprung_tools.runs.labelled_runs import Run, samples_between
+from sprung_tools.runs.largest_loads import AXIAL, MOMENT, find_best_peak
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.rounding import calc_size, clear_rounding
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
-from sprung_tools.runs.stored_histories import list_gaps
+from sprung_tools.runs.stored_histories import find_row_step, list_gaps
 from sprung_tools.signals.spectra import calc_rms
 from sprung_tools.terminal.number_ranges import format_ranges
-
-Statistic = tuple[str, str, str, float]  # what it is of, name, unit, value
 
 MOST_FREQUENCIES = 12  # of a superelement that are shown
 MOST_ALIKE = 6  # forces of one kind in the summary; if there are more, they are only in "All numbers"
@@ -41,6 +41,17 @@ COMPUTATION = {
     "steps": "steps", "evaluations": "evaluations", "switches": "switches located",
     "energy_closure": "energy balance, relative error", "constraint_violation": "joints, largest violation",
 }  # fmt: skip
+
+
+class Statistic(NamedTuple):
+    """A row of the summary: what it is of, its name, unit and value; step: the time between the stored rows that it is
+    of [s], 0 where it is of all outputs."""
+
+    of: str
+    name: str
+    unit: str
+    value: float
+    step: float = 0.0
 
 
 def calc_hash(path: str | Path) -> str:
@@ -61,25 +72,35 @@ def calc_statistics(results: ResultsFile, channels: Iterable[Channel]) -> list[P
     for force in kinds:
         rows += calc_force_rows(results, force, inside)
     for channel in channels:
-        if channel.group == "Deflection":
-            point, _, what = channel.name.partition(", ")
-            largest = what if what.startswith("largest") else "deflection, largest"
-            rows.append((point, largest, channel.unit, float(np.max(np.abs(channel.values[inside])))))
+        point, _, what = channel.name.partition(", ")
+        if channel.group == "Deflection" and what == IN_BODY_FRAME:
+            step = find_row_step(results, f"points/{point}/deflection")
+            largest = float(np.max(np.abs(channel.values[inside])))
+            rows.append(Statistic(point, "deflection, largest", channel.unit, largest, step))
+    for body in results.names("recovery"):
+        rows += list_load_rows(results, body)
     there = results.file.attributes("summary") if results.file.has_group("summary") else {}
     rows += [
-        ("computation", name, "", read_real(results.file, "summary", key))
+        Statistic("computation", name, "", read_real(results.file, "summary", key))
         for key, name in COMPUTATION.items()
         if key in there
     ]
     hidden = {"computation", *many}
-    return [
-        {"of": of, "name": name, "unit": unit, "value": value, "brief": of not in hidden}
-        for of, name, unit, value in rows
-    ]
+    return [{**row._asdict(), "brief": row.of not in hidden} for row in rows]
+
+
+def list_load_rows(results: ResultsFile, body: str) -> list[Statistic]:
+    """The largest loads along a body: those that the run has found itself, else of the rows that the file holds."""
+    rows = []
+    for load, name, unit in ((MOMENT, LARGEST_MOMENT, "N m"), (AXIAL, LARGEST_AXIAL, "N")):
+        peak = find_best_peak(results, body, load, read_window(results))
+        if peak is not None:
+            rows.append(Statistic(body, name, unit, abs(peak.value), peak.step))
+    return rows
 
 
 def list_point_rows(results: ResultsFile) -> list[Statistic]:
-    """The statistics of the monitored points along the axis that is shown, as (point, quantity, unit, value)."""
+    """The statistics of the monitored points along the axis that is shown."""
     rows: list[Statistic] = []
     there_are = results.names("summary/points")
     for point in (one for one in list_monitored(results) if one in there_are):
@@ -87,7 +108,10 @@ def list_point_rows(results: ResultsFile) -> list[Statistic]:
         for what, unit in (("displacement", "m"), ("acceleration", "m/s^2")):
             is_known = axis == VERTICAL
             found = read_extremes(results, point, what) if is_known else calc_extremes(results, point, what, axis)
-            rows += [(point, f"{what}{name_axis(results, axis)}, {name}", unit, value) for name, value in found.items()]
+            rows += [
+                Statistic(point, f"{what}{name_axis(results, axis)}, {name}", unit, value)
+                for name, value in found.items()
+            ]
     return rows
 
 
@@ -115,8 +139,7 @@ def calc_extremes(results: ResultsFile, point: str, what: str, axis: str) -> dic
 
 
 def calc_force_rows(results: ResultsFile, force: str, inside: Flags) -> list[Statistic]:
-    """The greatest loads of a force among some samples, and its time off the road (tyre) or its travel, as (force,
-    quantity, unit, value)."""
+    """The greatest loads of a force among some samples, and its time off the road (tyre) or its travel."""
     rows: list[Statistic] = []
     for channel in list_force_channels(results, force):
         name = describe_load(channel)
@@ -124,12 +147,14 @@ def calc_force_rows(results: ResultsFile, force: str, inside: Flags) -> list[Sta
             continue
         largest = float(np.max(np.abs(results.series(channel.quantity)[0][inside])))
         if largest > 0.0 or channel.role == FORCE:  # an applied torque has forces that are 0
-            rows.append((force, f"{name}, largest", channel.unit, largest))
+            step = find_row_step(results, channel.quantity)
+            rows.append(Statistic(force, f"{name}, largest", channel.unit, largest, step))
     contact = find_force_channel(results, force, CONTACT)
     if contact:
         on_road = results.series(contact)[0][inside] > 0.5
         step = float(np.median(np.diff(results.time)))
-        rows.append((force, "time off the road", "s", step * float(np.count_nonzero(~on_road))))
+        off = step * float(np.count_nonzero(~on_road))
+        rows.append(Statistic(force, "time off the road", "s", off, find_row_step(results, contact)))
         return rows
     kind = read_elements(results, "forces")[force].kind
     for channel in list_force_channels(results, force):
@@ -139,7 +164,8 @@ def calc_force_rows(results: ResultsFile, force: str, inside: Flags) -> list[Sta
             values = values[inside]
             both_ways = name == "turn" or " along " in name  # a stop that never touches has a negative overlap
             largest = float(np.max(np.abs(values) if both_ways else values))
-            rows.append((force, f"{name}, largest", unit, largest))
+            step = find_row_step(results, channel.quantity)
+            rows.append(Statistic(force, f"{name}, largest", unit, largest, step))
     return rows
 
 

@@ -14,6 +14,7 @@ from sprung_tools.model.rigid_body_loads import Superelement, calc_rigid_moments
 from sprung_tools.runs.labelled_runs import samples_between
 from sprung_tools.runs.ride_measures import read_window
 from sprung_tools.runs.section_stress import ENDINGS, FROM_LOADS, FROM_MODES
+from sprung_tools.runs.stored_histories import find_row_step
 from sprung_tools.signals.spans import Span
 
 LONGITUDINAL = 0  # the column of x in a station's position
@@ -21,12 +22,13 @@ MOMENT, SHEAR, AXIAL = LOADS = ("moment", "shear", "axial")
 
 
 class Peak(NamedTuple):
-    """A load of largest size: its value with its sign [N·m or N], the station's x in the body frame [m], the time [s].
-    """
+    """A load of largest size: its value with its sign [N·m or N], the station's x in the body frame [m], the time [s];
+    step: the time between the stored rows that it is the largest of [s], 0 where it is that of all outputs."""
 
     value: float
     station: float
     time: float
+    step: float = 0.0
 
 
 def find_peak(results: ResultsFile, values: Floats, stations: Floats, window: Span) -> Peak:
@@ -43,12 +45,20 @@ def has_load(results: ResultsFile, body: str, load: str, source: str) -> bool:
     return (results.file.shape(f"recovery/{body}/{load}{ENDINGS[source]}") or (0, 0))[1] > 0
 
 
-def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> Peak | None:
-    """The largest value of a body that the run itself has found over all of its outputs, of which the file may hold
-    only some; None for another span than that of its statistics, and in older files. name: `moment_from_loads`."""
+class OwnPeak(NamedTuple):
+    """A load of largest size: its value with its sign [N·m or N], the number of its station from 0, the time [s]."""
+
+    value: float
+    station: int
+    time: float
+
+
+def read_own(results: ResultsFile, body: str, name: str) -> OwnPeak | None:
+    """The largest value of a body that the run itself has found over all of its outputs within the span of its
+    statistics, of which the file may hold only some; None in older files. name: `moment_from_loads`."""
     group = f"summary/sections/{body}"
     there = results.file.attributes(group) if results.file.has_group(group) else ()
-    if window != read_window(results) or f"{name}_station" not in there:
+    if f"{name}_station" not in there:
         return None
     value, time = (read_real(results.file, group, key) for key in (name, f"{name}_time"))
     stations, _ = read_numbers(results.file, f"recovery/{body}/station")
@@ -56,7 +66,16 @@ def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> P
     if not 0 <= number < len(stations):
         has = f"'{group}' has {name}_station = {number}"
         raise InputError(f"{results.path}: error: {has}, expected at least 0 and below {len(stations)}")
-    return Peak(value, float(stations[number, LONGITUDINAL]), time)
+    return OwnPeak(value, number, time)
+
+
+def read_own_peak(results: ResultsFile, body: str, name: str, window: Span) -> Peak | None:
+    """The same with the place of its station; None for another span than that of the run's statistics, too."""
+    own = read_own(results, body, name) if window == read_window(results) else None
+    if own is None:
+        return None
+    stations, _ = read_numbers(results.file, f"recovery/{body}/station")
+    return Peak(own.value, float(stations[own.station, LONGITUDINAL]), own.time)
 
 
 def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: Span) -> Peak | None:
@@ -66,9 +85,10 @@ def calc_peak(results: ResultsFile, body: str, load: str, source: str, window: S
     own = read_own_peak(results, body, f"{load}{ENDINGS[source]}", window)
     if own is not None:
         return own
-    values, _ = read_numbers(results.file, f"recovery/{body}/{load}{ENDINGS[source]}")
+    dataset = f"recovery/{body}/{load}{ENDINGS[source]}"
+    values, _ = read_numbers(results.file, dataset)
     stations, _ = read_numbers(results.file, f"recovery/{body}/station")
-    return find_peak(results, values, stations, window)
+    return find_peak(results, values, stations, window)._replace(step=find_row_step(results, dataset))
 
 
 def find_best_peak(results: ResultsFile, body: str, load: str, window: Span) -> Peak | None:

@@ -8,7 +8,7 @@ function prepareLoads() {
   data.runs.forEach((run, index) => run.loads.forEach((found) => {
     const t = decode(found.t);
     const quantities = found.quantities.map((one) => ({...one, s: decode(one.s), v: decode(one.v), low: decode(one.low), high: decode(one.high)}));
-    loads.all.push({index, label: `${found.body}, ${run.label}`, body: found.body, axis: found.axis, t, quantities});
+    loads.all.push({...found, index, label: `${found.body}, ${run.label}`, t, quantities});
   }));
 }
 
@@ -130,7 +130,7 @@ function fillExtremes(found) {
   const body = element("tbody");
   let number = 0;
   for (const quantity of found.quantities) {
-    for (const extreme of quantity.difference ? [...quantity.extremes, quantity.difference] : quantity.extremes) {
+    for (const extreme of [...quantity.extremes, quantity.difference, ...(quantity.own || [])].filter(Boolean)) {
       const {unit, factor} = readable(quantity.unit, Math.abs(extreme.value));
       const button = element("button", {type: "button", id: `load-show-${++number}`, class: "save"}, `${extreme.time.toFixed(3)} s`);
       button.addEventListener("click", () => clock.set(extreme.time));
@@ -142,6 +142,16 @@ function fillExtremes(found) {
   byId("load-table").replaceChildren(element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "extreme"),
     element("th", {class: "number", scope: "col"}, "value"), element("th", {class: "number", scope: "col"}, "where"),
     element("th", {scope: "col"}, "when"))), body);
+}
+
+/** What the extremes are of, where the file does not hold these loads at every output. */
+function tellRows(found) {
+  byId("rows-note").hidden = !found.step;
+  if (!found.step) return;
+  const isKnown = found.quantities.some((one) => one.own && one.own.length), span = data.runs[found.index].window.map(formatTick).join(" to ");
+  byId("rows-note").textContent = `The file holds these loads every ${formatTick(1e3 * found.step)} ms: line, area, dots and extremes are of these rows, ` +
+    "and between them a load may have been larger. " + (isKnown ? `What is called the largest of all outputs, of either sign, the run itself ` +
+    `has found over the span of its [statistics], ${span} s.` : "The run did not store the largest of all its outputs.");
 }
 
 function writeLoadsCsv() {
@@ -163,6 +173,7 @@ function makeLoads() {
     loads.shown = loads.all[Number(select.value)];
     byId("load-value").textContent = "";
     fillExtremes(loads.shown);
+    tellRows(loads.shown);
     drawLoads();
   };
   select.value = String(loads.all.findIndex((one) => one.index === player.main) < 0 ? 0 : loads.all.findIndex((one) => one.index === player.main));

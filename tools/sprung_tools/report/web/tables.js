@@ -7,8 +7,9 @@ function collectStatistics() {
   data.runs.forEach((run, index) => {
     for (const row of run.statistics) {
       const key = `${row.of}\u0000${row.name}`;
-      if (!rows.has(key)) rows.set(key, {...row, values: data.runs.map(() => null)});
+      if (!rows.has(key)) rows.set(key, {...row, values: data.runs.map(() => null), steps: data.runs.map(() => 0)});
       rows.get(key).values[index] = row.value;
+      rows.get(key).steps[index] = row.step;
     }
   });
   return [...rows.values()];
@@ -58,6 +59,8 @@ function fillStatistics(table, rows) {
       const isText = typeof value === "string";
       const cell = element("td", {class: isText ? "number words" : "number"}, value === null ? "–" : isText ? value : format(factor * value));
       if (data.runs.length > 1) cell.append(" ", element("small", {}, index && of !== "computation" && !isText && sameSpan(index) ? difference(value, row.values[0]) : ""));
+      const step = (row.steps || [])[index];
+      if (step) cell.append(" ", element("small", {title: "the file does not hold it at every output"}, `of rows every ${formatTick(1e3 * step)} ms`));
       return cell;
     });
     body.append(element("tr", {}, element("th", {scope: "row"}, row.name), element("td", {class: "unit"}, unit), ...cells));
