@@ -21,7 +21,23 @@ support::Hdf5Precision to_hdf5(StoredPrecision precision) {
                                                : support::Hdf5Precision::kCompressedRounded;
 }
 
+// Of a run from its start to its end.
+double count_outputs(const ResultsHeader& header) {
+  return (header.run.duration - header.start.time) / header.run.output_step + 1.0;
+}
+
 }  // namespace
+
+StoragePlan plan_storage(const ResultsHeader& header, const RunHistories& histories) {
+  StorageConditions conditions{.num_outputs = count_outputs(header),
+                               .output_step = header.run.output_step,
+                               .reported = header.output_points,
+                               .stiffened_bodies = {}};
+  for (const Body& body : header.model.bodies) {
+    if (body.stiffening) conditions.stiffened_bodies.insert(body.name);
+  }
+  return {header.run.output, {histories.all().begin(), histories.all().end()}, std::move(conditions)};
+}
 
 ResultsWriter::ResultsWriter(const std::filesystem::path& path, const ResultsHeader& header)
     : file_(path, partial_name(path)),
@@ -70,16 +86,7 @@ void ResultsWriter::write_descriptions(const ResultsHeader& header) {
 
 // Makes the datasets of the histories that are stored.
 void ResultsWriter::make_datasets(const ResultsHeader& header) {
-  const double num_outputs = header.run.duration / header.run.output_step + 1.0;
-  StorageConditions conditions{.num_outputs = num_outputs,
-                               .output_step = header.run.output_step,
-                               .reported = header.output_points,
-                               .stiffened_bodies = {}};
-  for (const Body& body : header.model.bodies) {
-    if (body.stiffening) conditions.stiffened_bodies.insert(body.name);
-  }
-  const std::vector<StoredHistory> all(histories_.all().begin(), histories_.all().end());
-  storage_ = std::make_unique<StoragePlan>(header.run.output, all, std::move(conditions));
+  storage_ = std::make_unique<StoragePlan>(plan_storage(header, histories_));
   std::size_t row_size = 0;  // of all that is stored
   for (const History& history : histories_.all()) {
     const long every = storage_->every(history);
@@ -92,7 +99,7 @@ void ResultsWriter::make_datasets(const ResultsHeader& header) {
     const History& history = *stored.history;
     stored.dataset = &file_.make_growing(
         history.name, history.columns, history.unit, to_hdf5(storage_->precision(history)),
-        std::min(stored.num_rows(static_cast<std::size_t>(num_outputs)), most_rows));
+        std::min(stored.num_rows(static_cast<std::size_t>(count_outputs(header))), most_rows));
     if (!history.role.empty()) file_.attribute(history.name, "role", history.role);
     if (stored.every > 1) file_.attribute(history.name, "every", std::int64_t{stored.every});
   }

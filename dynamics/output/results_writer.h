@@ -38,6 +38,9 @@ struct ResultsHeader {
   const BasisChoice* choice = nullptr;            ///< of modes "auto"; null if there are none
 };
 
+/// Which histories the results file of a run holds, how often, and in which precision.
+StoragePlan plan_storage(const ResultsHeader& header, const RunHistories& histories);
+
 /// Root attribute `format` of a results file.
 inline constexpr std::string_view kResultsFormat = "sprung-results";
 

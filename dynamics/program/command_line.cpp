@@ -60,7 +60,8 @@ int run_arguments(const std::vector<std::string>& arguments, RunRequest request)
       "continues a run that was interrupted or killed from the last checkpoint in NAME.partial.h5; the "
       "results are those of a run without interruption");
   run->add_flag("--dry-run", output.dry_run,
-                "prints what would be run: bodies, modes, joints, freedoms and equilibrium; writes nothing");
+                "prints what would be run: bodies, modes, joints, freedoms, equilibrium, size of the "
+                "results; writes nothing");
   CLI::App* equilibrium = app.add_subcommand("equilibrium", "static equilibrium on level ground");
   add_input_options(*equilibrium, request, output);
   CLI::App* modes =

@@ -76,7 +76,7 @@ Json describe_static_springs(const std::vector<StaticLengthResult>& springs) {
 
 }  // namespace
 
-std::string format_model(const PreparedRun& prepared) {
+std::string format_model(const PreparedRun& prepared, const StoragePlan& storage) {
   const Model& model = prepared.model;
   support::TextTable bodies({"body", "mass kg", "inertia kg·m²", "superelement", "modes"});
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -103,10 +103,11 @@ std::string format_model(const PreparedRun& prepared) {
   if (!model.joints.empty()) text += fmt::format("\n{}", joints.str());
   if (!model.forces.empty()) text += fmt::format("\n{}", forces.str());
   if (equilibrium != nullptr) text += fmt::format("\n{}", format_equilibrium(balance_of(prepared)));
+  text += fmt::format("\nResults: {}\n", describe_storage(storage, prepared.run.output));
   return text;
 }
 
-Json make_model_json(const PreparedRun& prepared) {
+Json make_model_json(const PreparedRun& prepared, const StoragePlan& storage) {
   const Model& model = prepared.model;
   Json bodies = Json::object(), joints = Json::object(), forces = Json::object();
   for (const Body& body : model.bodies) {
@@ -121,7 +122,8 @@ Json make_model_json(const PreparedRun& prepared) {
               {"forces", forces},
               {"coordinates", model.first_state()},
               {"constraints", model.num_constraints},
-              {"freedoms", model.num_mechanical_freedoms()}};
+              {"freedoms", model.num_mechanical_freedoms()},
+              {"storage", make_storage_json(storage)}};
   if (prepared.equilibrium) {
     Json places = Json::object();
     for (const Body& body : model.bodies) {

@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "dynamics/output/run_warnings.h"
+#include "dynamics/output/storage_plan.h"
 #include "dynamics/program/prepared_run.h"
 #include "tools/support/terminal/json.h"
 
 namespace sprung::dynamics {
 
 /// The model of a run for `run --dry-run`, as text tables: bodies with their modes, joints with their
-/// constraints, force elements, freedoms, and the equilibrium at the start.
-std::string format_model(const PreparedRun& prepared);
+/// constraints, force elements, freedoms, the equilibrium at the start, and the size of the results.
+/// @param storage  what a results file would hold
+std::string format_model(const PreparedRun& prepared, const StoragePlan& storage);
 /// The model as one JSON object, SI units.
-support::Json make_model_json(const PreparedRun& prepared);
+support::Json make_model_json(const PreparedRun& prepared, const StoragePlan& storage);
 
 /// What a command prints with --json: the head that all commands have (dynamics/README.md, "JSON"), and the
 /// members of its report. Checked by tests/dynamics/program/json_test.py

@@ -246,19 +246,22 @@ int run_command(const RunRequest& request, const RunOutput& output) {
   print_of_computation(streams.err, model_warnings);
   for (RunWarning& remark : list_file_warnings(prepared.remarks))  // told when the file was read
     model_warnings.push_back(std::move(remark));
-  if (output.dry_run) {
-    support::print(streams.out, "{}",
-                   output.json ? format_report_json(request, "run --dry-run", prepared, model_warnings,
-                                                    make_model_json(prepared))
-                               : format_model(prepared));
-    return support::kGood;
-  }
-
   TransientOptions options = make_options(run, prepared.model);
   std::optional<Model> full_model;
   options.adaptivity = make_adaptivity(prepared, full_model);
-  const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   VehicleSections sections(prepared.vehicle, prepared.model);
+  if (output.dry_run) {
+    const StoragePlan storage = plan_storage(make_header(prepared, request, options.adaptivity, sections),
+                                             {prepared.vehicle, prepared.model, sections,
+                                              options.adaptivity ? options.adaptivity->full : nullptr});
+    support::print(streams.out, "{}",
+                   output.json ? format_report_json(request, "run --dry-run", prepared, model_warnings,
+                                                    make_model_json(prepared, storage))
+                               : format_model(prepared, storage));
+    return support::kGood;
+  }
+
+  const Eigen::VectorXd& reference = prepared.equilibrium ? prepared.equilibrium->q : prepared.start.q;
   const StatisticsWindow window = make_window(run, !output.results.empty());
   RunStatistics statistics(prepared.model, prepared.output_points, reference, window, prepared.vehicle,
                            sections);

@@ -73,7 +73,7 @@ class JsonOfCommands(DynamicsTestCase):
                   "mode_choice.tolerance=0.2", "--set", "vehicle.bodies.front_axle.inertia=1e7")  # fmt: skip
         runs = {
             "run": [("bump.toml", *short, "-o", "r.h5", "--set", "output.size=0.01"), (QUARTER_CAR, *short[:2])],
-            "run --dry-run": [(QUARTER_CAR,)],
+            "run --dry-run": [(QUARTER_CAR, "--set", "output.size=0.01")],
             "equilibrium": [("bump.toml", *short), (QUARTER_CAR,)],
             "modes": [("bump.toml", *short), ("bump.toml", "--bracket", "--set", 'modes.chassis="certified"')],
             "response": [("bump.toml", "--set", "response.road.class=C"), (QUARTER_CAR,)],

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """What the results file of a run holds: all that fits, or what [output] asks for; and what the tools make of it."""
 
+import json
 import re
 import sys
 import unittest
@@ -85,6 +86,28 @@ class Storage(DynamicsTestCase):
         size = (self.folder / "all.h5").stat().st_size
         self.assertGreater(size, 2e6)
         self.assertAlmostEqual(1e6 * float(told) / size, 1.0, delta=0.15)
+
+    def test_a_dry_run_says_the_size_that_the_run_says(self):
+        self.run_with("first.h5")
+        for settings in (("output.size=0.7",), ("adaptivity.indicator=false",),
+                         (f'continue_from="{self.folder}/first.h5"', "duration=0.6")):  # fmt: skip
+            with self.subTest(settings):
+                said = self.run_with("whole.h5", *settings, verbose=True)
+                words = [*RUN, *(word for setting in settings for word in ("--set", setting))]
+                dry = self.run_program(*words, "--dry-run")
+                self.assertEqual(dry.returncode, 0, dry.stderr)
+                (line,) = re.findall("Results: (?:less|about).*", dry.stdout)
+                self.assertIn(f"{line}\n", said)
+                run, dry = (
+                    json.loads(self.run_program(*words, "--json", *last).stdout)["storage"]
+                    for last in (("-o", "whole.h5"), ("--dry-run",))
+                )
+                self.assertEqual(run, dry)
+                self.assertFalse((self.folder / "bump.h5").exists())
+        rows = 101  # of the last run, which begins after 0.5 s
+        with h5py.File(self.folder / "whole.h5") as file:
+            self.assertEqual(file["time"].size, rows)
+        self.assertAlmostEqual(dry["size"] / (self.folder / "whole.h5").stat().st_size, 0.6, delta=0.3)
 
     def test_the_file_of_a_short_run_has_no_space_for_more_rows(self):
         self.run_with("short.h5", "duration=0.02")
