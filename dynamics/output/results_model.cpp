@@ -62,6 +62,9 @@ void write_superelements(support::Hdf5Writer& file, const Vehicle& vehicle) {
     file.write(group + "/damping_ratio", superelement.damping_ratio, "1");
     const auto nodes = static_cast<std::size_t>(superelement.num_nodes());
     const auto modes = static_cast<std::size_t>(superelement.num_modes());
+    std::vector<std::string> kinds;
+    for (int k = 0; k < superelement.num_modes(); ++k) kinds.push_back(superelement.kind_of(k));
+    file.write(group + "/kind", kinds);
     std::vector<double> shapes;
     for (Eigen::Index row = 0; row < superelement.shapes.rows(); ++row) {
       for (Eigen::Index k = 0; k < superelement.shapes.cols(); ++k)

@@ -18,13 +18,20 @@ namespace {
 constexpr std::string_view kJsonFormat = "sprung-dynamics";
 constexpr int kJsonVersion = 1;
 
+// A vector of a superelement; only of a mode the frequency is one that the body has (reduce/basis, "Kinds of
+// vectors").
+std::string describe_vector(const reduce::Superelement& superelement, int number) {
+  const std::string kind = superelement.kind_of(number - 1);
+  if (kind != reduce::kFreeVector && kind != reduce::kClampedVector)
+    return fmt::format("{} ({})", number, kind);
+  return fmt::format("{} ({:.2f} Hz)", number, superelement.frequency_hz[number - 1]);
+}
+
 std::string list_modes(const reduce::Superelement* superelement, const Body& body) {
   if (superelement == nullptr) return "rigid";
   if (body.num_modes() == 0) return fmt::format("rigid, 0 of {}", superelement->num_modes());
   std::vector<std::string> modes;
-  for (const int number : body.mode_numbers) {
-    modes.push_back(fmt::format("{} ({:.2f} Hz)", number, superelement->frequency_hz[number - 1]));
-  }
+  for (const int number : body.mode_numbers) modes.push_back(describe_vector(*superelement, number));
   return fmt::format("{}", fmt::join(modes, ", "));
 }
 

@@ -5,6 +5,7 @@ import numpy as np
 from synthetic_results import NUM_SAMPLES, write_results, write_series, write_texts
 
 FREQUENCIES = (6.11, 6.11, 38.3, 107.4)  # Hz, of the superelement; the run has modes 1, 3 and 4 where it says so
+KINDS = ("free", "free", "free", "residual")
 
 
 def write_adaptive_run(path, *, numbers=(1, 3, 4), is_adaptive=True):
@@ -22,6 +23,7 @@ def write_adaptive_run(path, *, numbers=(1, 3, 4), is_adaptive=True):
         file[f"{modal}/mode_number"][:] = numbers
         part = file["model/superelements/chassis"]
         write_series(part, "frequency", np.array(FREQUENCIES), "Hz")
+        write_texts(part, "kind", KINDS)
         del part["shapes"]
         write_series(part, "shapes", np.ones((3, 3, len(FREQUENCIES))), "")
         active = np.ones((NUM_SAMPLES, len(numbers)))

@@ -98,7 +98,7 @@ class PlotModes(ToolTestCase):
             "of the largest deflection so far: 3 % at most, chassis mode 3 at 0.5 s",
             "of the largest acceleration so far: 0.8 % at most, chassis mode 2 at 0.2 s",
             "recall, 1 %", "left out, %", "mode", "acceleration of chassis, m/s²", "time, s", "adaptive",
-            "rigid chassis", "6.11", "38.3", "107", "frequency of", "the vector, Hz",
+            "rigid chassis", "6.11", "38.3", "residual", "frequency, Hz",
         ):  # fmt: skip
             self.assertIn(text, texts)
         # The first mode takes part throughout, the second in two spans, the third never.

@@ -127,6 +127,30 @@ class Report(ToolTestCase):
         )
         self.assertRegex(facts["results file, SHA-256"], r"^[0-9a-f]{64}$")
 
+    def test_vectors_for_loads_are_no_modes_and_have_no_frequency(self):
+        for kinds, fact, shown in (
+            (None, "chassis: modes 1–2", [("mode 1", None), ("mode 2", None)]),
+            (["free", "residual"], "chassis: free mode 1, residual vector 2",
+             [("mode 1", 9.72), ("residual vector 2", None)]),
+            (["clamped", "clamped"], "chassis: clamped modes 1–2", [("mode 1", 9.72), ("mode 2", 80.0)]),
+        ):  # fmt: skip
+            write_results(self.folder / "soft.h5")
+            with h5py.File(self.folder / "soft.h5", "a") as file:
+                if kinds:
+                    write_series(file, "model/superelements/chassis/frequency", np.array([9.72, 80.0]), "Hz")
+                    write_texts(file, "model/superelements/chassis/kind", kinds)
+            (run,) = self.report("soft.h5")[1]["runs"]
+            self.assertEqual(dict(run["facts"])["flexible bodies"], fact)
+            self.assertEqual([(one["name"], one["frequency"]) for one in run["modes"][0]["modes"]], shown)
+            self.assertEqual(run["modes"][0]["others"], bool(kinds) and "residual" in kinds)
+
+    def test_the_frequencies_of_a_superelement_are_those_that_the_body_has(self):
+        write_superelement(self.folder / "chassis.h5", "chassis", [9.72, 52.6, 80.0])
+        with h5py.File(self.folder / "chassis.h5", "a") as file:
+            write_texts(file, "modes/kind", ["free", "free", "residual"])
+        (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]
+        self.assertEqual((found["frequencies"], found["kind"], found["others"]), ([9.72, 52.6], "free", 1))
+
     def test_checks_are_shown_of_the_superelement_that_was_run_and_of_no_other(self):
         write_superelement(self.folder / "chassis.h5", "chassis", [6.11])
         (found,) = self.report("soft.h5", "--superelements", ".")[1]["superelements"]

@@ -56,6 +56,20 @@ class Results(DynamicsTestCase):
                 self.assertIn("unit", dataset.attrs, name)
                 self.assertTrue(dataset.fletcher32, name)
 
+    def test_the_kinds_of_vectors_are_those_of_the_superelement(self):
+        modes = ("--set", "vehicle.bodies.chassis.superelement=chassis_certified", "--set", "modes.chassis=all")
+        self.assertEqual(self.run_to_results(*modes).returncode, 0)
+        with h5py.File(self.results) as results, h5py.File(self.folder / "chassis_certified.h5") as reduced:
+            kinds = [one.decode() for one in results["model/superelements/chassis_certified/kind"][:]]
+            self.assertEqual(kinds, [one.decode() for one in reduced["modes/kind"][:]])
+            frequencies = reduced["modes/frequency"][:]
+        self.assertEqual(set(kinds), {"free", "residual"})
+        # The dry run gives the frequencies of modes alone.
+        printed = self.run_program(*modes, "--dry-run").stdout
+        for number, (kind, frequency) in enumerate(zip(kinds, frequencies), start=1):
+            words = f"{number} ({frequency:.2f} Hz)" if kind == "free" else f"{number} (residual)"
+            self.assertIn(words, printed)
+
     def test_reactions_carry_the_weight(self):
         # At rest the four arms and two springs hold the chassis: joint reactions, taken on the chassis, and spring
         # forces add up to its weight, 11950 kg · 9.80665 m/s².

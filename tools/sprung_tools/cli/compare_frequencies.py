@@ -5,11 +5,11 @@ from collections import Counter
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import SUPERELEMENT, open_hdf5, read_numbers, read_text, read_texts
+from sprung_tools.model.reduced_vectors import OF_THE_BODY
 from sprung_tools.terminal.program import make_parser
 from sprung_tools.terminal.text_table import format_table
 
 HEADINGS = ("body", "mode", "computed Hz", "printed Hz", "difference Hz", "difference %", "same digits")
-OF_THE_BODY = ("free", "clamped")  # kinds of vectors whose frequency is one that the body has
 
 
 def num_decimals(text: str) -> int:

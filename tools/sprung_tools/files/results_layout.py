@@ -43,6 +43,7 @@ DATASETS: dict[str, Rule] = {
     f"{SUPERELEMENTS}/shapes": Numbers((f"{SUPERELEMENTS}/node_positions", 3, None)),
     f"{SUPERELEMENTS}/frequency": Numbers((NUM_MODES,)),
     f"{SUPERELEMENTS}/damping_ratio": Numbers((NUM_MODES,)),
+    f"{SUPERELEMENTS}/kind": Texts(f"{SUPERELEMENTS}/frequency"),
     "model/road/distance": Numbers((None,)),
     "model/road/height": Numbers(("model/road/distance",)),
     "model/equilibrium/bodies/*": Numbers((3,)),

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.reduced_vectors import Vector
 from sprung_tools.model.resolved_model import has_resolved_model, read_settings
 from sprung_tools.plots.history_panel import draw_panel
 from sprung_tools.plots.picture_file import COLOURS, make_figure
@@ -41,10 +42,17 @@ def describe_activity(results: ResultsFile, history: ModeHistory) -> str:
     )
 
 
+def describe_frequency(vector: Vector) -> str:
+    """A vector's frequency in three digits, or its kind."""
+    if vector.frequency is None:
+        return vector.kind
+    return f"{vector.frequency:.3g}" if vector.frequency < 100.0 else f"{vector.frequency:.0f}"
+
+
 def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
-    """Draws a bar for each mode while it takes part. At the right is the frequency of its vector, which is no
-    frequency of the body where the vector is a residual one; results files do not tell."""
-    rows = np.arange(1, history.number.size + 1)
+    """Draws a bar for each mode while it takes part. At the right is its frequency, or its kind if it is no mode of the
+    body; nothing of files that do not say its kind."""
+    rows = np.arange(1, len(history.vectors) + 1)
     for row in rows:
         spans = find_spans(history.is_active[:, row - 1], results.time)
         bars = [(start, end - start) for start, end in spans]
@@ -52,16 +60,15 @@ def draw_modes(axes: Axes, results: ResultsFile, history: ModeHistory) -> None:
     axes.set_ylim(0.3, rows[-1] + 0.7)
     step = max(1, -(-rows.size // LABELLED_FREQUENCIES))
     places = rows[::step]
-    axes.set_yticks(places, [f"{history.number[row - 1]}" for row in places])
+    axes.set_yticks(places, [f"{history.vectors[row - 1].number}" for row in places])
     axes.set_ylabel("mode")
     axes.set_title(describe_activity(results, history), loc="left", fontsize=10.5)
     axes.grid(axis="x", color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     right = axes.twinx()
     right.set_ylim(axes.get_ylim())
-    right.set_yticks(places, [f"{history.frequency[row - 1]:.3g}" if history.frequency[row - 1] < 100.0
-                              else f"{history.frequency[row - 1]:.0f}" for row in places])  # fmt: skip
-    right.set_ylabel("frequency of\nthe vector, Hz")
+    right.set_yticks(places, [describe_frequency(history.vectors[row - 1]) for row in places])
+    right.set_ylabel("frequency, Hz")
     right.spines["top"].set_visible(False)
 
 
@@ -96,7 +103,7 @@ def make_mode_history_figure(
     results = runs[0].results
     histories = read_mode_histories(results)
     has_neglected = bool(read_neglected(results))
-    heights = [np.clip(HEIGHT_PER_MODE * one.number.size, LEAST_HEIGHT, MOST_HEIGHT) for one in histories]
+    heights = [np.clip(HEIGHT_PER_MODE * len(one.vectors), LEAST_HEIGHT, MOST_HEIGHT) for one in histories]
     heights += [INDICATOR_HEIGHT] * has_neglected + [QUANTITY_HEIGHT] * len(quantities)
     figure, panels = make_figure(heights, title or results.title, make_caption([run.results for run in runs]))
     for axes, history in zip(panels, histories):

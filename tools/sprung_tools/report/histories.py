@@ -17,6 +17,7 @@ from sprung_tools.model.force_channels import (
     describe_load,
     list_force_channels,
 )
+from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
 from sprung_tools.model.resolved_model import ROOT, Element, read_elements
 from sprung_tools.model.vehicle_shape import DrawnBody
 from sprung_tools.report.packing import Packed, encode, find_kept
@@ -167,7 +168,7 @@ def pack_modes(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> 
         where = f"bodies/{body.name}/modal"
         if body.shapes.shape[2] == 0 or not results.has(f"{where}/amplitude"):
             continue
-        numbers = results.mode_numbers(body.name)
+        vectors = read_vectors(results, body.name)
         amplitude, _ = read_numbers(results.file, f"{where}/amplitude")
         active = np.ones_like(amplitude)
         if results.has(f"{where}/active"):
@@ -180,8 +181,12 @@ def pack_modes(results: ResultsFile, bodies: Sequence[DrawnBody], most: int) -> 
             kept = find_kept(values, most)
             changes = np.flatnonzero(np.diff(active[:, place] > 0.5)) + 1
             modes.append({
-                "number": int(numbers[place]), "t": encode(results.time[kept]), "v": encode(values[kept]),
+                "name": str(vectors[place]), "frequency": vectors[place].frequency,
+                "t": encode(results.time[kept]), "v": encode(values[kept]),
                 "active": bool(active[0, place] > 0.5), "switches": encode(results.time[changes]),
             })  # fmt: skip
-        packed.append({"body": body.name, "total": int(numbers.size), "modes": modes})
+        packed.append({
+            "body": body.name, "total": describe_vectors(vectors), "left": len(vectors) - len(modes),
+            "others": any(one.kind not in ("", *OF_THE_BODY) for one in vectors), "modes": modes,
+        })  # fmt: skip
     return packed

@@ -21,6 +21,7 @@ from sprung_tools.model.force_channels import (
     find_force_channel,
     list_force_channels,
 )
+from sprung_tools.model.reduced_vectors import OF_THE_BODY, describe_vectors, read_vectors
 from sprung_tools.model.resolved_model import read_elements, read_road_settings, read_settings
 from sprung_tools.report.histories import IN_BODY_FRAME, LARGEST_AXIAL, LARGEST_MOMENT, Channel, list_monitored
 from sprung_tools.report.packing import Packed
@@ -32,7 +33,6 @@ from sprung_tools.runs.rounding import calc_size, clear_rounding
 from sprung_tools.runs.run_caption import describe_integrator, describe_road
 from sprung_tools.runs.stored_histories import find_row_step, list_gaps
 from sprung_tools.signals.spectra import calc_rms
-from sprung_tools.terminal.number_ranges import format_ranges
 
 MOST_FREQUENCIES = 12  # of a superelement that are shown
 MOST_ALIKE = 6  # forces of one kind in the summary; if there are more, they are only in "All numbers"
@@ -185,7 +185,7 @@ def list_facts(results: ResultsFile, has_tyres: bool, sha256: str) -> list[tuple
     flexible = []
     for body in results.names("bodies"):
         if results.num_modes(body):
-            flexible.append(f"{body}: modes {format_ranges(results.mode_numbers(body))}")
+            flexible.append(f"{body}: {describe_vectors(read_vectors(results, body))}")
     facts.append(("flexible bodies", "; ".join(flexible) or "none"))
     facts.append(("integrator", describe_integrator(settings["integrator"])))
     changed = read_texts(results.file, "model/overrides") if results.file.has_dataset("model/overrides") else []
@@ -243,9 +243,12 @@ def read_checks_of(folder: str | None, name: str, content_hash: str) -> Packed:
         tolerances, _ = read_numbers(file, "checks/tolerance")
         frequencies, _ = read_numbers(file, "modes/frequency")
         names = read_texts(file, "checks/name")
+        kinds = read_texts(file, "modes/kind") if file.has_dataset("modes/kind") else ["clamped"] * frequencies.size
     checks = [
         {"name": check, "value": float(value), "tolerance": float(tolerance)}
         for check, value, tolerance in zip(names, values, tolerances)
     ]
-    return {"checks": checks, "frequencies": frequencies[:MOST_FREQUENCIES].tolist(),
-            "more": frequencies.size > MOST_FREQUENCIES}  # fmt: skip
+    of_the_body = [(kind, float(frequency)) for kind, frequency in zip(kinds, frequencies) if kind in OF_THE_BODY]
+    return {"checks": checks, "frequencies": [frequency for _, frequency in of_the_body[:MOST_FREQUENCIES]],
+            "more": len(of_the_body) > MOST_FREQUENCIES, "kind": of_the_body[0][0] if of_the_body else "",
+            "others": len(kinds) - len(of_the_body)}  # fmt: skip

@@ -8,6 +8,7 @@ from sprung_tools.files.array_types import Flags, Floats, Integers
 from sprung_tools.files.errors import InputError
 from sprung_tools.files.hdf5_file import read_numbers, read_texts
 from sprung_tools.files.results_file import ResultsFile
+from sprung_tools.model.reduced_vectors import Vector, read_vectors
 
 MODES_CHANGED = "modes"  # kind of the event in which modes join or leave
 
@@ -15,13 +16,11 @@ MODES_CHANGED = "modes"  # kind of the event in which modes join or leave
 class ModeHistory(NamedTuple):
     """A body's modes over a run of n samples.
 
-    number: the mode's number in its superelement [modes]; frequency: that of its vector, Hz [modes]; is_active:
-    whether it took part [n×modes].
+    vectors: what they are; is_active: whether each took part [n×modes].
     """
 
     body: str
-    number: Integers
-    frequency: Floats
+    vectors: list[Vector]
     is_active: Flags
 
 
@@ -42,10 +41,8 @@ def read_mode_histories(results: ResultsFile) -> list[ModeHistory]:
     for body in results.names("bodies"):
         if results.num_modes(body) == 0:
             continue
-        number = results.mode_numbers(body)
         active, _ = read_numbers(file, f"bodies/{body}/modal/active")
-        of_all, _ = read_numbers(file, f"model/superelements/{results.superelement(body)}/frequency")
-        found.append(ModeHistory(body, number, of_all[number - 1], active > 0.5))
+        found.append(ModeHistory(body, read_vectors(results, body), active > 0.5))
     if not found:
         raise InputError(f"{results.path}: error: no body of this run has modes")
     return found

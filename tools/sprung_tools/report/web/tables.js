@@ -111,7 +111,9 @@ function fillChecks(place) {
       continue;
     }
     const frequencies = found.frequencies.map((value) => format(value)).join(", ");
-    place.append(element("p", {class: "note"}, `Clamped frequencies: ${frequencies} Hz${found.more ? " …" : ""}`));
+    const what = found.kind === "clamped" ? "Frequencies of the body held at its reference point" : "Frequencies of the free body";
+    const others = found.others ? `; besides ${found.others} vectors for loads, which have none` : "";
+    if (frequencies) place.append(element("p", {class: "note"}, `${what}: ${frequencies} Hz${found.more ? " …" : ""}${others}.`));
     const table = element("table", {}, element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "check"),
       element("th", {class: "number", scope: "col"}, "value"), element("th", {class: "number", scope: "col"}, "allowed"),
       element("th", {scope: "col"}, "result"))));
