@@ -115,7 +115,7 @@ class Fit(PageTestCase):
         apart[: int(np.min(np.array(nodes)[:, 1])) - 4] = True
         self.assertLess(np.count_nonzero(is_filled[apart]), 20)  # of a letter's edge
 
-    def test_names_hide_nothing_of_the_vehicle(self):
+    def test_all_names_are_there_and_hide_nothing_of_the_vehicle(self):
         for size, name in itertools.product(SIZES, ("semi.html", "part.html")):
             with self.subTest(size=size, page=name):
                 page = self.open(name, size=size)
@@ -124,8 +124,9 @@ class Fit(PageTestCase):
                 top = page.evaluate(f"((one) => {EXTENT}(one.vehicle, {STANDING}, player.view))({one})")[1]
                 names = page.evaluate("player.labelled")
                 self.assertGreater(len(names), 4)
-                wanted = {mark for mark in page.evaluate(f"{one}.vehicle.marks.map((mark) => mark.name)")}
-                self.assertLessEqual(wanted, {label["name"] for label in names})
+                wanted = f"[...{one}.vehicle.marks, ...{one}.vehicle.wheels, ...{one}.vehicle.bodies]"
+                wanted = page.evaluate(f"{wanted}.map((mark) => mark.name)")
+                self.assertCountEqual(wanted, [label["name"] for label in names])
                 for label in names:
                     self.assertLess(label["y"] + 7, top - 6, label)  # px: half a row, and the sign of a point
                     self.assertGreater(label["y"] - 7, 24, label)  # below the captions

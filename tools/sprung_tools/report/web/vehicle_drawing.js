@@ -4,7 +4,7 @@
 const COILS = 5;    // of a spring
 const COIL = 0.02;  // of the vehicle's size: half a coil's width at most
 const MASS = 7;     // radius of the sign for a body that is a point, px
-const LABEL_FONT = "11px system-ui, sans-serif", LABEL_GAP = 8, LABEL_ROW = 16, LABEL_TOP = 26;  // px; the last is below the captions
+const LABEL_FONT = "11px system-ui, sans-serif", LABEL_GAP = 8, LABEL_ROW = 16, LABEL_TOP = 26, LABEL_EDGE = 4;  // px; LABEL_TOP is below the captions
 const LOOSELY = 1.4, LEAST_LABEL_ROWS = 3, MOST_LABEL_ROWS = 9;  // the first: room in the rows over the names' own width
 
 function drawWheel(context, view, wheel, centre, colour, contact) {
@@ -167,7 +167,16 @@ function roomForLabels(vehicle, width) {
   return LABEL_ROW * Math.min(Math.max(rows, Math.min(names.length, LEAST_LABEL_ROWS)), MOST_LABEL_ROWS);
 }
 
-/** Names in rows above the vehicle, where they hide none of it, each with a line to its place; those without room are left out.
+/** Where in a row with other names a name of some width is nearest to where it wants to begin, px; null where there is no room. */
+function findRoom(others, wanted, width, end) {
+  const starts = [wanted, ...others.flatMap((one) => [one.x - width - LABEL_GAP, one.x + one.width + LABEL_GAP])];
+  const isFree = (x) => x >= LABEL_EDGE && x <= end && others.every((one) => one.x >= x + width + LABEL_GAP || x >= one.x + one.width + LABEL_GAP);
+  const free = starts.map((x) => Math.round(x)).filter(isFree);
+  return free.length ? free.reduce((best, x) => (Math.abs(x - wanted) < Math.abs(best - wanted) ? x : best)) : null;
+}
+
+/** Names in rows above the vehicle, where they hide none of it, each with a line to its place: as far down as they have room beside
+ * each other, and no farther from above their places than needed; those without room anywhere are left out.
  * Returns what is drawn: names with x, y of the middle of their left edge and width, px, and what their lines go to. */
 function drawLabels(context, view, vehicle, nodes) {
   const drawn = [];
@@ -176,14 +185,15 @@ function drawLabels(context, view, vehicle, nodes) {
   context.textBaseline = "middle";
   context.textAlign = "left";
   for (const [name, [wx, wy]] of listNamed(vehicle, nodes)) {
-    const to = [view.X(wx), view.Y(wy)], width = context.measureText(name).width;
-    const isFree = ({x, y}) => drawn.every((one) => one.y !== y || one.x >= x + width + LABEL_GAP || x >= one.x + one.width + LABEL_GAP);
-    const places = [];
-    for (let y = LABEL_TOP + view.room - 0.5 * LABEL_ROW; y > LABEL_TOP; y -= LABEL_ROW) {
-      for (const left of [0.5 * width, -0.5 * LABEL_GAP, width + 0.5 * LABEL_GAP]) places.push({x: Math.max(Math.min(to[0] - left, view.width - width - 4), 4), y});
+    const to = [view.X(wx), view.Y(wy)], width = Math.ceil(context.measureText(name).width), end = view.width - width - LABEL_EDGE;
+    const wanted = Math.round(Math.max(Math.min(to[0] - 0.5 * width, end), LABEL_EDGE));
+    let best = null;
+    for (let y = LABEL_TOP + view.room - 0.5 * LABEL_ROW, row = 0; y > LABEL_TOP; y -= LABEL_ROW, ++row) {
+      const x = findRoom(drawn.filter((one) => one.y === y), wanted, width, end);
+      const far = x === null ? Infinity : Math.max(Math.abs(x - wanted) - 0.5 * (width + LABEL_GAP), 0) + LABEL_ROW * row;
+      if (far < (best ? best.far : Infinity)) best = {x, y, far};
     }
-    const place = places.find(isFree);
-    if (place) drawn.push({name, ...place, width, to});
+    if (best) drawn.push({name, x: best.x, y: best.y, width, to});
   }
   context.strokeStyle = style("--soft");
   context.lineWidth = 1;
