@@ -175,7 +175,8 @@ class Controls(PageTestCase):
         self.assertEqual(page.evaluate("[...document.getElementById('mode-body').options].length"), 1)
         self.choose(page, "mode-body", "1 0")
         self.assertIn("All of them take part", page.evaluate("document.getElementById('mode-note').textContent"))
-        self.assertEqual(page.evaluate("linked[4].graph.getLabels()"), ["time, s", "mode 1, 6.11 Hz", "mode 2, 6.11 Hz"])
+        labels = page.evaluate("linked[4].graph.getLabels()")
+        self.assertEqual(labels, ["time, s", "mode 1, 6.11 Hz", "mode 2, 6.11 Hz"])
 
     def use_all_numbers(self, page):
         page.click("#all-numbers")

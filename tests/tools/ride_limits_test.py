@@ -12,7 +12,7 @@ from tool_test_case import ROOT, ToolTestCase
 
 from sprung_tools.files.errors import InputError
 from sprung_tools.limits.ride_limits import Obstacles, Terrain, calc_peak, calc_power, find_roughness, find_speed
-from sprung_tools.limits.roads import calc_obstacle
+from sprung_tools.limits.roads import calc_obstacle, make_terrain
 from sprung_tools.limits.root_finding import CallFailed, find_root
 from sprung_tools.limits.trials import Variant, Vehicle, Wheels
 from sprung_tools.programs.in_process import load_module
@@ -74,6 +74,8 @@ class ObstacleOutline(unittest.TestCase):
         self.assertEqual((places[0], heights[0], heights[-1]), (0.0, 0.0, 0.0))
         self.assertAlmostEqual(places[-1], 0.5)
         np.testing.assert_allclose(np.hypot(places - 0.25, heights), 0.25, rtol=1e-12)
+        # A tyre with distributed contact takes as many samples and steps as the closest points ask for.
+        np.testing.assert_allclose(np.diff(places), 0.5 / 80)
 
     def test_the_outline_for_a_wheel_is_the_way_of_its_centre(self):
         # The centre of a wheel of 0.5 m on a half circle of 0.2 m is 0.7 m from the circle's centre, and on level
@@ -141,6 +143,14 @@ class QuarterCar(QuarterCarCase):
         self.assertAlmostEqual(Wheels(3.0, (0.49, 0.50, 0.51), False).point_radius, 0.5)
         with self.assertRaisesRegex(InputError, r"--heights: error: .*radii 0\.4, 0\.5 m, expected radii within 5 %"):
             Wheels(3.0, (0.4, 0.5, 0.5), False).point_radius  # noqa: B018  it throws
+
+    def test_outputs_are_as_close_as_the_measures_need_whatever_the_run_file_says(self):
+        terrain = Terrain(RECIPE, (0.001, 0.2), 6.0)
+        fine = calc_power(self.vehicle("sprung.origin", "output_step=5e-4"), terrain, 7.0, 0.01)
+        for step, expected in ((0.05, 0.05 / 16), (0.01, 0.0025), (2e-3, 2e-3)):  # whole parts of at most 3.125 ms
+            vehicle = self.vehicle("sprung.origin", f"output_step={step}")
+            self.assertAlmostEqual(vehicle.drive(7.0, make_terrain(RECIPE._replace(rms=0.01)), 1.0).step, expected)
+            self.assertAlmostEqual(calc_power(vehicle, terrain, 7.0, 0.01) / fine, 1.0, delta=5e-3)
 
     def test_a_point_that_is_not_there_is_an_error(self):
         with self.assertRaisesRegex(InputError, "run.toml: error: no quantity 'points/sprung.seat/acceleration.y'"):
@@ -237,12 +247,21 @@ class Command(QuarterCarCase):
                  "--heights", "0.35", "--peak", "1", "--length", "60", "--ease", "5")  # fmt: skip
         done = self.run_tool(*words)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.count("do not resolve the accelerations"), 1)
-        self.assertRegex(done.stdout, r"\nwarning: vehicle: in \d+ of \d+ runs: values every 0\.05 s do not resolve")
+        self.assertNotIn("do not resolve the accelerations", done.stdout)  # outputs every 3.125 ms, not every 50 ms
         self.assertIn("higher than the wheel's hub at 317 mm: a vehicle would hardly get over", done.stdout)
         (packed,) = json.loads(self.run_tool(*words, "--json").stdout)["vehicles"]
-        self.assertEqual(len([one for one in packed["warnings"] if "do not resolve" in one]), 1)
-        self.assertIn("higher than the wheel's hub", packed["obstacles"][0]["remark"])
+        self.assertEqual((packed["warnings"], packed["terrain"][0]["remark"]), ([], ""))
+        # A tyre so stiff that its wheel hops with 112 Hz, of which 320 outputs in a second hold no peaks.
+        stiff = ("--set", "vehicle.forces.tyre.spring={polynomial=[0.0,2.0e7]}", "--peak", "20", "--speed-range", "0.1",
+                 "5")  # fmt: skip
+        words = (*words[:3], "unsprung.origin", *words[4:], *stiff)
+        done = self.run_tool(*words)
+        self.assertRegex(done.stdout, r"\nwarning: vehicle: in \d+ of \d+ runs: values every 0\.003125 s do not res")
+        doubtful = r"doubtful: \d+ of its runs warned of unsprung\.origin, see below"
+        self.assertRegex(done.stdout, rf"vehicle +5 .*  {doubtful}\n")
+        (packed,) = json.loads(self.run_tool(*words, "--json").stdout)["vehicles"]
+        for one in (packed["terrain"][0], packed["obstacles"][0]):
+            self.assertRegex(one["remark"], f"{doubtful}$")
 
     def test_tables_json_and_picture(self):
         words = ("ride_limits", "run.toml", "--point", "sprung.origin", "--variant", "as it is", "--variant", "soft",

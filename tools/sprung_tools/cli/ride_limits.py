@@ -8,7 +8,8 @@ close, is never used: the limit that would need it is told as unknown.
 Terrain is made as tools/make_road.py makes it, always with the same phases, so that only its height changes. Its
 lowest wavenumber of 0.0547 1/m is that of 60 ft, beyond which NRMM takes off the trend of a profile. A wheel whose
 contact is a point meets the way that the centre of a rigid wheel would take over the obstacle. RUN.toml gives the
-vehicle, its modes and the step of the outputs; each --variant is a vehicle of its own."""
+vehicle, its modes and the step of the outputs, of which a whole part is taken where it is longer than the 3.125 ms that
+the measures need; each --variant is a vehicle of its own."""
 
 import argparse
 import json
@@ -48,12 +49,14 @@ POINT_NOTE = (
 
 
 class Found(NamedTuple):
-    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]; what its runs said."""
+    """A limit of a vehicle: over terrain at a speed [m/s], or over an obstacle of a height [m]; what its runs said, and
+    how many of them warned of what concerns the point of the driver."""
 
     vehicle: Vehicle
     given: float
     root: Root
     warnings: tuple[str, ...]
+    num_doubtful: int
 
 
 class Search(NamedTuple):
@@ -65,11 +68,11 @@ class Search(NamedTuple):
     obstacles: Obstacles
 
 
-def find_limit(task: Task) -> tuple[Root, tuple[str, ...]]:
-    """A limit, and what its runs warned of; in a process of its own, to which the vehicle comes without warnings."""
+def find_limit(task: Task) -> tuple[Root, tuple[str, ...], int]:
+    """The last members of Found; in a process of its own, to which the vehicle comes without warnings."""
     find, vehicle, searched, given = task
     root = find(vehicle, searched, given)
-    return root, tuple(vehicle.warnings)
+    return root, tuple(vehicle.warnings), vehicle.num_doubtful
 
 
 def find_limits(
@@ -105,6 +108,18 @@ def describe_height(one: Found) -> str:
     return f"higher than the wheel's hub at {1e3 * radii[0]:.0f} mm: a vehicle would hardly get over"
 
 
+def describe_doubt(one: Found) -> str:
+    """What makes a limit doubtful because of its runs; empty if nothing does."""
+    if one.root.value is None or not one.num_doubtful:
+        return ""
+    return f"doubtful: {one.num_doubtful} of its runs warned of {one.vehicle.point}, see below"
+
+
+def describe_obstacle(one: Found) -> str:
+    """All that makes the limit over an obstacle doubtful."""
+    return "; ".join(filter(None, (describe_height(one), describe_doubt(one))))
+
+
 def list_warnings(found: Sequence[Found]) -> list[str]:
     """What the runs of each vehicle warned of, once where only the numbers differ, and in how many runs."""
     first: dict[tuple[str, str], str] = {}
@@ -127,7 +142,7 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
     rows = [
         (one.vehicle.variant.label, f"{one.given:g}", f"{KMH * one.given:.1f}",
          "–" if one.root.value is None else f"{1e3 * one.root.value:.1f}", str(one.root.calls),
-         describe_root(one.root, *bounds))
+         "; ".join(filter(None, (describe_root(one.root, *bounds), describe_doubt(one)))))
         for one in terrain
     ]  # fmt: skip
     if rows:
@@ -135,7 +150,7 @@ def make_tables(search: Search, terrain: Sequence[Found], obstacles: Sequence[Fo
         text.append(format_table(("vehicle", "m/s", "km/h", heading, "runs", "note"), rows))
     rows = [
         (one.vehicle.variant.label, f"{1e3 * one.given:g}", *format_speed(one.root.value), str(one.root.calls),
-         "; ".join(filter(None, (describe_root(one.root, *search.obstacles.speeds, "m/s"), describe_height(one)))))
+         "; ".join(filter(None, (describe_root(one.root, *search.obstacles.speeds, "m/s"), describe_obstacle(one)))))
         for one in obstacles
     ]  # fmt: skip
     if rows:
@@ -169,9 +184,10 @@ def make_json(
     """Everything as JSON, in SI units."""
     packed = [
         {"label": one.variant.label, "set": one.variant.overrides,
-         "terrain": [pack_found(found, "speed", "roughness") for found in terrain if found.vehicle is one],
-         "obstacles": [{**pack_found(found, "height", "speed"), "remark": describe_height(found)} for found in obstacles
-                       if found.vehicle is one],
+         "terrain": [{**pack_found(found, "speed", "roughness"), "remark": describe_doubt(found)} for found in terrain
+                     if found.vehicle is one],
+         "obstacles": [{**pack_found(found, "height", "speed"), "remark": describe_obstacle(found)} for found in
+                       obstacles if found.vehicle is one],
          "warnings": list_warnings([found for found in (*terrain, *obstacles) if found.vehicle is one])}
         for one in vehicles
     ]  # fmt: skip

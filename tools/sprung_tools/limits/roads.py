@@ -5,6 +5,10 @@ Its outline for a wheel of radius R in contact at a point:  z(s) = √((R + h)²
 
 (2) is the way of the centre of a rigid wheel that rolls over (1), lowered by R: without it a point would fall down
 the obstacle's upright sides.
+
+The points of (2) are closer where it is steep. Those of (1) are equally spaced: a tyre with distributed contact takes
+samples of the road, and steps, of the finest detail that the road has. With 80 intervals peaks at the truck's seat were
+within 0.1 % of those with 200.
 """
 
 import numpy as np
@@ -12,7 +16,7 @@ import numpy as np
 from sprung_tools.files.array_types import Floats
 from sprung_tools.signals.road_profile import Recipe, format_profile, make_profile
 
-SAMPLES = 200  # of an obstacle
+SAMPLES, EQUAL_SAMPLES = 200, 80  # intervals of an obstacle: of (2), of (1)
 RUN_OUTS = (1.0, 1000.0)  # m, ends of the level road in the table behind it, which no run leaves
 
 
@@ -24,7 +28,8 @@ def make_terrain(recipe: Recipe) -> str:
 def calc_obstacle(height: float, wheel_radius: float | None) -> tuple[Floats, Floats]:
     """Places from the obstacle's beginning, and heights [n] m, of (1) without a radius, else of (2)."""
     half = height if wheel_radius is None else np.sqrt(height**2 + 2.0 * wheel_radius * height)
-    s = -half * np.cos(np.linspace(0.0, np.pi, SAMPLES + 1))
+    equal = half * np.linspace(-1.0, 1.0, EQUAL_SAMPLES + 1)
+    s = equal if wheel_radius is None else -half * np.cos(np.linspace(0.0, np.pi, SAMPLES + 1))
     radius = height + (wheel_radius or 0.0)
     heights = np.sqrt(np.maximum(radius**2 - s**2, 0.0)) - (wheel_radius or 0.0)
     heights[[0, -1]] = 0.0

@@ -1,5 +1,6 @@
 """Single runs of a vehicle over a road that is made for them, and what its driver feels."""
 
+import math
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,14 +14,16 @@ from sprung_tools.files.results_file import ResultsFile, open_results
 from sprung_tools.files.toml_file import TomlFile
 from sprung_tools.files.whole_file import write_whole
 from sprung_tools.limits.root_finding import CallFailed
-from sprung_tools.model.resolved_model import read_direction, read_elements
+from sprung_tools.model.resolved_model import read_direction, read_elements, read_settings
 from sprung_tools.programs.calls import BAD_INPUT, GOOD, format_overrides, make_command, name_override
 from sprung_tools.programs.kept_process import call_kept
 from sprung_tools.runs.ride_measures import sampling_step
 from sprung_tools.runs.run_warnings import EQUILIBRIUM, list_warnings
+from sprung_tools.signals.ride_weighting import HIGHEST, SAMPLES_PER_PERIOD
 
 AHEAD = 2.0  # m of level road before what the vehicle meets
 ALIKE = 0.05  # of their mean: radii that share an obstacle's outline, whose own radius is that of wheel and obstacle
+COARSEST = 1.0 / (HIGHEST * SAMPLES_PER_PERIOD)  # s between outputs, as for the weightings of ISO 2631-1
 PROBE = 1.0  # s, of the run that tells what the vehicle is: less than any other run takes
 # Relative, of the mean speed. A car with contact = "point" kept it within 0.01 % over terrain and 1 % over obstacles;
 # with contact = "distributed" it lost 4 % over terrain of the limit at 18 m/s, and 32 % at 9 m/s.
@@ -89,7 +92,10 @@ class Vehicle:
         self.program, self.run, self.superelements, self.variant = program, run, superelements, variant
         self.scratch = scratch
         self.quantity, self.along = f"points/{point}/acceleration.y", f"points/{point}/position.x"
+        self.point = point
         self.warnings: list[str] = []  # of all runs but the first
+        self.num_doubtful = 0  # runs that warned of what concerns the point
+        self.settings: dict[str, Any] = {}  # of all runs but the first
         self.title, self.wheels = self.probe()
 
     def probe(self) -> tuple[str, Wheels]:
@@ -106,9 +112,22 @@ class Vehicle:
             try:
                 with open_results(Path(name) / "probe.h5") as results:
                     results.series(self.quantity)  # throws where there is no such point
+                    self.settings = self.choose_outputs(results)
                     return results.title, find_wheels(results)
             except InputError as error:
                 raise InputError(str(error).replace(str(Path(name) / "probe.h5"), str(self.run))) from error
+
+    def choose_outputs(self, results: ResultsFile) -> dict[str, Any]:
+        """The settings by which the outputs of a run are close enough for the measures, and judged at the point: the
+        run's own step, or a whole part of it."""
+        step = read_settings(results)["output_step"]
+        settings: dict[str, Any] = {}
+        if step > COARSEST:
+            settings["output_step"] = step / math.ceil(step / COARSEST - 1e-9)
+        reported = results.names("summary/points")
+        if self.point not in reported:
+            settings["output.points"] = [*reported, self.point]
+        return settings
 
     def drive(self, speed: float, road: str, duration: float) -> Felt:
         """Drives over a road, the text of a road table. CallFailed for a run that fails, or whose energy balance does
@@ -117,14 +136,15 @@ class Vehicle:
             folder = Path(name)
             write_whole(folder / "road.txt", road)
             table = {"shape": "table", "start": AHEAD, "file": str(folder / "road.txt")}
-            settings = {"speed": speed, "duration": duration, "road": table}
+            settings = {**self.settings, "speed": speed, "duration": duration, "road": table}
             self.start(settings, folder / "run.h5")
             with open_results(folder / "run.h5") as results:
                 results.check_every_output(self.quantity)
                 acceleration, _ = results.series(self.quantity)
                 along, _ = results.series(self.along)
-                found = [one.text for one in list_warnings(results) if one.section != EQUILIBRIUM]
-                self.warnings += dict.fromkeys(found)
+                found = [one for one in list_warnings(results) if one.section != EQUILIBRIUM]
+                self.warnings += dict.fromkeys(one.text for one in found)
+                self.num_doubtful += any(self.point in one.of for one in found)
                 return Felt(acceleration, read_direction(results) * (along - along[0]), sampling_step(results))
 
     def start(self, settings: Mapping[str, Any], output: Path) -> None:
