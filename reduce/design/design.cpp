@@ -171,9 +171,18 @@ void read_damping(const TomlTable& table, Design& design) {
 // The basis "fixed-interface" holds the freedoms of the interface, and a point that follows others has none.
 void check_fixed_interface(const TomlTable& root, const Design& design) {
   if (design.reduction.basis != BasisKind::kFixedInterface) return;
+  constexpr const char* kRemedy = "name those in [interface], or take the basis \"free\"";
+  const std::optional<TomlTable> table = root.find_table("interface");
   for (const InterfaceFreedom& one : design.reduction.interface) {
-    expect_no_follower(design.model, one.node, root.at("reduction").table().at("basis"),
-                       "name those in [interface], or take the basis \"free\"");
+    const std::string& name = design.model.mesh.named_nodes[static_cast<std::size_t>(one.point)].name;
+    if (table) {
+      expect_no_follower(design.model, one.node, table->at(name), kRemedy);
+    } else if (follows(design.model, one.node)) {  // one of all points, which no key names
+      throw root.at("reduction")
+          .table()
+          .at("basis")
+          .error(fmt::format("holds the freedoms of '{}', a point that follows others; {}", name, kRemedy));
+    }
   }
 }
 

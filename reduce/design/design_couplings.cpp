@@ -10,15 +10,15 @@
 
 namespace sprung::reduce {
 
-namespace {
-
-using support::TomlTable;
-using support::TomlValue;
-
 bool follows(const fem::BeamModel& model, int node) {
   return std::any_of(model.couplings.begin(), model.couplings.end(),
                      [node](const fem::Coupling& one) { return one.node == node; });
 }
+
+namespace {
+
+using support::TomlTable;
+using support::TomlValue;
 
 int read_follower(const fem::BeamModel& model, const TomlValue& name) {
   const int node = find_named_node(model.mesh, name);

@@ -17,6 +17,8 @@ std::set<std::string> list_followers(const support::TomlTable& root);
 /// Checked by tests/reduce/design/couplings_test.py
 void read_couplings(const support::TomlTable& root, fem::BeamModel& model);
 
+/// Whether a node follows others. @param node  0-based
+bool follows(const fem::BeamModel& model, int node);
 /// @throws support::InputError at the value if the node follows others
 void expect_no_follower(const fem::BeamModel& model, int node, const support::TomlValue& value,
                         const char* needs);

@@ -216,7 +216,10 @@ point = "wall"
             (eccentric, ("[reference]", chain), "follows others itself"),
             (eccentric, ('point = "wall"', 'point = "weight"'), "take one of those as the reference"),
             (eccentric, (CLAMPED, FREE.replace("[red", '[interface]\nweight = "y"\n[red').replace(
-                "[reduction]", '[reduction]\nbasis = "fixed-interface"')), "names a point that follows others"),
+                "[reduction]", '[reduction]\nbasis = "fixed-interface"')),
+             "'interface.weight' names a point that follows others"),
+            (eccentric, (CLAMPED, FREE.replace("[reduction]", '[reduction]\nbasis = "fixed-interface"')),
+             "'reduction.basis' holds the freedoms of 'weight', a point that follows others; name those in"),
             (averaged, ('["end0", "end1", "end2"]', '["end0"]'), "expected at least 2"),
             (averaged, ('["end0", "end1", "end2"]', '["end0", "end0"]'), "names a node twice"),
             (averaged, ('["end0", "end1", "end2"]\n', '["end0", "end1"]\nweights = [1.0]\n'), "1 numbers for 2 points"),
